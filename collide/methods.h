@@ -1,0 +1,30 @@
+#pragma once
+// The one table of detectors. Command line, panel, reports and tests loop over it; nothing else lists the methods.
+
+#include <memory>
+#include <string_view>
+
+#include "collide/detector.h"
+
+namespace collide {
+
+struct Method {
+  std::string_view key;      // on the command line and in scene files
+  std::string_view name;     // in the panel
+  std::string_view summary;  // one sentence with its paper section
+  glm::vec3 colour;          // sRGB 0 .. 1, told apart by colour-blind eyes
+  bool exact;                // cannot miss a contact
+  bool uses_levels;          // has use for Settings::levels
+  bool uses_hash;            // has use for buckets, cell_size, primes
+  std::unique_ptr<Detector> (*make)();
+};
+
+std::span<const Method> methods();
+/// nullptr if there is no such method.
+const Method* find_method(std::string_view key);
+/// "brute-force, grid-hash, ...": for messages.
+std::string method_keys();
+
+inline constexpr std::string_view default_method = "multi-level-sb-exact";
+
+}  // namespace collide
