@@ -16,11 +16,11 @@ inline constexpr std::array<std::uint32_t, 3> default_primes{73856093, 19349669,
 
 /// Settings of a detection. A method ignores those that it has no use for.
 struct Settings {
-  float tolerance = 0.1f;       // m, finite and > 0: closer vertices are in contact (§2.3)
-  bool self_collision = true;   // also pairs of one body (§2.4)
-  int levels = 3;               // 0 .. max_levels; a body's box is cut into 2^levels boxes (§2.1)
-  std::uint32_t buckets = 1001; // 1 .. max_buckets: the paper's "bucket size" (§2.2)
-  glm::vec3 cell_size{1.0f};    // m, finite and > 0: the paper's length, height, width; see default_cell_size()
+  float tolerance = 0.1f;        // m, finite and > 0: closer vertices are in contact (§2.3)
+  bool self_collision = true;    // also pairs of one body (§2.4)
+  int levels = 3;                // 0 .. max_levels; a body's box is cut into 2^levels boxes (§2.1)
+  std::uint32_t buckets = 1001;  // 1 .. max_buckets: the paper's "bucket size" (§2.2)
+  glm::vec3 cell_size{1.0f};     // m, finite and > 0: the paper's length, height, width; see default_cell_size()
   std::array<std::uint32_t, 3> primes = default_primes;  // > 0
 };
 
@@ -30,7 +30,7 @@ std::string problem(const Settings& settings);
 /// Empty, or one line that says which primes are 0 or equal modulo the bucket count and so lose an axis or mix two.
 std::string hash_warning(const Settings& settings);
 
-/// Default cell size (../method "cell size"): along each axis the largest box that `levels` midpoint cuts leave of any
+/// Default cell size (§2.2): along each axis the largest box that `levels` midpoint cuts leave of any
 /// body of the frame, plus the tolerance. A default, no guarantee of full recall. Never 0.
 glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance);
 
@@ -56,11 +56,11 @@ enum class Coverage {
 };
 
 struct Result {
-  std::vector<Contact> contacts;          // ascending, no duplicates
-  std::uint64_t self_contacts = 0;        // how many of them lie inside one body
+  std::vector<Contact> contacts;    // ascending, no duplicates
+  std::uint64_t self_contacts = 0;  // how many of them lie inside one body
   Counters counters;
   Coverage coverage = Coverage::exact;
-  std::vector<Index> non_finite_bodies;   // bodies with a NaN or infinite coordinate: left out, named here, ascending
+  std::vector<Index> non_finite_bodies;  // bodies with a NaN or infinite coordinate: left out, named here, ascending
 };
 
 /// A detector's inner picture, for drawing. Filled only on request.
@@ -74,12 +74,12 @@ struct DebugGeometry {
     std::uint32_t bucket;
     auto operator<=>(const Cell&) const = default;
   };
-  std::vector<Box> boxes;                     // as the method hashes them (padded where it pads)
-  std::vector<std::uint32_t> box_first{0};    // boxes.size() + 1 offsets into box_bucket
-  std::vector<std::uint32_t> box_bucket;      // the buckets that each box is in, in the order it was hashed: the first
-                                              // is that of its minimum corner (§2.2)
-  std::vector<Cell> cells;                    // occupied cells, ascending, no duplicates; at most debug_cell_limit
-  std::vector<std::uint32_t> bucket_load;     // entries a bucket, one value a bucket; empty if the method hashes nothing
+  std::vector<Box> boxes;                   // as the method hashes them (padded where it pads)
+  std::vector<std::uint32_t> box_first{0};  // boxes.size() + 1 offsets into box_bucket
+  std::vector<std::uint32_t> box_bucket;    // the buckets that each box is in, in the order it was hashed: the first
+                                            // is that of its minimum corner (§2.2)
+  std::vector<Cell> cells;                  // occupied cells, ascending, no duplicates; at most debug_cell_limit
+  std::vector<std::uint32_t> bucket_load;   // entries a bucket, one value a bucket; empty if the method hashes nothing
   static constexpr std::size_t debug_cell_limit = 200'000;
 };
 

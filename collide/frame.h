@@ -19,6 +19,7 @@ class Shape {
  public:
   /// edges: pairs of local vertex indices, in any order, duplicates allowed; self loops are ignored.
   /// rest: rest positions in metres, one a vertex, or empty: then no pair is left out for its rest distance.
+  /// Throws std::invalid_argument if an edge names a missing vertex or the number of rest positions is another.
   Shape(Index vertex_count, std::span<const std::array<Index, 2>> edges, std::vector<glm::vec3> rest = {});
 
   Index vertex_count() const { return static_cast<Index>(first_.size() - 1); }
@@ -29,8 +30,8 @@ class Shape {
   bool excludes(Index i, Index j, float tolerance2) const;
 
  private:
-  std::vector<Index> first_;       // vertex_count + 1 offsets into neighbour_
-  std::vector<Index> neighbour_;   // the mesh neighbours of each vertex, ascending
+  std::vector<Index> first_;      // vertex_count + 1 offsets into neighbour_
+  std::vector<Index> neighbour_;  // the mesh neighbours of each vertex, ascending
   std::vector<glm::vec3> rest_;
 };
 

@@ -9,7 +9,8 @@ namespace collide {
 
 class Workers {
  public:
-  /// threads >= 1, the caller's own thread included: Workers(1) starts none.
+  /// threads >= 1, else std::invalid_argument; the caller's own thread included: Workers(1) starts none. The threads
+  /// sleep while there is nothing to run.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -18,7 +19,9 @@ class Workers {
   int threads() const { return threads_; }
 
   /// Calls task(thread) once on each of `threads()` threads, thread 0 being the caller, and returns when all are done.
-  /// The first exception thrown by a task is rethrown here. Not reentrant.
+  /// The first exception thrown by a task is rethrown here, after all have returned; the other tasks run on until their
+  /// next barrier(), which then throws as well, so that none waits for ever or goes on with half of the data. Let what
+  /// barrier() throws pass. Not reentrant, and to be called by one thread at a time.
   void run(const std::function<void(int thread)>& task);
 
   /// Waits until every thread of the current run() has got here. Only inside a task, and by all threads alike.

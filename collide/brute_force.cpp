@@ -1,0 +1,45 @@
+// Every vertex against every other: the exact reference that all methods are measured against.
+
+#include "collide/body_boxes.h"
+#include "collide/contact_search.h"
+#include "collide/detectors.h"
+
+namespace collide {
+
+namespace {
+
+class BruteForce final : public Detector {
+ public:
+  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    result.counters = {};
+    result.coverage = Coverage::exact;
+    bodies_.build(frame);
+    result.non_finite_bodies = bodies_.non_finite;
+    points_.gather(frame, bodies_.live, ranges_);
+    search_.begin(frame, settings, points_, workers.threads());
+    workers.run([&](int thread) { test_rows(thread, workers.threads(), settings.self_collision); });
+    search_.finish(result);
+  }
+
+ private:
+  /// Bodies are dealt to the threads like cards, since each has fewer bodies behind it than the one before.
+  void test_rows(int thread, int threads, bool self_collision) {
+    const Index count = points_.size();
+    for (auto k = static_cast<std::size_t>(thread); k < ranges_.size(); k += static_cast<std::size_t>(threads)) {
+      const Range body = ranges_[k];
+      if (self_collision) search_.test(thread, body, body);
+      search_.test(thread, body, {body.end, count});
+    }
+  }
+
+  BodyBoxes bodies_;
+  Points points_;
+  std::vector<Range> ranges_;
+  ContactSearch search_;
+};
+
+}  // namespace
+
+std::unique_ptr<Detector> make_brute_force() { return std::make_unique<BruteForce>(); }
+
+}  // namespace collide

@@ -1,0 +1,64 @@
+#include "collide/contact_search.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace collide {
+
+void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
+  frame_ = &frame;
+  points_ = &points;
+  tolerance2_ = settings.tolerance * settings.tolerance;
+  self_collision_ = settings.self_collision;
+  found_ = 0;
+  threads_.resize(static_cast<std::size_t>(threads));
+  for (Thread& thread : threads_) {
+    thread.hits.clear();
+    thread.contacts.clear();
+    thread.self_contacts = thread.pair_tests = 0;
+  }
+}
+
+void ContactSearch::test(int thread, Range a, Range b) {
+  constexpr Index most_tests = 1u << 20;  // between two looks at the number of contacts
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  const Index rows = std::max<Index>(1, most_tests / std::max<Index>(1, b.size()));
+  for (Range some{a.begin, a.begin}; some.begin < a.end; some.begin = some.end) {
+    some.end = a.end - some.begin > rows ? some.begin + rows : a.end;
+    near_pairs(*points_, some, b, tolerance2_, own.hits);
+    if (!own.hits.empty()) keep_contacts(own);
+  }
+  const std::uint64_t na = a.size(), nb = b.size();
+  own.pair_tests += a.end > b.begin ? nb * (nb - 1) / 2 : na * nb;
+}
+
+void ContactSearch::keep_contacts(Thread& own) {
+  const Bodies& bodies = *frame_->bodies;
+  const std::size_t before = own.contacts.size();
+  for (const SlotPair& hit : own.hits) {
+    const Index a = points_->vertex[hit.a], b = points_->vertex[hit.b];
+    const Index body = points_->body[hit.a], first = bodies.first[body];
+    const bool self = body == points_->body[hit.b];
+    if (self && (!self_collision_ || bodies.shape[body]->excludes(a - first, b - first, tolerance2_))) continue;
+    own.self_contacts += self;
+    own.contacts.push_back({std::min(a, b), std::max(a, b)});
+  }
+  own.hits.clear();
+  const std::size_t added = own.contacts.size() - before;
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > max_contacts) {
+    throw std::length_error("more than 134217728 contacts in one frame: lower the tolerance");
+  }
+}
+
+void ContactSearch::finish(Result& result) {
+  result.contacts.clear();
+  result.self_contacts = 0;
+  for (const Thread& thread : threads_) {
+    result.contacts.insert(result.contacts.end(), thread.contacts.begin(), thread.contacts.end());
+    result.self_contacts += thread.self_contacts;
+    result.counters.pair_tests += thread.pair_tests;
+  }
+  std::sort(result.contacts.begin(), result.contacts.end());
+}
+
+}  // namespace collide

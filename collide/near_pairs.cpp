@@ -1,0 +1,57 @@
+#include "collide/near_pairs.h"
+
+#include <algorithm>
+
+namespace collide {
+
+namespace {
+
+constexpr Index block = Points::padding;
+
+/// Candidates come in blocks that the compiler vectorises; contacts are rare, so a block first answers "any hit at
+/// all?". The last block may run past b.end, into slots that the second look leaves out.
+[[gnu::always_inline]] inline void search(const Points& points, Range a, Range b, float tolerance2,
+                                          std::vector<SlotPair>& hits) {
+  const float *x = points.x.data(), *y = points.y.data(), *z = points.z.data();
+  for (Index i = a.begin; i < a.end; ++i) {
+    const float px = x[i], py = y[i], pz = z[i];
+    for (Index j = std::max(b.begin, i + 1); j < b.end; j += block) {
+      const float *bx = x + j, *by = y + j, *bz = z + j;
+      std::uint32_t any = 0;
+      for (Index k = 0; k < block; ++k) {
+        any |= squared_distance(px, py, pz, bx[k], by[k], bz[k]) < tolerance2 ? 1u : 0u;
+      }
+      if (any == 0) continue;
+      for (Index k = 0; k < std::min(block, b.end - j); ++k) {
+        if (squared_distance(px, py, pz, bx[k], by[k], bz[k]) < tolerance2) hits.push_back({i, j + k});
+      }
+    }
+  }
+}
+
+using Search = void (*)(const Points&, Range, Range, float, std::vector<SlotPair>&);
+
+void search_baseline(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
+  search(points, a, b, tolerance2, hits);
+}
+
+// Not target_clones: its resolvers run before the sanitizers are set up. Without fma, so that results stay equal.
+#if defined(__x86_64__)
+__attribute__((target("avx2"))) void search_avx2(const Points& points, Range a, Range b, float tolerance2,
+                                                 std::vector<SlotPair>& hits) {
+  search(points, a, b, tolerance2, hits);
+}
+
+Search pick() { return __builtin_cpu_supports("avx2") ? search_avx2 : search_baseline; }
+#else
+Search pick() { return search_baseline; }
+#endif
+
+}  // namespace
+
+void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
+  static const Search best = pick();
+  best(points, a, b, tolerance2, hits);
+}
+
+}  // namespace collide
