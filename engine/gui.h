@@ -1,0 +1,52 @@
+#pragma once
+// Dear ImGui with the program's theme and font, in a window or headless. Between begin_frame() and end_frame(), call
+// ImGui itself.
+
+#include <array>
+#include <filesystem>
+#include <glm/vec2.hpp>
+#include <string>
+
+namespace engine {
+
+class Window;
+
+/// What a headless frame is fed with: pixels from the top left corner.
+struct GuiInput {
+  glm::ivec2 display_size{1280, 800};
+  glm::vec2 mouse{-1.0f};
+  std::array<bool, 3> buttons{};  // left, right, middle
+  float wheel = 0.0f;             // steps since the last frame
+  float seconds = 1.0f / 60.0f;   // since the last frame, > 0
+};
+
+class Gui {
+ public:
+  /// For a window, with its mouse and keyboard. `settings` is where ImGui keeps its windows' places; empty: nowhere.
+  explicit Gui(Window& window, const std::filesystem::path& settings = {});
+  /// Headless: drawn into whatever framebuffer is bound, by the input that the caller feeds.
+  explicit Gui(float scale = 1.0f);
+  ~Gui();
+  Gui(const Gui&) = delete;
+  Gui& operator=(const Gui&) = delete;
+
+  void begin_frame();                       // window
+  void begin_frame(const GuiInput& input);  // headless
+  void end_frame();                         // draws into the bound framebuffer
+
+  bool wants_mouse() const;     // the mouse is over a panel, or holds one of its widgets
+  bool wants_keyboard() const;  // a text field has the focus
+
+  /// ImGui units per pixel of the design: multiply every fixed width by it.
+  float scale() const { return scale_; }
+
+ private:
+  void create(const std::filesystem::path& settings);
+  void apply_scale(float content_scale, float pixel_ratio);
+
+  Window* window_ = nullptr;
+  std::string settings_;  // ImGui keeps a pointer to it
+  float content_scale_ = 0.0f, scale_ = 1.0f;
+};
+
+}  // namespace engine

@@ -1,0 +1,61 @@
+#pragma once
+// A window with an OpenGL 3.3 core context, and the keys pressed in it. One window per program.
+
+#include <glm/vec2.hpp>
+#include <string>
+#include <vector>
+
+struct GLFWwindow;
+
+namespace engine {
+
+struct WindowOptions {
+  std::string title = "sbcollide";
+  glm::ivec2 size{1280, 800};  // screen coordinates; cut down to the monitor's work area
+  int samples = 4;             // multisampling of the window's own framebuffer; 0 for none
+  bool vsync = true;
+  bool visible = true;
+};
+
+/// A key that went down (or repeats). Letters follow the keyboard's layout: 'Q' is the key labelled Q, as GLFW_KEY_Q.
+struct KeyPress {
+  int key;   // GLFW_KEY_*
+  int mods;  // GLFW_MOD_*
+  bool repeat;
+};
+
+class Window {
+ public:
+  /// Makes its context current. Throws Unavailable without a display or without OpenGL 3.3.
+  explicit Window(const WindowOptions& options = {});
+  ~Window();
+  Window(const Window&) = delete;
+  Window& operator=(const Window&) = delete;
+
+  bool open() const;  // until the user or close() closes it
+  void close();
+
+  /// Handles what happened since the last call. Sleeps up to 0.1 s while minimised, so that a loop does not spin.
+  void poll();
+  /// Shows the frame; with vsync, waits for the monitor.
+  void present();
+  void set_vsync(bool on);
+  void set_title(const std::string& title);
+
+  bool minimised() const;  // nothing to draw: framebuffer_size() may be 0 x 0
+  glm::ivec2 framebuffer_size() const;
+  float content_scale() const;  // 1 on an ordinary screen, 2 on a high-density one
+  float pixel_ratio() const;    // framebuffer pixels per screen coordinate; not the same as content_scale() on X11
+  glm::vec2 cursor() const;     // framebuffer pixels from the top left corner
+  const std::vector<KeyPress>& key_presses() const { return key_presses_; }  // since the last poll()
+
+  GLFWwindow* handle() const { return window_; }
+
+ private:
+  static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+
+  GLFWwindow* window_ = nullptr;
+  std::vector<KeyPress> key_presses_;
+};
+
+}  // namespace engine
