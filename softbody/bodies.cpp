@@ -1,0 +1,120 @@
+// Dynamics: bodies join, stop and are read.
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/dynamics.h"
+
+namespace softbody {
+namespace {
+
+KernelSprings kernel_springs(const std::vector<Spring>& springs) {
+  KernelSprings list;
+  for (const Spring& s : springs)
+    list.push_back({s.i * lanes, s.j * lanes, float(s.rest), float(s.stiffness), float(s.damping)});
+  return list;
+}
+
+}  // namespace
+
+Batch& Dynamics::batch_with_room(const std::shared_ptr<const Prototype>& prototype) {
+  for (Batch& b : batches_)
+    if (b.prototype == prototype && b.used < lanes) return b;
+  Batch& b = batches_.emplace_back();
+  b.prototype = prototype;
+  b.structural = kernel_springs(prototype->structural);
+  b.bend = kernel_springs(prototype->bend);
+  b.shear = kernel_springs(prototype->shear);
+  for (const auto& [i, j, k] : prototype->mesh.triangles) b.faces.push_back({i * lanes, j * lanes, k * lanes});
+  b.base = x_[0].size();
+  for (auto* components : {&x_, &v_, &f_})
+    for (auto& c : *components) c.resize(b.base + b.particles() * lanes, 0.0f);
+  return b;
+}
+
+BodyId Dynamics::add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position,
+                     const glm::dvec3& velocity) {
+  Batch& batch = batch_with_room(prototype);
+  const auto id = static_cast<BodyId>(bodies_.size());
+  Body& body = bodies_.emplace_back();
+  body.batch = static_cast<Index>(&batch - batches_.data());
+  body.lane = batch.used++;
+  body.origin = position;
+  batch.body[std::size_t(body.lane)] = id;
+  for (Index i = 0; i < batch.particles(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      x_[std::size_t(k)][slot(body, i)] = float(prototype->start[i][k]);
+      v_[std::size_t(k)][slot(body, i)] = float(velocity[k]);
+    }
+  update_moves(body);
+  return id;
+}
+
+void Dynamics::update_moves(const Body& body) {
+  batches_[body.batch].moves[std::size_t(body.lane)] = body.moves() ? 1.0f : 0.0f;
+}
+
+void Dynamics::hold(BodyId id, bool held, int release) {
+  bodies_[id].held = held;
+  bodies_[id].release = release;
+  update_moves(bodies_[id]);
+}
+
+void Dynamics::put_to_sleep(BodyId id, bool asleep) {
+  Body& body = bodies_[id];
+  body.asleep = asleep;
+  body.calm_frames = 0;
+  update_moves(body);
+  if (!asleep) return;
+  for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i)
+    for (auto& c : v_) c[slot(body, i)] = 0.0f;
+}
+
+Particle Dynamics::particle(BodyId id, Index vertex) const {
+  const Body& body = bodies_[id];
+  const std::size_t s = slot(body, vertex);
+  return {body.origin + glm::dvec3(x_[0][s], x_[1][s], x_[2][s]), glm::dvec3(v_[0][s], v_[1][s], v_[2][s])};
+}
+
+double Dynamics::fastest(BodyId id) const {
+  const Body& body = bodies_[id];
+  const auto count = static_cast<Index>(prototype(id).mesh.vertices.size());
+  double speed2 = 0;
+  for (Index i = 0; i < count; ++i) {
+    const std::size_t s = slot(body, i);
+    speed2 = std::max(speed2, double(v_[0][s]) * v_[0][s] + double(v_[1][s]) * v_[1][s] + double(v_[2][s]) * v_[2][s]);
+  }
+  return std::sqrt(speed2);
+}
+
+void Dynamics::world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const {
+  std::size_t out = 0;
+  for (const Body& body : bodies_) {
+    const std::size_t count = batches_[body.batch].particles();
+    const std::size_t first = slot(body, 0);
+    for (std::size_t i = 0; i < count; ++i, ++out) {
+      x[out] = static_cast<float>(body.origin.x + x_[0][first + i * lanes]);
+      y[out] = static_cast<float>(body.origin.y + x_[1][first + i * lanes]);
+      z[out] = static_cast<float>(body.origin.z + x_[2][first + i * lanes]);
+    }
+  }
+}
+
+std::uint64_t Dynamics::hash() const {
+  std::uint64_t h = 0xcbf29ce484222325u;
+  const auto mix = [&h](std::uint64_t bits) { h = (h ^ bits) * 0x100000001b3u; };
+  for (const Body& body : bodies_) {
+    for (int k = 0; k < 3; ++k) mix(std::bit_cast<std::uint64_t>(body.origin[k]));
+    for (Index i = 0; i < batches_[body.batch].particles(); ++i)
+      for (std::size_t k = 0; k < 3; ++k) {
+        mix(std::bit_cast<std::uint32_t>(x_[k][slot(body, i)]));
+        mix(std::bit_cast<std::uint32_t>(v_[k][slot(body, i)]));
+      }
+  }
+  return h;
+}
+
+}  // namespace softbody

@@ -1,0 +1,80 @@
+// Dynamics: the detector's contacts become pairs of the shield.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/dynamics.h"
+
+namespace softbody {
+namespace {
+
+/// The unit vector along v, or up if v has no length.
+glm::vec3 direction(const glm::vec3& v) {
+  const float length = glm::length(v);
+  return length > 0 ? v / length : glm::vec3(0, 1, 0);
+}
+
+}  // namespace
+
+glm::vec3 Dynamics::vertex_normal(const Body& body, Index vertex) const {
+  const Prototype& p = *batches_[body.batch].prototype;
+  const auto read = [&](Index i) {
+    const std::size_t s = slot(body, i);
+    return glm::vec3(x_[0][s], x_[1][s], x_[2][s]);
+  };
+  glm::vec3 sum(0.0f);  // of the faces' normals times twice their areas
+  for (const Index face : p.faces_of(vertex)) {
+    const auto& [a, b, c] = p.mesh.triangles[face];
+    const glm::vec3 corner = read(a);
+    sum += glm::cross(read(b) - corner, read(c) - corner);
+  }
+  return direction(sum);
+}
+
+glm::vec3 Dynamics::contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const {
+  const auto read = [&](std::size_t s) { return glm::vec3(x_[0][s], x_[1][s], x_[2][s]); };
+  const glm::vec3 between = direction(read(pair.slot_a) - read(pair.slot_b) + pair.offset);
+  const bool surfaces =
+      pair.body_a != pair.body_b && prototype(pair.body_a).mesh.closed && prototype(pair.body_b).mesh.closed;
+  if (!surfaces) return between;
+  const glm::vec3 apart = vertex_normal(bodies_[pair.body_b], vertex_b) - vertex_normal(bodies_[pair.body_a], vertex_a);
+  return glm::length(apart) > 0.5f ? glm::normalize(apart) : between;  // surfaces that face the same way tell nothing
+}
+
+void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
+                            const std::vector<collide::Contact>& contacts, float shield) {
+  shield_.thickness = shield;
+  shield_.pairs.clear();
+  contacts_of_.assign(vertex_body.size(), 0);
+  const auto still = [&](const collide::Contact& c) {
+    return !bodies_[vertex_body[c.a]].moves() && !bodies_[vertex_body[c.b]].moves();
+  };
+  for (const collide::Contact& c : contacts) {
+    if (still(c)) continue;
+    ++contacts_of_[c.a];
+    ++contacts_of_[c.b];
+  }
+  for (const collide::Contact& c : contacts) {
+    if (still(c)) continue;
+    const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
+    const Index va = c.a - vertices.first[a], vb = c.b - vertices.first[b];
+    const Material &ma = prototype(a).material, &mb = prototype(b).material;
+    ShieldPair pair{slot(bodies_[a], va),
+                    slot(bodies_[b], vb),
+                    a,
+                    b,
+                    glm::vec3(bodies_[a].origin - bodies_[b].origin),
+                    {},
+                    float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
+                          double(std::max(contacts_of_[c.a], contacts_of_[c.b]))),
+                    float(std::sqrt(ma.friction * mb.friction))};
+    pair.normal = contact_normal(pair, va, vb);
+    shield_.pairs.push_back(pair);
+  }
+  shield_.force.resize(shield_.pairs.size());
+  shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
+}
+
+}  // namespace softbody

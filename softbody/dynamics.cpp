@@ -1,0 +1,248 @@
+#include "softbody/dynamics.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "softbody/integrators.h"
+
+namespace softbody {
+
+void Dynamics::set_plan(const Plan& plan) {
+  static constexpr std::pair<Stage, BatchStage> forces[] = {
+      {Stage::structural_springs, &Dynamics::structural_springs}, {Stage::bend_springs, &Dynamics::bend_springs},
+      {Stage::shear_springs, &Dynamics::shear_springs},           {Stage::gas_pressure, &Dynamics::gas_pressure},
+      {Stage::contact_response, &Dynamics::shield_forces},
+  };
+  static constexpr std::pair<Stage, SolidStage> solids[] = {
+      {Stage::solid_spheres, &Dynamics::solid_spheres},
+      {Stage::ground, &Dynamics::ground},
+  };
+  force_stages_.clear();
+  solid_stages_.clear();
+  for (const auto& [stage, run] : forces)
+    if (plan.has(stage)) force_stages_.push_back(run);
+  for (const auto& [stage, run] : solids)
+    if (plan.has(stage)) solid_stages_.push_back(run);
+  rolling_ = plan.has(Stage::rolling_resistance);
+  has_gravity_ = plan.has(Stage::gravity);
+}
+
+void Dynamics::set_integrator(std::string_view key) { integrate_ = find_integrator(key)->advance; }
+
+int Dynamics::substeps(double seconds) const {
+  double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
+  for (const Batch& b : batches_) {
+    if (!moves(b)) continue;
+    const Prototype& p = *b.prototype;
+    alignas(32) float volume[lanes];
+    double stiffest = stiffness_per_mass(p, p.gas.rest_volume);
+    if (p.has_gas) {
+      kernels_.volume(b.faces, at(x_, b), volume);
+      for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, double(volume[l])));
+    }
+    double damper = p.spring_damping_bound;
+    if (!shield_.pairs.empty()) {
+      const auto k = static_cast<float>(p.material.contact_stiffness);
+      stiffest += Shield::stiffness_bound(k) / p.particle_mass;
+      damper += Shield::damping_bound(k, shield_.thickness);
+    }
+    stiffness = std::max(stiffness, stiffest);
+    damping = std::max(damping, damper / p.particle_mass);
+  }
+  return std::max(1, int(std::ceil(seconds / stable_step(stiffness, damping))));
+}
+
+bool Dynamics::moves(const Batch& b) {
+  return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
+}
+
+int Dynamics::advance(double seconds) {
+  moving_.clear();
+  for (Batch& b : batches_) {
+    b.impulse.fill(0.0f);
+    if (!moves(b)) continue;
+    moving_.push_back(&b);
+    prepare_solids(b, seconds);
+  }
+  if (moving_.empty()) return 0;
+  const int count = substeps(seconds);
+  const float h = static_cast<float>(seconds / count);
+  // A handful of bodies is done before a second thread has woken up.
+  active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
+  const auto run = [&](int thread) {
+    for (int s = 0; s < count; ++s) integrate_(*this, thread, h);
+  };
+  if (active_threads_ == 1)
+    run(0);
+  else
+    workers_.run(run);
+  return count;
+}
+
+std::span<Batch* const> Dynamics::share(int thread) const {
+  const auto [begin, end] = collide::part_of(moving_.size(), thread, active_threads_);
+  return std::span(moving_).subspan(begin, end - begin);
+}
+
+void Dynamics::barrier() {
+  if (active_threads_ > 1) workers_.barrier();
+}
+
+void Dynamics::contact_forces(int thread) {
+  if (shield_.pairs.empty()) return;
+  shield_.evaluate(collide::part_of(shield_.pairs.size(), thread, active_threads_),
+                   {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()});
+  barrier();
+}
+
+void Dynamics::forces(Batch& b) {
+  for (auto& c : f_) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.particles() * lanes, 0.0f);
+  for (const BatchStage stage : force_stages_) (this->*stage)(b);
+}
+
+void Dynamics::structural_springs(Batch& b) { kernels_.springs(b.structural, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::bend_springs(Batch& b) { kernels_.springs(b.bend, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::shear_springs(Batch& b) { kernels_.springs(b.shear, at(x_, b), at(v_, b), at(f_, b)); }
+
+void Dynamics::gas_pressure(Batch& b) {
+  if (!b.prototype->has_gas) return;
+  const Gas& gas = b.prototype->gas;
+  alignas(32) float volume[lanes], gauge[lanes]{};
+  kernels_.volume(b.faces, at(x_, b), volume);
+  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.pressure(double(volume[l])) - gas.ambient);
+  kernels_.pressure(b.faces, at(x_, b), gauge, at(f_, b));
+}
+
+void Dynamics::shield_forces(Batch& b) {
+  if (shield_.pairs.empty()) return;
+  const auto index = static_cast<std::size_t>(&b - batches_.data());
+  for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
+    const ShieldEnd& end = shield_.ends[e];
+    for (std::size_t k = 0; k < 3; ++k) f_[k][end.slot] += end.sign * shield_.force[end.pair][int(k)];
+  }
+}
+
+void Dynamics::kick(Batch& b, float h) {
+  const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
+  kernels_.kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
+                at(v_, b));
+}
+
+void Dynamics::solids(Batch& b, float h) {
+  for (const SolidStage stage : solid_stages_) (this->*stage)(b, h);
+}
+
+void Dynamics::drift(Batch& b, float h) { kernels_.drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
+
+SolidArguments Dynamics::solid_arguments(Batch& b, float h, double friction) const {
+  return {b.particles(),   h, float(b.prototype->particle_mass), float(friction), 0.0f, {}, b.moves.data(),
+          b.impulse.data()};
+}
+
+void Dynamics::solid_spheres(Batch& b, float h) {
+  for (const SolidSphere* sphere : b.near_spheres) {
+    SolidArguments s = solid_arguments(b, h, sphere->friction);
+    s.radius = static_cast<float>(sphere->radius);
+    for (int l = 0; l < b.used; ++l) {
+      const glm::dvec3 c = sphere->centre - bodies_[b.body[std::size_t(l)]].origin;
+      s.centre.x[l] = float(c.x), s.centre.y[l] = float(c.y), s.centre.z[l] = float(c.z);
+    }
+    kernels_.sphere(s, at(x_, b), at(v_, b));
+  }
+}
+
+void Dynamics::ground(Batch& b, float h) {
+  if (!b.near_ground) return;
+  SolidArguments s = solid_arguments(b, h, scene_.ground->friction);
+  for (int l = 0; l < b.used; ++l)
+    s.centre.y[l] = float(scene_.ground->height - bodies_[b.body[std::size_t(l)]].origin.y);
+  kernels_.ground(s, at(x_, b), at(v_, b));
+}
+
+/// Which solids the bodies of a batch may touch in the coming frame, by their boxes and how far they may move: a
+/// particle may go twice as far as its body's fastest goes now, and a tenth of the body's size.
+void Dynamics::prepare_solids(Batch& b, double seconds) {
+  Extent e;
+  kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
+  b.near_ground = false;
+  b.near_spheres.clear();
+  const auto near = [&](int l, const SolidSphere& sphere) {
+    const glm::dvec3 c = sphere.centre - bodies_[b.body[std::size_t(l)]].origin;
+    const glm::dvec3 inside =
+        glm::clamp(c, glm::dvec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::dvec3(e.hi.x[l], e.hi.y[l], e.hi.z[l]));
+    return glm::distance(c, inside) <= sphere.radius + reach(b, e, l, seconds);
+  };
+  for (int l = 0; l < b.used; ++l)
+    if (scene_.ground &&
+        bodies_[b.body[std::size_t(l)]].origin.y + e.lo.y[l] <= scene_.ground->height + reach(b, e, l, seconds))
+      b.near_ground = true;
+  for (const SolidSphere& sphere : scene_.spheres)
+    for (int l = 0; l < b.used; ++l)
+      if (near(l, sphere)) {
+        b.near_spheres.push_back(&sphere);
+        break;
+      }
+}
+
+double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
+  const double fall = glm::length(scene_.gravity) * seconds;
+  return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius;
+}
+
+void Dynamics::finish_frame() {
+  for (BodyId id = 0; id < bodies_.size(); ++id) {
+    if (!bodies_[id].moves()) continue;
+    if (rolling_ && solid_impulse(id) > 0 && prototype(id).mesh.closed) resist_rolling(id);
+    follow(id);
+  }
+}
+
+/// Rolling resistance: a torque against the body's rotation of coefficient * radius * normal force, at most what stops
+/// it. It is applied as a rigid rotation, so that it changes neither the shape nor the linear momentum.
+void Dynamics::resist_rolling(BodyId id) {
+  const Prototype& p = prototype(id);
+  const auto count = static_cast<Index>(p.mesh.vertices.size());
+  glm::dvec3 centre(0.0), drift(0.0);
+  for (Index i = 0; i < count; ++i) {
+    const Particle q = particle(id, i);
+    centre += q.position / double(count);
+    drift += q.velocity / double(count);
+  }
+  glm::dvec3 momentum(0.0);
+  glm::dmat3 inertia(0.0);
+  for (Index i = 0; i < count; ++i) {
+    const Particle q = particle(id, i);
+    const glm::dvec3 r = q.position - centre;
+    momentum += p.particle_mass * glm::cross(r, q.velocity - drift);
+    inertia += p.particle_mass * (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r));
+  }
+  const double size = glm::length(momentum);
+  if (size <= 0 || glm::determinant(inertia) <= 1e-12 * inertia[0][0] * inertia[0][0] * inertia[0][0]) return;
+  const double limit = p.material.rolling_resistance * p.radius * solid_impulse(id);
+  const glm::dvec3 lost = glm::inverse(inertia) * (momentum * std::min(1.0, limit / size));
+  for (Index i = 0; i < count; ++i) {
+    const glm::dvec3 change = glm::cross(lost, particle(id, i).position - centre);
+    for (int k = 0; k < 3; ++k) v_[std::size_t(k)][slot(bodies_[id], i)] -= float(change[k]);
+  }
+}
+
+/// Moves the body's origin when its first particle has gone further than four radii from it, by a multiple of 1/64 m
+/// that floats of that size hold without loss.
+void Dynamics::follow(BodyId id) {
+  Body& body = bodies_[id];
+  const std::size_t first = slot(body, 0);
+  const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
+  if (glm::length(away) <= 4 * prototype(id).radius) return;
+  for (int k = 0; k < 3; ++k) {
+    const double shift = std::round(away[k] * 64) / 64;
+    body.origin[k] += shift;
+    for (std::size_t i = 0; i < prototype(id).mesh.vertices.size(); ++i)
+      x_[std::size_t(k)][first + i * lanes] -= float(shift);
+  }
+}
+
+}  // namespace softbody

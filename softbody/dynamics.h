@@ -1,0 +1,134 @@
+#pragma once
+// The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
+
+#include "softbody/kernels.h"
+#include "softbody/plan.h"
+#include "softbody/prototype.h"
+#include "softbody/shield.h"
+
+namespace softbody {
+
+/// Up to `lanes` bodies of one prototype. Its values start at `base` in every array of the state.
+struct Batch {
+  std::shared_ptr<const Prototype> prototype;
+  KernelSprings structural, bend, shear;
+  std::vector<KernelTriangle> faces;
+  std::size_t base = 0;
+  int used = 0;  // lanes taken
+  std::array<BodyId, lanes> body{};
+  alignas(32) std::array<float, lanes> moves{};    // 1: integrated; 0: asleep, held or an empty lane
+  alignas(32) std::array<float, lanes> impulse{};  // N s, of solids along their normals, in the last advance()
+  bool near_ground = false;                        // for the frame at hand
+  std::vector<const SolidSphere*> near_spheres;
+
+  std::size_t particles() const { return prototype->mesh.vertices.size(); }
+};
+
+struct Body {
+  Index batch;
+  int lane;
+  glm::dvec3 origin;  // m; particle positions are stored relative to it, so that floats stay fine far from zero
+  int release = 0;    // held in place until this frame
+  bool held = false;
+  bool asleep = false;
+  int calm_frames = 0;  // for how long it has been slow enough to sleep
+  bool moves() const { return !held && !asleep; }
+};
+
+struct Particle {
+  glm::dvec3 position, velocity;  // m and m/s, world
+};
+
+class Dynamics {
+ public:
+  Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
+      : scene_(scene), workers_(workers), kernels_(kernels(isa)) {}
+
+  BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
+  void set_plan(const Plan& plan);
+  void set_integrator(std::string_view key);
+  /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
+  void hold(BodyId body, bool held, int release);
+  void put_to_sleep(BodyId body, bool asleep);
+
+  /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.
+  void set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
+                    const std::vector<collide::Contact>& contacts, float shield);
+
+  /// Advances by `seconds` in equal substeps, as many as the stability bound asks for; returns their number.
+  int advance(double seconds);
+  /// Substeps that advance(seconds) would take now.
+  int substeps(double seconds) const;
+  /// Once a frame, after advance(): rolling resistance, then body origins follow their bodies.
+  void finish_frame();
+
+  // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
+  std::span<Batch* const> share(int thread) const;
+  void contact_forces(int thread);     // of this thread's part of the contacts; needs a barrier() after it
+  void forces(Batch& batch);           // all forces at the current positions and velocities
+  void kick(Batch& batch, float h);    // v += h (f / m + g)
+  void solids(Batch& batch, float h);  // on the velocity, so that x + h v is not inside a solid
+  void drift(Batch& batch, float h);   // x += h v
+  void barrier();
+
+  // Reading.
+  std::size_t body_count() const { return bodies_.size(); }
+  const Body& body(BodyId id) const { return bodies_[id]; }
+  const Prototype& prototype(BodyId id) const { return *batches_[bodies_[id].batch].prototype; }
+  Particle particle(BodyId id, Index vertex) const;
+  double fastest(BodyId id) const;  // m/s, of its particles
+  double solid_impulse(BodyId id) const { return batches_[bodies_[id].batch].impulse[std::size_t(bodies_[id].lane)]; }
+  /// World positions, bodies in order of their ids. Every span has one value a vertex.
+  void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
+  std::uint64_t hash() const;  // FNV-1a over the bits of origins, positions and velocities in order of the ids
+  void set_calm_frames(BodyId id, int frames) { bodies_[id].calm_frames = frames; }
+
+ private:
+  using BatchStage = void (Dynamics::*)(Batch&);
+  using SolidStage = void (Dynamics::*)(Batch&, float h);
+  using Components = std::array<LaneArray<float>, 3>;
+
+  std::size_t slot(const Body& body, Index vertex) const {
+    return batches_[body.batch].base + std::size_t(vertex) * lanes + std::size_t(body.lane);
+  }
+  Field<float> at(Components& c, const Batch& b) {
+    return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
+  }
+  Field<const float> at(const Components& c, const Batch& b) const {
+    return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
+  }
+  Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
+  void structural_springs(Batch& batch);
+  void bend_springs(Batch& batch);
+  void shear_springs(Batch& batch);
+  void gas_pressure(Batch& batch);
+  void shield_forces(Batch& batch);
+  void solid_spheres(Batch& batch, float h);
+  void ground(Batch& batch, float h);
+  SolidArguments solid_arguments(Batch& batch, float h, double friction) const;
+  static bool moves(const Batch& batch);
+  double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
+  glm::vec3 vertex_normal(const Body& body, Index vertex) const;
+  glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
+  void prepare_solids(Batch& batch, double seconds);
+  void resist_rolling(BodyId id);
+  void follow(BodyId id);
+  void update_moves(const Body& body);
+
+  const Scene& scene_;
+  collide::Workers& workers_;
+  const Kernels& kernels_;
+  void (*integrate_)(Dynamics&, int, float) = nullptr;
+  std::vector<BatchStage> force_stages_;
+  std::vector<SolidStage> solid_stages_;
+  bool rolling_ = false, has_gravity_ = false;
+  std::vector<Batch> batches_;
+  std::vector<Body> bodies_;
+  Components x_, v_, f_;
+  Shield shield_;
+  std::vector<std::uint32_t> contacts_of_;  // a vertex, in the frame at hand
+  std::vector<Batch*> moving_;
+  int active_threads_ = 1;
+};
+
+}  // namespace softbody

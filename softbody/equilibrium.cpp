@@ -1,0 +1,97 @@
+#include "softbody/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/kernel_bodies.h"
+
+namespace softbody {
+namespace {
+
+/// One body in lane 0 of the double-precision kernels.
+class Relaxation {
+ public:
+  explicit Relaxation(const Prototype& p) : prototype_(p), size_(p.mesh.vertices.size() * lanes) {
+    for (auto* field : {&x_, &v_, &f_})
+      for (auto& component : *field) component.assign(size_, 0.0);
+    for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i)
+      for (int k = 0; k < 3; ++k) x_[k][i * lanes] = p.mesh.vertices[i][k];
+    for (const auto* list : {&p.structural, &p.bend, &p.shear})
+      for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, 0.0});
+    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
+  }
+
+  void evaluate() {
+    for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
+    body::springs<double>(springs_, constant(x_), constant(v_), field(f_));
+    if (!prototype_.has_gas) return;
+    double v[lanes], gauge[lanes]{};
+    body::volume<double>(faces_, constant(x_), v);
+    gauge[0] = prototype_.gas.pressure(v[0]) - prototype_.gas.ambient;
+    body::pressure<double>(faces_, constant(x_), gauge, field(f_));
+  }
+
+  double largest_force() const {
+    double largest2 = 0;
+    for (std::size_t i = 0; i < size_; i += lanes)
+      largest2 = std::max(largest2, f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i]);
+    return std::sqrt(largest2);
+  }
+
+  /// One step of h of h; velocities are dropped whenever the kinetic energy has passed a peak.
+  void step(double h) {
+    double kinetic = 0;
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < size_; i += lanes) {
+        v_[k][i] += h / prototype_.particle_mass * f_[k][i];
+        kinetic += v_[k][i] * v_[k][i];
+      }
+    if (kinetic < kinetic_) {
+      for (auto& component : v_) std::fill(component.begin(), component.end(), 0.0);
+      kinetic = 0;
+    }
+    kinetic_ = kinetic;
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < size_; i += lanes) x_[k][i] += h * v_[k][i];
+  }
+
+  std::vector<glm::dvec3> positions() const {
+    std::vector<glm::dvec3> result;
+    for (std::size_t i = 0; i < size_; i += lanes) result.emplace_back(x_[0][i], x_[1][i], x_[2][i]);
+    return result;
+  }
+
+ private:
+  using Components = std::array<LaneArray<double>, 3>;
+  static Field<const double> constant(const Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
+  static Field<double> field(Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
+
+  const Prototype& prototype_;
+  std::size_t size_;
+  Components x_, v_, f_;
+  KernelSpringsOf<double> springs_;
+  std::vector<KernelTriangle> faces_;
+  double kinetic_ = 0;
+};
+
+}  // namespace
+
+std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype) {
+  Relaxation relaxation(prototype);
+  const double scale = (prototype.spring_stiffness_bound + std::abs(prototype.gas.ambient) * prototype.radius +
+                        prototype.material.gas_pressure * prototype.radius) *
+                       prototype.radius;
+  const double h = stable_step(stiffness_per_mass(prototype, prototype.gas.rest_volume), 0);
+  constexpr int limit = 50'000;
+  for (int i = 0; i < limit; ++i) {
+    relaxation.evaluate();
+    const double force = relaxation.largest_force();
+    if (!std::isfinite(force)) break;
+    if (force <= 1e-11 * scale) return relaxation.positions();
+    relaxation.step(h);
+  }
+  throw SceneError("material '" + prototype.material.name + "': springs and gas pressure find no equilibrium; lower " +
+                   "gas_pressure towards ambient_pressure, raise the stiffness, or set start_in_equilibrium = false");
+}
+
+}  // namespace softbody

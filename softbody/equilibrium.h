@@ -1,0 +1,13 @@
+#pragma once
+// The shape in which springs and gas pressure are in balance.
+
+#include "softbody/prototype.h"
+
+namespace softbody {
+
+/// Brings prototype.mesh into balance by dynamic relaxation with kinetic damping, in double precision, and returns the
+/// positions. Uses the springs and the gas of the prototype, which must be filled in, and no other force.
+/// Throws SceneError that names the material if the body does not come to rest.
+std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype);
+
+}  // namespace softbody

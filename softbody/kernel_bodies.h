@@ -1,0 +1,193 @@
+#pragma once
+// The arithmetic of the kernels, for one vector of bodies at a time. Included where it is compiled for an instruction
+// set.
+
+#include <limits>
+
+#include "softbody/kernels.h"
+
+#define SB_INLINE [[gnu::always_inline]] inline
+
+namespace softbody::body {
+
+template <class Real>
+SB_INLINE Lane<Real> load(const Real* p) {
+  Lane<Real> v;
+  std::memcpy(&v, p, sizeof v);
+  return v;
+}
+
+template <class Real>
+SB_INLINE void store(Real* p, Lane<Real> v) {
+  std::memcpy(p, &v, sizeof v);
+}
+
+template <class V>
+SB_INLINE V square_root(V v) {
+  V r;
+  for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(v[l]);
+  return r;
+}
+
+template <class V>
+SB_INLINE V larger(V a, V b) {
+  return a > b ? a : b;
+}
+
+template <class V>
+SB_INLINE V smaller(V a, V b) {
+  return a < b ? a : b;
+}
+
+/// Three components for all lanes.
+template <class V>
+struct Vec {
+  V x, y, z;
+  SB_INLINE friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  SB_INLINE friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  SB_INLINE friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+};
+
+template <class V>
+SB_INLINE V dot(Vec<V> a, Vec<V> b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+template <class V>
+SB_INLINE Vec<V> cross(Vec<V> a, Vec<V> b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+
+template <class Real>
+SB_INLINE Vec<Lane<Real>> load(Field<const Real> f, std::size_t at) {
+  return {load(f.x + at), load(f.y + at), load(f.z + at)};
+}
+
+template <class Real>
+SB_INLINE Vec<Lane<Real>> load(Field<Real> f, std::size_t at) {
+  return {load(f.x + at), load(f.y + at), load(f.z + at)};
+}
+
+template <class Real>
+SB_INLINE void store(Field<Real> f, std::size_t at, Vec<Lane<Real>> v) {
+  store(f.x + at, v.x);
+  store(f.y + at, v.y);
+  store(f.z + at, v.z);
+}
+
+/// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j.
+/// A spring of length zero has no direction and pulls nowhere.
+template <class Real>
+SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
+                       Field<Real> f) {
+  using V = Lane<Real>;
+  const V tiny = V{} + std::numeric_limits<Real>::min();
+  for (const KernelSpring<Real>& s : list) {
+    const Vec<V> dx = load(x, s.j) - load(x, s.i), dv = load(v, s.j) - load(v, s.i);
+    const V length = square_root(dot(dx, dx));
+    const V inverse = Real(1) / larger(length, tiny);
+    const V tension = s.stiffness * (length - s.rest) + s.damping * (dot(dv, dx) * inverse);
+    const Vec<V> force = (tension * inverse) * dx;
+    store(f, s.i, load(f, s.i) + force);
+    store(f, s.j, load(f, s.j) - force);
+  }
+}
+
+/// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces.
+template <class Real>
+SB_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Real> x, Real* result) {
+  Lane<Real> six{};
+  for (const auto& [a, b, c] : faces) six += dot(load(x, a), cross(load(x, b), load(x, c)));
+  store(result, six / Real(6));
+}
+
+/// A third of each face's pressure force to each of its corners (Matyka & Ollila 2003).
+template <class Real>
+SB_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Real> x, const Real* gauge, Field<Real> f) {
+  using V = Lane<Real>;
+  const V sixth = load(gauge) / Real(6);
+  for (const auto& [a, b, c] : faces) {
+    const Vec<V> pa = load(x, a);
+    const Vec<V> third = sixth * cross(load(x, b) - pa, load(x, c) - pa);
+    store(f, a, load(f, a) + third);
+    store(f, b, load(f, b) + third);
+    store(f, c, load(f, c) + third);
+  }
+}
+
+SB_INLINE void kick(const KickArguments& k, Field<const float> f, Field<float> v) {
+  using V = Lane<float>;
+  const V moves = load(k.moves);
+  const V scale = k.h_over_mass * moves;
+  const Vec<V> g{k.gx * moves, k.gy * moves, k.gz * moves};
+  for (std::size_t at = 0; at < k.particles * lanes; at += lanes) store(v, at, load(v, at) + scale * load(f, at) + g);
+}
+
+SB_INLINE void drift(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x) {
+  const Lane<float> step = h * load(moves);
+  for (std::size_t at = 0; at < particles * lanes; at += lanes) store(x, at, load(x, at) + step * load(v, at));
+}
+
+/// The contact of one particle with a solid, on its velocity: after the step it is not below the surface, the change
+/// of normal velocity acts as an impulse, and Coulomb friction takes at most `friction` times it from the tangential
+/// velocity. A particle that is inside already comes out at a tenth of its depth a step, at most 1 m/s.
+SB_INLINE void solid(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> n, Vec<Lane<float>>& v,
+                     Lane<float>& impulse) {
+  using V = Lane<float>;
+  const V zero{}, moves = load(s.moves);
+  const float inverse_h = 1.0f / s.h;
+  const V target = gap > zero ? -gap * inverse_h : smaller(-0.1f * inverse_h * gap, zero + 1.0f);
+  const V normal_speed = dot(v, n);
+  const V change = moves * larger(target - normal_speed, zero);
+  const Vec<V> tangential = v - normal_speed * n;
+  const V slip = square_root(dot(tangential, tangential));
+  const V lost = smaller(s.friction * change, slip) / larger(slip, zero + std::numeric_limits<float>::min());
+  v = v + change * n - lost * tangential;
+  impulse += s.mass * change;
+}
+
+SB_INLINE void sphere(const SolidArguments& s, Field<const float> x, Field<float> v) {
+  using V = Lane<float>;
+  const V zero{}, tiny = zero + std::numeric_limits<float>::min();
+  const Vec<V> centre{load(s.centre.x), load(s.centre.y), load(s.centre.z)};
+  V impulse = load(s.impulse);
+  for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
+    const Vec<V> d = load(x, at) - centre;
+    const V distance = square_root(dot(d, d));
+    Vec<V> n = (1.0f / larger(distance, tiny)) * d;
+    n.y = distance > tiny ? n.y : zero + 1.0f;  // the very centre: out is up
+    Vec<V> velocity = load(v, at);
+    solid(s, distance - s.radius, n, velocity, impulse);
+    store(v, at, velocity);
+  }
+  store(s.impulse, impulse);
+}
+
+SB_INLINE void ground(const SolidArguments& s, Field<const float> x, Field<float> v) {
+  using V = Lane<float>;
+  const V zero{}, height = load(s.centre.y);
+  V impulse = load(s.impulse);
+  for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
+    Vec<V> velocity = load(v, at);
+    solid(s, load(x.y + at) - height, {zero, zero + 1.0f, zero}, velocity, impulse);
+    store(v, at, velocity);
+  }
+  store(s.impulse, impulse);
+}
+
+SB_INLINE void extent(std::size_t particles, Field<const float> x, Field<const float> v, Extent& e) {
+  using V = Lane<float>;
+  Vec<V> lo = load(x, 0), hi = lo;
+  V speed2{};
+  for (std::size_t at = 0; at < particles * lanes; at += lanes) {
+    const Vec<V> p = load(x, at), u = load(v, at);
+    lo = {smaller(p.x, lo.x), smaller(p.y, lo.y), smaller(p.z, lo.z)};
+    hi = {larger(p.x, hi.x), larger(p.y, hi.y), larger(p.z, hi.z)};
+    speed2 = larger(dot(u, u), speed2);
+  }
+  store(Field<float>{e.lo.x, e.lo.y, e.lo.z}, 0, lo);
+  store(Field<float>{e.hi.x, e.hi.y, e.hi.z}, 0, hi);
+  store(e.speed2, speed2);
+}
+
+}  // namespace softbody::body

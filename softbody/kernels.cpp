@@ -1,0 +1,62 @@
+#include "softbody/kernels.h"
+
+#include "softbody/kernel_bodies.h"
+
+#if defined(__x86_64__) || defined(__i386__)
+#define SB_X86 1
+#else
+#define SB_X86 0
+#endif
+
+namespace softbody {
+namespace {
+
+using ConstField = Field<const float>;
+using Springs = std::span<const KernelSpring<float>>;
+using Triangles = std::span<const KernelTriangle>;
+
+// One table an instruction set. The bodies are inlined into functions that carry the target attribute; a resolver of
+// the linker (ifunc) would do the same but does not work under the sanitizers.
+#define SB_KERNEL_TABLE(name, target)                                                                             \
+  struct name {                                                                                                   \
+    target static void springs(Springs s, ConstField x, ConstField v, Field<float> f) {                           \
+      body::springs<float>(s, x, v, f);                                                                           \
+    }                                                                                                             \
+    target static void volume(Triangles t, ConstField x, float* r) { body::volume<float>(t, x, r); }              \
+    target static void pressure(Triangles t, ConstField x, const float* p, Field<float> f) {                      \
+      body::pressure<float>(t, x, p, f);                                                                          \
+    }                                                                                                             \
+    target static void kick(const KickArguments& k, ConstField f, Field<float> v) { body::kick(k, f, v); }        \
+    target static void sphere(const SolidArguments& s, ConstField x, Field<float> v) { body::sphere(s, x, v); }   \
+    target static void ground(const SolidArguments& s, ConstField x, Field<float> v) { body::ground(s, x, v); }   \
+    target static void drift(std::size_t n, float h, const float* moves, ConstField v, Field<float> x) {          \
+      body::drift(n, h, moves, v, x);                                                                             \
+    }                                                                                                             \
+    target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); } \
+    static constexpr Kernels table{springs, volume, pressure, kick, sphere, ground, drift, extent};               \
+  };
+
+SB_KERNEL_TABLE(Baseline, )
+#if SB_X86
+SB_KERNEL_TABLE(Avx2, [[gnu::target("avx2")]])
+#endif
+
+}  // namespace
+
+Isa best_isa() {
+#if SB_X86
+  return __builtin_cpu_supports("avx2") ? Isa::avx2 : Isa::baseline;
+#else
+  return Isa::baseline;
+#endif
+}
+
+const Kernels& kernels(Isa isa) {
+#if SB_X86
+  if (isa == Isa::avx2) return Avx2::table;
+#endif
+  (void)isa;
+  return Baseline::table;
+}
+
+}  // namespace softbody

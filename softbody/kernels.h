@@ -1,0 +1,72 @@
+#pragma once
+// The inner loops of a substep over one batch of eight bodies, chosen once for the processor at hand. Every variant is
+// compiled from the same source without fused arithmetic, so all give the same bits.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "softbody/lanes.h"
+
+namespace softbody {
+
+/// A spring as the loops want it: particle indices already times `lanes`, single precision.
+template <class Real>
+struct KernelSpring {
+  std::uint32_t i, j;
+  Real rest, stiffness, damping;
+};
+template <class Real>
+using KernelSpringsOf = std::vector<KernelSpring<Real>>;
+using KernelSprings = KernelSpringsOf<float>;
+
+/// Corners of a face, already times `lanes`.
+using KernelTriangle = std::array<std::uint32_t, 3>;
+
+struct LaneVector {
+  alignas(32) float x[lanes], y[lanes], z[lanes];
+};
+
+struct KickArguments {
+  std::size_t particles;
+  float h_over_mass;   // s/kg
+  float gx, gy, gz;    // h * gravity, m/s
+  const float* moves;  // lanes values, 0 or 1
+};
+
+/// A solid seen from each body's own origin.
+struct SolidArguments {
+  std::size_t particles;
+  float h;            // s
+  float mass;         // kg, of one particle
+  float friction;     // Coulomb
+  float radius;       // m, spheres only
+  LaneVector centre;  // m; for the ground only y, its height
+  const float* moves;
+  float* impulse;  // N s, lanes values: the normal impulses are added here
+};
+
+struct Extent {
+  LaneVector lo, hi;                // m, from the body's origin
+  alignas(32) float speed2[lanes];  // (m/s)^2, of the fastest particle
+};
+
+struct Kernels {
+  void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
+  void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
+  void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
+  void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
+  void (*sphere)(const SolidArguments&, Field<const float> x, Field<float> v);
+  void (*ground)(const SolidArguments&, Field<const float> x, Field<float> v);
+  void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
+  void (*extent)(std::size_t particles, Field<const float> x, Field<const float> v, Extent&);
+};
+
+enum class Isa { baseline, avx2 };
+/// The widest that this processor and build have.
+Isa best_isa();
+const Kernels& kernels(Isa isa);
+
+}  // namespace softbody

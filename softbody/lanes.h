@@ -1,0 +1,50 @@
+#pragma once
+// Eight bodies of one prototype are solved side by side, one a SIMD lane: value [particle * lanes + lane].
+// Compiler vectors, so that the same source serves every instruction set and gives the same bits on each.
+
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+namespace softbody {
+
+inline constexpr int lanes = 8;
+
+template <class Real>
+struct LaneOf;
+template <>
+struct LaneOf<float> {
+  typedef float Vector __attribute__((vector_size(lanes * sizeof(float))));
+};
+template <>
+struct LaneOf<double> {
+  typedef double Vector __attribute__((vector_size(lanes * sizeof(double))));
+};
+template <class Real>
+using Lane = typename LaneOf<Real>::Vector;
+
+/// Storage that starts on a cache line.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  CacheLineAllocator() = default;
+  template <class U>
+  explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const CacheLineAllocator&) const = default;
+};
+template <class Real>
+using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
+
+/// Three components of a field over the particles of one batch.
+template <class Real>
+struct Field {
+  Real *x, *y, *z;
+  operator Field<const Real>() const requires(!std::is_const_v<Real>) { return {x, y, z}; }
+};
+
+}  // namespace softbody

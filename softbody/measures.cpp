@@ -1,0 +1,74 @@
+#include "softbody/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+namespace softbody {
+namespace {
+
+double spring_energy(const std::vector<Spring>& springs, const std::vector<Particle>& particles) {
+  double energy = 0;
+  for (const Spring& s : springs) {
+    const double stretch = glm::distance(particles[s.i].position, particles[s.j].position) - s.rest;
+    energy += 0.5 * s.stiffness * stretch * stretch;
+  }
+  return energy;
+}
+
+double volume_of(const std::vector<Particle>& particles, const std::vector<Triangle>& triangles) {
+  const glm::dvec3 origin = particles.front().position;  // any point will do; a near one loses no digits
+  double six = 0;
+  for (const auto& [a, b, c] : triangles)
+    six += glm::dot(particles[a].position - origin,
+                    glm::cross(particles[b].position - origin, particles[c].position - origin));
+  return six / 6;
+}
+
+/// Adds one body to the totals.
+void add_body(const World& world, BodyId id, Measures& m) {
+  const Prototype& p = world.prototype(id);
+  const Scene& scene = world.scene();
+  std::vector<Particle> particles;
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) particles.push_back(world.dynamics().particle(id, i));
+  for (const Particle& q : particles) {
+    const double speed2 = glm::dot(q.velocity, q.velocity);
+    m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
+    m.energy += p.particle_mass * (0.5 * speed2 - glm::dot(scene.gravity, q.position));
+    m.momentum += p.particle_mass * q.velocity;
+    m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
+    m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
+  }
+  for (const auto* springs : {&p.structural, &p.bend, &p.shear}) m.energy += spring_energy(*springs, particles);
+  if (!p.mesh.closed) return;
+  const double volume = volume_of(particles, p.mesh.triangles);
+  if (p.has_gas) m.energy += p.gas.energy(volume);
+  const double ratio = volume / p.start_volume;
+  const bool first = m.volume_ratio_min == 0 && m.volume_ratio_max == 0;
+  m.volume_ratio_min = first ? ratio : std::min(m.volume_ratio_min, ratio);
+  m.volume_ratio_max = first ? ratio : std::max(m.volume_ratio_max, ratio);
+}
+
+}  // namespace
+
+SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
+  SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
+  if (scene.ground) deepest.depth = scene.ground->height - point.y;
+  for (const SolidSphere& s : scene.spheres) {
+    const double distance = glm::distance(point, s.centre);
+    if (s.radius - distance <= deepest.depth) continue;
+    deepest.depth = s.radius - distance;
+    deepest.normal = distance > 0 ? glm::vec3((point - s.centre) / distance) : glm::vec3(0, 1, 0);
+  }
+  return deepest;
+}
+
+Measures measure(const World& world) {
+  Measures m;
+  for (BodyId id = 0; id < world.bodies().count(); ++id) add_body(world, id, m);
+  return m;
+}
+
+}  // namespace softbody

@@ -1,0 +1,97 @@
+#include "softbody/plan.h"
+
+#include <algorithm>
+#include <array>
+
+namespace softbody {
+namespace {
+
+struct Facts {
+  const Scene& scene;
+  const std::vector<std::shared_ptr<const Prototype>>& prototypes;
+  std::size_t bodies() const { return scene.dropper ? 2 : scene.bodies.size(); }  // a dropper can always add another
+  template <class Test>
+  bool any(Test test) const {
+    return std::any_of(prototypes.begin(), prototypes.end(), [&](const auto& p) { return test(*p); });
+  }
+};
+
+using Why = const char* (*)(const Facts&);  // nullptr: the stage is needed
+
+const char* needed(const Facts&) { return nullptr; }
+
+const char* arrivals(const Facts& f) {
+  const bool late = std::any_of(f.scene.bodies.begin(), f.scene.bodies.end(),
+                                [](const BodySource& b) { return b.appear > 0 || b.release > 0; });
+  return late ? nullptr : "all bodies are there and free from the start";
+}
+
+const char* contacts(const Facts& f) {
+  return f.bodies() > 1 || f.scene.collision.self_collision ? nullptr : "one body, and self-collision is off";
+}
+
+template <std::vector<Spring> Prototype::*list>
+const char* springs(const Facts& f) {
+  return f.any([](const Prototype& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
+}
+
+const char* gas(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
+}
+
+const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
+
+const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
+
+const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
+
+const char* rolling(const Facts& f) {
+  if (!f.scene.ground && f.scene.spheres.empty()) return "no solid to roll on";
+  return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
+             ? nullptr
+             : "no closed body with rolling resistance";
+}
+
+const char* sleep(const Facts& f) { return f.scene.sleep.speed > 0 ? nullptr : "the scene's sleep speed is 0"; }
+
+struct Row {
+  Stage stage;
+  std::string_view key;
+  Why why_not;
+};
+
+constexpr std::array<Row, std::size_t(Stage::count)> table{{
+    {Stage::arrive, "arrive", arrivals},
+    {Stage::contact_response, "contact-response", contacts},
+    {Stage::structural_springs, "structural-springs", springs<&Prototype::structural>},
+    {Stage::bend_springs, "bend-springs", springs<&Prototype::bend>},
+    {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},
+    {Stage::gas_pressure, "gas-pressure", gas},
+    {Stage::gravity, "gravity", gravity},
+    {Stage::integrate, "integrate", needed},
+    {Stage::solid_spheres, "solid-spheres", spheres},
+    {Stage::ground, "ground", ground},
+    {Stage::rolling_resistance, "rolling-resistance", rolling},
+    {Stage::detect, "detect", contacts},
+    {Stage::sleep, "sleep", sleep},
+}};
+
+}  // namespace
+
+std::string_view stage_key(Stage stage) { return table[std::size_t(stage)].key; }
+
+bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
+
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes) {
+  Plan plan;
+  const Facts facts{scene, prototypes};
+  for (const Row& row : table) {
+    if (const char* why = row.why_not(facts))
+      plan.left_out.push_back({row.stage, why});
+    else
+      plan.stages.push_back(row.stage);
+  }
+  return plan;
+}
+
+}  // namespace softbody

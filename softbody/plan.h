@@ -1,0 +1,48 @@
+#pragma once
+// What a scene needs is decided once, at load: a plan lists the stages of a step and says of the others why they are
+// left out. A stage that is left out costs no call.
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "softbody/prototype.h"
+
+namespace softbody {
+
+/// In the order in which a step runs them.
+enum class Stage {
+  arrive,
+  contact_response,
+  structural_springs,
+  bend_springs,
+  shear_springs,
+  gas_pressure,
+  gravity,
+  integrate,
+  solid_spheres,
+  ground,
+  rolling_resistance,
+  detect,
+  sleep,
+  count
+};
+
+/// The stage's key in the plan of `simulate --json`, e.g. "bend-springs".
+std::string_view stage_key(Stage stage);
+
+struct LeftOut {
+  Stage stage;
+  std::string why;
+};
+
+struct Plan {
+  std::vector<Stage> stages;      // in order
+  std::vector<LeftOut> left_out;  // in order
+  bool has(Stage stage) const;
+};
+
+/// prototypes: those of the scene's bodies and of its dropper.
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes);
+
+}  // namespace softbody

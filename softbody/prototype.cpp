@@ -1,0 +1,128 @@
+#include "softbody/prototype.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/equilibrium.h"
+
+namespace softbody {
+namespace {
+
+constexpr double linear_below = 0.1;  // of V0: the gas law goes on linearly, so that flat and inverted bodies recover
+
+std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pairs, const SpringLaw& law, double mass) {
+  std::vector<Spring> springs;
+  if (law.stiffness <= 0) return springs;
+  const double damping = 2 * law.damping_ratio * std::sqrt(law.stiffness * mass / 2);  // reduced mass m / 2
+  for (const auto& [i, j] : pairs)
+    springs.push_back({i, j, glm::distance(mesh.vertices[i], mesh.vertices[j]), law.stiffness, damping});
+  return springs;
+}
+
+/// The largest sum over one particle's springs of a property.
+double largest_sum(const Prototype& p, double Spring::*property) {
+  std::vector<double> sum(p.mesh.vertices.size(), 0.0);
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *list) {
+      sum[s.i] += s.*property;
+      sum[s.j] += s.*property;
+    }
+  return *std::max_element(sum.begin(), sum.end());
+}
+
+void list_faces(Prototype& p) {
+  std::vector<std::vector<Index>> at(p.mesh.vertices.size());
+  for (Index f = 0; f < p.mesh.triangles.size(); ++f)
+    for (const Index corner : p.mesh.triangles[f]) at[corner].push_back(f);
+  for (const auto& faces : at) {
+    p.face.insert(p.face.end(), faces.begin(), faces.end());
+    p.first_face.push_back(static_cast<Index>(p.face.size()));
+  }
+}
+
+/// What the stability bound of the gas needs of the mesh.
+void measure_surface(Prototype& p) {
+  const auto& vertices = p.mesh.vertices;
+  std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0.0));
+  std::vector<double> perimeter(vertices.size(), 0.0);
+  for (const auto& t : p.mesh.triangles) {
+    const glm::dvec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
+    const double around = glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a);
+    for (const Index corner : t) {
+      area[corner] += glm::cross(b - a, c - a) / 6.0;
+      perimeter[corner] += around;
+    }
+  }
+  for (const auto& a : area) p.area_square_sum += glm::dot(a, a);
+  p.perimeter_bound = *std::max_element(perimeter.begin(), perimeter.end());
+}
+
+}  // namespace
+
+double Gas::pressure(double v) const {
+  const double bend = linear_below * rest_volume;
+  if (v >= bend) return amount / v;
+  return amount / bend * (2 - v / bend);
+}
+
+double Gas::energy(double v) const {
+  const double bend = linear_below * rest_volume;
+  const double against_ambient = ambient * (v - rest_volume);
+  if (v >= bend) return against_ambient - amount * std::log(v / rest_volume);
+  const double beyond = bend - v;  // the integral of the linear law from v to the bend
+  return against_ambient - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
+}
+
+double stable_step(double k_m, double c_m) {
+  // Twice the Gershgorin row sum bounds a spring matrix: each spring stands on its diagonal and beside it.
+  const double omega2 = 2 * k_m, gamma = 2 * c_m;
+  if (omega2 <= 0) return gamma > 0 ? 0.8 * 2 / gamma : 1e9;
+  const double omega = std::sqrt(omega2), z = gamma / (2 * omega);
+  return 0.8 * (2 / omega) * (std::sqrt(1 + z * z) - z);
+}
+
+double stiffness_per_mass(const Prototype& p, double volume) {
+  double bound = p.spring_stiffness_bound / p.particle_mass;
+  if (!p.has_gas) return bound;
+  // Gas: F_i = (P - P_ambient) A_i with A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2, plus
+  // (P - P_ambient) d2V/dx2, bounded by its largest row. A grows with r^(2/3), the rows with r^(1/3) <= 1 + (r - 1) /
+  // 3, r = V / V0. (A cube root of the C library would not give the same bits on every processor.)
+  const double bend = linear_below * p.gas.rest_volume, held = std::max(volume, bend);
+  const double r = std::max(std::abs(volume) / p.gas.rest_volume, 1.0), growth = 1 + (r - 1) / 3;
+  const double slope = p.gas.amount / (held * held);
+  const double gauge = std::abs(p.gas.pressure(volume) - p.gas.ambient);
+  const double gas = slope * p.area_square_sum * r * growth + gauge * p.perimeter_bound / 6 * growth;
+  return bound + gas / (2 * p.particle_mass);  // stable_step() doubles spring sums, which this is not
+}
+
+std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const Material& material) {
+  auto p = std::make_shared<Prototype>();
+  p->mesh = source.make();
+  p->material = material;
+  p->radius = bounding_radius(p->mesh);
+  p->particle_mass = material.mass / double(p->mesh.vertices.size());
+  p->structural = make_springs(p->mesh, p->mesh.edges, material.structural, p->particle_mass);
+  p->bend = make_springs(p->mesh, p->mesh.bend_pairs, material.bend, p->particle_mass);
+  p->shear = make_springs(p->mesh, p->mesh.shear_pairs, material.shear, p->particle_mass);
+  p->spring_stiffness_bound = largest_sum(*p, &Spring::stiffness);
+  p->spring_damping_bound = largest_sum(*p, &Spring::damping);
+
+  list_faces(*p);
+  measure_surface(*p);
+  if (p->mesh.closed) {
+    p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
+    p->gas.ambient = material.ambient_pressure;
+    p->gas.amount = material.gas_pressure * p->gas.rest_volume;
+    p->has_gas = material.gas_pressure > 0 || material.ambient_pressure > 0;
+  }
+
+  p->start = material.start_in_equilibrium && p->has_gas ? find_equilibrium(*p) : p->mesh.vertices;
+  if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
+  p->shape = std::make_shared<collide::Shape>(static_cast<Index>(p->mesh.vertices.size()), p->mesh.edges,
+                                              std::vector<glm::vec3>(p->mesh.vertices.begin(), p->mesh.vertices.end()));
+  return p;
+}
+
+}  // namespace softbody

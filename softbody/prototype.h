@@ -1,0 +1,63 @@
+#pragma once
+// A prototype is all that bodies of one mesh and one material share. Bodies of one prototype are solved together.
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "softbody/scene.h"
+
+namespace softbody {
+
+struct Spring {
+  Index i, j;
+  double rest;       // m
+  double stiffness;  // N/m
+  double damping;    // N s/m, along the spring
+};
+
+struct Gas {
+  double amount = 0;       // nRT in J: P = amount / V
+  double ambient = 0;      // Pa
+  double rest_volume = 0;  // V0 in m^3: below 0.1 V0 the law goes on linearly
+
+  /// Absolute pressure in Pa at volume v, which may be zero or negative (an inverted body).
+  double pressure(double v) const;
+  /// Work done against the ambient pressure and by the gas, 0 at V0, in J; d(energy)/dV = ambient - pressure.
+  double energy(double v) const;
+};
+
+struct Prototype {
+  Mesh mesh;
+  Material material;
+  std::shared_ptr<const collide::Shape> shape;  // what the detectors see of it
+  std::vector<Spring> structural, bend, shear;
+  Gas gas;
+  std::vector<Index> first_face{0}, face;  // the triangles at each vertex, one list after another
+  bool has_gas = false;                    // closed, and some pressure acts on it
+  double particle_mass = 0;                // kg
+  double radius = 0;                       // m, bounding radius of the mesh
+  std::vector<glm::dvec3> start;           // starting shape: the equilibrium, or the mesh itself
+  double start_volume = 0;                 // m^3, 0 for open meshes
+  // Gershgorin bounds over the particles (see stable_step()):
+  double spring_stiffness_bound = 0;  // N/m: largest sum of the stiffnesses at one particle
+  double spring_damping_bound = 0;    // N s/m
+  double area_square_sum = 0;         // m^4: sum over the particles of |dV/dx|^2 at rest
+  double perimeter_bound = 0;         // m: largest sum of the perimeters of one particle's faces at rest
+
+  std::span<const Index> faces_of(Index vertex) const {
+    return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
+  }
+};
+
+/// Throws SceneError if no equilibrium is found.
+std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material);
+
+/// Bound of the stiffness over mass that springs and gas act with on one particle of a body of this volume, in 1/s^2.
+double stiffness_per_mass(const Prototype& prototype, double volume);
+
+/// Largest stable step of semi-implicit Euler times 0.8, in s, for stiffness/mass sum k_m (1/s^2) and damping/mass sum
+/// c_m (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m / (2 omega).
+double stable_step(double k_m, double c_m);
+
+}  // namespace softbody

@@ -1,0 +1,23 @@
+#pragma once
+// One prototype for each different pair of mesh and material among a scene's bodies and its dropper.
+
+#include "softbody/prototype.h"
+
+namespace softbody {
+
+class PrototypeSet {
+ public:
+  /// Throws SceneError as make_prototype() does.
+  explicit PrototypeSet(const Scene& scene);
+  /// source: one of the scene's.
+  const std::shared_ptr<const Prototype>& of(const BodySource& source) const { return all_[index(source)]; }
+  const std::vector<std::shared_ptr<const Prototype>>& all() const { return all_; }
+
+ private:
+  std::size_t index(const BodySource& source) const;
+
+  std::vector<BodySource> keys_;
+  std::vector<std::shared_ptr<const Prototype>> all_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,29 @@
+#include "softbody/scene.h"
+
+#include <algorithm>
+
+namespace softbody {
+
+Mesh MeshSource::make() const {
+  return kind == "grid" ? quad_grid(columns, rows, width, depth) : icosphere(subdivisions, radius);
+}
+
+std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
+  std::vector<std::string> keys;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".toml") keys.push_back(entry.path().stem().string());
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
+  if (name.ends_with(".toml")) return load_scene(name);
+  const auto keys = scene_keys(folder);
+  if (std::find(keys.begin(), keys.end(), name) != keys.end()) return load_scene(folder / (name + ".toml"));
+  std::string known;
+  for (const auto& key : keys) known.append(known.empty() ? "" : ", ").append(key);
+  throw SceneError("unknown scene '" + name + "'; use one of: " + known + "; or the path of a .toml file");
+}
+
+}  // namespace softbody

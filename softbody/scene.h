@@ -1,0 +1,125 @@
+#pragma once
+// A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; the README documents the
+// format.
+
+#include <filesystem>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "collide/methods.h"
+#include "softbody/mesh.h"
+
+namespace softbody {
+
+/// Bad input. what() is one line: the file (and line, where there is one), what is wrong, what to do.
+struct SceneError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// A linear spring law with a damper along the spring (Introduction of the paper: elasticity and damper).
+struct SpringLaw {
+  double stiffness = 0;  // N/m
+  double damping_ratio =
+      0;  // of the critical damping of the spring between its two particles: c = 2 zeta sqrt(k m / 2)
+};
+
+struct Material {
+  std::string name;
+  double mass = 1;  // kg a body, shared equally by its particles
+  SpringLaw structural{300, 0.1};
+  SpringLaw bend{75, 0.1};
+  SpringLaw shear{};                 // quad grids only
+  double gas_pressure = 0;           // Pa, absolute, of the gas at the mesh's own volume: P = gas_pressure * V0 / V
+  double ambient_pressure = 0;       // Pa, absolute, outside
+  double friction = 0.5;             // Coulomb, against other bodies
+  double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
+  double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
+  bool start_in_equilibrium = true;  // springs and gas are brought into balance when the scene is loaded
+};
+
+struct MeshSource {
+  std::string kind = "icosphere";
+  int subdivisions = 2;         // icosphere
+  double radius = 0.5;          // m, icosphere
+  int columns = 32, rows = 32;  // grid
+  double width = 3, depth = 3;  // m, grid
+  Mesh make() const;
+  bool operator==(const MeshSource&) const = default;
+};
+
+struct BodySource {
+  MeshSource mesh;
+  int material = 0;              // index into Scene::materials
+  glm::dvec3 position{0, 3, 0};  // m, of the mesh's origin
+  glm::dvec3 velocity{0.0};      // m/s
+  int appear = 0;                // the frame in which it joins the scene ...
+  int release = 0;               // ... held in place until this one
+};
+
+struct SolidSphere {
+  glm::dvec3 centre{0.0};  // m
+  double radius = 1;       // m
+  double friction = 0.5;   // Coulomb
+};
+
+struct Ground {
+  double height = 0;      // m, the plane y = height
+  double friction = 0.6;  // Coulomb
+};
+
+/// Where "drop another body" puts it: a body source and the radius of the disc around its position.
+struct Dropper {
+  BodySource body;
+  double spread = 0.3;  // m
+};
+
+struct SleepRule {
+  double speed = 0.03;  // m/s: no particle of a contact island faster ...
+  int frames = 30;      // ... for this many frames
+};
+
+struct View {
+  glm::dvec3 target{0, 0.8, 0};
+  double distance = 8;    // m
+  double azimuth = 30;    // degrees
+  double elevation = 18;  // degrees
+};
+
+struct Caption {
+  int frame;
+  std::string text;
+};
+
+struct Scene {
+  std::string key;  // the file's stem
+  std::string name;
+  std::string look_at;              // one sentence: what to look at
+  glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
+  std::string method{collide::default_method};
+  collide::Settings collision;  // cell_size is filled in by the world if `default_cell_size`
+  bool default_cell_size = true;
+  std::vector<Material> materials;
+  std::vector<BodySource> bodies;
+  std::vector<SolidSphere> spheres;
+  std::optional<Ground> ground;
+  std::optional<Dropper> dropper;
+  SleepRule sleep;
+  View view;
+  std::vector<Caption> captions;  // what to see from this frame on
+};
+
+/// Reads a scene file. Throws SceneError; unknown keys, wrong types and values out of range are errors too.
+Scene load_scene(const std::filesystem::path& file);
+
+/// The keys of a folder's scenes (stems of its .toml files), in order.
+std::vector<std::string> scene_keys(const std::filesystem::path& folder);
+
+/// A scene by key in `folder`, or by path if `name` ends in .toml. Throws SceneError; for an unknown key the message
+/// lists the known ones.
+Scene find_scene(const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace softbody

@@ -1,0 +1,293 @@
+// Scene files. Every key is read through Table, which checks type and range and remembers what was asked for, so that a
+// key that nobody asked for is reported as unknown.
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <set>
+#include <sstream>
+
+#define TOML_EXCEPTIONS 1
+#include <toml++/toml.h>
+
+#include "softbody/scene.h"
+
+namespace softbody {
+namespace {
+
+constexpr double any = std::numeric_limits<double>::max();
+constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
+constexpr std::uintmax_t max_file_size = 1 << 20;
+
+/// One table of the file, with the place of an error in every message.
+class Table {
+ public:
+  Table(const toml::table& table, std::string file, std::string name)
+      : table_(table), file_(std::move(file)), name_(std::move(name)) {}
+
+  double number(const std::string& key, double fallback, double lo = -any, double hi = any) {
+    const toml::node* node = find(key);
+    if (!node) return fallback;
+    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
+    if (!value || !std::isfinite(*value) || *value < lo || *value > hi)
+      fail(*node, key, "must be a number" + range(lo, hi));
+    return *value;
+  }
+
+  int integer(const std::string& key, int fallback, int lo, int hi) {
+    const toml::node* node = find(key);
+    if (!node) return fallback;
+    const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
+    if (!value || *value < lo || *value > hi) fail(*node, key, "must be a whole number" + range(lo, hi));
+    return static_cast<int>(*value);
+  }
+
+  bool boolean(const std::string& key, bool fallback) {
+    const toml::node* node = find(key);
+    if (!node) return fallback;
+    if (!node->is_boolean()) fail(*node, key, "must be true or false");
+    return *node->value<bool>();
+  }
+
+  std::string text(const std::string& key, std::string fallback) {
+    const toml::node* node = find(key);
+    if (!node) return fallback;
+    if (!node->is_string()) fail(*node, key, "must be a string");
+    return *node->value<std::string>();
+  }
+
+  glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo = -any, double hi = any) {
+    const toml::node* node = find(key);
+    if (!node) return fallback;
+    const toml::array* list = node->as_array();
+    if (!list || list->size() != 3) fail(*node, key, "must be three numbers, e.g. [0, 1, 0]");
+    glm::dvec3 result;
+    for (int k = 0; k < 3; ++k) {
+      const toml::node& item = (*list)[std::size_t(k)];
+      const auto value = item.is_number() ? item.value<double>() : std::nullopt;
+      if (!value || !std::isfinite(*value) || *value < lo || *value > hi)
+        fail(item, key, "must be three numbers, each" + range(lo, hi));
+      result[k] = *value;
+    }
+    return result;
+  }
+
+  bool has(const std::string& key) const { return table_.contains(key); }
+
+  /// The table below `key`, or an empty one.
+  Table child(const std::string& key) {
+    static const toml::table empty;
+    const toml::node* node = find(key);
+    if (!node) return {empty, file_, key};
+    if (!node->is_table()) fail(*node, key, "must be a table");
+    return {*node->as_table(), file_, key};
+  }
+
+  /// The tables of [[key]].
+  std::vector<Table> children(const std::string& key) {
+    std::vector<Table> list;
+    const toml::node* node = find(key);
+    if (!node) return list;
+    const toml::array* array = node->as_array();
+    if (!array) fail(*node, key, "must be a list of tables: write [[" + key + "]]");
+    for (const toml::node& item : *array) {
+      if (!item.is_table()) fail(item, key, "must be a list of tables: write [[" + key + "]]");
+      list.emplace_back(*item.as_table(), file_, key + "[" + std::to_string(list.size()) + "]");
+    }
+    return list;
+  }
+
+  /// Throws if the table holds a key that was never asked for.
+  void close() const {
+    for (const auto& [key, node] : table_)
+      if (!asked_.contains(std::string(key.str()))) {
+        std::string known;
+        for (const auto& k : asked_) known.append(known.empty() ? "" : ", ").append(k);
+        fail(node, std::string(key.str()), "is not known here; known are: " + known);
+      }
+  }
+
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    const toml::node* node = table_.get(key);
+    fail(node ? *node : table_, key, what);
+  }
+
+ private:
+  const toml::node* find(const std::string& key) {
+    asked_.insert(key);
+    return table_.get(key);
+  }
+
+  static std::string range(double lo, double hi) {
+    std::ostringstream s;
+    if (lo > -any && hi < any)
+      s << " from " << lo << " to " << hi;
+    else if (lo > -any)
+      s << " of at least " << lo;
+    return s.str();
+  }
+
+  [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& what) const {
+    throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
+                     (name_.empty() ? "" : name_ + ".") + key + " " + what);
+  }
+
+  const toml::table& table_;
+  std::string file_, name_;
+  std::set<std::string> asked_;
+};
+
+SpringLaw read_springs(Table table, SpringLaw law) {
+  law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);
+  law.damping_ratio = table.number("damping_ratio", law.damping_ratio, 0, 10);
+  table.close();
+  return law;
+}
+
+Material read_material(Table& table) {
+  Material m;
+  m.name = table.text("name", "");
+  m.mass = table.number("mass", m.mass, tiny, 1e9);
+  m.structural = read_springs(table.child("structural"), m.structural);
+  m.bend = read_springs(table.child("bend"), m.bend);
+  m.shear = read_springs(table.child("shear"), m.shear);
+  m.gas_pressure = table.number("gas_pressure", m.gas_pressure, 0, 1e9);
+  m.ambient_pressure = table.number("ambient_pressure", m.ambient_pressure, 0, 1e9);
+  m.friction = table.number("friction", m.friction, 0, 10);
+  m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
+  m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
+  m.start_in_equilibrium = table.boolean("start_in_equilibrium", m.start_in_equilibrium);
+  table.close();
+  return m;
+}
+
+MeshSource read_mesh(Table table) {
+  MeshSource m;
+  m.kind = table.text("kind", m.kind);
+  if (m.kind == "icosphere") {
+    m.subdivisions = table.integer("subdivisions", m.subdivisions, 0, 6);
+    m.radius = table.number("radius", m.radius, tiny, 1e6);
+  } else if (m.kind == "grid") {
+    m.columns = table.integer("columns", m.columns, 1, 1000);
+    m.rows = table.integer("rows", m.rows, 1, 1000);
+    m.width = table.number("width", m.width, tiny, 1e6);
+    m.depth = table.number("depth", m.depth, tiny, 1e6);
+  } else {
+    table.fail("kind", "must be \"icosphere\" or \"grid\"");
+  }
+  table.close();
+  return m;
+}
+
+/// What bodies and the dropper have in common.
+BodySource read_body(Table& table, const std::vector<Material>& materials) {
+  BodySource b;
+  b.mesh = read_mesh(table.child("mesh"));
+  const std::string name = table.text("material", materials.front().name);
+  while (std::size_t(b.material) < materials.size() && materials[std::size_t(b.material)].name != name) ++b.material;
+  if (std::size_t(b.material) == materials.size()) table.fail("material", "names no [[material]] of this file");
+  b.position = table.vector("position", b.position, -1e6, 1e6);
+  b.velocity = table.vector("velocity", b.velocity, -1e4, 1e4);
+  return b;
+}
+
+void read_collision(Table table, Scene& scene) {
+  collide::Settings& c = scene.collision;
+  scene.method = table.text("method", scene.method);
+  if (!collide::find_method(scene.method)) table.fail("method", "must be one of: " + collide::method_keys());
+  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, tiny, 1e6));
+  c.self_collision = table.boolean("self_collision", c.self_collision);
+  c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
+  c.buckets =
+      static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
+  scene.default_cell_size = !table.has("cell_size");
+  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), tiny, 1e6));
+  table.close();
+}
+
+void read_solids(Table& root, Scene& scene) {
+  for (Table& t : root.children("solid_sphere")) {
+    SolidSphere s;
+    s.centre = t.vector("centre", s.centre, -1e6, 1e6);
+    s.radius = t.number("radius", s.radius, tiny, 1e6);
+    s.friction = t.number("friction", s.friction, 0, 10);
+    t.close();
+    scene.spheres.push_back(s);
+  }
+  if (!root.has("ground")) return;
+  Table t = root.child("ground");
+  scene.ground.emplace();
+  scene.ground->height = t.number("height", 0, -1e6, 1e6);
+  scene.ground->friction = t.number("friction", scene.ground->friction, 0, 10);
+  t.close();
+}
+
+void read_bodies(Table& root, Scene& scene) {
+  for (Table& t : root.children("material")) scene.materials.push_back(read_material(t));
+  if (scene.materials.empty()) scene.materials.emplace_back();
+  constexpr int forever = 1'000'000'000;
+  for (Table& t : root.children("body")) {
+    BodySource b = read_body(t, scene.materials);
+    b.appear = t.integer("appear", 0, 0, forever);
+    b.release = t.integer("release", b.appear, 0, forever);
+    if (b.release < b.appear) t.fail("release", "must not come before appear");
+    t.close();
+    scene.bodies.push_back(b);
+  }
+  if (!root.has("dropper")) return;
+  Table t = root.child("dropper");
+  scene.dropper.emplace();
+  scene.dropper->body = read_body(t, scene.materials);
+  scene.dropper->spread = t.number("spread", scene.dropper->spread, 0, 1e6);
+  t.close();
+}
+
+void read_view(Table& root, Scene& scene) {
+  Table t = root.child("view");
+  scene.view.target = t.vector("target", scene.view.target, -1e6, 1e6);
+  scene.view.distance = t.number("distance", scene.view.distance, tiny, 1e6);
+  scene.view.azimuth = t.number("azimuth", scene.view.azimuth, -360, 360);
+  scene.view.elevation = t.number("elevation", scene.view.elevation, -89, 89);
+  t.close();
+  for (Table& c : root.children("caption")) {
+    scene.captions.push_back({c.integer("frame", 0, 0, 1'000'000'000), c.text("text", "")});
+    c.close();
+  }
+}
+
+Scene read_scene(Table root, const std::filesystem::path& file) {
+  Scene scene;
+  scene.key = file.stem().string();
+  scene.name = root.text("name", scene.key);
+  scene.look_at = root.text("look_at", "");
+  scene.gravity = root.vector("gravity", scene.gravity, -1e4, 1e4);
+  read_collision(root.child("collision"), scene);
+  read_solids(root, scene);
+  read_bodies(root, scene);
+  Table sleep = root.child("sleep");
+  scene.sleep.speed = sleep.number("speed", scene.sleep.speed, 0, 1e3);
+  scene.sleep.frames = sleep.integer("frames", scene.sleep.frames, 1, 1'000'000);
+  sleep.close();
+  read_view(root, scene);
+  root.close();
+  if (scene.bodies.empty() && !scene.dropper)
+    throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
+  return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error) throw SceneError(file.string() + ": cannot be read: " + error.message());
+  if (size > max_file_size) throw SceneError(file.string() + ": is larger than 1 MiB; no scene file is that long");
+  try {
+    const toml::table table = toml::parse_file(file.string());
+    return read_scene(Table(table, file.string(), ""), file);
+  } catch (const toml::parse_error& e) {
+    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,76 @@
+#pragma once
+// The response to the detector's contacts. "A tolerance force that acts like a shield" is the paper's (§2.3); its law
+// is ours: along a unit normal n, fixed for a frame, two particles with separation d push each other apart by
+//
+//   F = k w(t) min(h - s, h) clamp(1 - u / v, 0, 3)        s = d . n,  t^2 = d^2 - s^2,  w = 1 - (t / h)^2,
+//
+// h the shield's thickness, k its stiffness, u the speed at which they separate: Hunt and Crossley's damping (1975),
+// under which nothing is thrown back faster than v. Coulomb friction, made viscous below its limit, acts across n.
+// Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still pushed
+// out; elsewhere it is the line between the two. k is shared among the contacts of a particle: a wide shield is not
+// stiffer.
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "collide/workers.h"
+#include "softbody/lanes.h"
+
+namespace softbody {
+
+using BodyId = std::uint32_t;
+
+struct ShieldPair {
+  std::size_t slot_a, slot_b;  // into the state's arrays
+  BodyId body_a, body_b;
+  glm::vec3 offset;  // origin of a minus origin of b, m
+  glm::vec3 normal;  // unit, from b to a
+  float stiffness;   // N/m
+  float friction;    // Coulomb
+};
+
+/// The end of a pair that falls to one batch.
+struct ShieldEnd {
+  std::size_t slot;
+  std::uint32_t pair;
+  float sign;  // +1 for a, -1 for b
+};
+
+struct Shield {
+  static constexpr float rebound_speed = 2.0f;   // v, m/s
+  static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
+  float thickness = 0;                           // h, m
+  std::vector<ShieldPair> pairs;
+  std::vector<glm::vec3> force;          // on a, of the current substep, N
+  std::vector<ShieldEnd> ends;           // grouped by batch
+  std::vector<std::uint32_t> first_end;  // batches + 1 offsets into ends
+
+  /// Evaluates the forces of the pairs in `part`.
+  void evaluate(collide::Part part, Field<const float> x, Field<const float> v);
+  /// Fills `ends`: batch_of(body) gives a body's batch.
+  void group(std::size_t batches, const auto& batch_of);
+
+  // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
+  static float stiffness_bound(float k) { return approach_limit * k; }                                   // N/m
+  static float damping_bound(float k, float thickness) { return 1.5f * k * thickness / rebound_speed; }  // N s/m
+};
+
+void Shield::group(std::size_t batches, const auto& batch_of) {
+  first_end.assign(batches + 1, 0);
+  for (const ShieldPair& p : pairs) {
+    ++first_end[batch_of(p.body_a) + 1];
+    ++first_end[batch_of(p.body_b) + 1];
+  }
+  for (std::size_t b = 0; b < batches; ++b) first_end[b + 1] += first_end[b];
+  std::vector<std::uint32_t> next(first_end.begin(), first_end.end() - 1);
+  ends.resize(2 * pairs.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    ends[next[batch_of(pairs[i].body_a)]++] = {pairs[i].slot_a, i, 1.0f};
+    ends[next[batch_of(pairs[i].body_b)]++] = {pairs[i].slot_b, i, -1.0f};
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,259 @@
+#include "softbody/world.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+
+#include "softbody/measures.h"
+#include "softbody/prototype_set.h"
+#include "softbody/sleep.h"
+
+namespace softbody {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// Positions as a detector wants them.
+struct Coordinates {
+  std::vector<float> x, y, z;
+  void add(const glm::vec3& p) {
+    x.push_back(p.x);
+    y.push_back(p.y);
+    z.push_back(p.z);
+  }
+  collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
+};
+
+/// The default cell size is that of the bodies at rest, whatever they look like later.
+glm::vec3 rest_cell_size(const PrototypeSet& prototypes, const collide::Settings& settings) {
+  collide::Bodies bodies;
+  Coordinates rest;
+  for (const auto& p : prototypes.all()) {
+    bodies.add(p->shape);
+    for (const glm::dvec3& v : p->start) rest.add(glm::vec3(v));
+  }
+  return collide::default_cell_size(rest.frame(bodies), settings.levels, settings.tolerance);
+}
+
+}  // namespace
+
+struct World::State {
+  State(Scene s, const Options& o);
+
+  void add(const BodySource& source, const glm::dvec3& position);
+  void arrive();
+  void gather();
+  void detect();
+  void wake_all();
+  double clear_height(const Prototype& p, const glm::dvec3& position) const;
+
+  Scene scene;
+  Options options;
+  collide::Workers workers;
+  PrototypeSet prototypes;
+  Plan plan;
+  Dynamics dynamics;
+  Sleep sleep;
+  std::vector<char> arrived;  // one a body source of the scene
+  int drops = 0;
+  std::array<double, 2> drop_direction{1, 0};  // x and z
+  int frame = 0;
+
+  const collide::Method* method;
+  std::unique_ptr<collide::Detector> detector;
+  collide::Settings settings;
+  bool default_cell;
+  float shield;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider throws bodies
+                 // about
+
+  collide::Bodies bodies;
+  std::vector<BodyId> vertex_body;
+  Coordinates positions;
+  collide::Result result;
+  Profile profile;
+};
+
+World::State::State(Scene s, const Options& o)
+    : scene(std::move(s)),
+      options(o),
+      workers(o.threads),
+      prototypes(scene),
+      plan(make_plan(scene, prototypes.all())),
+      dynamics(scene, workers, o.isa),
+      sleep(scene.sleep),
+      arrived(scene.bodies.size(), false),
+      method(collide::find_method(scene.method)),
+      detector(method->make()),
+      settings(scene.collision),
+      default_cell(scene.default_cell_size),
+      shield(settings.tolerance) {
+  for (const auto& p : prototypes.all()) {
+    const double k = stiffness_per_mass(*p, p->start_volume) +
+                     Shield::stiffness_bound(float(p->material.contact_stiffness)) / p->particle_mass;
+    const double c = p->spring_damping_bound + Shield::damping_bound(float(p->material.contact_stiffness), shield);
+    const double steps = options.frame_time / stable_step(k, c / p->particle_mass);
+    if (!(steps <= max_substeps))
+      throw SceneError("scene '" + scene.key + "', material '" + p->material.name +
+                       "': so stiff for its mass that a frame would take " +
+                       std::to_string(std::llround(std::min(steps, 1e15))) + " substeps (at most " +
+                       std::to_string(max_substeps) + "); lower the stiffness or raise the mass");
+  }
+  dynamics.set_plan(plan);
+  dynamics.set_integrator(options.integrator);
+  if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
+  arrive();
+  gather();
+  detect();
+}
+
+void World::State::add(const BodySource& source, const glm::dvec3& position) {
+  const auto& prototype = prototypes.of(source);
+  const BodyId id = dynamics.add(prototype, position, source.velocity);
+  bodies.add(prototype->shape);
+  vertex_body.resize(bodies.vertex_count(), id);
+}
+
+void World::State::arrive() {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodySource& source = scene.bodies[i];
+    if (arrived[i] || source.appear > frame) continue;
+    arrived[i] = true;
+    add(source, source.position);
+    if (source.release > frame) dynamics.hold(bodies.count() - 1, true, source.release);
+  }
+  for (BodyId b = 0; b < bodies.count(); ++b)
+    if (dynamics.body(b).held && dynamics.body(b).release <= frame) dynamics.hold(b, false, 0);
+}
+
+void World::State::gather() {
+  const std::size_t n = bodies.vertex_count();
+  positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
+  dynamics.world_positions(positions.x, positions.y, positions.z);
+}
+
+void World::State::detect() {
+  const auto start = Clock::now();
+  if (plan.has(Stage::detect)) detector->detect(positions.frame(bodies), settings, workers, result);
+  profile.detect_ms = ms_since(start);
+}
+
+void World::State::wake_all() {
+  for (BodyId b = 0; b < bodies.count(); ++b)
+    if (dynamics.body(b).asleep) dynamics.put_to_sleep(b, false);
+}
+
+World::World(Scene scene, const Options& options) : state_(std::make_unique<State>(std::move(scene), options)) {}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+void World::step() {
+  State& s = *state_;
+  const auto start = Clock::now();
+  if (s.plan.has(Stage::arrive)) s.arrive();
+  ++s.frame;
+  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
+  if (s.plan.has(Stage::contact_response)) {
+    s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
+    s.dynamics.set_contacts(s.bodies, s.vertex_body, s.result.contacts, s.shield);
+  }
+  s.profile.substeps = s.dynamics.advance(s.options.frame_time);
+  s.dynamics.finish_frame();
+  s.gather();
+  s.profile.solve_ms = ms_since(start);
+  s.detect();
+  if (s.plan.has(Stage::sleep)) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  s.profile.total_ms = ms_since(start);
+}
+
+void World::redetect() { state_->detect(); }
+
+/// The height at which a body dropped at `position` is clear of all others.
+double World::State::clear_height(const Prototype& p, const glm::dvec3& position) const {
+  double height = position.y;
+  const double clear = 1.3 * p.radius + settings.tolerance;
+  for (Index i = 0; i < bodies.vertex_count(); ++i)
+    if (glm::length(glm::dvec2(positions.x[i] - position.x, positions.z[i] - position.z)) < clear)
+      height = std::max(height, positions.y[i] + clear);
+  return height;
+}
+
+BodyId World::drop() {
+  State& s = *state_;
+  const Dropper& dropper = *s.scene.dropper;
+  // Each drop turns by the golden angle, so that no two fall alike.
+  const double distance = dropper.spread * std::sqrt((s.drops++ % 16 + 0.5) / 16);
+  const auto [c, n] = s.drop_direction;
+  s.drop_direction = {-0.7373688780783197 * c - 0.6754902942615238 * n,
+                      0.6754902942615238 * c - 0.7373688780783197 * n};
+  glm::dvec3 position = dropper.body.position + distance * glm::dvec3(c, 0, n);
+  position.y = s.clear_height(*s.prototypes.of(dropper.body), position);
+  s.add(dropper.body, position);
+  s.gather();
+  s.detect();
+  return s.bodies.count() - 1;
+}
+
+const Scene& World::scene() const { return state_->scene; }
+int World::frame() const { return state_->frame; }
+double World::frame_time() const { return state_->options.frame_time; }
+const Plan& World::plan() const { return state_->plan; }
+const collide::Settings& World::collision() const { return state_->settings; }
+bool World::uses_default_cell_size() const { return state_->default_cell; }
+const collide::Method& World::method() const { return *state_->method; }
+
+void World::set_method(std::string_view key) {
+  State& s = *state_;
+  s.method = collide::find_method(key);
+  s.detector = s.method->make();
+  s.wake_all();
+  s.detect();
+}
+
+void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
+  State& s = *state_;
+  s.settings = settings;
+  s.default_cell = default_cell_size;
+  if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
+  s.wake_all();
+  s.detect();
+}
+
+const collide::Bodies& World::bodies() const { return state_->bodies; }
+collide::Frame World::positions() const { return state_->positions.frame(state_->bodies); }
+const Prototype& World::prototype(BodyId body) const { return state_->dynamics.prototype(body); }
+const Body& World::body(BodyId body) const { return state_->dynamics.body(body); }
+const collide::Result& World::detection() const { return state_->result; }
+const collide::Detector& World::detector() const { return *state_->detector; }
+std::span<const BodyId> World::vertex_body() const { return state_->vertex_body; }
+const Profile& World::profile() const { return state_->profile; }
+std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
+const Dynamics& World::dynamics() const { return state_->dynamics; }
+
+std::vector<SolidContact> World::solid_contacts() const {
+  constexpr double touching = 1e-4;  // m: particles end a substep on the surface, up to rounding
+  std::vector<SolidContact> contacts;
+  const Coordinates& p = state_->positions;
+  for (Index i = 0; i < p.x.size(); ++i) {
+    const SolidDepth d = solid_depth(state_->scene, {p.x[i], p.y[i], p.z[i]});
+    if (d.depth > -touching) contacts.push_back({i, d.normal});
+  }
+  return contacts;
+}
+
+bool World::all_at_rest() const {
+  const State& s = *state_;
+  if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
+  for (BodyId b = 0; b < s.bodies.count(); ++b)
+    if (!s.dynamics.body(b).asleep) return false;
+  return true;
+}
+
+}  // namespace softbody

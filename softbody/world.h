@@ -1,0 +1,75 @@
+#pragma once
+// The world: a scene in motion. One step() is one frame: arrivals, response to the contacts found last, motion,
+// detection on the new positions, sleep. What can be read afterwards (positions, contacts, boxes) all belongs to the
+// same instant.
+
+#include "softbody/dynamics.h"
+#include "softbody/integrators.h"
+
+namespace softbody {
+
+/// Milliseconds of one step. For display only: nothing in the simulation depends on a clock.
+struct Profile {
+  double detect_ms = 0, solve_ms = 0, total_ms = 0;
+  int substeps = 0;
+};
+
+struct SolidContact {
+  Index vertex;      // over the whole world
+  glm::vec3 normal;  // out of the solid
+};
+
+class World {
+ public:
+  struct Options {
+    int threads = 1;
+    double frame_time = 1.0 / 60.0;  // s
+    std::string integrator{default_integrator};
+    Isa isa = best_isa();
+  };
+  static constexpr int max_substeps = 4000;  // a frame
+
+  /// Throws SceneError if a material is too stiff for its mass: if it would need more than max_substeps.
+  World(Scene scene, const Options& options);
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  void step();
+  /// Detects again on the current positions without moving anything.
+  void redetect();
+  /// Adds a body at the scene's dropper, above whatever is in the way, and detects. The scene must have a dropper.
+  BodyId drop();
+
+  const Scene& scene() const;
+  int frame() const;  // steps done
+  double frame_time() const;
+  const Plan& plan() const;
+
+  // Collision settings. Setters detect again and wake all bodies; problem(settings) must be empty, the key known.
+  const collide::Settings& collision() const;  // cell_size as in use: the default one worked out
+  bool uses_default_cell_size() const;
+  const collide::Method& method() const;
+  void set_method(std::string_view key);
+  void set_collision(const collide::Settings& settings, bool default_cell_size);
+
+  // The current state.
+  const collide::Bodies& bodies() const;
+  collide::Frame positions() const;  // world floats, valid until the next change
+  const Prototype& prototype(BodyId body) const;
+  const Body& body(BodyId body) const;
+  const collide::Result& detection() const;     // on positions()
+  const collide::Detector& detector() const;    // for its debug()
+  std::span<const BodyId> vertex_body() const;  // the body of each vertex
+  std::vector<SolidContact> solid_contacts() const;
+  bool all_at_rest() const;          // every body asleep, none still to come
+  const Profile& profile() const;    // of the last step
+  std::uint64_t state_hash() const;  // over the bits of positions and velocities, in body order
+  const Dynamics& dynamics() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace softbody
