@@ -37,12 +37,16 @@ Extent extent_of(std::span<const float> values) {
 
 }  // namespace
 
-void BodyBoxes::build(const Frame& frame) {
+void BodyBoxes::build(const Frame& frame, Result& result) {
   const Bodies& bodies = *frame.bodies;
   const std::array coordinates{frame.x, frame.y, frame.z};
+  result.contacts.clear();
+  result.self_contacts = 0;
+  result.counters = {};
+  result.coverage = Coverage::exact;
+  result.non_finite_bodies.clear();
   box.resize(bodies.count());
   live.clear();
-  non_finite.clear();
   for (Index body = 0; body < bodies.count(); ++body) {
     const Index first = bodies.first[body], size = bodies.size(body);
     if (size == 0) continue;
@@ -53,8 +57,19 @@ void BodyBoxes::build(const Frame& frame) {
       box[body].hi[axis] = extent.hi;
       finite = finite && extent.finite;
     }
-    (finite ? live : non_finite).push_back(body);
+    (finite ? live : result.non_finite_bodies).push_back(body);
   }
+}
+
+const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float reach) {
+  pairs_.clear();
+  order_ = bodies.live;
+  sweep(
+      order_, reach, [&](Index body) -> const Aabb& { return bodies.box[body]; },
+      [&](Index a, Index b) {
+        pairs_.push_back({std::min(a, b), std::max(a, b)});
+      });
+  return pairs_;
 }
 
 }  // namespace collide

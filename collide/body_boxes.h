@@ -1,20 +1,31 @@
 #pragma once
 // First stage of every method: the bodies' bounding boxes (§2.1), and which bodies take part at all.
 
+#include "collide/aabb.h"
 #include "collide/detector.h"
 
 namespace collide {
 
-struct Aabb {
-  glm::vec3 lo, hi;  // m, closed
+struct BodyBoxes {
+  std::vector<Aabb> box;    // of every body; meaningless unless the body is live
+  std::vector<Index> live;  // bodies with vertices, all of them finite; ascending
+
+  /// Starts the result afresh and names the bodies that are not finite in it.
+  void build(const Frame& frame, Result& result);
 };
 
-struct BodyBoxes {
-  std::vector<Aabb> box;          // of every body; meaningless unless the body is live
-  std::vector<Index> live;        // bodies with vertices, all of them finite; ascending
-  std::vector<Index> non_finite;  // bodies with a NaN or infinite coordinate, ascending
+struct BodyPair {
+  Index a, b;  // a < b
+};
 
-  void build(const Frame& frame);
+/// Every two live bodies whose boxes are within reach of each other (see contact_reach).
+class BodyPairs {
+ public:
+  const std::vector<BodyPair>& find(const BodyBoxes& bodies, float reach);
+
+ private:
+  std::vector<Index> order_;
+  std::vector<BodyPair> pairs_;
 };
 
 }  // namespace collide

@@ -11,10 +11,7 @@ namespace {
 class BruteForce final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
-    result.counters = {};
-    result.coverage = Coverage::exact;
-    bodies_.build(frame);
-    result.non_finite_bodies = bodies_.non_finite;
+    bodies_.build(frame, result);
     points_.gather(frame, bodies_.live, ranges_);
     search_.begin(frame, settings, points_, workers.threads());
     workers.run([&](int thread) { test_rows(thread, workers.threads(), settings.self_collision); });

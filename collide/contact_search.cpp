@@ -51,8 +51,6 @@ void ContactSearch::keep_contacts(Thread& own) {
 }
 
 void ContactSearch::finish(Result& result) {
-  result.contacts.clear();
-  result.self_contacts = 0;
   for (const Thread& thread : threads_) {
     result.contacts.insert(result.contacts.end(), thread.contacts.begin(), thread.contacts.end());
     result.self_contacts += thread.self_contacts;

@@ -18,7 +18,7 @@ class ContactSearch {
   /// or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts contacts.
   void test(int thread, Range a, Range b);
 
-  /// Fills result.contacts, result.self_contacts and adds to counters.pair_tests.
+  /// Adds the contacts, the self contacts and the pair tests to a result that BodyBoxes::build() has started.
   void finish(Result& result);
 
   static constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them

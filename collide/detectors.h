@@ -2,12 +2,13 @@
 // How to add a detector: write one file that is read beside the paper, built from the stages below; declare its make
 // function here; add its row to the table in methods.cpp. Command line, panel, reports and tests then have it.
 //
-//   body_boxes.h      a box a body; leaves out and names the bodies that are not finite
-//   body_pairs.h      bodies whose boxes come within the tolerance of each other
+//   body_boxes.h      a box a body, and pairs of bodies whose boxes are near; names the bodies that are not finite
 //   subdivision.h     2^levels midpoint boxes a body
 //   cell_hash.h       grid cells, and the hash function of a cell
 //   bucket_table.h    things sorted into buckets
 //   box_table.h       boxes in buckets, and the pairs of boxes that share one
+//   box_sweep.h       pairs of boxes by sort and sweep, for boxes that no grid suits
+//   vertex_grid.h     vertices in buckets, and all contacts among them
 //   points.h          vertices in the order in which a method tests them
 //   contact_search.h  tests runs of vertices, filters and orders the contacts
 //   reach.h           how far apart two vertices in contact can be, rounding included
@@ -19,5 +20,10 @@
 namespace collide {
 
 std::unique_ptr<Detector> make_brute_force();
+std::unique_ptr<Detector> make_grid_hash();
+std::unique_ptr<Detector> make_bounding_box();
+std::unique_ptr<Detector> make_bounding_box_grid_hash();
+std::unique_ptr<Detector> make_multi_level_sb();
+std::unique_ptr<Detector> make_multi_level_sb_exact();
 
 }  // namespace collide

@@ -17,6 +17,19 @@ constexpr glm::vec3 rgb(int red, int green, int blue) {
 constexpr std::array table{
     Method{"brute-force", "Brute force", "Every vertex against every other: the exact reference.", rgb(153, 153, 153),
            true, false, false, make_brute_force},
+    Method{"grid-hash", "Grid Hash", "Every vertex is hashed into a grid, without boxes (§3).", rgb(213, 94, 0), true,
+           false, true, make_grid_hash},
+    Method{"bounding-box", "Bounding Box", "All vertices of bodies whose boxes overlap (§3).", rgb(230, 159, 0), true,
+           false, false, make_bounding_box},
+    Method{"bounding-box-grid-hash", "Bounding Box + Grid Hash",
+           "Only the vertices of bodies whose boxes overlap are hashed (§3).", rgb(204, 121, 167), true, false, true,
+           make_bounding_box_grid_hash},
+    Method{"multi-level-sb", "Multi-Level SB",
+           "The paper's: eight corner hashes a subdivided box (§2); may miss contacts.", rgb(86, 180, 233), false, true,
+           true, make_multi_level_sb},
+    Method{"multi-level-sb-exact", "Multi-Level SB, exact",
+           "Subdivided boxes, padded, in every cell that they overlap (§2); misses nothing.", rgb(0, 158, 115), true,
+           true, true, make_multi_level_sb_exact},
 };
 
 }  // namespace

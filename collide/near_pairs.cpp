@@ -18,6 +18,7 @@ constexpr Index block = Points::padding;
     for (Index j = std::max(b.begin, i + 1); j < b.end; j += block) {
       const float *bx = x + j, *by = y + j, *bz = z + j;
       std::uint32_t any = 0;
+#pragma GCC unroll 1  // g++ would unroll these turns before it tries to vectorise them, and then cannot
       for (Index k = 0; k < block; ++k) {
         any |= squared_distance(px, py, pz, bx[k], by[k], bz[k]) < tolerance2 ? 1u : 0u;
       }

@@ -1,11 +1,11 @@
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "collide/body_boxes.h"
 #include "collide/cuts.h"
 #include "collide/detector.h"
+#include "collide/reach.h"
 
 namespace collide {
 
@@ -18,14 +18,6 @@ std::string complaint(const char* setting, const Value& value, const char* allow
   std::ostringstream text;
   text << setting << " is " << value << "; it must be " << allowed;
   return text.str();
-}
-
-/// The smallest float that is not below the value; the largest float where there is none.
-float round_up(double value) {
-  constexpr float largest = std::numeric_limits<float>::max();
-  if (value >= largest) return largest;
-  const auto rounded = static_cast<float>(value);
-  return rounded < value ? std::nextafter(rounded, largest) : rounded;
 }
 
 }  // namespace
@@ -67,7 +59,8 @@ std::string hash_warning(const Settings& settings) {
 
 glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance) {
   BodyBoxes bodies;
-  bodies.build(frame);
+  Result ignored;
+  bodies.build(frame, ignored);
   std::array<double, 3> widest{};
   Cuts cuts;
   for (const Index body : bodies.live) {

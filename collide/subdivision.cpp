@@ -1,0 +1,87 @@
+#include "collide/subdivision.h"
+
+namespace collide {
+
+namespace {
+
+constexpr Index none = ~Index{0};
+
+/// The region of a code: one interval of each axis.
+Aabb region(const std::array<Cuts, 3>& cuts, std::uint32_t code) {
+  Aabb box{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const Cuts& along = cuts[static_cast<std::size_t>(axis)];
+    const std::uint32_t interval = code & ((1u << along.depth) - 1);
+    code >>= along.depth;
+    box.lo[axis] = along.border[interval];
+    box.hi[axis] = along.border[interval + 1];
+  }
+  return box;
+}
+
+}  // namespace
+
+void Subdivision::build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels,
+                        Workers& workers) {
+  levels_ = levels;
+  first_slot_.clear();
+  Index slots = 0;
+  for (const Index body : which) {
+    first_slot_.push_back(slots);
+    slots += frame.bodies->size(body);
+  }
+  points_.resize(slots);
+  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  workers.run([&](int thread) {
+    Thread& own = threads_[static_cast<std::size_t>(thread)];
+    own.boxes.clear();
+    own.box_of_code.assign(std::size_t{1} << levels, none);
+    const Part part = part_of(which.size(), thread, workers.threads());
+    for (std::size_t k = part.begin; k < part.end; ++k) {
+      cut_body(own, frame, bodies.box[which[k]], which[k], first_slot_[k]);
+    }
+  });
+  boxes_.clear();
+  for (const Thread& thread : threads_) boxes_.insert(boxes_.end(), thread.boxes.begin(), thread.boxes.end());
+}
+
+void Subdivision::cut_body(Thread& own, const Frame& frame, const Aabb& box, Index body, Index first_slot) {
+  for (int axis = 0; axis < 3; ++axis) {
+    own.cuts[static_cast<std::size_t>(axis)].build(box.lo[axis], box.hi[axis], cuts_along(axis, levels_));
+  }
+  const Index first = frame.bodies->first[body], size = frame.bodies->size(body);
+  find_codes(own, frame, first, size);
+
+  const std::size_t first_box = own.boxes.size();
+  for (const std::uint32_t code : own.code) {
+    Index& index = own.box_of_code[code];
+    if (index == none) {
+      index = static_cast<Index>(own.boxes.size());
+      own.boxes.push_back({region(own.cuts, code), body, {0, 0}});
+    }
+    ++own.boxes[index].slots.end;  // for now the number of its vertices
+  }
+  Index slot = first_slot;
+  for (std::size_t b = first_box; b < own.boxes.size(); ++b) {
+    const Index count = own.boxes[b].slots.end;
+    own.boxes[b].slots = {slot, slot};
+    slot += count;
+  }
+  for (Index v = 0; v < size; ++v) {
+    points_.set(own.boxes[own.box_of_code[own.code[v]]].slots.end++, frame, first + v, body);
+  }
+  for (const std::uint32_t code : own.code) own.box_of_code[code] = none;
+}
+
+void Subdivision::find_codes(Thread& own, const Frame& frame, Index first, Index size) const {
+  const auto& [along_x, along_y, along_z] = own.cuts;
+  own.code.resize(size);
+  for (Index v = 0; v < size; ++v) {
+    const auto x = static_cast<std::uint32_t>(along_x.interval_of(frame.x[first + v]));
+    const auto y = static_cast<std::uint32_t>(along_y.interval_of(frame.y[first + v]));
+    const auto z = static_cast<std::uint32_t>(along_z.interval_of(frame.z[first + v]));
+    own.code[v] = x | y << along_x.depth | z << (along_x.depth + along_y.depth);
+  }
+}
+
+}  // namespace collide

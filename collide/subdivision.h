@@ -1,0 +1,42 @@
+#pragma once
+// The subdivided bounding boxes of §2.1: every body's box cut at midpoints into 2^levels regions.
+
+#include "collide/body_boxes.h"
+#include "collide/cuts.h"
+#include "collide/points.h"
+
+namespace collide {
+
+struct Box {
+  Aabb region;  // between the cuts, not refitted to the vertices
+  Index body;
+  Range slots;  // its vertices
+};
+
+class Subdivision {
+ public:
+  /// Boxes of the bodies `which`, in their order; within a body in the order in which its vertices enter them. Boxes
+  /// without vertices are left out. Every vertex is in exactly one box.
+  void build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels, Workers& workers);
+
+  const std::vector<Box>& boxes() const { return boxes_; }
+  const Points& points() const { return points_; }  // box by box
+
+ private:
+  struct Thread {
+    std::vector<Box> boxes;
+    std::vector<std::uint32_t> code;  // of each vertex of a body: its interval on each axis, packed
+    std::vector<Index> box_of_code;   // none, but for the body at hand
+    std::array<Cuts, 3> cuts;
+  };
+  void cut_body(Thread& own, const Frame& frame, const Aabb& box, Index body, Index first_slot);
+  void find_codes(Thread& own, const Frame& frame, Index first, Index size) const;
+
+  int levels_ = 0;
+  std::vector<Box> boxes_;
+  Points points_;
+  std::vector<Index> first_slot_;  // of each of the bodies
+  std::vector<Thread> threads_;
+};
+
+}  // namespace collide
