@@ -1,0 +1,48 @@
+// The program: reads the command line and hands over. Errors end here, as one line and exit status 2.
+
+#include <cstdio>
+#include <exception>
+
+#include "app/list.h"
+#include "app/options.h"
+#include "app/simulate.h"
+#if SBCOLLIDE_GRAPHICS
+#include "app/demo.h"
+#endif
+
+namespace {
+
+int run(const app::Options& options) {
+  switch (options.command) {
+    case app::Command::list:
+      app::list(options.list_of);
+      return 0;
+    case app::Command::simulate:
+      app::simulate(options);
+      return 0;
+    case app::Command::demo:
+      break;
+  }
+#if SBCOLLIDE_GRAPHICS
+  return app::run_demo({.scene = app::load_scene(options),
+                        .scene_folder = app::scene_folder(),
+                        .threads = options.threads,
+                        .width = options.width,
+                        .height = options.height});
+#else
+  throw app::UsageError(
+      "this build has no window; use `sbcollide simulate`, or configure with -DSBCOLLIDE_GRAPHICS=ON");
+#endif
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const auto options = app::parse_options(argc, argv);
+    return options ? run(*options) : 0;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "sbcollide: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,51 @@
+#pragma once
+// The command line as plain values. Everything is checked here, once, before anything runs.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody/scene.h"
+
+namespace app {
+
+/// Bad input or a run that cannot be done. what() is one line that says what, where and what to do.
+struct UsageError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+enum class Command { demo, simulate, list };
+
+/// What the command line says about detection; what it leaves open stays as the scene or the default has it.
+struct DetectionOptions {
+  std::optional<std::string> method;
+  std::optional<int> levels;
+  std::optional<std::int64_t> buckets;
+  std::optional<double> cell_size, tolerance;  // m
+};
+
+struct Options {
+  Command command = Command::demo;
+  std::string scene = "drop";
+  DetectionOptions detection;
+  std::string integrator;
+  int threads = 1;
+  double frame_time = 1.0 / 60.0;  // s
+  int width = 1280, height = 720;  // pixels
+  int frames = 800;
+  std::vector<int> captures;  // frames to write a picture of, ascending
+  std::filesystem::path out = ".";
+  bool json = false;
+  std::string list_of;  // "scenes", "methods" or "integrators"
+};
+
+/// Throws UsageError. Nothing if help or the version was asked for, which is printed.
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+/// The scene that the options name, with their settings in it. Throws UsageError or SceneError.
+softbody::Scene load_scene(const Options& options);
+
+std::filesystem::path scene_folder();
+
+}  // namespace app

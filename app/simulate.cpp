@@ -1,0 +1,152 @@
+#include "app/simulate.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+
+#include <nlohmann/json.hpp>
+
+#include "softbody/measures.h"
+#if SBCOLLIDE_GRAPHICS
+#include "app/capture.h"
+#endif
+
+namespace app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Figures of one frame.
+struct Row {
+  int frame;
+  softbody::Profile profile;
+  std::uint64_t bodies, self, solid;  // contacts
+  softbody::Measures measures;
+};
+
+Row take_row(const softbody::World& world) {
+  const auto& d = world.detection();
+  return {world.frame(),
+          world.profile(),
+          d.contacts.size() - d.self_contacts,
+          d.self_contacts,
+          world.solid_contacts().size(),
+          softbody::measure(world)};
+}
+
+Json to_json(const Row& r) {
+  const softbody::Measures& m = r.measures;
+  return {{"frame", r.frame},
+          {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
+          {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
+          {"energy", m.energy},
+          {"volume_ratio", {{"min", m.volume_ratio_min}, {"max", m.volume_ratio_max}}},
+          {"deepest_penetration", m.deepest_penetration},
+          {"max_speed", m.max_speed},
+          {"finite", m.finite}};
+}
+
+Json to_json(const softbody::Plan& plan) {
+  Json stages = Json::array(), left_out = Json::array();
+  for (const softbody::Stage s : plan.stages) stages.push_back(softbody::stage_key(s));
+  for (const softbody::LeftOut& l : plan.left_out)
+    left_out.push_back({{"stage", softbody::stage_key(l.stage)}, {"why", l.why}});
+  return {{"stages", stages}, {"left_out", left_out}};
+}
+
+std::string hex(std::uint64_t value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+void print_json(const softbody::World& world, const std::vector<Row>& rows) {
+  Json frames = Json::array();
+  for (const Row& r : rows) frames.push_back(to_json(r));
+  const Json document{{"scene", world.scene().key},
+                      {"method", world.method().key},
+                      {"plan", to_json(world.plan())},
+                      {"frames", frames},
+                      {"state_hash", hex(world.state_hash())}};
+  std::cout << document.dump() << '\n';
+}
+
+/// About twenty lines, however many frames.
+void print_table(const softbody::World& world, const std::vector<Row>& rows) {
+  std::printf("%s, %s, %u bodies, %u vertices\n", world.scene().name.c_str(), std::string(world.method().name).c_str(),
+              world.bodies().count(), world.bodies().vertex_count());
+  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "bodies", "self",
+              "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
+  const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
+    const Row& r = rows[i];
+    const softbody::Measures& m = r.measures;
+    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7.3f %7.3f %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
+                r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
+                static_cast<unsigned long long>(r.solid), m.energy, m.volume_ratio_min, m.volume_ratio_max,
+                m.deepest_penetration, m.max_speed, m.finite ? "" : "  NOT FINITE");
+  }
+  std::printf("stages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
+  for (const softbody::LeftOut& l : world.plan().left_out)
+    std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
+  std::printf("state hash %s\n", hex(world.state_hash()).c_str());
+}
+
+/// Writes the pictures that were asked for; without graphics it refuses before anything runs.
+class Pictures {
+ public:
+  explicit Pictures(const Options& options) : options_(options) {
+    if (options.captures.empty()) return;
+#if SBCOLLIDE_GRAPHICS
+    std::error_code error;
+    std::filesystem::create_directories(options.out, error);
+    if (error || access(options.out.c_str(), W_OK) != 0)
+      throw UsageError("--out " + options.out.string() + ": cannot be written to; name a folder of your own");
+    capture_ = std::make_unique<Capture>(options.width, options.height);
+#else
+    throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
+#endif
+  }
+  void take(const softbody::World& world) {
+    if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
+#if SBCOLLIDE_GRAPHICS
+    char name[32];
+    std::snprintf(name, sizeof name, "frame_%04d.png", world.frame());
+    capture_->write(world, options_.out / name);
+#endif
+  }
+
+ private:
+  const Options& options_;
+#if SBCOLLIDE_GRAPHICS
+  std::unique_ptr<Capture> capture_;
+#endif
+};
+
+}  // namespace
+
+void simulate(const Options& options) {
+  softbody::World world(
+      load_scene(options),
+      {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
+  Pictures pictures(options);
+  const bool progress = isatty(STDERR_FILENO) != 0;
+  std::vector<Row> rows;
+  rows.reserve(static_cast<std::size_t>(options.frames));
+  while (world.frame() < options.frames) {
+    world.step();
+    rows.push_back(take_row(world));
+    pictures.take(world);
+    if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
+  }
+  if (progress) std::fprintf(stderr, "\r%40s\r", "");
+  if (options.json)
+    print_json(world, rows);
+  else
+    print_table(world, rows);
+}
+
+}  // namespace app
