@@ -59,6 +59,7 @@ class Camera {
   Orbit fitted(const glm::vec3& centre, float radius, glm::ivec2 size);
 
   Orbit now_, goal_;
+  glm::vec3 centre_{0.0f};
   float scene_radius_ = 5.0f;
 };
 

@@ -96,7 +96,8 @@ class ShaderError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A vertex and a fragment shader, read from `folder`. A line `#include "name"` inserts a file of the same folder.
+/// A vertex and a fragment shader, read from `folder`. A line `#include "name"` inserts a file of the same folder. Its
+/// uniform block "Frame" reads binding 0.
 class Program {
  public:
   /// Throws ShaderError.

@@ -46,7 +46,7 @@ class Gui {
 
   Window* window_ = nullptr;
   std::string settings_;  // ImGui keeps a pointer to it
-  float content_scale_ = 0.0f, scale_ = 1.0f;
+  float content_scale_ = 0.0f, pixel_ratio_ = 0.0f, scale_ = 1.0f;
 };
 
 }  // namespace engine

@@ -1,0 +1,116 @@
+#include "engine/gl.h"
+
+#include <algorithm>
+#include <string>
+
+namespace engine {
+namespace {
+
+template <class Generate>
+GLuint generated(Generate generate) {
+  GLuint name = 0;
+  generate(1, &name);
+  return name;
+}
+
+int possible_samples(int wanted) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &most);
+  return wanted < 2 ? 0 : std::min(wanted, most);
+}
+
+}  // namespace
+
+namespace detail {
+void delete_buffer(GLuint name) { glDeleteBuffers(1, &name); }
+void delete_vertex_array(GLuint name) { glDeleteVertexArrays(1, &name); }
+void delete_texture(GLuint name) { glDeleteTextures(1, &name); }
+void delete_program(GLuint name) { glDeleteProgram(name); }
+void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
+void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
+}  // namespace detail
+
+Buffer::Buffer() : name_(generated(glGenBuffers)) {}
+
+void Buffer::upload(GLenum target, const void* data, std::size_t bytes, GLenum usage) {
+  glBindBuffer(target, id());
+  glBufferData(target, static_cast<GLsizeiptr>(bytes), data, usage);
+}
+
+VertexArray::VertexArray() : name_(generated(glGenVertexArrays)) {}
+
+Texture::Texture() : name_(generated(glGenTextures)) {}
+
+void Texture::bind(int unit, GLenum target) const {
+  glActiveTexture(GL_TEXTURE0 + static_cast<GLenum>(unit));
+  glBindTexture(target, id());
+}
+
+Framebuffer::Framebuffer(glm::ivec2 size, int samples)
+    : size_(size),
+      samples_(possible_samples(samples)),
+      framebuffer_(generated(glGenFramebuffers)),
+      resolved_(samples_ > 0 ? generated(glGenFramebuffers) : 0),
+      colour_(generated(glGenRenderbuffers)),
+      depth_(generated(glGenRenderbuffers)),
+      resolved_colour_(samples_ > 0 ? generated(glGenRenderbuffers) : 0) {
+  GLint most = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
+  if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+    throw std::runtime_error("a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
+                             " pixels is not possible: 1x1 to " + std::to_string(most) + "x" + std::to_string(most) +
+                             " is");
+  }
+  if (samples_ > 0) attach(resolved_.get(), resolved_colour_.get(), 0, 0);
+  attach(framebuffer_.get(), colour_.get(), depth_.get(), samples_);
+  bind();
+}
+
+void Framebuffer::attach(GLuint framebuffer, GLuint colour, GLuint depth, int samples) const {
+  const auto add = [&](GLuint buffer, GLenum format, GLenum place) {
+    glBindRenderbuffer(GL_RENDERBUFFER, buffer);
+    glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size_.x, size_.y);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+  };
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
+  add(colour, GL_RGBA8, GL_COLOR_ATTACHMENT0);
+  if (depth != 0) add(depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
+    throw std::runtime_error("the graphics driver refuses a picture of " + std::to_string(size_.x) + "x" +
+                             std::to_string(size_.y) + " pixels: try a smaller one");
+  }
+}
+
+void Framebuffer::bind() const {
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
+  glViewport(0, 0, size_.x, size_.y);
+}
+
+Image Framebuffer::read() const {
+  if (samples_ > 0) {
+    glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer_.get());
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_.get());
+    glBlitFramebuffer(0, 0, size_.x, size_.y, 0, 0, size_.x, size_.y, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+  }
+  Image image = read_pixels(samples_ > 0 ? resolved_.get() : framebuffer_.get(), size_);
+  bind();
+  return image;
+}
+
+Image read_pixels(GLuint framebuffer, glm::ivec2 size) {
+  const auto row = 4 * static_cast<std::size_t>(size.x);
+  Image image{size.x, size.y, std::vector<std::uint8_t>(row * static_cast<std::size_t>(size.y))};
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
+  glPixelStorei(GL_PACK_ALIGNMENT, 4);
+  glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
+  // OpenGL's rows go from the bottom up.
+  const auto begin = image.rgba.begin();
+  for (std::size_t top = 0, bottom = image.rgba.size(); top + row < bottom; top += row) {
+    bottom -= row;
+    std::swap_ranges(begin + static_cast<std::ptrdiff_t>(top), begin + static_cast<std::ptrdiff_t>(top + row),
+                     begin + static_cast<std::ptrdiff_t>(bottom));
+  }
+  return image;
+}
+
+}  // namespace engine

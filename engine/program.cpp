@@ -1,0 +1,106 @@
+// Programs: reading shader files, compiling them, and saying where one is wrong.
+
+#include <algorithm>
+#include <fstream>
+#include <regex>
+#include <sstream>
+#include <vector>
+
+#include "engine/gl.h"
+
+namespace engine {
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A shader's text, and its files in the order of the source-string numbers that its #line directives carry.
+struct Source {
+  std::string text;
+  std::vector<fs::path> files;
+};
+
+void append(Source& source, const fs::path& file) {
+  std::ifstream stream(file);
+  if (!stream) throw ShaderError(file.string() + ": cannot read this shader");
+  const std::size_t number = source.files.size();
+  source.files.push_back(file);
+  std::string line;
+  for (int n = 1; std::getline(stream, line); ++n) {
+    if (line.starts_with("#include \"")) {
+      const std::size_t name = line.find('"') + 1;
+      source.text += "#line 1 " + std::to_string(source.files.size()) + "\n";
+      append(source, file.parent_path() / line.substr(name, line.rfind('"') - name));
+      source.text += "#line " + std::to_string(n + 1) + " " + std::to_string(number) + "\n";
+    } else {
+      source.text += line + "\n";
+    }
+  }
+}
+
+template <class Get, class GetLog>
+std::string info_log(GLuint name, Get get, GetLog get_log) {
+  GLint length = 0;
+  get(name, GL_INFO_LOG_LENGTH, &length);
+  std::string log(static_cast<std::size_t>(std::max(length, 1)), '\0');
+  get_log(name, length, nullptr, log.data());
+  return log.c_str();
+}
+
+/// Puts a file's name before what the driver says: Mesa writes "0:12(5): ", NVIDIA "0(12) : ", others "ERROR: 0:12: ".
+std::string readable(const std::string& log, const Source& source) {
+  static const std::regex place(R"((\d+)[:(](\d+))");
+  std::istringstream lines(log);
+  std::string result, line;
+  while (std::getline(lines, line)) {
+    std::smatch match;
+    const bool found = std::regex_search(line, match, place);
+    const std::size_t number = found ? std::stoul(match[1]) : 0;
+    const std::string at = found ? ":" + match[2].str() : "";
+    result += (result.empty() ? "" : "\n") + source.files[std::min(number, source.files.size() - 1)].string() + at +
+              ": " + line;
+  }
+  return result;
+}
+
+GLuint compile(GLuint program, GLenum stage, const fs::path& file) {
+  Source source;
+  append(source, file);
+  const GLuint shader = glCreateShader(stage);
+  const char* text = source.text.c_str();
+  glShaderSource(shader, 1, &text, nullptr);
+  glCompileShader(shader);
+  glAttachShader(program, shader);
+  glDeleteShader(shader);  // when the program lets go of it
+  GLint ok = GL_FALSE;
+  glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
+  if (!ok) throw ShaderError(readable(info_log(shader, glGetShaderiv, glGetShaderInfoLog), source));
+  return shader;
+}
+
+}  // namespace
+
+Program::Program(const fs::path& folder, const std::string& vertex_file, const std::string& fragment_file)
+    : name_(glCreateProgram()) {
+  const GLuint program = name_.get();
+  const GLuint vertex = compile(program, GL_VERTEX_SHADER, folder / vertex_file);
+  const GLuint fragment = compile(program, GL_FRAGMENT_SHADER, folder / fragment_file);
+  glLinkProgram(program);
+  glDetachShader(program, vertex);
+  glDetachShader(program, fragment);
+  GLint ok = GL_FALSE;
+  glGetProgramiv(program, GL_LINK_STATUS, &ok);
+  if (!ok) {
+    throw ShaderError((folder / vertex_file).string() + " with " + fragment_file + ": " +
+                      info_log(program, glGetProgramiv, glGetProgramInfoLog));
+  }
+  const GLuint block = glGetUniformBlockIndex(program, "Frame");
+  if (block != GL_INVALID_INDEX) glUniformBlockBinding(program, block, 0);
+}
+
+GLint Program::location(const char* name) const {
+  const auto [found, added] = locations_.try_emplace(name);
+  if (added) found->second = glGetUniformLocation(name_.get(), name);
+  return found->second;
+}
+
+}  // namespace engine

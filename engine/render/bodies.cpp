@@ -1,0 +1,133 @@
+#include "engine/render/bodies.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <stdexcept>
+
+#include "engine/render/frame_block.h"
+#include "engine/render/refine.h"
+
+namespace engine {
+namespace {
+
+const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
+/// The coarsest level whose outline is less than `slack` pixels from round.
+int level_for(float radius_in_pixels, std::uint32_t vertex_count) {
+  constexpr float slack = 0.35f;
+  // On a sphere of n even vertices an edge spans an angle of about sqrt(14.5 / n); every level halves it.
+  const float gap = radius_in_pixels * 14.5f / (8.0f * static_cast<float>(vertex_count));
+  if (!(gap > slack)) return 0;
+  return std::min(static_cast<int>(std::ceil(0.5f * std::log2(gap / slack))), Bodies::levels - 1);
+}
+
+void define_texture(const Texture& texture, const Buffer& buffer, int unit, GLenum format) {
+  texture.bind(unit, GL_TEXTURE_BUFFER);
+  glTexBuffer(GL_TEXTURE_BUFFER, format, buffer.id());
+}
+
+}  // namespace
+
+Bodies::Bodies(const std::filesystem::path& shaders)
+    : program_(scene_program(shaders, "body.vert", "surface.frag")),
+      shadow_program_(scene_program(shaders, "body_shadow.vert", "depth.frag")) {}
+
+MeshHandle Bodies::add_mesh(std::span<const std::uint32_t> triangles, std::uint32_t vertex_count) {
+  if (triangles.size() % 3 != 0 || std::ranges::any_of(triangles, [&](auto index) { return index >= vertex_count; })) {
+    throw std::invalid_argument("a mesh of " + std::to_string(vertex_count) +
+                                " vertices has an index beyond them, or an unfinished triangle");
+  }
+  Mesh& mesh = meshes_.emplace_back();
+  mesh.vertex_count = vertex_count;
+  mesh.closed = is_closed(triangles);
+  for (int l = 0; l < levels; ++l) {
+    const RefinedMesh refined = refine(triangles, vertex_count, 1 << l);
+    Level& level = mesh.levels.emplace_back();
+    level.array.bind();
+    level.index_count = static_cast<GLsizei>(refined.indices.size());
+    level.indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(refined.indices));
+    level.vertices.set(GL_ARRAY_BUFFER, std::span(refined.vertices));
+    constexpr GLsizei stride = sizeof(RefinedVertex);
+    glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, offset(offsetof(RefinedVertex, corners)));
+    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(RefinedVertex, weights)));
+    describe_instances();
+  }
+  return {static_cast<std::uint32_t>(meshes_.size() - 1)};
+}
+
+void Bodies::describe_instances() const {
+  constexpr GLsizei stride = sizeof(Instance);
+  glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
+  glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, first_vertex)));
+  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, radius)));
+  glVertexAttribIPointer(4, 2, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, occluders)));
+  glVertexAttribPointer(5, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, colour)));
+  for (GLuint attribute = 0; attribute < 6; ++attribute) {
+    glEnableVertexAttribArray(attribute);
+    if (attribute >= 2) glVertexAttribDivisor(attribute, 1);
+  }
+}
+
+void Bodies::check(const FrameData& frame) const {
+  if (frame.positions.size() != frame.normals.size()) {
+    throw std::invalid_argument("a frame has " + std::to_string(frame.positions.size()) + " positions but " +
+                                std::to_string(frame.normals.size()) + " normals");
+  }
+  for (const MeshDraw& draw : frame.meshes) {
+    const bool known = draw.mesh.index < meshes_.size();
+    const std::size_t end = std::size_t{draw.first_vertex} + draw.vertex_count;
+    if (!known || meshes_[draw.mesh.index].vertex_count != draw.vertex_count || end > frame.positions.size()) {
+      throw std::invalid_argument("a draw of mesh " + std::to_string(draw.mesh.index) + " over vertices " +
+                                  std::to_string(draw.first_vertex) + " to " + std::to_string(end) + " of " +
+                                  std::to_string(frame.positions.size()) + " does not fit");
+    }
+  }
+}
+
+void Bodies::update(const FrameData& frame, const Occlusion& occlusion,
+                    const std::function<float(const glm::vec3&)>& pixels_per_metre) {
+  for (auto& [key, batch] : batches_) batch.clear();
+  for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
+    const MeshDraw& draw = frame.meshes[i];
+    const glm::vec4& sphere = occlusion.spheres()[i];
+    const float pixels = sphere.w * pixels_per_metre(glm::vec3(sphere));
+    const int level = frame.rounded ? level_for(pixels, draw.vertex_count) : 0;
+    batches_[{draw.mesh.index, level}].push_back(
+        {draw.first_vertex, std::max(sphere.w, 1e-6f), occlusion.ranges()[i], draw.colour});
+  }
+  occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
+  define_texture(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
+  if (frame.meshes.empty()) return;
+  position_buffer_.stream(GL_TEXTURE_BUFFER, frame.positions);
+  define_texture(positions_, position_buffer_, unit_positions, GL_R32F);
+  normal_buffer_.stream(GL_TEXTURE_BUFFER, frame.normals);
+  define_texture(normals_, normal_buffer_, unit_normals, GL_R32F);
+}
+
+void Bodies::draw_shadows(const glm::mat4& light_clip) {
+  shadow_program_.use();
+  shadow_program_.set("light_clip", light_clip);
+  draw_batches(true);
+}
+
+void Bodies::draw() {
+  program_.use();
+  draw_batches(false);
+}
+
+void Bodies::draw_batches(bool coarse) {
+  for (const auto& [key, batch] : batches_) {
+    if (batch.empty()) continue;
+    const Mesh& mesh = meshes_[key.first];
+    const Level& level = mesh.levels[coarse ? 0 : static_cast<std::size_t>(key.second)];
+    instances_.stream(GL_ARRAY_BUFFER, std::span(batch));
+    level.array.bind();
+    if (mesh.closed) glEnable(GL_CULL_FACE);
+    glDrawElementsInstanced(GL_TRIANGLES, level.index_count, GL_UNSIGNED_INT, nullptr,
+                            static_cast<GLsizei>(batch.size()));
+    glDisable(GL_CULL_FACE);
+  }
+}
+
+}  // namespace engine

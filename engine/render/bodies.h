@@ -1,0 +1,66 @@
+#pragma once
+// Deforming bodies: one instanced draw per mesh and refinement. The shader fetches a body's vertices from textures, so
+// a frame uploads positions and normals as they are, and finer outlines cost no upload.
+
+#include <cstdint>
+#include <functional>
+#include <glm/vec3.hpp>
+#include <map>
+#include <span>
+#include <vector>
+
+#include "engine/frame_data.h"
+#include "engine/gl.h"
+#include "engine/render/occlusion.h"
+
+namespace engine {
+
+/// Meshes of bodies, each in a few levels of refinement: every level cuts each triangle into four.
+class Bodies {
+ public:
+  static constexpr int levels = 3;
+
+  explicit Bodies(const std::filesystem::path& shaders);
+
+  MeshHandle add_mesh(std::span<const std::uint32_t> triangles, std::uint32_t vertex_count);
+  /// Throws std::invalid_argument for a draw that does not fit its mesh or the vertices.
+  void check(const FrameData& frame) const;
+
+  /// Uploads a frame. `pixels_per_metre` says how large a thing at a place appears on the screen.
+  void update(const FrameData& frame, const Occlusion& occlusion,
+              const std::function<float(const glm::vec3&)>& pixels_per_metre);
+  void draw_shadows(const glm::mat4& light_clip);
+  void draw();
+
+  const Program& program() const { return program_; }
+
+ private:
+  struct Instance {
+    std::uint32_t first_vertex;
+    float radius;
+    Range occluders;
+    glm::vec3 colour;
+  };
+  struct Level {
+    VertexArray array;
+    Buffer vertices, indices;
+    GLsizei index_count = 0;
+  };
+  struct Mesh {
+    std::uint32_t vertex_count = 0;
+    bool closed = false;
+    std::vector<Level> levels;
+  };
+  using Batches = std::map<std::pair<std::uint32_t, int>, std::vector<Instance>>;  // by mesh and level
+
+  void draw_batches(bool coarse);
+  void describe_instances() const;
+
+  Program program_, shadow_program_;
+  std::vector<Mesh> meshes_;
+  Batches batches_;
+  Buffer position_buffer_, normal_buffer_, occluder_buffer_, instances_;
+  Texture positions_, normals_, occluders_;
+};
+
+}  // namespace engine

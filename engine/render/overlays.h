@@ -1,0 +1,28 @@
+#pragma once
+// Lines, points and boxes over the scene, each kind in one instanced draw per set.
+
+#include <vector>
+
+#include "engine/frame_data.h"
+#include "engine/gl.h"
+
+namespace engine {
+
+class Overlays {
+ public:
+  explicit Overlays(const std::filesystem::path& shaders);
+  void draw(const FrameData& frame);
+
+ private:
+  void draw_items(const Program& program, const VertexArray& array, std::size_t count, float hidden);
+  void draw_lines(std::span<const Line> lines, float width, float hidden);
+  void draw_points(const PointSet& set, float scale);
+  void draw_faces(const BoxSet& set);
+
+  Program line_program_, point_program_, box_program_;
+  VertexArray line_array_, point_array_, box_array_;
+  Buffer line_buffer_, point_buffer_, box_buffer_;
+  std::vector<Line> edges_;
+};
+
+}  // namespace engine

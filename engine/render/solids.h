@@ -1,0 +1,68 @@
+#pragma once
+// Solid spheres, the floor with what the bodies keep from it, and the backdrop.
+
+#include <glm/mat4x4.hpp>
+#include <vector>
+
+#include "engine/frame_data.h"
+#include "engine/gl.h"
+#include "engine/render/occlusion.h"
+
+namespace engine {
+
+class Spheres {
+ public:
+  explicit Spheres(const std::filesystem::path& shaders);
+
+  void update(const FrameData& frame, const Occlusion& occlusion);
+  void draw_shadows(const glm::mat4& light_clip) const;
+  void draw() const;
+
+ private:
+  struct Instance {
+    glm::vec4 sphere;
+    Range occluders;
+    glm::vec3 colour;
+  };
+  void draw_instances() const;
+
+  Program program_, shadow_program_;
+  VertexArray array_;
+  Buffer directions_, indices_, instance_buffer_;
+  std::vector<Instance> instances_;
+  GLsizei index_count_ = 0;
+};
+
+/// A map of the floor, seen from above: how much light of the sky reaches each place, multiplied over all spheres.
+class FloorMap {
+ public:
+  static constexpr int size = 512;
+
+  explicit FloorMap(const std::filesystem::path& shaders);
+  /// Draws the map; leaves its framebuffer bound. The uniform block must be up to date.
+  void draw(const FrameData& frame, const Occlusion& occlusion);
+
+ private:
+  struct Instance {
+    glm::vec4 sphere;
+    glm::vec3 colour;
+  };
+  Program program_;
+  VertexArray array_;
+  Buffer instance_buffer_;
+  Texture map_;
+  GlName<detail::delete_framebuffer> framebuffer_;
+  std::vector<Instance> instances_;
+};
+
+class Studio {
+ public:
+  explicit Studio(const std::filesystem::path& shaders);
+  void draw(bool with_floor) const;
+
+ private:
+  Program floor_, backdrop_;
+  VertexArray empty_;
+};
+
+}  // namespace engine

@@ -1,0 +1,129 @@
+#include "engine/window.h"
+
+#include <GL/glew.h>
+// After GLEW, which wants to be first.
+#include <GLFW/glfw3.h>
+
+#include <algorithm>
+#include <cctype>
+
+#include "engine/context.h"
+
+namespace engine {
+namespace {
+
+std::string last_glfw_error() {
+  const char* text = nullptr;
+  glfwGetError(&text);
+  return text != nullptr ? text : "unknown reason";
+}
+
+glm::ivec2 fitting_size(glm::ivec2 wanted) {
+  glm::ivec2 origin(0), area(0);
+  if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr) {
+    glfwGetMonitorWorkarea(monitor, &origin.x, &origin.y, &area.x, &area.y);
+  }
+  if (area.x <= 0 || area.y <= 0) return wanted;
+  return {std::clamp(wanted.x, 1, area.x), std::clamp(wanted.y, 1, area.y)};
+}
+
+void set_hints(const WindowOptions& options) {
+  glfwDefaultWindowHints();
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_DEPTH_BITS, 24);
+  glfwWindowHint(GLFW_SAMPLES, options.samples);
+  glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
+  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
+  glfwWindowHintString(GLFW_X11_CLASS_NAME, "sbcollide");
+}
+
+}  // namespace
+
+Window::Window(const WindowOptions& options) {
+  if (!glfwInit()) {
+    throw Unavailable("cannot open a window: " + last_glfw_error() +
+                      "; start it in a desktop session (DISPLAY or WAYLAND_DISPLAY set), or use 'simulate'");
+  }
+  set_hints(options);
+  const glm::ivec2 size = fitting_size(options.size);
+  window_ = glfwCreateWindow(size.x, size.y, options.title.c_str(), nullptr, nullptr);
+  if (window_ == nullptr) {
+    const std::string reason = last_glfw_error();
+    glfwTerminate();
+    throw Unavailable("cannot open a window with OpenGL 3.3: " + reason +
+                      "; update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1");
+  }
+  try {
+    glfwMakeContextCurrent(window_);
+    load_gl();
+  } catch (...) {
+    glfwTerminate();
+    throw;
+  }
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, &Window::on_key);
+  glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
+  set_vsync(options.vsync);
+}
+
+Window::~Window() { glfwTerminate(); }
+
+bool Window::open() const { return !glfwWindowShouldClose(window_); }
+void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
+
+void Window::poll() {
+  key_presses_.clear();
+  if (minimised()) {
+    glfwWaitEventsTimeout(0.1);
+  } else {
+    glfwPollEvents();
+  }
+}
+
+void Window::present() { glfwSwapBuffers(window_); }
+void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
+void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
+
+bool Window::minimised() const {
+  const glm::ivec2 size = framebuffer_size();
+  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || size.x <= 0 || size.y <= 0;
+}
+
+glm::ivec2 Window::framebuffer_size() const {
+  glm::ivec2 size(0);
+  glfwGetFramebufferSize(window_, &size.x, &size.y);
+  return size;
+}
+
+float Window::content_scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(window_, &x, &y);
+  return std::clamp(std::max(x, y), 0.5f, 8.0f);  // some X servers report nonsense
+}
+
+float Window::pixel_ratio() const {
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  return width > 0 ? std::max(1.0f, static_cast<float>(framebuffer_size().x) / static_cast<float>(width)) : 1.0f;
+}
+
+glm::vec2 Window::cursor() const {
+  double x = 0.0, y = 0.0;
+  glfwGetCursorPos(window_, &x, &y);
+  return glm::vec2(static_cast<float>(x), static_cast<float>(y)) * pixel_ratio();
+}
+
+void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
+  if (action == GLFW_RELEASE) return;
+  // GLFW names keys by their place on a US keyboard; a shortcut means the letter printed on the key.
+  const char* label = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, scancode) : nullptr;
+  if (label != nullptr && label[1] == '\0' && std::isalpha(static_cast<unsigned char>(label[0]))) {
+    key = std::toupper(static_cast<unsigned char>(label[0]));
+  }
+  static_cast<Window*>(glfwGetWindowUserPointer(window))->key_presses_.push_back({key, mods, action == GLFW_REPEAT});
+}
+
+}  // namespace engine

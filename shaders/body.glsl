@@ -1,0 +1,26 @@
+// One vertex of a body: a point inside a triangle of its mesh, bulged so that the outline comes out round.
+layout(location = 0) in uvec3 corners;
+layout(location = 1) in vec2 weights;
+layout(location = 2) in uint first_vertex;
+uniform samplerBuffer positions;  // three floats per vertex
+uniform samplerBuffer normals;
+
+vec3 fetch(samplerBuffer buffer, uint vertex) {
+  int at = 3 * int(first_vertex + vertex);
+  return vec3(texelFetch(buffer, at).r, texelFetch(buffer, at + 1).r, texelFetch(buffer, at + 2).r);
+}
+
+// Phong tessellation (Boubekeur and Alexa 2008). With 1/2 the middle of an edge of a sphere lies on the sphere.
+void body_vertex(out vec3 position, out vec3 normal) {
+  vec3 p0 = fetch(positions, corners.x), n0 = fetch(normals, corners.x);
+  position = p0;
+  normal = n0;
+  if (corners.x == corners.y) return;  // a vertex of the mesh itself
+  vec3 p1 = fetch(positions, corners.y), n1 = fetch(normals, corners.y);
+  vec3 p2 = fetch(positions, corners.z), n2 = fetch(normals, corners.z);
+  vec3 w = vec3(weights, 1.0 - weights.x - weights.y);
+  vec3 flat_point = w.x * p0 + w.y * p1 + w.z * p2;
+  position = flat_point - 0.5 * (w.x * dot(flat_point - p0, n0) * n0 + w.y * dot(flat_point - p1, n1) * n1 +
+                                 w.z * dot(flat_point - p2, n2) * n2);
+  normal = normalize(w.x * n0 + w.y * n1 + w.z * n2);
+}

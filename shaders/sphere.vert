@@ -1,0 +1,22 @@
+#version 330 core
+#include "frame.glsl"
+#include "occlusion.glsl"
+
+layout(location = 0) in vec3 direction;
+layout(location = 1) in vec4 sphere;  // centre, radius
+layout(location = 2) in uvec2 occluder_range;
+layout(location = 3) in vec3 colour;
+out vec3 world_position;
+out vec3 world_normal;
+out vec3 bounce;
+out float seen;
+flat out vec3 albedo;
+
+void main() {
+  world_position = sphere.xyz + sphere.w * direction;
+  world_normal = direction;
+  seen = sky_seen(world_position, direction, occluder_range.x, occluder_range.y);
+  bounce = floor_bounce(world_position, sphere.w);
+  albedo = colour;
+  gl_Position = frame.clip_from_world * vec4(world_position, 1.0);
+}

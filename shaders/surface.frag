@@ -1,0 +1,31 @@
+#version 330 core
+// Matte rubber: diffuse light with a shadow, light from the sky and the floor, a soft highlight and a faint rim.
+#include "frame.glsl"
+#include "colour.glsl"
+#include "shadow.glsl"
+
+in vec3 world_position;
+in vec3 world_normal;
+in vec3 bounce;
+in float seen;
+flat in vec3 albedo;
+out vec4 fragment;
+
+void main() {
+  vec3 normal = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
+  vec3 to_eye = normalize(frame.eye.xyz - world_position);
+  vec3 half_way = normalize(to_eye + frame.to_light.xyz);
+  vec3 base = linear(albedo);
+
+  float facing = max((dot(normal, frame.to_light.xyz) + 0.12) / 1.12, 0.0);
+  float lit = facing > 0.0 ? light_reaching(world_position, normal) : 0.0;
+  vec3 key = vec3(0.86, 0.83, 0.79) * facing * lit;
+  vec3 sky = vec3(0.40, 0.43, 0.48) * seen;
+  vec3 floor_light = vec3(0.34, 0.33, 0.32) * bounce * (0.35 + 0.65 * seen);
+  vec3 colour = base * (key + mix(floor_light, sky, 0.5 + 0.5 * normal.y));
+
+  float gloss = pow(max(dot(normal, half_way), 0.0), 28.0);
+  float edge = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
+  colour += vec3(0.10) * gloss * lit * facing + vec3(0.16, 0.17, 0.19) * edge * seen * (0.5 + 0.5 * normal.y);
+  fragment = vec4(dithered(srgb(shoulder(colour))), 1.0);
+}
