@@ -1,0 +1,140 @@
+#include "app/demo.h"
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include "app/interface.h"
+#include "app/scene_view.h"
+#include "app/shortcuts.h"
+#include "engine/gl.h"
+#include "engine/gui.h"
+#include "engine/resources.h"
+#include "engine/window.h"
+
+namespace app {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Time between drawn frames. A monitor of 60 Hz never ticks at exactly the world's 1/60 s, and without rounding some
+/// frames would show two steps and some none.
+class Pacer {
+ public:
+  double tick() {
+    const double time = now(), elapsed = time - last_;
+    last_ = time;
+    const double frames = std::round(elapsed * 60);
+    return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
+  }
+  /// Without a monitor to wait for, frames would follow one another at once and heat the machine for nothing.
+  void rest() const {
+    constexpr double shortest = 1.0 / 125;
+    const double left = shortest - (now() - last_);
+    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+  }
+
+ private:
+  double last_ = now();
+};
+
+class Demo {
+ public:
+  explicit Demo(const DemoOptions& options)
+      : window_({.title = "Multi-Level SB Collide", .size = {options.width, options.height}}),
+        gui_(window_),
+        view_(engine::find_folder("shaders")),
+        session_(options.scene, options.scene_folder, options.threads) {}
+
+  void run() {
+    while (window_.open() && !ui_.quit) {
+      window_.poll();
+      const double elapsed = pacer_.tick();
+      handle_keys();
+      if (window_.minimised()) continue;  // poll() has slept; the world waits for its window
+      frame(elapsed);
+    }
+  }
+
+ private:
+  void handle_keys() {
+    if (gui_.wants_keyboard()) return;
+    for (const engine::KeyPress& key : window_.key_presses()) {
+      if (press(key.key, key.repeat, session_, ui_)) seconds_ += key_hint_seconds;
+    }
+  }
+
+  void frame(double elapsed) {
+    seconds_ += elapsed;
+    session_.advance(elapsed);
+    gui_.begin_frame();
+    interface_.draw(session_, ui_, gui_.scale(), seconds_);
+    const engine::Viewport viewport = scene_viewport();
+    move_camera(viewport, elapsed);
+    draw_scene(viewport);
+    gui_.end_frame();
+    window_.present();
+    pacer_.rest();
+  }
+
+  engine::Viewport scene_viewport() const {
+    const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
+    const SceneArea area = Interface::scene_area(ui_, gui_.scale());
+    const int left = static_cast<int>(std::lround(area.min.x * ratio.x));
+    const glm::ivec2 size = window_.framebuffer_size();
+    return {{left, 0}, {std::max(size.x - left, 0), size.y}};
+  }
+
+  void move_camera(const engine::Viewport& viewport, double elapsed) {
+    if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
+      shown_scene_ = session_.world().scene().key;
+      camera_ = view_.camera(session_.world().scene(), viewport.size);
+      ui_.reset_camera = false;
+    }
+    const ImGuiIO& io = ImGui::GetIO();
+    if (!gui_.wants_mouse()) {
+      const glm::vec2 moved{io.MouseDelta.x * io.DisplayFramebufferScale.x,
+                            io.MouseDelta.y * io.DisplayFramebufferScale.y};
+      if (io.MouseDown[0]) camera_.rotate(moved, viewport.size);
+      if (io.MouseDown[1] || io.MouseDown[2]) camera_.pan(moved, viewport.size);
+      if (io.MouseWheel != 0) camera_.zoom(io.MouseWheel);
+    }
+    camera_.advance(elapsed);
+  }
+
+  void draw_scene(const engine::Viewport& viewport) {
+    OverlayRequest request;
+    request.shown = session_.overlays;
+    request.selected_bucket = session_.selected_bucket();
+    const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
+    if (needs_debug) request.debug = &session_.debug();
+    if (const auto& rows = session_.recall().rows; !rows.empty()) request.missed = &rows.front().missed;
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    const float scale = std::max(window_.content_scale(), window_.pixel_ratio());
+    view_.draw(session_.world(), request, camera_, viewport, scale);
+    const glm::ivec2 size = window_.framebuffer_size();
+    glViewport(0, 0, size.x, size.y);
+  }
+
+  static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
+
+  engine::Window window_;  // first: the others need its context
+  engine::Gui gui_;
+  SceneView view_;
+  Session session_;
+  Interface interface_;
+  UiState ui_;
+  engine::Camera camera_;
+  std::string shown_scene_;  // the one that camera_ was set up for
+  Pacer pacer_;
+  double seconds_ = 0;  // the window has been open
+};
+
+}  // namespace
+
+int run_demo(const DemoOptions& options) {
+  Demo(options).run();
+  return 0;
+}
+
+}  // namespace app

@@ -1,0 +1,22 @@
+#pragma once
+// The demo window: a world in motion, the panel beside it.
+
+#include <filesystem>
+
+#include "softbody/scene.h"
+
+namespace app {
+
+struct DemoOptions {
+  softbody::Scene scene;
+  std::filesystem::path scene_folder;  // of the other scenes that the panel offers
+  int threads = 1;
+  int width = 1280, height = 720;  // of the window, screen coordinates
+};
+
+/// Runs until the window is closed; returns the exit code. Throws engine::Unavailable without a display,
+/// engine::ResourceError or engine::ShaderError if the program's files are not found or broken, softbody::SceneError if
+/// the scene cannot be simulated.
+int run_demo(const DemoOptions& options);
+
+}  // namespace app

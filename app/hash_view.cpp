@@ -1,0 +1,123 @@
+#include "app/hash_view.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "app/palette.h"
+
+namespace app {
+namespace {
+
+constexpr float view_width = 276, grid_height = 170, least_square = 4;  // design pixels
+
+constexpr const char* grid_tooltip_end = "Click: show its boxes in the scene. Click again or Esc: release.";
+
+}  // namespace
+
+void HashView::refresh(const Session& session, float width, float height, float least_side) {
+  const auto& loads = session.debug().bucket_load;
+  const HashGrid grid = HashGrid::fit(static_cast<std::uint32_t>(loads.size()), width, height, least_side);
+  const bool same = revision_ == session.revision() && grid.side == grid_.side && grid.per_square == grid_.per_square;
+  grid_ = grid;
+  if (same) return;
+  revision_ = session.revision();
+  squares_.assign(grid_.squares(), {});
+  std::uint32_t most = 0;
+  for (std::uint32_t s = 0; s < grid_.squares(); ++s) {
+    const auto first = loads.begin() + grid_.first_bucket(s), end = loads.begin() + grid_.last_bucket(s) + 1;
+    const auto fullest = std::max_element(first, end);
+    squares_[s] = {*fullest, static_cast<std::uint32_t>(fullest - loads.begin())};
+    most = std::max(most, *fullest);
+  }
+  full_load_ = std::max(8u, std::bit_ceil(most));
+}
+
+glm::vec3 HashView::colour(std::uint32_t load) const {
+  return sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(full_load_)));
+}
+
+void HashView::draw_squares(Widgets& w, Session& session, float width, float height) {
+  origin_ = ImGui::GetCursorScreenPos();
+  const bool clicked = ImGui::InvisibleButton("##buckets", {width, height});
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled(origin_, {origin_.x + width, origin_.y + height}, to_imgui(glm::vec3(0.93f)), w.px(3));
+  const float gap = grid_.side >= w.px(6) ? std::max(1.0f, std::floor(w.px(1))) : 0.0f;
+  const auto corner = [&](std::uint32_t s) {
+    return ImVec2(origin_.x + static_cast<float>(s % grid_.columns) * grid_.side,
+                  origin_.y + static_cast<float>(s / grid_.columns) * grid_.side);
+  };
+  for (std::uint32_t s = 0; s < grid_.squares(); ++s) {
+    if (squares_[s].load == 0 && gap == 0) continue;
+    const ImVec2 at = corner(s);
+    const glm::vec3 fill = squares_[s].load == 0 ? glm::vec3(0.86f) : colour(squares_[s].load);
+    draw->AddRectFilled(at, {at.x + grid_.side - gap, at.y + grid_.side - gap}, to_imgui(fill));
+  }
+  const auto outline = [&](std::uint32_t s, const glm::vec3& line, float thickness) {
+    const ImVec2 at = corner(s);
+    draw->AddRect({at.x - 1, at.y - 1}, {at.x + grid_.side - gap + 1, at.y + grid_.side - gap + 1}, to_imgui(line), 0,
+                  ImDrawFlags_None, thickness);
+  };
+  const auto& selected = session.selected_bucket();
+  if (selected) outline(*selected / grid_.per_square, glm::vec3(0.8f, 0.0f, 0.4f), w.px(2));
+
+  const ImVec2 mouse = ImGui::GetIO().MousePos;
+  const auto under = ImGui::IsItemHovered() ? grid_.square_at(mouse.x - origin_.x, mouse.y - origin_.y) : std::nullopt;
+  std::string tooltip;
+  if (under) {
+    outline(*under, glm::vec3(0.1f), w.px(1.5f));
+    const Square& square = squares_[*under];
+    const std::uint32_t first = grid_.first_bucket(*under), last = grid_.last_bucket(*under);
+    tooltip = first == last ? "Bucket " + grouped(first) + ", load " + grouped(square.load) + ". "
+                            : "Buckets " + grouped(first) + " to " + grouped(last) + "; the fullest is " +
+                                  grouped(square.fullest) + " with load " + grouped(square.load) + ". ";
+    tooltip += grid_tooltip_end;
+    if (clicked) session.select_bucket(selected == square.fullest ? std::nullopt : std::optional(square.fullest));
+  }
+  w.done("Buckets of the table", under ? tooltip.c_str() : nullptr);
+}
+
+void HashView::draw_legend(Widgets& w) const {
+  const float width = ImGui::GetContentRegionAvail().x;
+  const std::string most = grouped(full_load_);
+  ImGui::TextDisabled("Load  1");
+  ImGui::SameLine();
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float bar = width * 0.5f, height = ImGui::GetTextLineHeight();
+  constexpr int steps = 32;
+  for (int i = 0; i < steps; ++i) {
+    const float x0 = at.x + bar * static_cast<float>(i) / steps, x1 = at.x + bar * static_cast<float>(i + 1) / steps;
+    const glm::vec3 fill = sequential_colour((static_cast<float>(i) + 0.5f) / steps);
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, at.y + 0.25f * height}, {x1, at.y + 0.8f * height}, to_imgui(fill));
+  }
+  ImGui::Dummy({bar, height});
+  ImGui::SameLine();
+  ImGui::TextDisabled("%s", most.c_str());
+  w.done("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
+}
+
+void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
+  const float margin = w.px(12);
+  ImGui::SetNextWindowPos({area.max.x - margin, area.max.y - margin}, ImGuiCond_Always, {1, 1});
+  ImGui::SetNextWindowSize({w.px(view_width), 0});
+  ImGui::Begin("Hash table", &open,
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
+  const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
+  if (session.debug().bucket_load.empty()) {
+    ImGui::Dummy({width, 0.4f * height});
+    ImGui::TextWrapped("%s builds no hash table.", std::string(session.world().method().name).c_str());
+    ImGui::Dummy({width, 0.4f * height});
+  } else {
+    refresh(session, width, height, std::floor(w.px(least_square)));
+    draw_squares(w, session, width, height);
+    draw_legend(w);
+    const std::string buckets = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
+    ImGui::TextDisabled(
+        "%s", (grid_.per_square == 1 ? buckets : buckets + "; a square is the fullest of " + grouped(grid_.per_square))
+                  .c_str());
+  }
+  ImGui::End();
+}
+
+}  // namespace app

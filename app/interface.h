@@ -1,0 +1,25 @@
+#pragma once
+// All that is drawn with Dear ImGui over and beside the scene, put together; no window needed.
+
+#include "app/hash_view.h"
+#include "app/session.h"
+#include "app/ui_state.h"
+#include "app/widgets.h"
+
+namespace app {
+
+class Interface {
+ public:
+  /// Where the scene shows: the display without the panel, in ImGui units.
+  static SceneArea scene_area(const UiState& ui, float scale);
+
+  /// One frame, between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
+  void draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder = nullptr);
+
+  const HashView& hash_view() const { return hash_view_; }
+
+ private:
+  HashView hash_view_;
+};
+
+}  // namespace app

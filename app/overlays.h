@@ -1,0 +1,46 @@
+#pragma once
+// What can be drawn over the bodies. One table: panel, shortcuts, scene view and tests loop over it.
+
+#include <array>
+#include <string_view>
+
+namespace app {
+
+struct Overlays {
+  bool body_boxes = false;
+  bool boxes = false;
+  bool cells = false;
+  bool contacts = false;
+  bool springs = false;
+  bool missed = false;
+
+  bool any() const { return body_boxes || boxes || cells || contacts || springs || missed; }
+};
+
+struct OverlayRow {
+  std::string_view key;      // in messages and tests
+  std::string_view label;    // on the panel
+  char shortcut;             // on the keyboard
+  std::string_view tooltip;  // what it shows, with its section of the paper
+  bool Overlays::*shown;
+};
+
+inline constexpr std::array<OverlayRow, 6> overlay_table{{
+    {"body-boxes", "Body boxes", '1', "The axis-aligned bounding box of each body, in the body's colour (§2.1).",
+     &Overlays::body_boxes},
+    {"boxes", "Subdivided boxes", '2',
+     "The boxes that the method hashes, each in the colour of the bucket of its minimum corner (§2.1, §2.2). Boxes of "
+     "one colour meet in one bucket.",
+     &Overlays::boxes},
+    {"cells", "Occupied cells", '3', "The grid cells that hold at least one entry of the hash table (§2.2).",
+     &Overlays::cells},
+    {"contacts", "Contacts", '4',
+     "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).", &Overlays::contacts},
+    {"springs", "Springs", '5', "The springs of every body, coloured by their strain: shorter or longer than at rest.",
+     &Overlays::springs},
+    {"missed", "Missed contacts", '6',
+     "Contacts that brute force finds and the driving method does not. Only the literal method can miss any.",
+     &Overlays::missed},
+}};
+
+}  // namespace app

@@ -1,0 +1,31 @@
+#pragma once
+// The demo's colours, all sRGB 0 .. 1. Meanings never rest on red against green alone.
+
+#include <cstdint>
+
+#include <glm/vec3.hpp>
+
+namespace app {
+
+/// Lightness and chroma of OKLCH with a hue in turns, brought into sRGB's gamut. Equal lightness looks equally light.
+glm::vec3 oklch(float lightness, float chroma, float hue);
+
+/// The colour of body number `index`: hues by the golden ratio in three tiers of lightness, so that dozens differ.
+glm::vec3 body_colour(std::uint32_t index);
+
+/// The colour of a bucket of the hash table: neighbours in the table look unlike.
+glm::vec3 bucket_colour(std::uint32_t bucket);
+
+/// Load of a bucket or the like, from few (0) to many (1): dark violet to yellow, lightness rising all the way.
+glm::vec3 sequential_colour(float t);
+
+/// Strain: shorter than at rest (-1, blue), as at rest (0, light grey), longer (1, orange).
+glm::vec3 diverging_colour(float t);
+
+// Okabe and Ito's set, made for all kinds of colour vision.
+inline constexpr glm::vec3 contact_between_colour{0.835f, 0.369f, 0.000f};  // vermilion
+inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.447f, 0.698f};   // blue
+inline constexpr glm::vec3 contact_solid_colour{0.000f, 0.620f, 0.451f};    // bluish green
+inline constexpr glm::vec3 contact_missed_colour{0.10f, 0.05f, 0.10f};      // nearly black
+
+}  // namespace app

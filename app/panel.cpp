@@ -1,0 +1,119 @@
+#include "app/panel.h"
+
+#include <cstdio>
+
+namespace app {
+namespace {
+
+constexpr float label_column = 108;  // design pixels
+
+void draw_scene(Widgets& w, Session& session) {
+  const softbody::Scene& scene = session.world().scene();
+  w.row("Scene", w.px(label_column));
+  if (w.begin_choices("Scene", scene.name.c_str(), scene.look_at.c_str())) {
+    std::string chosen;
+    for (const SceneChoice& choice : session.scenes()) {
+      if (w.choice(choice.name.c_str(), choice.key == scene.key, choice.look_at.c_str())) chosen = choice.key;
+    }
+    ImGui::EndCombo();
+    if (!chosen.empty()) session.choose_scene(chosen);
+  }
+}
+
+void draw_transport(Widgets& w, Session& session) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  const char* pause = session.paused ? "Go on###Pause" : "Pause###Pause";
+  if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
+    session.paused = !session.paused;
+  }
+  ImGui::SameLine();
+  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.single_step();
+  ImGui::SameLine();
+  if (w.button("Reset", "The scene from its start, with the settings below (R).", width)) session.reset();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!session.can_drop());
+  if (w.button("Drop", "Drops another body from above (D).", width)) session.drop();
+  ImGui::EndDisabled();
+
+  w.checkbox("Slow motion", session.slow_motion, "Lets the world run slower than real time (S).");
+  ImGui::SameLine(w.px(label_column + 20));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::BeginDisabled(!session.slow_motion);
+  float percent = static_cast<float>(session.slow_factor * 100);
+  if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(Session::slowest),
+               100 * static_cast<float>(Session::fastest), "%.0f %% of real time", "How fast slow motion runs.",
+               true)) {
+    session.slow_factor = static_cast<double>(percent) / 100;
+  }
+  ImGui::EndDisabled();
+}
+
+void draw_progress(Widgets& w, const Session& session) {
+  const softbody::World& world = session.world();
+  ImGui::TextDisabled("Frame %d", world.frame());
+  ImGui::SameLine(w.px(label_column));
+  ImGui::TextDisabled("%.2f s", world.frame() * world.frame_time());
+  ImGui::SameLine();
+  std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
+  if (session.paused) {
+    right = "paused";
+  } else if (session.pace() < 0.95) {
+    right = "at " + std::to_string(static_cast<int>(session.pace() * 100)) + " % of its pace";
+  } else if (world.all_at_rest()) {
+    right += ", all at rest";
+  }
+  w.value(right);
+  w.done("Progress", session.pace() < 0.95 ? "The machine cannot step the world in real time: time is dropped."
+                                           : "Simulated frames and time; bodies in the world.");
+}
+
+void draw_overlays(Widgets& w, Session& session, UiState& ui) {
+  const auto place = [&](std::size_t i) {
+    if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
+  };
+  std::size_t i = 0;
+  for (const OverlayRow& row : overlay_table) {
+    place(i++);
+    const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
+    w.checkbox(std::string(row.label).c_str(), session.overlays.*row.shown, tooltip.c_str());
+  }
+  w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
+}
+
+void draw_plan(Widgets& w, const softbody::World& world) {
+  for (const softbody::Stage stage : world.plan().stages) {
+    const std::string key(softbody::stage_key(stage));
+    ImGui::BulletText("%s", key.c_str());
+  }
+  for (const auto& [stage, why] : world.plan().left_out) {
+    const std::string key(softbody::stage_key(stage));
+    ImGui::TextDisabled("without %s: %s", key.c_str(), why.c_str());
+    w.done(key.c_str(), why.c_str());
+  }
+}
+
+}  // namespace
+
+void draw_panel(Widgets& w, Session& session, UiState& ui) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImGui::SetNextWindowPos({0, 0});
+  ImGui::SetNextWindowSize({w.px(panel_width), display.y});
+  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
+                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                     ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  ImGui::Begin("Panel", nullptr, fixed);
+  draw_scene(w, session);
+  draw_transport(w, session);
+  draw_progress(w, session);
+  ImGui::Spacing();
+  if (w.section("Detection", true)) draw_detection(w, session);
+  if (w.section("Show", true)) draw_overlays(w, session, ui);
+  if (w.section("Numbers", true)) draw_numbers(w, session);
+  if (w.section("Stages of a step", false)) draw_plan(w, session.world());
+  ImGui::Spacing();
+  if (w.button("Help", "Keys and mouse (F1).", w.px(72))) ui.help = !ui.help;
+  ImGui::End();
+}
+
+}  // namespace app

@@ -1,0 +1,127 @@
+// The panel's section of the method and its settings.
+
+#include <array>
+#include <cstdio>
+
+#include "app/panel.h"
+
+namespace app {
+namespace {
+
+constexpr float label_column = 108;  // design pixels
+constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
+
+void draw_method(Widgets& w, Session& session) {
+  const collide::Method& method = session.world().method();
+  w.row("Method", w.px(label_column));
+  w.chip(method.colour);
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  const std::string name(method.name), summary = std::string(method.summary) + " (M: next method)";
+  if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
+  std::string_view chosen = method.key;
+  for (const collide::Method& each : collide::methods()) {
+    w.chip(each.colour);
+    ImGui::SameLine();
+    const std::string label(each.name), tooltip(each.summary);
+    if (w.choice(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
+  }
+  ImGui::EndCombo();
+  session.set_method(chosen);
+}
+
+bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
+  ImGui::BeginDisabled(!used);
+  w.row("Subdivision", w.px(label_column));
+  std::array<char, 48> format{};
+  std::snprintf(format.data(), format.size(), "%%d  (%s boxes a body)", grouped(1ull << settings.levels).c_str());
+  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.data(),
+                                "Level n cuts a body's box at midpoints into 2^n boxes (§2.1; the paper uses 3). "
+                                "Empty boxes are not hashed. Keys [ and ].");
+  ImGui::EndDisabled();
+  return changed;
+}
+
+bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
+  static constexpr const char* tooltip =
+      "The number of buckets of the hash table: the paper's bucket size (§2.2; it uses 101 and 1001). "
+      "With few buckets different cells share one (aliasing). 1 to 16,777,216.";
+  ImGui::BeginDisabled(!used);
+  w.row("Buckets", w.px(label_column));
+  const std::string warning = collide::hash_warning(settings);
+  if (used && !warning.empty()) {
+    ImGui::SameLine(w.px(label_column - 18));
+    ImGui::TextColored({0.85f, 0.5f, 0.0f, 1.0f}, "!");
+    w.done("Hash warning", warning.c_str());
+    ImGui::SameLine(w.px(label_column));
+  }
+  const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  const float typed = w.px(84);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - typed - 2 * gap);
+  bool changed = w.slider("Buckets", settings.buckets, 1, collide::max_buckets, tooltip);
+  ImGui::SameLine(0, gap);
+  ImGui::SetNextItemWidth(typed);
+  changed |= w.number("Number of buckets", settings.buckets, 1, collide::max_buckets, tooltip);
+  ImGui::SameLine(0, gap);
+  if (w.begin_choices("Bucket presets", "", "The paper's bucket sizes, and primes near them.",
+                      ImGuiComboFlags_NoPreview)) {
+    for (const std::uint32_t preset : bucket_presets) {
+      if (!w.choice(grouped(preset).c_str(), preset == settings.buckets, nullptr)) continue;
+      settings.buckets = preset;
+      changed = true;
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
+  return changed;
+}
+
+bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bool used) {
+  ImGui::BeginDisabled(!used);
+  w.row("Cell size", w.px(label_column));
+  bool changed = w.checkbox("Auto", automatic,
+                            "The largest subdivided box at rest plus the tolerance, along each axis. A default, no "
+                            "guarantee that the literal method misses nothing.");
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::BeginDisabled(automatic);
+  float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
+  if (w.slider(
+          "Cell size", side, least_cell, most_cell, "%.3f m",
+          "The side of the hash function's grid cells (§2.2: length, height, width). Smaller than a subdivided box, "
+          "and the literal method skips cells.",
+          true)) {
+    settings.cell_size = glm::vec3(side);
+    changed = true;
+  }
+  ImGui::EndDisabled();
+  ImGui::EndDisabled();
+  return changed;
+}
+
+}  // namespace
+
+void draw_detection(Widgets& w, Session& session) {
+  draw_method(w, session);
+  const collide::Method& method = session.world().method();
+  collide::Settings settings = session.world().collision();
+  bool automatic = session.world().uses_default_cell_size();
+  bool changed = draw_levels(w, settings, method.uses_levels);
+  changed |= draw_buckets(w, settings, method.uses_hash);
+  changed |= draw_cell_size(w, settings, automatic, method.uses_hash);
+  w.row("Tolerance", w.px(label_column));
+  changed |= w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",
+                      "Vertices closer than this are in contact, and push each other apart (§2.3).", true);
+  changed |=
+      w.checkbox("Self-collision", settings.self_collision,
+                 "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as close at rest.");
+  ImGui::SameLine(w.px(label_column + 20));
+  if (w.button("The scene's settings", "Method and settings as the scene has them.",
+               ImGui::GetContentRegionAvail().x)) {
+    session.restore_settings();
+  } else if (changed) {
+    session.set_collision(settings, automatic);
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,80 @@
+// The panel's section of counters and timings.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/palette.h"
+#include "app/panel.h"
+
+namespace app {
+namespace {
+
+constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
+constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
+
+/// The next of 1, 2, 5, 10, ... above: an axis that stays while values change.
+float axis_end(float most, float least) {
+  float end = least;
+  for (int i = 0; end < most; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
+  return end;
+}
+
+void draw_curve(Widgets& w, const char* label, const std::string& value, const Ring& ring, float top,
+                const glm::vec3& colour, const char* unit) {
+  ImGui::TextDisabled("%s", label);
+  const float end = w.px(value_end);
+  ImGui::SameLine(end - ImGui::CalcTextSize(value.c_str()).x);
+  ImGui::TextUnformatted(value.c_str());
+  ImGui::SameLine(end + w.px(12));
+  w.sparkline(label, ring, top, colour, unit);
+}
+
+std::string text(const char* format, double value) {
+  std::array<char, 32> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, value);
+  return buffer.data();
+}
+
+void draw_curves(Widgets& w, const Session& session) {
+  const History& history = session.history();
+  const softbody::Profile& profile = session.world().profile();
+  const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
+  draw_curve(w, "Detect", text("%.2f ms", profile.detect_ms), history.detect_ms, ms, detect_colour, "ms");
+  draw_curve(w, "Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, ms, solve_colour, "ms");
+  draw_curve(w, "Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
+             axis_end(history.contacts.largest(), 10.0f), glm::vec3(0.45f), "contacts");
+  const RecallReport& recall = session.recall();
+  const std::string value = recall.rows.empty() ? "-" : text("%.4f", recall.rows.front().recall);
+  draw_curve(w, "Recall", value, history.recall, 1.0f, glm::vec3(0.45f), "(the share of true contacts found)");
+}
+
+void draw_counter(Widgets& w, const char* label, const std::string& value, const char* tooltip) {
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine();
+  w.value(value);
+  w.done(label, tooltip);
+}
+
+}  // namespace
+
+void draw_numbers(Widgets& w, const Session& session) {
+  draw_curves(w, session);
+  const collide::Result& found = session.world().detection();
+  const collide::Counters& counters = found.counters;
+  draw_counter(w, "between bodies", grouped(found.contacts.size() - found.self_contacts),
+               "Contacts whose two vertices belong to two bodies (§2.3).");
+  draw_counter(w, "inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
+  draw_counter(w, "with solids", grouped(session.world().solid_contacts().size()),
+               "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
+  draw_counter(w, "Pair tests", grouped(counters.pair_tests),
+               "Distances evaluated in this frame; brute force evaluates all (§2.3).");
+  draw_counter(w, "Hash evaluations", grouped(counters.hashes),
+               "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
+  draw_counter(w, "Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
+  draw_counter(w, "Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
+  draw_counter(w, "Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");
+}
+
+}  // namespace app

@@ -1,0 +1,208 @@
+#include "app/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+namespace {
+
+std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
+  std::vector<SceneChoice> list;
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    try {
+      const softbody::Scene scene = softbody::find_scene(key, folder);
+      list.push_back({key, scene.name, scene.look_at});
+    } catch (const softbody::SceneError& error) {
+      list.push_back({key, key, error.what()});  // still listed: choosing it says what is wrong
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads)
+    : scene_folder_(std::move(scene_folder)), scenes_(list_scenes(scene_folder_)), threads_(threads) {
+  start(scene);
+  scene_ = std::move(scene);
+}
+
+void Session::start(const softbody::Scene& scene) {
+  world_ = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+  accumulator_ = 0;
+  step_once_ = false;
+  selected_bucket_.reset();
+  history_.clear();
+  notice_.clear();
+  ++revision_;
+  forget_recall();
+}
+
+void Session::advance(double elapsed) {
+  if (step_once_) {
+    step_once_ = false;
+    step();
+  } else if (!paused) {
+    run(elapsed);
+  }
+  exchange_recall();
+}
+
+void Session::run(double elapsed) {
+  const double frame = world_->frame_time();
+  const double asked = std::clamp(elapsed, 0.0, longest_elapsed) * (slow_motion ? slow_factor : 1.0);
+  accumulator_ += asked;
+  int steps = 0;
+  double spent_ms = 0;
+  while (accumulator_ >= frame && steps < most_steps && spent_ms < step_budget_ms) {
+    step();
+    accumulator_ -= frame;
+    spent_ms += world_->profile().total_ms;
+    ++steps;
+  }
+  // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
+  if (accumulator_ >= frame) accumulator_ = std::fmod(accumulator_, frame);
+  follow_pace(asked, steps);
+}
+
+void Session::follow_pace(double asked, int steps) {
+  asked_ += asked;
+  done_ += steps * world_->frame_time();
+  const double window = slow_motion ? 0.5 * slow_factor : 0.5;
+  if (asked_ < std::max(window, 4 * world_->frame_time())) return;
+  pace_ = std::min(1.0, done_ / asked_);
+  asked_ = done_ = 0;
+}
+
+void Session::single_step() {
+  paused = true;
+  step_once_ = true;
+}
+
+void Session::step() {
+  guarded([&] { world_->step(); });
+  history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
+  history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
+  history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
+}
+
+template <class Change>
+void Session::guarded(Change&& change) {
+  ++revision_;
+  try {
+    change();
+  } catch (const std::exception& error) {
+    recover(error.what());
+  }
+}
+
+/// A detector refused, as a rule because tiny cells would fill the memory: the automatic cell size always fits.
+void Session::recover(const std::string& what) {
+  notice_ = what;
+  try {
+    if (world_->uses_default_cell_size()) throw std::runtime_error(what);
+    world_->set_collision(world_->collision(), true);
+    notice_ += "; the cell size is automatic again";
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+    paused = true;
+  }
+}
+
+void Session::choose_scene(const std::string& key_or_path) {
+  try {
+    softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
+    start(scene);
+    scene_ = std::move(scene);
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
+}
+
+void Session::reset() {
+  softbody::Scene scene = scene_;
+  scene.method = world_->method().key;
+  scene.collision = world_->collision();
+  scene.default_cell_size = world_->uses_default_cell_size();
+  start(scene);
+}
+
+void Session::restore_settings() {
+  set_method(scene_.method);
+  set_collision(scene_.collision, scene_.default_cell_size);
+}
+
+void Session::drop() {
+  if (can_drop()) guarded([&] { world_->drop(); });
+}
+
+const std::string& Session::caption() const {
+  static const std::string none;
+  const std::string* text = &none;
+  for (const softbody::Caption& caption : world_->scene().captions) {
+    if (caption.frame <= world_->frame()) text = &caption.text;
+  }
+  return *text;
+}
+
+void Session::set_method(std::string_view key) {
+  if (!collide::find_method(key) || key == world_->method().key) return;
+  notice_.clear();
+  guarded([&] { world_->set_method(key); });
+  select_bucket(selected_bucket_);
+  forget_recall();
+}
+
+void Session::next_method() {
+  const auto all = collide::methods();
+  const auto here = std::ranges::find(all, world_->method().key, &collide::Method::key);
+  set_method(all[static_cast<std::size_t>(here - all.begin() + 1) % all.size()].key);
+}
+
+void Session::set_collision(const collide::Settings& settings, bool default_cell_size) {
+  // The automatic cell size is the world's own business, so a bad one of the caller's does no harm.
+  collide::Settings checked = settings;
+  if (default_cell_size) checked.cell_size = world_->collision().cell_size;
+  if (notice_ = collide::problem(checked); !notice_.empty()) return;
+  guarded([&] { world_->set_collision(checked, default_cell_size); });
+  select_bucket(selected_bucket_);
+}
+
+void Session::select_bucket(std::optional<std::uint32_t> bucket) {
+  const bool exists = bucket && world_->method().uses_hash && *bucket < world_->collision().buckets;
+  selected_bucket_ = exists ? bucket : std::nullopt;
+}
+
+const collide::DebugGeometry& Session::debug() const {
+  if (debug_revision_ != revision_) {
+    debug_ = world_->detector().debug();
+    debug_revision_ = revision_;
+  }
+  return debug_;
+}
+
+void Session::exchange_recall() {
+  if (auto report = recall_worker_.take(); report && report->id >= first_comparable_) {
+    recall_ = std::move(*report);
+    if (!recall_.rows.empty()) history_.recall.push(static_cast<float>(recall_.rows.front().recall));
+  }
+  if (offered_ == revision_ || !recall_worker_.ready()) return;
+  offered_ = revision_;
+  const collide::Frame frame = world_->positions();
+  Snapshot snapshot{.id = revision_,
+                    .x = {frame.x.begin(), frame.x.end()},
+                    .y = {frame.y.begin(), frame.y.end()},
+                    .z = {frame.z.begin(), frame.z.end()},
+                    .bodies = world_->bodies(),
+                    .settings = world_->collision(),
+                    .found = {}};
+  snapshot.found.push_back({world_->method().key, world_->detection().contacts});
+  recall_worker_.offer(std::move(snapshot));
+}
+
+void Session::forget_recall() {
+  recall_ = {};
+  first_comparable_ = revision_;
+}
+
+}  // namespace app

@@ -1,0 +1,107 @@
+#pragma once
+// The demo's state, without window, drawing or panel: a world, the time that drives it, and what is known about it.
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/overlays.h"
+#include "app/recall.h"
+#include "app/ring.h"
+#include "softbody/world.h"
+
+namespace app {
+
+struct SceneChoice {
+  std::string key, name, look_at;
+};
+
+struct History {
+  Ring detect_ms, solve_ms, contacts, recall;
+  void clear() { *this = {}; }
+};
+
+class Session {
+ public:
+  static constexpr double longest_elapsed = 0.5;  // s of real time that one advance() looks at; the rest is dropped
+  static constexpr int most_steps = 4;            // of one advance()
+  static constexpr double step_budget_ms = 25;    // no further step is begun in one advance() after this much
+  static constexpr double slowest = 0.02, fastest = 1.0;
+
+  /// scene_folder: where other scenes are found by their keys. Throws SceneError.
+  Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads);
+
+  // Time. The world moves in whole frames; advance() is told how much real time has passed.
+  bool paused = false;
+  bool slow_motion = false;
+  double slow_factor = 0.1;  // slowest .. fastest, of real time, in slow motion
+  void advance(double elapsed);
+  /// Pauses and does one step with the next advance().
+  void single_step();
+  /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
+  double pace() const { return pace_; }
+
+  // What is in the world.
+  const softbody::World& world() const { return *world_; }
+  const std::vector<SceneChoice>& scenes() const { return scenes_; }
+  /// Loads another scene with its own settings; on an error the present one stays and notice() says why.
+  void choose_scene(const std::string& key_or_path);
+  /// The scene from its start, with the settings in use.
+  void reset();
+  /// Method and settings as the scene has them.
+  void restore_settings();
+  bool can_drop() const { return world_->scene().dropper.has_value(); }
+  void drop();
+  /// The scene's sentence for this moment, or empty.
+  const std::string& caption() const;
+
+  // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
+  void set_method(std::string_view key);
+  void next_method();
+  void set_collision(const collide::Settings& settings, bool default_cell_size);
+  /// The bucket whose boxes the scene shows: always below the number of buckets.
+  const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
+  void select_bucket(std::optional<std::uint32_t> bucket);
+  /// The method's boxes, cells and loads on the current positions, computed once a state when first asked for.
+  const collide::DebugGeometry& debug() const;
+  /// The last comparison of the method in use with brute force: a few frames old, id 0 if there is none yet. Its
+  /// vertices still exist.
+  const RecallReport& recall() const { return recall_; }
+
+  Overlays overlays;
+  const History& history() const { return history_; }
+  /// Changes whenever anything about the positions or contacts may have changed.
+  std::uint64_t revision() const { return revision_; }
+  /// What went wrong last, for the user; empty again after the next successful action.
+  const std::string& notice() const { return notice_; }
+
+ private:
+  void start(const softbody::Scene& scene);
+  void run(double elapsed);
+  void step();
+  template <class Change>
+  void guarded(Change&& change);
+  void recover(const std::string& what);
+  void exchange_recall();
+  void forget_recall();
+  void follow_pace(double asked, int steps);
+
+  std::filesystem::path scene_folder_;
+  std::vector<SceneChoice> scenes_;
+  int threads_;
+  softbody::Scene scene_;  // as it was loaded: the world's own has the settings in use
+  std::unique_ptr<softbody::World> world_;
+  double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()
+  bool step_once_ = false;
+  double pace_ = 1, asked_ = 0, done_ = 0;  // s within the window of follow_pace()
+  std::uint64_t revision_ = 1, offered_ = 0, first_comparable_ = 0;
+  std::optional<std::uint32_t> selected_bucket_;
+  mutable collide::DebugGeometry debug_;
+  mutable std::uint64_t debug_revision_ = 0;
+  History history_;
+  RecallReport recall_;
+  std::string notice_;
+  RecallWorker recall_worker_;
+};
+
+}  // namespace app

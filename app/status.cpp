@@ -1,0 +1,163 @@
+#include "app/status.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/palette.h"
+
+namespace app {
+namespace {
+
+constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                   ImGuiWindowFlags_NoNav;
+constexpr double hint_seconds = 20, fade_seconds = 2;
+
+void dot(const Widgets& w, const glm::vec3& colour) {
+  const float radius = ImGui::GetFontSize() * 0.36f;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 centre{at.x + radius, at.y + 0.5f * ImGui::GetTextLineHeight()};
+  ImGui::GetWindowDrawList()->AddCircleFilled(centre, radius, to_imgui(colour), 24);
+  ImGui::Dummy({2 * radius + w.px(2), ImGui::GetTextLineHeight()});
+  ImGui::SameLine();
+}
+
+std::string recall_sentence(const Session& session) {
+  const RecallReport& recall = session.recall();
+  if (!recall.skipped.empty()) return "Recall " + recall.skipped;
+  if (recall.rows.empty()) return "Recall: measuring";
+  const RecallRow& row = recall.rows.front();
+  if (recall.reference == 0) return "Recall 1.0000   no contacts at the moment";
+  std::array<char, 32> number{};
+  // Rounded down: one missed contact of a million is not a recall of 1.
+  std::snprintf(number.data(), number.size(), "Recall %.4f   ", std::floor(row.recall * 1e4) / 1e4);
+  return number.data() + grouped(row.missed.size()) + " of " + grouped(recall.reference) + " contacts missed";
+}
+
+}  // namespace
+
+Light light_of(collide::Coverage coverage) {
+  switch (coverage) {
+    case collide::Coverage::exact:
+      return {{0.00f, 0.62f, 0.35f}, "Green", "exact: this method cannot miss a contact."};
+    case collide::Coverage::covered:
+      return {{0.93f, 0.62f, 0.00f}, "Amber", "every box fits a cell; contacts across cell faces can be missed."};
+    default:
+      return {{0.82f, 0.13f, 0.12f}, "Red", "a box is larger than a cell, so its corners skip cells."};
+  }
+}
+
+void draw_status(Widgets& w, const Session& session, const SceneArea& area) {
+  const Light light = light_of(session.world().detection().coverage);
+  const float margin = w.px(12);
+  const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
+  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::Begin("Status", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
+  dot(w, light.colour);
+  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
+  w.done("Coverage",
+         "What the method and its settings promise on this frame (§2.2). Green: complete. Amber: the paper's method, "
+         "and every box fits a cell. Red: the paper's method with boxes larger than a cell.");
+  ImGui::TextUnformatted(recall_sentence(session).c_str());
+  w.done("Live recall",
+         "Found true contacts over all true contacts: the driving method against brute force on the same frame, "
+         "measured beside the simulation.");
+  if (!session.notice().empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
+    ImGui::TextWrapped("%s", session.notice().c_str());
+    ImGui::PopStyleColor();
+    w.done("Notice", nullptr);
+  }
+  ImGui::End();
+}
+
+namespace {
+
+void legend_line(Widgets& w, const glm::vec3& colour, const char* text) {
+  w.chip(colour);
+  ImGui::SameLine();
+  ImGui::TextUnformatted(text);
+}
+
+void strain_scale(const Widgets& w) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = w.px(150), height = w.px(10);
+  constexpr int steps = 30;
+  for (int i = 0; i < steps; ++i) {
+    const float x0 = at.x + width * static_cast<float>(i) / steps,
+                x1 = at.x + width * static_cast<float>(i + 1) / steps;
+    const float t = 2 * (static_cast<float>(i) + 0.5f) / steps - 1;
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, at.y}, {x1, at.y + height}, to_imgui(diverging_colour(t)));
+  }
+  ImGui::Dummy({width, height});
+  ImGui::TextDisabled("-20 %%");
+  ImGui::SameLine(width - ImGui::CalcTextSize("+20 %").x + ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextDisabled("+20 %%");
+}
+
+void table_legend(const Session& session) {
+  const collide::DebugGeometry& debug = session.debug();
+  const Overlays& shown = session.overlays;
+  if (shown.boxes) {
+    ImGui::TextUnformatted(debug.boxes.empty()        ? "This method builds no boxes"
+                           : debug.box_bucket.empty() ? "Boxes in their body's colour"
+                                                      : "Boxes: one colour, one bucket");
+  }
+  if (shown.cells)
+    ImGui::TextUnformatted(debug.cells.empty() ? "This method hashes no cells" : "Occupied cells in grey");
+  if (session.selected_bucket()) {
+    ImGui::Text("Bucket %s: its boxes and cells", grouped(*session.selected_bucket()).c_str());
+  }
+}
+
+}  // namespace
+
+void draw_legends(Widgets& w, const Session& session, const SceneArea& area) {
+  const Overlays& shown = session.overlays;
+  const bool table = shown.boxes || shown.cells || session.selected_bucket();
+  if (!table && !shown.contacts && !shown.springs && !shown.missed) return;
+  const float margin = w.px(12);
+  ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  if (table) table_legend(session);
+  if (shown.contacts) {
+    legend_line(w, contact_between_colour, "contact between bodies");
+    legend_line(w, contact_inside_colour, "contact inside one body");
+    legend_line(w, contact_solid_colour, "contact with a solid");
+  }
+  if (shown.missed) legend_line(w, contact_missed_colour, "missed contact");
+  if (shown.springs) {
+    ImGui::TextUnformatted("Springs: shorter, longer than at rest");
+    strain_scale(w);
+  }
+  ImGui::End();
+}
+
+namespace {
+
+/// Text on the scene itself, centred, with a light edge that keeps it legible on any colour.
+void text_on_scene(const Widgets& w, const char* text, float y, const SceneArea& area, float alpha) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
+  const ImVec2 pad{w.px(10), w.px(4)};
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
+                      to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
+  draw->AddText(at, to_imgui(glm::vec3(0.15f), alpha), text);
+}
+
+}  // namespace
+
+void draw_caption(Widgets& w, const Session& session, const SceneArea& area, double seconds) {
+  const float line = ImGui::GetTextLineHeight() + w.px(14);
+  const float bottom = area.max.y - w.px(14);
+  if (!session.caption().empty()) text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f);
+  const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
+  if (left <= 0) return;
+  text_on_scene(w, "Drag to turn, wheel to zoom, D drops a body, F1 for help", bottom - line, area, left);
+}
+
+}  // namespace app

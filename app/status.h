@@ -1,0 +1,28 @@
+#pragma once
+// What stands over the scene whether or not the panel is open: the light of coverage with the live recall, legends of
+// the overlays, the caption of the moment, and hints for newcomers.
+
+#include "app/session.h"
+#include "app/widgets.h"
+
+namespace app {
+
+/// The part of the display that shows the scene, in ImGui units.
+struct SceneArea {
+  ImVec2 min, max;
+};
+
+struct Light {
+  glm::vec3 colour;
+  const char* name;      // the colour in words
+  const char* sentence;  // what it means
+};
+Light light_of(collide::Coverage coverage);
+
+/// The light, its sentence and the recall; below it the session's notice(), if any.
+void draw_status(Widgets& widgets, const Session& session, const SceneArea& area);
+void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area);
+/// `seconds`: how long the window has been open; the hint fades out after a while.
+void draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
+
+}  // namespace app

@@ -1,0 +1,148 @@
+#include "app/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace app {
+
+const Recorder::Widget* Recorder::find(std::string_view label) const {
+  const auto found = std::ranges::find(widgets, label, &Widget::label);
+  return found == widgets.end() ? nullptr : &*found;
+}
+
+ImU32 to_imgui(const glm::vec3& colour, float alpha) {
+  return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
+}
+
+std::string grouped(std::uint64_t number) {
+  std::string text = std::to_string(number);
+  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
+    text.insert(static_cast<std::size_t>(at), 1, ',');
+  }
+  return text;
+}
+
+void Widgets::done(const char* label, const char* tooltip) {
+  if (recorder_) {
+    const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
+    recorder_->widgets.push_back({label, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), enabled});
+  }
+  if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(px(320));
+  ImGui::TextUnformatted(tooltip);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool Widgets::button(const char* label, const char* tooltip, float width) {
+  const bool pressed = ImGui::Button(label, {width, 0});
+  done(label, tooltip);
+  return pressed;
+}
+
+bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::section(const char* label, bool open_at_first) {
+  const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  done(label, nullptr);
+  return open;
+}
+
+namespace {
+
+std::string hidden(const char* label) { return std::string("##") + label; }
+
+}  // namespace
+
+bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
+  const bool changed =
+      ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
+                     bool logarithmic) {
+  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed = ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+                     const char* tooltip) {
+  const bool changed = ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
+                                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+                     const char* tooltip) {
+  const bool changed = ImGui::InputScalar(hidden(label).c_str(), ImGuiDataType_U32, &value);
+  value = std::clamp(value, least, most);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
+  const bool open = ImGui::BeginCombo(hidden(label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
+  // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
+  if (!open) done(label, tooltip);
+  return open;
+}
+
+bool Widgets::choice(const char* label, bool selected, const char* tooltip) {
+  const bool chosen = ImGui::Selectable(label, selected);
+  done(label, tooltip);
+  return chosen;
+}
+
+void Widgets::row(const char* label, float column) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine(column);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+void Widgets::value(const std::string& text) {
+  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
+  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));
+  ImGui::TextUnformatted(text.c_str());
+}
+
+void Widgets::chip(const glm::vec3& colour) {
+  const float side = ImGui::GetFontSize() * 0.7f;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float y = at.y + 0.5f * (ImGui::GetTextLineHeight() - side);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, to_imgui(colour), px(2));
+  ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+}
+
+void Widgets::sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
+  ImGui::InvisibleButton(hidden(label).c_str(), size);
+  std::array<char, 96> tip{};
+  std::snprintf(tip.data(), tip.size(), "The last %zu frames, from 0 to %g %s.", Ring::capacity,
+                static_cast<double>(top), unit);
+  done(label, tip.data());
+
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));
+  std::array<ImVec2, Ring::capacity> points;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
+    points[i] = {at.x + x * size.x, at.y + size.y * (1.0f - std::clamp(ring[i] / top, 0.0f, 1.0f))};
+  }
+  draw->AddPolyline(points.data(), static_cast<int>(ring.size()), to_imgui(colour), ImDrawFlags_None, px(1.25f));
+}
+
+}  // namespace app

@@ -1,0 +1,75 @@
+#pragma once
+// Thin layer over Dear ImGui: every widget has its tooltip and, in tests, leaves its label and rectangle behind.
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "app/ring.h"
+
+namespace app {
+
+/// Where each widget of the last frame was. Installed by tests, which aim the mouse by it.
+struct Recorder {
+  struct Widget {
+    std::string label;
+    ImVec2 min, max;
+    bool enabled;
+  };
+  std::vector<Widget> widgets;
+
+  const Widget* find(std::string_view label) const;
+};
+
+ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
+
+/// "1,234,567"
+std::string grouped(std::uint64_t number);
+
+/// One frame of the panel. Labels are unique, also as ImGui's identifiers.
+class Widgets {
+ public:
+  explicit Widgets(float scale, Recorder* recorder = nullptr)
+      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), recorder_(recorder) {}
+
+  /// ImGui units of a length in the design's pixels.
+  float px(float design) const { return design * scale_; }
+
+  bool button(const char* label, const char* tooltip, float width = 0);
+  bool checkbox(const char* label, bool& value, const char* tooltip);
+  /// A section that folds; true if it is open.
+  bool section(const char* label, bool open_at_first);
+  bool slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip);
+  bool slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
+              bool logarithmic);
+  /// A logarithmic slider over whole numbers.
+  bool slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
+  /// A field for typing a number within the limits; takes effect with every digit.
+  bool number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
+  /// A choice from a list; ImGui::EndCombo() must follow if true. Items: choice().
+  bool begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags = 0);
+  bool choice(const char* label, bool selected, const char* tooltip);
+
+  /// Grey text that starts a row; what follows stands in the right column and takes its whole width.
+  void row(const char* label, float column);
+  /// Text that ends at the column's right edge, so that changing digits do not move.
+  void value(const std::string& text);
+  /// A square of colour in the line of text.
+  void chip(const glm::vec3& colour);
+  /// A curve of the last values between 0 and `top`, as wide as what is left of the line.
+  void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit);
+
+  /// Notes the last ImGui item as the widget `label`, and shows the tooltip while the mouse rests on it.
+  void done(const char* label, const char* tooltip);
+
+ private:
+  float scale_, usual_alpha_;
+  Recorder* recorder_;
+};
+
+}  // namespace app
