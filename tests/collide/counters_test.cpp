@@ -1,0 +1,108 @@
+// Counters on cases small enough to count by hand.
+
+#include <gtest/gtest.h>
+
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+/// The corners of a cube of 2 m: eight vertices, one in each octant.
+State cube(float at) {
+  State state;
+  std::vector<glm::vec3> corners;
+  for (int i = 0; i < 8; ++i) {
+    corners.push_back(glm::vec3(at) + 2.0f * glm::vec3(static_cast<float>(i & 1), static_cast<float>(i >> 1 & 1),
+                                                       static_cast<float>(i >> 2)));
+  }
+  state.add(corners);
+  return state;
+}
+
+Settings cells_of(float size, std::uint32_t buckets = 1001) {
+  Settings settings;
+  settings.cell_size = glm::vec3(size);
+  settings.buckets = buckets;
+  return settings;
+}
+
+TEST(Counters, OfBruteForceAreAllPairs) {
+  const Counters counters = detect("brute-force", cube(0), {}).counters;
+  EXPECT_EQ(counters.pair_tests, 28u);
+  EXPECT_EQ(counters.hashes, 0u);
+  EXPECT_EQ(counters.boxes, 0u);
+  Settings settings;
+  settings.self_collision = false;
+  EXPECT_EQ(detect("brute-force", cube(0), settings).counters.pair_tests, 0u);
+}
+
+TEST(Counters, OfTheLiteralMethodAreEightHashesABox) {
+  const Result result = detect("multi-level-sb", cube(1), cells_of(10));
+  EXPECT_EQ(result.counters.boxes, 8u);
+  EXPECT_EQ(result.counters.hashes, 64u);
+  EXPECT_EQ(result.counters.buckets_used, 1u);    // all corners lie in the cell 0, 0, 0,
+  EXPECT_EQ(result.counters.longest_bucket, 8u);  // each box once
+  EXPECT_EQ(result.counters.pair_tests, 28u);     // eight boxes of one vertex
+  EXPECT_EQ(result.coverage, Coverage::covered);
+}
+
+TEST(Counters, CountAPairOfBoxesOnceThoughItSharesManyBuckets) {
+  // Cells as large as the boxes: neighbours share up to four corners; 27 corner points fall into 27 cells.
+  const Result result = detect("multi-level-sb", cube(0), cells_of(1, 65537));
+  EXPECT_EQ(result.counters.buckets_used, 27u);
+  EXPECT_EQ(result.counters.longest_bucket, 8u);  // the middle of the body
+  EXPECT_EQ(result.counters.pair_tests, 28u);
+  EXPECT_EQ(result.coverage, Coverage::covered);
+  EXPECT_EQ(detect("multi-level-sb", cube(0), cells_of(1, 2)).counters.pair_tests, 28u);
+  EXPECT_EQ(detect("multi-level-sb", cube(0), cells_of(0.999f)).coverage, Coverage::exceeded);
+}
+
+TEST(Counters, OfTheLiteralMethodIncludeABoxWithItself) {
+  Settings settings = cells_of(10);
+  settings.levels = 0;
+  const Counters counters = detect("multi-level-sb", cube(1), settings).counters;
+  EXPECT_EQ(counters.boxes, 1u);
+  EXPECT_EQ(counters.hashes, 8u);
+  EXPECT_EQ(counters.pair_tests, 28u);
+}
+
+TEST(Counters, OfTheExactMethodAreOneHashACell) {
+  Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
+  EXPECT_EQ(counters.boxes, 8u);
+  EXPECT_EQ(counters.hashes, 8u);
+  EXPECT_EQ(counters.pair_tests, 28u);
+  Settings settings = cells_of(1.0f, 65537);
+  settings.levels = 0;
+  settings.tolerance = 0.2f;
+  counters = detect("multi-level-sb-exact", cube(0.5f), settings).counters;  // 0.4 .. 2.6: cells 0, 1, 2
+  EXPECT_EQ(counters.hashes, 27u);
+  EXPECT_EQ(counters.buckets_used, 27u);
+}
+
+TEST(Counters, OfGridHashAreVerticesAndVisitedCells) {
+  Settings settings = cells_of(1.5f, 65537);
+  settings.tolerance = 0.1f;
+  const Counters counters = detect("grid-hash", cube(0.5f), settings).counters;  // 0.5 and 2.5, far from 0, 1.5 and 3
+  EXPECT_EQ(counters.hashes, 16u);  // each vertex into its cell, and its cell visited
+  EXPECT_EQ(counters.buckets_used, 8u);
+  EXPECT_EQ(counters.pair_tests, 0u);
+  settings.cell_size = glm::vec3(100);
+  EXPECT_EQ(detect("grid-hash", cube(0.5f), settings).counters.pair_tests, 28u);
+}
+
+TEST(Counters, OfTheBoundingBoxMethodsFollowTheOverlap) {
+  State state = cube(0);
+  state.add({glm::vec3(2.05f), glm::vec3(3)});
+  state.add({glm::vec3(50), glm::vec3(51)});
+  Settings settings = cells_of(1);
+  EXPECT_EQ(detect("bounding-box", state, settings).counters.boxes, 3u);
+  EXPECT_EQ(detect("bounding-box", state, settings).counters.pair_tests, 28u + 1 + 1 + 16);
+  settings.self_collision = false;
+  EXPECT_EQ(detect("bounding-box", state, settings).counters.pair_tests, 16u);
+  EXPECT_EQ(detect("bounding-box-grid-hash", state, settings).counters.longest_bucket, 2u);
+  EXPECT_EQ(detect("bounding-box-grid-hash", state, settings).counters.buckets_used, 9u);  // 2 and 2.05 share a cell
+  EXPECT_EQ(detect("grid-hash", state, settings).counters.buckets_used, 11u);
+}
+
+}  // namespace
+}  // namespace collide::test

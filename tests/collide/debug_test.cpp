@@ -1,0 +1,106 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <numeric>
+
+#include "collide/cell_hash.h"
+#include "collide/reach.h"
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+DebugGeometry picture(std::string_view method, const State& state, const Settings& settings) {
+  Workers workers(1);
+  Result result;
+  const auto detector = find_method(method)->make();
+  detector->detect(state.frame(), settings, workers, result);
+  return detector->debug();
+}
+
+Settings settings_of(const State& state, float cell) {
+  Settings settings;
+  settings.tolerance = state.tolerance;
+  settings.cell_size = glm::vec3(cell);
+  return settings;
+}
+
+TEST(Debug, IsEmptyWithoutBoxesAndTable) {
+  const State state = named_states()[0].make();
+  for (const char* method : {"brute-force", "bounding-box"}) {
+    const DebugGeometry geometry = picture(method, state, settings_of(state, 0.5f));
+    EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.bucket_load.empty());
+  }
+  for (const Method& method : methods()) {
+    EXPECT_TRUE(method.make()->debug().boxes.empty()) << "before the first frame";
+  }
+}
+
+TEST(Debug, AgreesWithItselfAndWithTheHash) {
+  for (const NamedState& named : named_states()) {
+    const State state = named.make();
+    for (const Method& method : methods()) {
+      if (!method.uses_hash) continue;
+      const Settings settings = settings_of(state, 0.5f);
+      const DebugGeometry geometry = picture(method.key, state, settings);
+      const CellHash hash(settings);
+      ASSERT_EQ(geometry.bucket_load.size(), settings.buckets);
+      ASSERT_TRUE(std::is_sorted(geometry.cells.begin(), geometry.cells.end()));
+      ASSERT_EQ(std::adjacent_find(geometry.cells.begin(), geometry.cells.end()), geometry.cells.end());
+      ASSERT_LE(geometry.cells.size(), DebugGeometry::debug_cell_limit);
+      for (const auto& cell : geometry.cells) {
+        ASSERT_EQ(cell.bucket, hash.bucket(cell.index));
+        ASSERT_GT(geometry.bucket_load[cell.bucket], 0u);
+      }
+      ASSERT_EQ(geometry.box_first.size(), geometry.boxes.size() + 1);
+      ASSERT_EQ(geometry.box_first.back(), geometry.box_bucket.size());
+      if (!method.uses_levels) continue;
+      std::vector<std::uint32_t> load(settings.buckets, 0);
+      for (const std::uint32_t bucket : geometry.box_bucket) ++load[bucket];
+      ASSERT_EQ(load, geometry.bucket_load) << named.name << method.key;
+    }
+  }
+}
+
+TEST(Debug, OfTheLiteralMethodShowsCornersMinimumFirst) {
+  const State state = named_states()[1].make();
+  const Settings settings = settings_of(state, 0.2f);
+  const DebugGeometry geometry = picture("multi-level-sb", state, settings);
+  const CellHash hash(settings);
+  ASSERT_FALSE(geometry.boxes.empty());
+  for (std::size_t b = 0; b < geometry.boxes.size(); ++b) {
+    const auto& [lo, hi, body] = geometry.boxes[b];
+    EXPECT_EQ(geometry.box_bucket[geometry.box_first[b]], hash.bucket(hash.cell(lo.x, lo.y, lo.z)));
+    const auto cell = hash.cell(hi.x, lo.y, hi.z);
+    EXPECT_TRUE(
+        std::binary_search(geometry.cells.begin(), geometry.cells.end(), DebugGeometry::Cell{cell, hash.bucket(cell)}));
+  }
+}
+
+TEST(Debug, OfTheExactMethodShowsPaddedBoxesAndAllTheirCells) {
+  State state;
+  state.add({glm::vec3(0.2f), glm::vec3(1.2f, 0.8f, 0.8f)});
+  state.tolerance = 0.2f;
+  Settings settings = settings_of(state, 1);
+  settings.levels = 0;
+  const DebugGeometry geometry = picture("multi-level-sb-exact", state, settings);
+  ASSERT_EQ(geometry.boxes.size(), 1u);
+  EXPECT_NEAR(geometry.boxes[0].lo.x, 0.1, 1e-5);
+  EXPECT_NEAR(geometry.boxes[0].hi.x, 1.3, 1e-5);
+  ASSERT_EQ(geometry.cells.size(), 2u);
+  EXPECT_EQ(geometry.cells[0].index, (CellHash::Cell{0, 0, 0}));
+  EXPECT_EQ(geometry.cells[1].index, (CellHash::Cell{1, 0, 0}));
+}
+
+TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {
+  CellList cells;
+  CellHash hash{Settings{}};
+  for (std::int64_t i = 2'000'000; i-- > 0;) cells.add({i / 2, 0, 0}, hash);
+  const auto kept = cells.take();
+  ASSERT_EQ(kept.size(), DebugGeometry::debug_cell_limit);
+  EXPECT_EQ(kept.front().index[0], 0);
+  EXPECT_EQ(kept.back().index[0], static_cast<std::int64_t>(DebugGeometry::debug_cell_limit) - 1);
+}
+
+}  // namespace
+}  // namespace collide::test

@@ -1,0 +1,85 @@
+#include "collide/methods.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+TEST(Methods, HasTheSixOfTheCommandLine) {
+  EXPECT_EQ(method_keys(),
+            "brute-force, grid-hash, bounding-box, bounding-box-grid-hash, multi-level-sb, multi-level-sb-exact");
+  EXPECT_NE(find_method(default_method), nullptr);
+  EXPECT_EQ(find_method("nearly"), nullptr);
+}
+
+TEST(Methods, TellsThemApart) {
+  std::set<std::string_view> keys, names;
+  std::set<std::array<float, 3>> colours;
+  for (const Method& method : methods()) {
+    keys.insert(method.key);
+    names.insert(method.name);
+    colours.insert({method.colour.x, method.colour.y, method.colour.z});
+    EXPECT_EQ(method.exact, method.key != "multi-level-sb");
+  }
+  EXPECT_EQ(keys.size(), methods().size());
+  EXPECT_EQ(names.size(), methods().size());
+  EXPECT_EQ(colours.size(), methods().size());
+}
+
+TEST(Methods, NamesBodiesThatAreNotFinite) {
+  State state;
+  state.add({glm::vec3(0), glm::vec3(0.05f, 0, 0)});
+  state.add({glm::vec3(0), glm::vec3(0, NAN, 0)});
+  state.add({});
+  state.add({glm::vec3(0, 0.05f, 0)});
+  state.add({glm::vec3(0, 0, -INFINITY)});
+  for (const Method& method : methods()) {
+    const Result result = detect(method.key, state, Settings{});
+    EXPECT_EQ(result.non_finite_bodies, (std::vector<Index>{1, 4})) << method.key;
+    EXPECT_EQ(result.contacts, (std::vector<Contact>{{0, 1}, {0, 4}, {1, 4}})) << method.key;
+    EXPECT_EQ(result.self_contacts, 1u) << method.key;
+  }
+}
+
+TEST(Methods, LeavesOutEdgesAndPairsNearAtRest) {
+  const std::vector<glm::vec3> rest{glm::vec3(0), glm::vec3(1, 0, 0), glm::vec3(2, 0, 0), glm::vec3(2.05f, 0, 0)};
+  const std::array<std::array<Index, 2>, 1> edges{{{0, 1}}};
+  State state;
+  state.add(std::make_shared<const Shape>(4, edges, rest), std::vector<glm::vec3>(4, glm::vec3(3)));
+  for (const Method& method : methods()) {
+    EXPECT_EQ(detect(method.key, state, Settings{}).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
+        << method.key;
+  }
+}
+
+/// Numbers of boxes, cells and entries that would need days or all memory if any of them were taken at its word.
+TEST(Methods, AreBoundedForSettingsWithoutSense) {
+  State state;
+  std::mt19937 random(9);
+  for (int body = 0; body < 30; ++body) {
+    const float lo = uniform(random, 0, 3);
+    state.add(random_points(random, 162, lo, lo + 1));
+  }
+  Settings settings;
+  settings.tolerance = 0.02f;
+  const std::vector<Contact> expected = oracle(state, settings);
+  for (const Method& method : methods()) {
+    for (const float cell : {1e-30f, 1e-6f, 1e30f}) {
+      for (const std::uint32_t buckets : {1u, max_buckets}) {
+        settings.levels = max_levels;
+        settings.buckets = buckets;
+        settings.cell_size = glm::vec3(cell);
+        const Result result = detect(method.key, state, settings, 2);
+        if (!method.exact) continue;
+        EXPECT_EQ(result.contacts, expected) << method.key << ' ' << cell << ' ' << buckets;
+      }
+    }
+  }
+}
+
+}  // namespace
+}  // namespace collide::test

@@ -1,0 +1,83 @@
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+TEST(Settings, HaveNoProblemByDefaultAndAtTheirLimits) {
+  Settings settings;
+  EXPECT_EQ(problem(settings), "");
+  settings.levels = max_levels;
+  settings.buckets = max_buckets;
+  EXPECT_EQ(problem(settings), "");
+  settings.levels = 0;
+  settings.buckets = 1;
+  settings.tolerance = 1e-45f;
+  settings.cell_size = glm::vec3(1e-45f, 1, 3e38f);
+  EXPECT_EQ(problem(settings), "");
+}
+
+template <class Change>
+std::string problem_after(const Change& change) {
+  Settings settings;
+  change(settings);
+  return problem(settings);
+}
+
+TEST(Settings, NameTheProblemAndItsValue) {
+  EXPECT_EQ(problem_after([](Settings& s) { s.levels = 16; }), "levels is 16; it must be 0 to 15");
+  EXPECT_EQ(problem_after([](Settings& s) { s.levels = -1; }), "levels is -1; it must be 0 to 15");
+  EXPECT_EQ(problem_after([](Settings& s) { s.buckets = 0; }), "buckets is 0; it must be 1 to 16777216");
+  EXPECT_NE(problem_after([](Settings& s) { s.buckets = max_buckets + 1; }), "");
+  EXPECT_EQ(problem_after([](Settings& s) { s.primes[1] = 0; }), "prime is 0; it must be above 0");
+  for (const float bad :
+       {0.0f, -1.0f, std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    EXPECT_NE(problem_after([&](Settings& s) { s.tolerance = bad; }).find("tolerance"), std::string::npos);
+    EXPECT_NE(problem_after([&](Settings& s) { s.cell_size.y = bad; }).find("cell size"), std::string::npos);
+  }
+}
+
+TEST(HashWarning, NamesPrimesThatLoseOrMixAxes) {
+  Settings settings;
+  EXPECT_EQ(hash_warning(settings), "");
+  settings.buckets = 101;
+  EXPECT_EQ(hash_warning(settings), "");
+  settings.primes = {7, 11, 112};
+  EXPECT_EQ(hash_warning(settings), "primes 11 and 112 are equal modulo 101 buckets, so two axes are mixed");
+  settings.primes = {7, 202, 5};
+  EXPECT_EQ(hash_warning(settings), "prime 202 is 0 modulo 101 buckets, so its axis is lost");
+  settings.buckets = 1;
+  EXPECT_NE(hash_warning(settings).find("; "), std::string::npos);
+}
+
+TEST(DefaultCellSize, IsTheLargestBoxPlusTheTolerance) {
+  State state;
+  state.add({glm::vec3(0), glm::vec3(1, 2, 4)});
+  state.add({glm::vec3(10), glm::vec3(13, 11, 11)});
+  state.add({glm::vec3(0), glm::vec3(NAN, 100, 100)});
+  EXPECT_EQ(default_cell_size(state.frame(), 0, 0.5f), glm::vec3(3.5f, 2.5f, 4.5f));
+  EXPECT_EQ(default_cell_size(state.frame(), 1, 0.5f), glm::vec3(2.0f, 2.5f, 4.5f));
+  EXPECT_EQ(default_cell_size(state.frame(), 3, 0.5f), glm::vec3(2.0f, 1.5f, 2.5f));
+  EXPECT_EQ(default_cell_size(state.frame(), 9, 0.5f), glm::vec3(0.875f, 0.75f, 1.0f));
+}
+
+TEST(DefaultCellSize, IsAllowedAndCoversOnEveryState) {
+  for (const NamedState& named : named_states()) {
+    const State state = named.make();
+    for (int levels = 0; levels <= max_levels; ++levels) {
+      Settings settings;
+      settings.tolerance = state.tolerance;
+      settings.levels = levels;
+      settings.cell_size = default_cell_size(state.frame(), levels, state.tolerance);
+      EXPECT_EQ(problem(settings), "") << named.name;
+      if (named.name.find("scattered") == 0 || named.name.find("toler") != std::string::npos) continue;  // beyond float
+      EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered) << named.name << levels;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace collide::test

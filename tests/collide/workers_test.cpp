@@ -1,0 +1,95 @@
+#include "collide/workers.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+#include <thread>
+#include <vector>
+
+namespace collide::test {
+namespace {
+
+TEST(Workers, RunEveryThreadOnceWithTheCallerAsThread0) {
+  for (const int threads : {1, 2, 3, 8}) {
+    Workers workers(threads);
+    EXPECT_EQ(workers.threads(), threads);
+    const auto caller = std::this_thread::get_id();
+    for (int repeat = 0; repeat < 200; ++repeat) {
+      std::vector<int> calls(static_cast<std::size_t>(threads), 0);
+      bool caller_is_0 = false;
+      workers.run([&](int thread) {
+        ++calls[static_cast<std::size_t>(thread)];
+        if (thread == 0) caller_is_0 = std::this_thread::get_id() == caller;
+      });
+      EXPECT_EQ(calls, std::vector<int>(static_cast<std::size_t>(threads), 1));
+      EXPECT_TRUE(caller_is_0);
+    }
+  }
+}
+
+TEST(Workers, NeedAThread) { EXPECT_THROW(Workers(0), std::invalid_argument); }
+
+TEST(Workers, SeeEachOthersDataBehindABarrier) {
+  Workers workers(3);
+  std::array<int, 3> written{}, sums{};
+  workers.run([&](int thread) {
+    const auto own = static_cast<std::size_t>(thread);
+    for (int round = 1; round <= 100; ++round) {
+      written[own] = round * (thread + 1);
+      workers.barrier();
+      sums[own] = written[0] + written[1] + written[2];
+      workers.barrier();
+    }
+  });
+  EXPECT_EQ(sums, (std::array<int, 3>{600, 600, 600}));
+}
+
+TEST(Workers, RethrowAndCanBeUsedAgain) {
+  Workers workers(3);
+  for (int culprit = 0; culprit < 3; ++culprit) {
+    std::atomic<int> others = 0;
+    EXPECT_THROW(workers.run([&](int thread) {
+      if (thread == culprit) throw std::length_error("too much");
+      ++others;
+    }),
+                 std::length_error);
+    EXPECT_EQ(others, 2);
+  }
+  std::atomic<int> calls = 0;
+  workers.run([&](int) { ++calls; });
+  EXPECT_EQ(calls, 3);
+}
+
+TEST(Workers, DoNotWaitAtABarrierForOneThatHasThrown) {
+  Workers workers(3);
+  for (int repeat = 0; repeat < 100; ++repeat) {
+    std::atomic<int> got_past = 0;
+    EXPECT_THROW(workers.run([&](int thread) {
+      workers.barrier();
+      if (thread == repeat % 3) throw std::runtime_error("failed");
+      workers.barrier();
+      ++got_past;
+      workers.barrier();
+    }),
+                 std::runtime_error);
+    EXPECT_EQ(got_past, 0);
+    workers.run([&](int) { workers.barrier(); });
+  }
+}
+
+TEST(PartOf, CutsInOrderAndEvenly) {
+  for (const std::size_t count : {0u, 1u, 7u, 100u}) {
+    std::size_t next = 0;
+    for (int thread = 0; thread < 3; ++thread) {
+      const Part part = part_of(count, thread, 3);
+      EXPECT_EQ(part.begin, next);
+      EXPECT_LE(part.end - part.begin, count / 3 + 1);
+      next = part.end;
+    }
+    EXPECT_EQ(next, count);
+  }
+}
+
+}  // namespace
+}  // namespace collide::test
