@@ -79,6 +79,12 @@ Particle Dynamics::particle(BodyId id, Index vertex) const {
   return {body.origin + glm::dvec3(x_[0][s], x_[1][s], x_[2][s]), glm::dvec3(v_[0][s], v_[1][s], v_[2][s])};
 }
 
+glm::dvec3 Dynamics::solid_impulse(BodyId id) const {
+  const LaneVector& j = batches_[bodies_[id].batch].impulse;
+  const int lane = bodies_[id].lane;
+  return {j.x[lane], j.y[lane], j.z[lane]};
+}
+
 double Dynamics::fastest(BodyId id) const {
   const Body& body = bodies_[id];
   const auto count = static_cast<Index>(prototype(id).mesh.vertices.size());

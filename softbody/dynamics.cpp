@@ -4,8 +4,6 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "softbody/integrators.h"
 
@@ -27,7 +25,8 @@ void Dynamics::set_plan(const Plan& plan) {
     if (plan.has(stage)) force_stages_.push_back(run);
   for (const auto& [stage, run] : solids)
     if (plan.has(stage)) solid_stages_.push_back(run);
-  rolling_ = plan.has(Stage::rolling_resistance);
+  resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
+                 plan.has(Stage::rolling_resistance)};
   has_gravity_ = plan.has(Stage::gravity);
 }
 
@@ -63,7 +62,7 @@ bool Dynamics::moves(const Batch& b) {
 int Dynamics::advance(double seconds) {
   moving_.clear();
   for (Batch& b : batches_) {
-    b.impulse.fill(0.0f);
+    b.impulse = {};
     if (!moves(b)) continue;
     moving_.push_back(&b);
     prepare_solids(b, seconds);
@@ -139,8 +138,14 @@ void Dynamics::solids(Batch& b, float h) {
 void Dynamics::drift(Batch& b, float h) { kernels_.drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
 
 SolidArguments Dynamics::solid_arguments(Batch& b, float h, double friction) const {
-  return {b.particles(),   h, float(b.prototype->particle_mass), float(friction), 0.0f, {}, b.moves.data(),
-          b.impulse.data()};
+  return {b.particles(),
+          h,
+          float(b.prototype->particle_mass),
+          float(friction),
+          0.0f,
+          {},
+          b.moves.data(),
+          {b.impulse.x, b.impulse.y, b.impulse.z}};
 }
 
 void Dynamics::solid_spheres(Batch& b, float h) {
@@ -191,58 +196,6 @@ void Dynamics::prepare_solids(Batch& b, double seconds) {
 double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
   const double fall = glm::length(scene_.gravity) * seconds;
   return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius;
-}
-
-void Dynamics::finish_frame() {
-  for (BodyId id = 0; id < bodies_.size(); ++id) {
-    if (!bodies_[id].moves()) continue;
-    if (rolling_ && solid_impulse(id) > 0 && prototype(id).mesh.closed) resist_rolling(id);
-    follow(id);
-  }
-}
-
-/// Rolling resistance: a torque against the body's rotation of coefficient * radius * normal force, at most what stops
-/// it. It is applied as a rigid rotation, so that it changes neither the shape nor the linear momentum.
-void Dynamics::resist_rolling(BodyId id) {
-  const Prototype& p = prototype(id);
-  const auto count = static_cast<Index>(p.mesh.vertices.size());
-  glm::dvec3 centre(0.0), drift(0.0);
-  for (Index i = 0; i < count; ++i) {
-    const Particle q = particle(id, i);
-    centre += q.position / double(count);
-    drift += q.velocity / double(count);
-  }
-  glm::dvec3 momentum(0.0);
-  glm::dmat3 inertia(0.0);
-  for (Index i = 0; i < count; ++i) {
-    const Particle q = particle(id, i);
-    const glm::dvec3 r = q.position - centre;
-    momentum += p.particle_mass * glm::cross(r, q.velocity - drift);
-    inertia += p.particle_mass * (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r));
-  }
-  const double size = glm::length(momentum);
-  if (size <= 0 || glm::determinant(inertia) <= 1e-12 * inertia[0][0] * inertia[0][0] * inertia[0][0]) return;
-  const double limit = p.material.rolling_resistance * p.radius * solid_impulse(id);
-  const glm::dvec3 lost = glm::inverse(inertia) * (momentum * std::min(1.0, limit / size));
-  for (Index i = 0; i < count; ++i) {
-    const glm::dvec3 change = glm::cross(lost, particle(id, i).position - centre);
-    for (int k = 0; k < 3; ++k) v_[std::size_t(k)][slot(bodies_[id], i)] -= float(change[k]);
-  }
-}
-
-/// Moves the body's origin when its first particle has gone further than four radii from it, by a multiple of 1/64 m
-/// that floats of that size hold without loss.
-void Dynamics::follow(BodyId id) {
-  Body& body = bodies_[id];
-  const std::size_t first = slot(body, 0);
-  const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
-  if (glm::length(away) <= 4 * prototype(id).radius) return;
-  for (int k = 0; k < 3; ++k) {
-    const double shift = std::round(away[k] * 64) / 64;
-    body.origin[k] += shift;
-    for (std::size_t i = 0; i < prototype(id).mesh.vertices.size(); ++i)
-      x_[std::size_t(k)][first + i * lanes] -= float(shift);
-  }
 }
 
 }  // namespace softbody

@@ -16,9 +16,9 @@ struct Batch {
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
-  alignas(32) std::array<float, lanes> moves{};    // 1: integrated; 0: asleep, held or an empty lane
-  alignas(32) std::array<float, lanes> impulse{};  // N s, of solids along their normals, in the last advance()
-  bool near_ground = false;                        // for the frame at hand
+  alignas(32) std::array<float, lanes> moves{};  // 1: integrated; 0: asleep, held or an empty lane
+  LaneVector impulse{};                          // N s, of solids along their normals, in the last advance()
+  bool near_ground = false;                      // for the frame at hand
   std::vector<const SolidSphere*> near_spheres;
 
   std::size_t particles() const { return prototype->mesh.vertices.size(); }
@@ -59,8 +59,8 @@ class Dynamics {
   int advance(double seconds);
   /// Substeps that advance(seconds) would take now.
   int substeps(double seconds) const;
-  /// Once a frame, after advance(): rolling resistance, then body origins follow their bodies.
-  void finish_frame();
+  /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
+  void finish_frame(double seconds);
 
   // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
   std::span<Batch* const> share(int thread) const;
@@ -77,7 +77,8 @@ class Dynamics {
   const Prototype& prototype(BodyId id) const { return *batches_[bodies_[id].batch].prototype; }
   Particle particle(BodyId id, Index vertex) const;
   double fastest(BodyId id) const;  // m/s, of its particles
-  double solid_impulse(BodyId id) const { return batches_[bodies_[id].batch].impulse[std::size_t(bodies_[id].lane)]; }
+  /// N s, what solids gave to a body along their normals in the last advance().
+  glm::dvec3 solid_impulse(BodyId id) const;
   /// World positions, bodies in order of their ids. Every span has one value a vertex.
   void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
   std::uint64_t hash() const;  // FNV-1a over the bits of origins, positions and velocities in order of the ids
@@ -111,7 +112,7 @@ class Dynamics {
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
   void prepare_solids(Batch& batch, double seconds);
-  void resist_rolling(BodyId id);
+  void resist(BodyId id, double seconds);
   void follow(BodyId id);
   void update_moves(const Body& body);
 
@@ -121,7 +122,10 @@ class Dynamics {
   void (*integrate_)(Dynamics&, int, float) = nullptr;
   std::vector<BatchStage> force_stages_;
   std::vector<SolidStage> solid_stages_;
-  bool rolling_ = false, has_gravity_ = false;
+  struct {
+    bool internal, rebound, rolling;
+  } resistance_{};
+  bool has_gravity_ = false;
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
   Components x_, v_, f_;

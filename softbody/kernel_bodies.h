@@ -132,7 +132,7 @@ SB_INLINE void drift(std::size_t particles, float h, const float* moves, Field<c
 /// of normal velocity acts as an impulse, and Coulomb friction takes at most `friction` times it from the tangential
 /// velocity. A particle that is inside already comes out at a tenth of its depth a step, at most 1 m/s.
 SB_INLINE void solid(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> n, Vec<Lane<float>>& v,
-                     Lane<float>& impulse) {
+                     Vec<Lane<float>>& impulse) {
   using V = Lane<float>;
   const V zero{}, moves = load(s.moves);
   const float inverse_h = 1.0f / s.h;
@@ -143,14 +143,14 @@ SB_INLINE void solid(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> 
   const V slip = square_root(dot(tangential, tangential));
   const V lost = smaller(s.friction * change, slip) / larger(slip, zero + std::numeric_limits<float>::min());
   v = v + change * n - lost * tangential;
-  impulse += s.mass * change;
+  impulse = impulse + (s.mass * change) * n;
 }
 
 SB_INLINE void sphere(const SolidArguments& s, Field<const float> x, Field<float> v) {
   using V = Lane<float>;
   const V zero{}, tiny = zero + std::numeric_limits<float>::min();
   const Vec<V> centre{load(s.centre.x), load(s.centre.y), load(s.centre.z)};
-  V impulse = load(s.impulse);
+  Vec<V> impulse = load(s.impulse, 0);
   for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
     const Vec<V> d = load(x, at) - centre;
     const V distance = square_root(dot(d, d));
@@ -160,19 +160,19 @@ SB_INLINE void sphere(const SolidArguments& s, Field<const float> x, Field<float
     solid(s, distance - s.radius, n, velocity, impulse);
     store(v, at, velocity);
   }
-  store(s.impulse, impulse);
+  store(s.impulse, 0, impulse);
 }
 
 SB_INLINE void ground(const SolidArguments& s, Field<const float> x, Field<float> v) {
   using V = Lane<float>;
   const V zero{}, height = load(s.centre.y);
-  V impulse = load(s.impulse);
+  Vec<V> impulse = load(s.impulse, 0);
   for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
     Vec<V> velocity = load(v, at);
     solid(s, load(x.y + at) - height, {zero, zero + 1.0f, zero}, velocity, impulse);
     store(v, at, velocity);
   }
-  store(s.impulse, impulse);
+  store(s.impulse, 0, impulse);
 }
 
 SB_INLINE void extent(std::size_t particles, Field<const float> x, Field<const float> v, Extent& e) {

@@ -45,7 +45,7 @@ struct SolidArguments {
   float radius;       // m, spheres only
   LaneVector centre;  // m; for the ground only y, its height
   const float* moves;
-  float* impulse;  // N s, lanes values: the normal impulses are added here
+  Field<float> impulse;  // N s, lanes values each: the normal impulses are added here
 };
 
 struct Extent {

@@ -45,6 +45,17 @@ const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scen
 
 const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
+const char* damping(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.material.internal_damping > 0; }) ? nullptr
+                                                                                   : "no material has internal damping";
+}
+
+const char* rebound(const Facts& f) {
+  if (!f.scene.ground && f.scene.spheres.empty()) return "no solid to rebound from";
+  return f.any([](const Prototype& p) { return p.material.rebound_speed > 0; }) ? nullptr
+                                                                                : "no material has a rebound speed";
+}
+
 const char* rolling(const Facts& f) {
   if (!f.scene.ground && f.scene.spheres.empty()) return "no solid to roll on";
   return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
@@ -71,6 +82,8 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::integrate, "integrate", needed},
     {Stage::solid_spheres, "solid-spheres", spheres},
     {Stage::ground, "ground", ground},
+    {Stage::internal_damping, "internal-damping", damping},
+    {Stage::rebound_damping, "rebound-damping", rebound},
     {Stage::rolling_resistance, "rolling-resistance", rolling},
     {Stage::detect, "detect", contacts},
     {Stage::sleep, "sleep", sleep},

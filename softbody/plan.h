@@ -22,6 +22,8 @@ enum class Stage {
   integrate,
   solid_spheres,
   ground,
+  internal_damping,
+  rebound_damping,
   rolling_resistance,
   detect,
   sleep,

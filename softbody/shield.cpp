@@ -19,8 +19,9 @@ void Shield::evaluate(collide::Part part, Field<const float> x, Field<const floa
     force[i] = glm::vec3(0.0f);
     const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
     const float s = glm::dot(d, p.normal);
-    const float weight = 1 - (glm::dot(d, d) - s * s) / (h * h);
-    if (weight <= 0 || s >= h) continue;
+    const float beyond = std::min(s, 0.0f);
+    const float weight = 1 - (glm::dot(d, d) - beyond * beyond) / (h * h);
+    if (weight <= 0) continue;
     const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
     const float separating = glm::dot(velocity, p.normal);
     const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);

@@ -2,13 +2,14 @@
 // The response to the detector's contacts. "A tolerance force that acts like a shield" is the paper's (§2.3); its law
 // is ours: along a unit normal n, fixed for a frame, two particles with separation d push each other apart by
 //
-//   F = k w(t) min(h - s, h) clamp(1 - u / v, 0, 3)        s = d . n,  t^2 = d^2 - s^2,  w = 1 - (t / h)^2,
+//   F = k w min(h - s, h) clamp(1 - u / v, 0, 3)    s = d . n,  w = 1 - (d^2 - s_^2) / h^2,  s_ = min(s, 0),
 //
-// h the shield's thickness, k its stiffness, u the speed at which they separate: Hunt and Crossley's damping (1975),
-// under which nothing is thrown back faster than v. Coulomb friction, made viscous below its limit, acts across n.
-// Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still pushed
-// out; elsewhere it is the line between the two. k is shared among the contacts of a particle: a wide shield is not
-// stiffer.
+// which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump.
+// h is the shield's thickness, k its stiffness, u the speed at which the two separate: Hunt and Crossley's damping
+// (1975), under which nothing is thrown back faster than v. Coulomb friction, made viscous below its limit, acts across
+// n. Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still
+// pushed out; elsewhere it is the line between the two. k is shared among the contacts of a particle: a wide shield is
+// not stiffer.
 
 #include <cstdint>
 #include <span>
@@ -54,7 +55,7 @@ struct Shield {
   void group(std::size_t batches, const auto& batch_of);
 
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
-  static float stiffness_bound(float k) { return approach_limit * k; }                                   // N/m
+  static float stiffness_bound(float k) { return 4.0f / 3 * approach_limit * k; }                        // N/m
   static float damping_bound(float k, float thickness) { return 1.5f * k * thickness / rebound_speed; }  // N s/m
 };
 

@@ -165,7 +165,7 @@ void World::step() {
     s.dynamics.set_contacts(s.bodies, s.vertex_body, s.result.contacts, s.shield);
   }
   s.profile.substeps = s.dynamics.advance(s.options.frame_time);
-  s.dynamics.finish_frame();
+  s.dynamics.finish_frame(s.options.frame_time);
   s.gather();
   s.profile.solve_ms = ms_since(start);
   s.detect();

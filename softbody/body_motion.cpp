@@ -1,0 +1,85 @@
+// Dynamics: what acts once a frame on a body as a whole, by its rigid motion.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+#include "softbody/dynamics.h"
+
+namespace softbody {
+
+void Dynamics::finish_frame(double seconds) {
+  for (BodyId id = 0; id < bodies_.size(); ++id) {
+    if (!bodies_[id].moves()) continue;
+    if (resistance_.internal || resistance_.rebound || resistance_.rolling) resist(id, seconds);
+    follow(id);
+  }
+}
+
+/// What resists a body's motion as a whole, found from its rigid part v + w x r:
+/// internal damping relaxes the particles' velocities towards it, at the material's rate, and changes neither linear
+/// nor angular momentum (Mueller et al. 2007, section 3.5); rolling resistance takes up to coefficient * radius *
+/// normal impulse of the angular momentum; rebound damping is Hunt and Crossley's (1975): a contact force N that acts
+/// on a body which moves along it at u becomes N (1 - u / rebound_speed).
+void Dynamics::resist(BodyId id, double seconds) {
+  const Prototype& p = prototype(id);
+  const Material& m = p.material;
+  const double rate = resistance_.internal ? m.internal_damping * seconds : 0, share = rate / (1 + rate);
+  const glm::dvec3 impulse = solid_impulse(id);
+  const double normal = glm::length(impulse);
+  if (share <= 0 && normal <= 0) return;
+  const Body& body = bodies_[id];
+  const auto count = static_cast<Index>(p.mesh.vertices.size());
+  const auto read = [&](const Components& c, Index i) {
+    const std::size_t s = slot(body, i);
+    return glm::dvec3(c[0][s], c[1][s], c[2][s]);
+  };
+  glm::dvec3 centre(0.0), velocity(0.0);
+  for (Index i = 0; i < count; ++i) {
+    centre += read(x_, i) / double(count);
+    velocity += read(v_, i) / double(count);
+  }
+  glm::dvec3 momentum(0.0);  // angular, and inertia, both a unit particle mass
+  glm::dmat3 inertia(0.0);
+  for (Index i = 0; i < count; ++i) {
+    const glm::dvec3 r = read(x_, i) - centre;
+    momentum += glm::cross(r, read(v_, i) - velocity);
+    inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
+  }
+  if (!(glm::determinant(inertia) > 1e-12 * inertia[0][0] * inertia[1][1] * inertia[2][2]))
+    return;  // a line or a point
+  const glm::dvec3 spin = glm::inverse(inertia) * momentum;
+  glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
+  if (const double size = p.particle_mass * glm::length(momentum); resistance_.rolling && p.mesh.closed && size > 0)
+    lost_spin = spin * std::min(1.0, m.rolling_resistance * p.radius * normal / size);
+  if (resistance_.rebound && m.rebound_speed > 0 && normal > 0) {
+    const glm::dvec3 n = impulse / normal;
+    lost_velocity = n * glm::dot(velocity, n) * std::min(1.0, normal / (m.mass * m.rebound_speed));
+  }
+  for (Index i = 0; i < count; ++i) {
+    const glm::dvec3 r = read(x_, i) - centre, v = read(v_, i);
+    const glm::dvec3 damped =
+        v + share * (velocity + glm::cross(spin, r) - v) - lost_velocity - glm::cross(lost_spin, r);
+    for (int k = 0; k < 3; ++k) v_[std::size_t(k)][slot(body, i)] = float(damped[k]);
+  }
+}
+
+/// Moves the body's origin when its first particle has gone further than four radii from it, by a multiple of 1/64 m
+/// that floats of that size hold without loss.
+void Dynamics::follow(BodyId id) {
+  Body& body = bodies_[id];
+  const std::size_t first = slot(body, 0);
+  const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
+  if (glm::length(away) <= 4 * prototype(id).radius) return;
+  for (int k = 0; k < 3; ++k) {
+    const double shift = std::round(away[k] * 64) / 64;
+    body.origin[k] += shift;
+    for (std::size_t i = 0; i < prototype(id).mesh.vertices.size(); ++i)
+      x_[std::size_t(k)][first + i * lanes] -= float(shift);
+  }
+}
+
+}  // namespace softbody
