@@ -54,6 +54,9 @@ void set_colours(ImVec4* colours) {
   colours[ImGuiCol_HeaderHovered] = rgba(accent, 0.20f);
   colours[ImGuiCol_HeaderActive] = rgba(accent, 0.28f);
   colours[ImGuiCol_Separator] = rgba(ink, 0.12f);
+  colours[ImGuiCol_ResizeGrip] = rgba(ink, 0.0f);
+  colours[ImGuiCol_ResizeGripHovered] = rgba(accent, 0.25f);
+  colours[ImGuiCol_ResizeGripActive] = rgba(accent, 0.45f);
   colours[ImGuiCol_Tab] = rgba(ink, 0.05f);
   colours[ImGuiCol_TabHovered] = rgba(accent, 0.22f);
   colours[ImGuiCol_TableHeaderBg] = rgba(ink, 0.06f);

@@ -13,26 +13,27 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A shader's text, and its files in the order of the source-string numbers that its #line directives carry.
+/// A shader's text, and where each of its lines comes from. (Drivers do not agree on #line, and Mesa mixes files up.)
 struct Source {
+  struct Origin {
+    fs::path file;
+    int line;
+  };
   std::string text;
-  std::vector<fs::path> files;
+  std::vector<Origin> lines;
 };
 
 void append(Source& source, const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) throw ShaderError(file.string() + ": cannot read this shader");
-  const std::size_t number = source.files.size();
-  source.files.push_back(file);
   std::string line;
   for (int n = 1; std::getline(stream, line); ++n) {
     if (line.starts_with("#include \"")) {
       const std::size_t name = line.find('"') + 1;
-      source.text += "#line 1 " + std::to_string(source.files.size()) + "\n";
       append(source, file.parent_path() / line.substr(name, line.rfind('"') - name));
-      source.text += "#line " + std::to_string(n + 1) + " " + std::to_string(number) + "\n";
     } else {
       source.text += line + "\n";
+      source.lines.push_back({file, n});
     }
   }
 }
@@ -46,18 +47,21 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
   return log.c_str();
 }
 
-/// Puts a file's name before what the driver says: Mesa writes "0:12(5): ", NVIDIA "0(12) : ", others "ERROR: 0:12: ".
+/// Puts file and line before what the driver says: Mesa writes "0:12(5): ", NVIDIA "0(12) : ", others "ERROR: 0:12: ".
 std::string readable(const std::string& log, const Source& source) {
-  static const std::regex place(R"((\d+)[:(](\d+))");
+  static const std::regex place(R"(\d+[:(](\d+)\S*\s*:?\s*)");
   std::istringstream lines(log);
   std::string result, line;
   while (std::getline(lines, line)) {
     std::smatch match;
-    const bool found = std::regex_search(line, match, place);
-    const std::size_t number = found ? std::stoul(match[1]) : 0;
-    const std::string at = found ? ":" + match[2].str() : "";
-    result += (result.empty() ? "" : "\n") + source.files[std::min(number, source.files.size() - 1)].string() + at +
-              ": " + line;
+    if (!result.empty()) result += "\n";
+    const std::size_t number = std::regex_search(line, match, place) ? std::stoul(match[1]) : 0;
+    if (number >= 1 && number <= source.lines.size()) {
+      const Source::Origin& origin = source.lines[number - 1];
+      result += origin.file.string() + ":" + std::to_string(origin.line) + ": " + match.suffix().str();
+    } else {
+      result += line;
+    }
   }
   return result;
 }

@@ -47,7 +47,7 @@ struct Renderer::Passes {
   void draw_scene(const Viewport& viewport, const FrameData& frame);
   FrameBlock describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
 
-  glm::vec3 to_light = glm::normalize(glm::vec3(0.45f, 1.0f, 0.35f));
+  glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
   LightView light{};
   Occlusion occlusion;
   ShadowMap shadow_map;
@@ -81,10 +81,7 @@ void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, co
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.id());
   occlusion.update(frame);
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
-  const glm::vec3 eye = camera.eye();
-  bodies.update(frame, occlusion, [&](const glm::vec3& place) {
-    return pixels_at_one_metre / std::max(glm::distance(place, eye), 1e-3f);
-  });
+  bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
   spheres.update(frame, occlusion);
 }
 

@@ -1,15 +1,18 @@
 uniform samplerBuffer occluders;  // spheres: centre, radius
 uniform sampler2D floor_map;      // how much of the sky the floor sees, tinted by what is in the way
 
-// Part of the sky that `count` spheres from `first` on leave to a point (Quilez, "sphere ambient occlusion").
+// Part of the sky that `count` spheres from `first` on leave to a point (Quilez, "sphere ambient occlusion"). A sphere's
+// share falls to nothing at 2.2 of its radii, so that none is missed when one leaves the list.
 float sky_seen(vec3 position, vec3 normal, uint first, uint count) {
+  const float least = 1.0 / (2.2 * 2.2);
   float seen = 1.0;
   for (uint i = 0u; i < count; ++i) {
     vec4 sphere = texelFetch(occluders, int(first + i));
     vec3 to = sphere.xyz - position;
     float squared = max(dot(to, to), sphere.w * sphere.w);
-    float facing = max(dot(normal, to) * inversesqrt(squared) * 0.85 + 0.15, 0.0);
-    seen *= 1.0 - 0.85 * facing * sphere.w * sphere.w / squared;
+    float share = max((sphere.w * sphere.w / squared - least) / (1.0 - least), 0.0);
+    float facing = max(dot(normal, to) * inversesqrt(squared) * 0.8 + 0.2, 0.0);
+    seen *= 1.0 - 0.85 * facing * share;
   }
   return seen;
 }

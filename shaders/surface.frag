@@ -17,7 +17,9 @@ void main() {
   vec3 half_way = normalize(to_eye + frame.to_light.xyz);
   vec3 base = linear(albedo);
 
-  float facing = max((dot(normal, frame.to_light.xyz) + 0.12) / 1.12, 0.0);
+  // Lambert's law, but coming to 0 smoothly: the edge of the light on a sphere is soft.
+  float cosine = max(dot(normal, frame.to_light.xyz), 0.0);
+  float facing = 1.1 * cosine * cosine / (cosine + 0.1);
   float lit = facing > 0.0 ? light_reaching(world_position, normal) : 0.0;
   vec3 key = vec3(0.86, 0.83, 0.79) * facing * lit;
   vec3 sky = vec3(0.40, 0.43, 0.48) * seen;
@@ -26,6 +28,6 @@ void main() {
 
   float gloss = pow(max(dot(normal, half_way), 0.0), 28.0);
   float edge = pow(1.0 - max(dot(normal, to_eye), 0.0), 4.0);
-  colour += vec3(0.10) * gloss * lit * facing + vec3(0.16, 0.17, 0.19) * edge * seen * (0.5 + 0.5 * normal.y);
+  colour += vec3(0.10) * gloss * lit * facing + vec3(0.09, 0.10, 0.11) * edge * seen * (0.5 + 0.5 * normal.y);
   fragment = vec4(dithered(srgb(shoulder(colour))), 1.0);
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "engine/render/frame_block.h"
@@ -85,17 +86,9 @@ void Bodies::check(const FrameData& frame) const {
   }
 }
 
-void Bodies::update(const FrameData& frame, const Occlusion& occlusion,
-                    const std::function<float(const glm::vec3&)>& pixels_per_metre) {
-  for (auto& [key, batch] : batches_) batch.clear();
-  for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
-    const MeshDraw& draw = frame.meshes[i];
-    const glm::vec4& sphere = occlusion.spheres()[i];
-    const float pixels = sphere.w * pixels_per_metre(glm::vec3(sphere));
-    const int level = frame.rounded ? level_for(pixels, draw.vertex_count) : 0;
-    batches_[{draw.mesh.index, level}].push_back(
-        {draw.first_vertex, std::max(sphere.w, 1e-6f), occlusion.ranges()[i], draw.colour});
-  }
+void Bodies::update(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye,
+                    float pixels_at_one_metre) {
+  collect(frame, occlusion, eye, pixels_at_one_metre);
   occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
   define_texture(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
   if (frame.meshes.empty()) return;
@@ -103,6 +96,24 @@ void Bodies::update(const FrameData& frame, const Occlusion& occlusion,
   define_texture(positions_, position_buffer_, unit_positions, GL_R32F);
   normal_buffer_.stream(GL_TEXTURE_BUFFER, frame.normals);
   define_texture(normals_, normal_buffer_, unit_normals, GL_R32F);
+}
+
+// From front to back: what is hidden is not shaded.
+void Bodies::collect(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye,
+                     float pixels_at_one_metre) {
+  distances_.clear();
+  for (std::uint32_t i = 0; i < frame.meshes.size(); ++i) {
+    distances_.emplace_back(glm::distance(glm::vec3(occlusion.spheres()[i]), eye), i);
+  }
+  std::ranges::sort(distances_);
+  for (auto& [key, batch] : batches_) batch.clear();
+  for (const auto& [distance, i] : distances_) {
+    const MeshDraw& draw = frame.meshes[i];
+    const float radius = std::max(occlusion.spheres()[i].w, 1e-6f);
+    const float pixels = pixels_at_one_metre * radius / std::max(distance - radius, 0.1f * radius);
+    const int level = frame.rounded ? level_for(pixels, draw.vertex_count) : 0;
+    batches_[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, occlusion.ranges()[i], draw.colour});
+  }
 }
 
 void Bodies::draw_shadows(const glm::mat4& light_clip) {

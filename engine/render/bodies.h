@@ -7,6 +7,7 @@
 #include <glm/vec3.hpp>
 #include <map>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "engine/frame_data.h"
@@ -26,13 +27,10 @@ class Bodies {
   /// Throws std::invalid_argument for a draw that does not fit its mesh or the vertices.
   void check(const FrameData& frame) const;
 
-  /// Uploads a frame. `pixels_per_metre` says how large a thing at a place appears on the screen.
-  void update(const FrameData& frame, const Occlusion& occlusion,
-              const std::function<float(const glm::vec3&)>& pixels_per_metre);
+  /// Uploads a frame seen from `eye`; what is 1 m large and 1 m away covers `pixels_at_one_metre`.
+  void update(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye, float pixels_at_one_metre);
   void draw_shadows(const glm::mat4& light_clip);
   void draw();
-
-  const Program& program() const { return program_; }
 
  private:
   struct Instance {
@@ -51,14 +49,17 @@ class Bodies {
     bool closed = false;
     std::vector<Level> levels;
   };
-  using Batches = std::map<std::pair<std::uint32_t, int>, std::vector<Instance>>;  // by mesh and level
+  using Batches = std::map<std::pair<std::uint32_t, int>, std::vector<Instance>,
+                           std::greater<>>;  // by mesh and level, finest first
 
+  void collect(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye, float pixels_at_one_metre);
   void draw_batches(bool coarse);
   void describe_instances() const;
 
   Program program_, shadow_program_;
   std::vector<Mesh> meshes_;
   Batches batches_;
+  std::vector<std::pair<float, std::uint32_t>> distances_;  // of each body from the eye
   Buffer position_buffer_, normal_buffer_, occluder_buffer_, instances_;
   Texture positions_, normals_, occluders_;
 };

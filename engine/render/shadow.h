@@ -17,7 +17,7 @@ struct LightView {
 
 class ShadowMap {
  public:
-  static constexpr int size = 2048;
+  static constexpr int size = 1024;
 
   ShadowMap();
   LightView view(const glm::vec3& to_light, const glm::vec3& centre, float radius) const;

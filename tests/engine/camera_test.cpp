@@ -1,0 +1,139 @@
+#include "engine/camera.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+namespace engine {
+namespace {
+
+constexpr glm::ivec2 size{1280, 720};
+
+Camera looking_at_scene() {
+  Camera camera;
+  camera.fit(glm::vec3(0.5f, 1.0f, -0.25f), 3.0f, size);
+  return camera;
+}
+
+TEST(Camera, PickRayGoesThroughTheProjectedPoint) {
+  const Camera camera = looking_at_scene();
+  for (const glm::vec3 point : {glm::vec3(0, 0, 0), glm::vec3(1, 2, 0.5f), glm::vec3(-1.5f, 0.2f, 1)}) {
+    const auto pixel = camera.project(point, size);
+    ASSERT_TRUE(pixel);
+    const Ray ray = camera.pick_ray(glm::vec2(*pixel), size);
+    EXPECT_NEAR(glm::length(ray.direction), 1.0f, 1e-5f);
+    EXPECT_LT(glm::length(glm::cross(point - ray.origin, ray.direction)), 1e-4f);
+    EXPECT_GT(glm::dot(point - ray.origin, ray.direction), 0.0f);
+  }
+}
+
+TEST(Camera, TargetIsInTheMiddleAndPixelsGoDown) {
+  const Camera camera = looking_at_scene();
+  const glm::vec3 target = camera.orbit().target;
+  const auto middle = camera.project(target, size);
+  ASSERT_TRUE(middle);
+  EXPECT_NEAR(middle->x, 640.0f, 0.01f);
+  EXPECT_NEAR(middle->y, 360.0f, 0.01f);
+  EXPECT_LT(camera.project(target + glm::vec3(0, 1, 0), size)->y, 360.0f);
+}
+
+TEST(Camera, NothingIsProjectedFromBehindTheEye) {
+  const Camera camera = looking_at_scene();
+  const glm::vec3 behind = camera.eye() + (camera.eye() - camera.orbit().target);
+  EXPECT_FALSE(camera.project(behind, size));
+}
+
+TEST(Camera, RotatingStopsBelowThePoles) {
+  Camera camera = looking_at_scene();
+  for (int i = 0; i < 100; ++i) camera.rotate(glm::vec2(0, 200), size);
+  camera.settle();
+  EXPECT_EQ(camera.orbit().elevation, Camera::max_elevation);
+  EXPECT_GT(camera.view()[1][1], 0.0f);  // up is still up
+  for (int i = 0; i < 200; ++i) camera.rotate(glm::vec2(0, -200), size);
+  camera.settle();
+  EXPECT_EQ(camera.orbit().elevation, -Camera::max_elevation);
+}
+
+TEST(Camera, DraggingRightTurnsTheSceneRight) {
+  Camera camera = looking_at_scene();
+  const glm::vec3 front = camera.orbit().target + 0.3f * (camera.eye() - camera.orbit().target);
+  const float before = camera.project(front, size)->x;
+  camera.rotate(glm::vec2(40, 0), size);
+  camera.settle();
+  EXPECT_GT(camera.project(front, size)->x, before + 1.0f);
+}
+
+TEST(Camera, PanningKeepsTheTargetsDepthUnderTheCursor) {
+  Camera camera = looking_at_scene();
+  const glm::vec3 point = camera.orbit().target;
+  camera.pan(glm::vec2(100, -60), size);
+  camera.settle();
+  const auto pixel = camera.project(point, size);
+  ASSERT_TRUE(pixel);
+  EXPECT_NEAR(pixel->x, 740.0f, 0.1f);
+  EXPECT_NEAR(pixel->y, 300.0f, 0.1f);
+}
+
+TEST(Camera, ZoomHasLimitsAndStaysFinite) {
+  Camera camera = looking_at_scene();
+  camera.zoom(1e6f);
+  camera.settle();
+  EXPECT_NEAR(camera.orbit().distance, 0.02f * 3.0f, 1e-5f);
+  camera.zoom(-1e6f);
+  camera.settle();
+  EXPECT_NEAR(camera.orbit().distance, 20.0f * 3.0f, 1e-3f);
+  EXPECT_TRUE(std::isfinite(camera.projection(size)[2][2]));
+}
+
+TEST(Camera, FitShowsTheWholeSphereInAnyShape) {
+  for (const glm::ivec2 shape : {glm::ivec2(1280, 720), glm::ivec2(300, 900), glm::ivec2(1, 1)}) {
+    Camera camera;
+    camera.fit(glm::vec3(0.0f), 2.0f, shape);
+    for (int i = 0; i < 64; ++i) {
+      const float angle = 0.0981748f * static_cast<float>(i);
+      const glm::mat4 view = camera.view();
+      const glm::vec3 right(view[0][0], view[1][0], view[2][0]), up(view[0][1], view[1][1], view[2][1]);
+      const auto pixel = camera.project(2.0f * (std::cos(angle) * right + std::sin(angle) * up), shape);
+      ASSERT_TRUE(pixel);
+      EXPECT_GE(pixel->x, 0.0f);
+      EXPECT_LE(pixel->x, static_cast<float>(shape.x));
+      EXPECT_GE(pixel->y, 0.0f);
+      EXPECT_LE(pixel->y, static_cast<float>(shape.y));
+    }
+  }
+}
+
+TEST(Camera, GlidesToRestAndThenStaysEqualToTheBit) {
+  Camera camera = looking_at_scene();
+  camera.rotate(glm::vec2(300, 50), size);
+  camera.zoom(5.0f);
+  int frames = 0;
+  while (camera.advance(1.0 / 60.0) && frames < 1000) ++frames;
+  EXPECT_GT(frames, 3);
+  EXPECT_LT(frames, 120);
+  const glm::mat4 before = camera.view();
+  for (int i = 0; i < 100; ++i) EXPECT_FALSE(camera.advance(1.0 / 60.0));
+  EXPECT_EQ(camera.view(), before);
+}
+
+TEST(Camera, GlidesAlikeAtAnyFrameRate) {
+  Camera fine = looking_at_scene(), coarse = fine;
+  fine.rotate(glm::vec2(200, 0), size);
+  coarse.rotate(glm::vec2(200, 0), size);
+  for (int i = 0; i < 8; ++i) fine.advance(0.01);
+  coarse.advance(0.08);
+  EXPECT_NEAR(fine.orbit().azimuth, coarse.orbit().azimuth, 1e-3f);
+}
+
+TEST(Camera, ManyTurnsDoNotWearItOut) {
+  Camera camera = looking_at_scene();
+  for (int i = 0; i < 10000; ++i) {
+    camera.rotate(glm::vec2(500, 0), size);
+    camera.advance(0.016);
+  }
+  EXPECT_LT(std::abs(camera.orbit().azimuth), 20.0f);
+}
+
+}  // namespace
+}  // namespace engine

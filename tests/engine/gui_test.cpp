@@ -1,0 +1,76 @@
+#include "engine/gui.h"
+
+#include <gtest/gtest.h>
+#include <imgui.h>
+
+#include "engine/gl.h"
+#include "engine/headless.h"
+
+namespace engine {
+namespace {
+
+/// One frame of a window with a button at a known place. True if the button was clicked.
+bool frame_with_button(Gui& gui, const GuiInput& input) {
+  gui.begin_frame(input);
+  ImGui::SetNextWindowPos({20.0f, 20.0f});
+  ImGui::SetNextWindowSize({200.0f, 100.0f});
+  ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoTitleBar);
+  const bool clicked = ImGui::Button("press", {150.0f, 40.0f});
+  ImGui::End();
+  gui.end_frame();
+  return clicked;
+}
+
+TEST(Gui, FedMousePressesAButton) {
+  const HeadlessContext context;
+  const Framebuffer framebuffer({320, 240}, 0);
+  framebuffer.bind();
+  Gui gui;
+  GuiInput input{.display_size = {320, 240}, .mouse = {80.0f, 50.0f}};
+  frame_with_button(gui, input);
+  frame_with_button(gui, input);
+  EXPECT_TRUE(gui.wants_mouse());
+  EXPECT_FALSE(gui.wants_keyboard());
+  input.buttons[0] = true;
+  EXPECT_FALSE(frame_with_button(gui, input));
+  input.buttons[0] = false;
+  EXPECT_TRUE(frame_with_button(gui, input));
+  input.mouse = {300.0f, 200.0f};
+  frame_with_button(gui, input);
+  frame_with_button(gui, input);
+  EXPECT_FALSE(gui.wants_mouse());
+}
+
+TEST(Gui, PanelIsLightWithDarkText) {
+  const HeadlessContext context;
+  const Framebuffer framebuffer({320, 240}, 0);
+  framebuffer.bind();
+  glClearColor(0.0f, 0.0f, 0.0f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  Gui gui;
+  const GuiInput input{.display_size = {320, 240}};
+  for (int i = 0; i < 3; ++i) frame_with_button(gui, input);  // a new window sizes itself in its first
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+  const Image image = framebuffer.read();
+  EXPECT_EQ(image.at(300, 200), glm::u8vec4(0, 0, 0, 255));
+  EXPECT_GT(image.at(210, 110).r, 220);
+}
+
+TEST(Gui, HighDensityScalesFontAndSizes) {
+  const HeadlessContext context;
+  float ordinary = 0.0f;
+  for (const float scale : {1.0f, 2.0f}) {
+    Gui gui(scale);
+    gui.begin_frame(GuiInput{});
+    const float height = ImGui::GetFrameHeight();
+    gui.end_frame();
+    EXPECT_EQ(gui.scale(), scale);
+    if (scale == 1.0f) ordinary = height;
+    if (scale == 2.0f) {
+      EXPECT_NEAR(height, 2.0f * ordinary, 2.0f);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace engine

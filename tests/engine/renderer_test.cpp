@@ -1,0 +1,226 @@
+#include "engine/renderer.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/gl.h"
+#include "engine/headless.h"
+#include "engine/resources.h"
+#include "tests/engine/shapes.h"
+
+namespace engine {
+namespace {
+
+constexpr glm::ivec2 size{320, 240};
+
+/// A red sphere of radius 0.5 that floats above the floor, and the pictures of it.
+class RendererTest : public testing::Test {
+ protected:
+  RendererTest() {
+    frame.ground = 0.0f;
+    frame.bounds_centre = glm::vec3(0.0f, 0.5f, 0.0f);
+    frame.bounds_radius = 3.0f;
+    camera.set_orbit({glm::vec3(0.0f, 0.5f, 0.0f), 5.0f, 0.0f, 0.6f});
+  }
+
+  Image picture(int samples = 0, glm::ivec2 picture_size = size) {
+    const Framebuffer framebuffer(picture_size, samples);
+    framebuffer.bind();
+    renderer.draw(camera, {glm::ivec2(0), picture_size}, frame);
+    EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+    return framebuffer.read();
+  }
+
+  glm::ivec3 colour(const Image& image, const glm::vec3& place) const {
+    const auto pixel = camera.project(place, {image.width, image.height});
+    return glm::ivec3(image.at(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
+  }
+
+  static bool red(const glm::ivec3& c) { return c.r > c.g + 60 && c.r > c.b + 60; }
+  static int brightness(const glm::ivec3& c) { return (c.r + c.g + c.b) / 3; }
+
+  HeadlessContext context;
+  Renderer renderer{find_folder("shaders")};
+  Camera camera;
+  FrameData frame;
+};
+
+const glm::vec3 middle(0.0f, 1.0f, 0.0f);
+const Sphere red_sphere{middle, 0.5f, glm::vec3(0.9f, 0.2f, 0.2f)};
+
+TEST_F(RendererTest, EmptyFrameIsACalmBackdrop) {
+  frame.ground.reset();
+  const Image image = picture();
+  const auto [least, most] = std::ranges::minmax(image.rgba);
+  EXPECT_GT(least, 140);
+  EXPECT_LE(most, 255);
+}
+
+TEST_F(RendererTest, SphereIsWhereItShouldBe) {
+  frame.spheres = {red_sphere};
+  for (const int samples : {0, 4}) {
+    const Image image = picture(samples);
+    const glm::vec3 right(0.45f, 0.0f, 0.0f), beyond(0.6f, 0.0f, 0.0f);
+    EXPECT_TRUE(red(colour(image, middle)));
+    EXPECT_TRUE(red(colour(image, middle + right)));
+    EXPECT_TRUE(red(colour(image, middle - right)));
+    EXPECT_FALSE(red(colour(image, middle + beyond)));
+    EXPECT_FALSE(red(colour(image, middle - beyond)));
+  }
+}
+
+TEST_F(RendererTest, SphereCastsItsShadowAwayFromTheLight) {
+  const Image empty = picture();
+  frame.spheres = {red_sphere};
+  const Image image = picture();
+  // The light comes from (-0.40, 1, 0.42): 1 m lower, the middle of the shadow lies 0.40 to the right, 0.42 behind.
+  const glm::vec3 shadow(0.40f, 0.0f, -0.42f), opposite(-0.9f, 0.0f, 0.9f);
+  EXPECT_LT(brightness(colour(image, shadow + glm::vec3(0.3f, 0.0f, 0.0f))),
+            brightness(colour(empty, shadow + glm::vec3(0.3f, 0.0f, 0.0f))) - 30);
+  EXPECT_NEAR(brightness(colour(image, opposite)), brightness(colour(empty, opposite)), 12);
+}
+
+TEST_F(RendererTest, LitSurfacesShowNoSpecklesOfShadow) {
+  const Image empty = picture();
+  // The floor in the light varies slowly: only the grid's thin lines stand out a little.
+  for (int y = size.y / 2; y < size.y; ++y) {
+    for (int x = 1; x < size.x; ++x) EXPECT_LT(std::abs(empty.at(x, y).r - empty.at(x - 1, y).r), 20);
+  }
+}
+
+TEST_F(RendererTest, BodyIsDrawnInItsColourOverItsOwnVertices) {
+  const Mesh mesh = icosahedron();
+  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
+  std::vector<glm::vec3> positions(5, glm::vec3(9.0f)), normals(5, glm::vec3(0, 1, 0));  // another body's
+  for (const glm::vec3& p : mesh.positions) {
+    positions.push_back(middle + 0.5f * p);
+    normals.push_back(p);
+  }
+  frame.positions = positions;
+  frame.normals = normals;
+  frame.meshes = {{handle, 5, 12, red_sphere.colour}};
+  for (const bool rounded : {false, true}) {
+    frame.rounded = rounded;
+    const Image image = picture();
+    EXPECT_TRUE(red(colour(image, middle)));
+    EXPECT_FALSE(red(colour(image, middle + glm::vec3(0.6f, 0, 0))));
+  }
+}
+
+TEST_F(RendererTest, RoundedBodyFillsTheSphereBetterThanItsTriangles) {
+  const Mesh mesh = icosahedron();
+  frame.meshes = {{renderer.add_mesh(mesh.triangles, 12), 0, 12, red_sphere.colour}};
+  std::vector<glm::vec3> positions = mesh.positions;
+  frame.positions = positions;
+  frame.normals = mesh.positions;
+  const auto covered = [&](bool rounded) {
+    frame.rounded = rounded;
+    const Image image = picture();
+    int count = 0;
+    for (int i = 0; i < size.x * size.y; ++i) count += red(glm::ivec3(image.at(i % size.x, i / size.x)));
+    return count;
+  };
+  EXPECT_GT(covered(true), covered(false) * 105 / 100);
+}
+
+TEST_F(RendererTest, LineAndPointShowInFrontAndFaintlyBehind) {
+  const glm::vec4 blue(0.0f, 0.0f, 1.0f, 1.0f);
+  const auto blueness = [&](const glm::vec3& place) {
+    const glm::ivec3 c = colour(picture(), place);
+    return c.b - c.r;
+  };
+  for (const bool as_point : {false, true}) {
+    const glm::vec3 place(0.0f, 1.2f, 0.0f);
+    const auto show = [&](float hidden) {
+      frame.lines.clear();
+      frame.points.clear();
+      if (as_point) {
+        frame.points = {{{{place, blue}}, 8.0f, hidden}};
+      } else {
+        frame.lines = {{{{place - glm::vec3(1, 0, 0), place + glm::vec3(1, 0, 0), blue}}, 4.0f, hidden}};
+      }
+      return blueness(place);
+    };
+    frame.spheres.clear();
+    EXPECT_GT(show(0.2f), 150);
+    frame.spheres = {red_sphere};
+    const int hidden = show(0.0f), faint = show(0.3f);
+    EXPECT_LT(hidden, 0);
+    EXPECT_GT(faint, hidden + 20);
+    EXPECT_LT(faint, 100);
+  }
+}
+
+TEST_F(RendererTest, LineThroughTheEyeIsCutNotTurnedRound) {
+  frame.ground.reset();
+  const glm::vec3 eye = camera.eye();
+  frame.lines = {{{{middle, eye + 2.0f * (eye - middle), glm::vec4(0, 0, 1, 1)}}, 4.0f, 0.0f}};
+  const Image image = picture();
+  int blue = 0;
+  for (int i = 0; i < size.x * size.y; ++i) {
+    const auto c = image.at(i % size.x, i / size.x);
+    blue += c.b > 200 && c.r < 50;
+  }
+  EXPECT_GT(blue, 4);
+  EXPECT_LT(blue, size.x * size.y / 4);
+}
+
+TEST_F(RendererTest, BoxHasEdgesAndFaintFaces) {
+  const Image empty = picture();
+  frame.boxes = {{{{glm::vec3(-0.5f, 0.5f, -0.5f), glm::vec3(0.5f, 1.5f, 0.5f), glm::vec4(0, 0, 1, 1)}}, 3.0f}};
+  const Image image = picture();
+  const glm::ivec3 edge = colour(image, {0.0f, 1.5f, 0.5f}), face = colour(image, {0.1f, 1.0f, 0.5f});
+  EXPECT_GT(edge.b - edge.r, 120);
+  EXPECT_GT(face.b - face.r, 5);
+  EXPECT_LT(face.b - face.r, 80);
+}
+
+TEST_F(RendererTest, AnySizeDownToOnePixelWorks) {
+  frame.spheres = {red_sphere};
+  for (const glm::ivec2 any : {glm::ivec2(1, 1), glm::ivec2(3, 500), glm::ivec2(640, 480)}) {
+    for (const int samples : {0, 4}) {
+      const Image image = picture(samples, any);
+      EXPECT_EQ(image.width, any.x);
+      EXPECT_EQ(image.at(0, 0).a, 255);
+    }
+  }
+  renderer.draw(camera, {glm::ivec2(0), glm::ivec2(0)}, frame);  // a minimised window
+}
+
+TEST_F(RendererTest, SameFrameGivesTheSamePicture) {
+  frame.spheres = {red_sphere};
+  const Image first = picture(4);
+  EXPECT_EQ(picture(4).rgba, first.rgba);
+}
+
+TEST_F(RendererTest, DrawsIntoItsViewportAlone) {
+  const Framebuffer framebuffer(size, 0);
+  framebuffer.bind();
+  glClearColor(0.0f, 1.0f, 0.0f, 1.0f);
+  glClear(GL_COLOR_BUFFER_BIT);
+  renderer.draw(camera, {{100, 50}, {120, 90}}, frame);
+  const Image image = framebuffer.read();
+  EXPECT_EQ(image.at(99, 120), glm::u8vec4(0, 255, 0, 255));
+  EXPECT_EQ(image.at(160, 240 - 50), glm::u8vec4(0, 255, 0, 255));
+  EXPECT_NE(image.at(160, 120), glm::u8vec4(0, 255, 0, 255));
+}
+
+TEST_F(RendererTest, DrawsThatDoNotFitAreRefused) {
+  const Mesh mesh = icosahedron();
+  frame.positions = frame.normals = mesh.positions;
+  frame.meshes = {{{0}, 0, 12}};
+  EXPECT_THROW(picture(), std::invalid_argument);  // no such mesh
+  renderer.add_mesh(mesh.triangles, 12);
+  EXPECT_NO_THROW(picture());
+  frame.meshes = {{{0}, 1, 12}};
+  EXPECT_THROW(picture(), std::invalid_argument);  // beyond the last vertex
+  frame.meshes.clear();
+  frame.normals = {};
+  EXPECT_THROW(picture(), std::invalid_argument);
+  EXPECT_THROW(renderer.add_mesh(mesh.triangles, 11), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace engine
