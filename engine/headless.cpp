@@ -87,7 +87,7 @@ bool HeadlessContext::open(void* display, std::string& problem) {
 HeadlessContext::~HeadlessContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  eglTerminate(display_);
+  // The display stays: it belongs to the whole process, and another context may use it.
 }
 
 }  // namespace engine

@@ -1,8 +1,8 @@
 // Programs: reading shader files, compiling them, and saying where one is wrong.
 
 #include <algorithm>
+#include <cstdio>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <vector>
 
@@ -49,16 +49,16 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
 
 /// Puts file and line before what the driver says: Mesa writes "0:12(5): ", NVIDIA "0(12) : ", others "ERROR: 0:12: ".
 std::string readable(const std::string& log, const Source& source) {
-  static const std::regex place(R"(\d+[:(](\d+)\S*\s*:?\s*)");
   std::istringstream lines(log);
   std::string result, line;
   while (std::getline(lines, line)) {
-    std::smatch match;
+    const std::size_t start = line.starts_with("ERROR: ") ? 7 : 0;
+    std::size_t number = 0;
     if (!result.empty()) result += "\n";
-    const std::size_t number = std::regex_search(line, match, place) ? std::stoul(match[1]) : 0;
-    if (number >= 1 && number <= source.lines.size()) {
+    if (std::sscanf(line.c_str() + start, "%*d%*1[:(]%zu", &number) == 1 && number - 1 < source.lines.size()) {
       const Source::Origin& origin = source.lines[number - 1];
-      result += origin.file.string() + ":" + std::to_string(origin.line) + ": " + match.suffix().str();
+      const std::size_t text = line.find(": ", start);
+      result += origin.file.string() + ":" + std::to_string(origin.line) + line.substr(std::min(text, line.size()));
     } else {
       result += line;
     }
