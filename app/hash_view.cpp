@@ -92,7 +92,7 @@ void HashView::draw_legend(Widgets& w) const {
   }
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
-  ImGui::TextDisabled("%s", most.c_str());
+  w.line(most);
   w.done("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
 }
 
@@ -101,8 +101,9 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
   ImGui::SetNextWindowPos({area.max.x - margin, area.max.y - margin}, ImGuiCond_Always, {1, 1});
   ImGui::SetNextWindowSize({w.px(view_width), 0});
   ImGui::Begin("Hash table", &open,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                   ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing);
+               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
+                   ImGuiWindowFlags_NoFocusOnAppearing);
   const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.debug().bucket_load.empty()) {
     ImGui::Dummy({width, 0.4f * height});

@@ -7,9 +7,11 @@ namespace {
 
 constexpr float label_column = 108;  // design pixels
 
-void draw_scene(Widgets& w, Session& session) {
+void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const softbody::Scene& scene = session.world().scene();
   w.row("Scene", w.px(label_column));
+  const float help_width = ImGui::GetFrameHeight();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemInnerSpacing.x);
   if (w.begin_choices("Scene", scene.name.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
@@ -18,6 +20,8 @@ void draw_scene(Widgets& w, Session& session) {
     ImGui::EndCombo();
     if (!chosen.empty()) session.choose_scene(chosen);
   }
+  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
 void draw_transport(Widgets& w, Session& session) {
@@ -36,7 +40,7 @@ void draw_transport(Widgets& w, Session& session) {
   if (w.button("Drop", "Drops another body from above (D).", width)) session.drop();
   ImGui::EndDisabled();
 
-  w.checkbox("Slow motion", session.slow_motion, "Lets the world run slower than real time (S).");
+  w.checkbox("Slow motion", session.slow_motion, "The world runs slower than real time (S).");
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.slow_motion);
@@ -102,8 +106,10 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                      ImGuiWindowFlags_AlwaysVerticalScrollbar;
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);  // it stands at the window's edge
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
   ImGui::Begin("Panel", nullptr, fixed);
-  draw_scene(w, session);
+  draw_scene(w, session, ui);
   draw_transport(w, session);
   draw_progress(w, session);
   ImGui::Spacing();
@@ -111,9 +117,8 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
-  ImGui::Spacing();
-  if (w.button("Help", "Keys and mouse (F1).", w.px(72))) ui.help = !ui.help;
   ImGui::End();
+  ImGui::PopStyleVar(2);
 }
 
 }  // namespace app

@@ -14,14 +14,14 @@ constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1
 void draw_method(Widgets& w, Session& session) {
   const collide::Method& method = session.world().method();
   w.row("Method", w.px(label_column));
-  w.chip(method.colour);
+  w.chip(method.colour, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   const std::string name(method.name), summary = std::string(method.summary) + " (M: next method)";
   if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
   std::string_view chosen = method.key;
   for (const collide::Method& each : collide::methods()) {
-    w.chip(each.colour);
+    w.chip(each.colour, ImGui::GetTextLineHeight());
     ImGui::SameLine();
     const std::string label(each.name), tooltip(each.summary);
     if (w.choice(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
@@ -115,9 +115,8 @@ void draw_detection(Widgets& w, Session& session) {
   changed |=
       w.checkbox("Self-collision", settings.self_collision,
                  "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as close at rest.");
-  ImGui::SameLine(w.px(label_column + 20));
-  if (w.button("The scene's settings", "Method and settings as the scene has them.",
-               ImGui::GetContentRegionAvail().x)) {
+  ImGui::SameLine(w.px(label_column + 46));
+  if (w.button("Scene's settings", "Method and settings as the scene has them.", ImGui::GetContentRegionAvail().x)) {
     session.restore_settings();
   } else if (changed) {
     session.set_collision(settings, automatic);

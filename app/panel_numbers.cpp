@@ -31,6 +31,8 @@ void draw_curve(Widgets& w, const char* label, const std::string& value, const R
   w.sparkline(label, ring, top, colour, unit);
 }
 
+double latest(const Ring& ring) { return ring.size() == 0 ? 0.0 : static_cast<double>(ring[ring.size() - 1]); }
+
 std::string text(const char* format, double value) {
   std::array<char, 32> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, value);
@@ -43,6 +45,8 @@ void draw_curves(Widgets& w, const Session& session) {
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
   draw_curve(w, "Detect", text("%.2f ms", profile.detect_ms), history.detect_ms, ms, detect_colour, "ms");
   draw_curve(w, "Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, ms, solve_colour, "ms");
+  draw_curve(w, "Picture", text("%.1f ms", latest(history.frame_ms)), history.frame_ms,
+             axis_end(history.frame_ms.largest(), 20.0f), glm::vec3(0.45f), "ms from picture to picture");
   draw_curve(w, "Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
              axis_end(history.contacts.largest(), 10.0f), glm::vec3(0.45f), "contacts");
   const RecallReport& recall = session.recall();

@@ -21,6 +21,17 @@ RecallRow score(const Candidate& candidate, const std::vector<collide::Contact>&
   return row;
 }
 
+RecallReport compare_or_say_why(const Snapshot& snapshot) {
+  try {
+    return compare(snapshot);
+  } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
+    RecallReport report;
+    report.id = snapshot.id;
+    report.skipped = std::string("not measured: ") + error.what();
+    return report;
+  }
+}
+
 }  // namespace
 
 std::uint64_t predicted_pair_tests(const collide::Bodies& bodies, bool self_collision) {
@@ -29,6 +40,13 @@ std::uint64_t predicted_pair_tests(const collide::Bodies& bodies, bool self_coll
   if (self_collision) return tests;
   for (collide::Index b = 0; b < bodies.count(); ++b) tests -= pairs(bodies.size(b));
   return tests;
+}
+
+std::string refusal(const collide::Bodies& bodies, bool self_collision) {
+  constexpr std::uint64_t most = 1'000'000'000;
+  const std::uint64_t tests = predicted_pair_tests(bodies, self_collision);
+  if (tests <= most) return {};
+  return "not measured: brute force would take " + std::to_string(tests / 1'000'000) + " million pair tests";
 }
 
 RecallReport compare(const Snapshot& snapshot) {
@@ -46,10 +64,7 @@ RecallReport compare(const Snapshot& snapshot) {
   return report;
 }
 
-RecallWorker::RecallWorker(std::uint64_t pair_test_budget)
-    : budget_(pair_test_budget), thread_([this](const std::stop_token& stop) { work(stop); }) {}
-
-RecallWorker::~RecallWorker() = default;
+RecallWorker::RecallWorker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
 bool RecallWorker::ready() const {
   const std::scoped_lock lock(mutex_);
@@ -70,23 +85,6 @@ std::optional<RecallReport> RecallWorker::take() {
   return std::exchange(done_, std::nullopt);
 }
 
-RecallReport RecallWorker::evaluate(const Snapshot& snapshot) const {
-  RecallReport report;
-  report.id = snapshot.id;
-  const std::uint64_t tests = predicted_pair_tests(snapshot.bodies, snapshot.settings.self_collision);
-  if (tests > budget_) {
-    report.skipped =
-        "not measured: brute force would take " + std::to_string(tests / 1'000'000) + " million pair tests";
-    return report;
-  }
-  try {
-    return compare(snapshot);
-  } catch (const std::exception& error) {
-    report.skipped = std::string("not measured: ") + error.what();
-    return report;
-  }
-}
-
 void RecallWorker::work(const std::stop_token& stop) {
   std::unique_lock lock(mutex_);
   while (wake_.wait(lock, stop, [this] { return waiting_.has_value(); })) {
@@ -95,7 +93,7 @@ void RecallWorker::work(const std::stop_token& stop) {
     busy_ = true;
     lock.unlock();
     const double start = now();
-    RecallReport report = evaluate(snapshot);
+    RecallReport report = compare_or_say_why(snapshot);
     const double end = now();
     lock.lock();
     done_ = std::move(report);

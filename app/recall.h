@@ -47,16 +47,15 @@ struct RecallReport {
 /// Distances that brute force evaluates on these bodies.
 std::uint64_t predicted_pair_tests(const collide::Bodies& bodies, bool self_collision);
 
+/// Empty, or why bodies as many as these are not compared: brute force would hold a core for more than about a second.
+std::string refusal(const collide::Bodies& bodies, bool self_collision);
+
 /// Runs brute force on the snapshot and compares every candidate with it.
 RecallReport compare(const Snapshot& snapshot);
 
 class RecallWorker {
  public:
-  /// Larger snapshots are not compared: brute force would hold a core for more than about a second.
-  static constexpr std::uint64_t default_budget = 1'000'000'000;
-
-  explicit RecallWorker(std::uint64_t pair_test_budget = default_budget);
-  ~RecallWorker();
+  RecallWorker();
 
   /// True if an offer would be taken now. After a comparison the worker rests for twice its duration, so that it never
   /// takes more than a third of a core from the simulation and the drawing.
@@ -68,9 +67,7 @@ class RecallWorker {
 
  private:
   void work(const std::stop_token& stop);
-  RecallReport evaluate(const Snapshot& snapshot) const;
 
-  const std::uint64_t budget_;
   mutable std::mutex mutex_;  // guards the members below
   std::condition_variable_any wake_;
   std::optional<Snapshot> waiting_;

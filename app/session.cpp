@@ -39,6 +39,7 @@ void Session::start(const softbody::Scene& scene) {
 }
 
 void Session::advance(double elapsed) {
+  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
   if (step_once_) {
     step_once_ = false;
     step();
@@ -80,32 +81,23 @@ void Session::single_step() {
 }
 
 void Session::step() {
-  guarded([&] { world_->step(); });
+  succeeds([&] { world_->step(); });
   history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
   history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
   history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
 }
 
+/// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
 template <class Change>
-void Session::guarded(Change&& change) {
+bool Session::succeeds(Change&& change) {
   ++revision_;
   try {
     change();
-  } catch (const std::exception& error) {
-    recover(error.what());
-  }
-}
-
-/// A detector refused, as a rule because tiny cells would fill the memory: the automatic cell size always fits.
-void Session::recover(const std::string& what) {
-  notice_ = what;
-  try {
-    if (world_->uses_default_cell_size()) throw std::runtime_error(what);
-    world_->set_collision(world_->collision(), true);
-    notice_ += "; the cell size is automatic again";
+    return true;
   } catch (const std::exception& error) {
     notice_ = error.what();
     paused = true;
+    return false;
   }
 }
 
@@ -133,7 +125,7 @@ void Session::restore_settings() {
 }
 
 void Session::drop() {
-  if (can_drop()) guarded([&] { world_->drop(); });
+  if (can_drop()) succeeds([&] { world_->drop(); });
 }
 
 const std::string& Session::caption() const {
@@ -148,7 +140,7 @@ const std::string& Session::caption() const {
 void Session::set_method(std::string_view key) {
   if (!collide::find_method(key) || key == world_->method().key) return;
   notice_.clear();
-  guarded([&] { world_->set_method(key); });
+  succeeds([&] { world_->set_method(key); });
   select_bucket(selected_bucket_);
   forget_recall();
 }
@@ -164,7 +156,7 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   collide::Settings checked = settings;
   if (default_cell_size) checked.cell_size = world_->collision().cell_size;
   if (notice_ = collide::problem(checked); !notice_.empty()) return;
-  guarded([&] { world_->set_collision(checked, default_cell_size); });
+  succeeds([&] { world_->set_collision(checked, default_cell_size); });
   select_bucket(selected_bucket_);
 }
 
@@ -188,6 +180,12 @@ void Session::exchange_recall() {
   }
   if (offered_ == revision_ || !recall_worker_.ready()) return;
   offered_ = revision_;
+  if (std::string why = refusal(world_->bodies(), world_->collision().self_collision); !why.empty()) {
+    recall_ = {};
+    recall_.id = revision_;
+    recall_.skipped = std::move(why);
+    return;
+  }
   const collide::Frame frame = world_->positions();
   Snapshot snapshot{.id = revision_,
                     .x = {frame.x.begin(), frame.x.end()},

@@ -17,6 +17,7 @@ struct SceneChoice {
 };
 
 struct History {
+  Ring frame_ms;  // real time from one advance() to the next
   Ring detect_ms, solve_ms, contacts, recall;
   void clear() { *this = {}; }
 };
@@ -24,7 +25,7 @@ struct History {
 class Session {
  public:
   static constexpr double longest_elapsed = 0.5;  // s of real time that one advance() looks at; the rest is dropped
-  static constexpr int most_steps = 4;            // of one advance()
+  static constexpr int most_steps = 15;           // of one advance()
   static constexpr double step_budget_ms = 25;    // no further step is begun in one advance() after this much
   static constexpr double slowest = 0.02, fastest = 1.0;
 
@@ -80,8 +81,7 @@ class Session {
   void run(double elapsed);
   void step();
   template <class Change>
-  void guarded(Change&& change);
-  void recover(const std::string& what);
+  bool succeeds(Change&& change);
   void exchange_recall();
   void forget_recall();
   void follow_pace(double asked, int steps);

@@ -41,9 +41,9 @@ std::string recall_sentence(const Session& session) {
 Light light_of(collide::Coverage coverage) {
   switch (coverage) {
     case collide::Coverage::exact:
-      return {{0.00f, 0.62f, 0.35f}, "Green", "exact: this method cannot miss a contact."};
+      return {{0.00f, 0.62f, 0.35f}, "Green", "this method is exact and misses no contact."};
     case collide::Coverage::covered:
-      return {{0.93f, 0.62f, 0.00f}, "Amber", "every box fits a cell; contacts across cell faces can be missed."};
+      return {{0.93f, 0.62f, 0.00f}, "Amber", "every box fits a cell; only contacts across cell faces can be missed."};
     default:
       return {{0.82f, 0.13f, 0.12f}, "Red", "a box is larger than a cell, so its corners skip cells."};
   }
@@ -61,7 +61,7 @@ void draw_status(Widgets& w, const Session& session, const SceneArea& area) {
   w.done("Coverage",
          "What the method and its settings promise on this frame (§2.2). Green: complete. Amber: the paper's method, "
          "and every box fits a cell. Red: the paper's method with boxes larger than a cell.");
-  ImGui::TextUnformatted(recall_sentence(session).c_str());
+  w.line(recall_sentence(session));
   w.done("Live recall",
          "Found true contacts over all true contacts: the driving method against brute force on the same frame, "
          "measured beside the simulation.");
@@ -77,7 +77,7 @@ void draw_status(Widgets& w, const Session& session, const SceneArea& area) {
 namespace {
 
 void legend_line(Widgets& w, const glm::vec3& colour, const char* text) {
-  w.chip(colour);
+  w.chip(colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::TextUnformatted(text);
 }

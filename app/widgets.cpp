@@ -27,7 +27,10 @@ std::string grouped(std::uint64_t number) {
 void Widgets::done(const char* label, const char* tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
-    recorder_->widgets.push_back({label, ImGui::GetItemRectMin(), ImGui::GetItemRectMax(), enabled});
+    const std::string_view whole(label);
+    const auto name = whole.rfind("###");  // ImGui's way of a fixed name behind a changing text
+    recorder_->widgets.push_back({std::string(whole.substr(name == whole.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
+                                  ImGui::GetItemRectMax(), enabled});
   }
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   ImGui::BeginTooltip();
@@ -112,18 +115,27 @@ void Widgets::row(const char* label, float column) {
   ImGui::SetNextItemWidth(-FLT_MIN);
 }
 
-void Widgets::value(const std::string& text) {
-  const float space = ImGui::GetContentRegionAvail().x - ImGui::CalcTextSize(text.c_str()).x;
-  ImGui::SetCursorPosX(ImGui::GetCursorPosX() + std::max(0.0f, space));
-  ImGui::TextUnformatted(text.c_str());
+namespace {
+
+void text_in_line(const std::string& text, float place) {
+  const float space = ImGui::GetContentRegionAvail().x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * place;
+  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
+  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
-void Widgets::chip(const glm::vec3& colour) {
+}  // namespace
+
+void Widgets::line(const std::string& text) { text_in_line(text, 0.0f); }
+void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
+
+void Widgets::chip(const glm::vec3& colour, float line_height) {
   const float side = ImGui::GetFontSize() * 0.7f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float y = at.y + 0.5f * (ImGui::GetTextLineHeight() - side);
+  const float y = at.y + 0.5f * (line_height - side);
   ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, to_imgui(colour), px(2));
-  ImGui::Dummy({side, ImGui::GetTextLineHeight()});
+  ImGui::Dummy({side, line_height});
 }
 
 void Widgets::sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit) {

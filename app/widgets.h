@@ -57,10 +57,11 @@ class Widgets {
 
   /// Grey text that starts a row; what follows stands in the right column and takes its whole width.
   void row(const char* label, float column);
-  /// Text that ends at the column's right edge, so that changing digits do not move.
+  /// Text that takes the rest of the line whatever it says, flush left or right: changing digits move nothing else.
+  void line(const std::string& text);
   void value(const std::string& text);
-  /// A square of colour in the line of text.
-  void chip(const glm::vec3& colour);
+  /// A square of colour in the middle of a line.
+  void chip(const glm::vec3& colour, float line_height);
   /// A curve of the last values between 0 and `top`, as wide as what is left of the line.
   void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit);
 

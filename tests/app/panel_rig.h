@@ -1,0 +1,86 @@
+#pragma once
+// The demo's whole interface without a window: simulated mouse in, recorded widgets out.
+
+#include <gtest/gtest.h>
+
+#include "app/interface.h"
+#include "engine/gl.h"
+#include "engine/gui.h"
+#include "engine/headless.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+
+class PanelRig {
+ public:
+  explicit PanelRig(float scale = 1) : gui_(scale), scale_(scale) {
+    input_.display_size = {static_cast<int>(1280 * scale), static_cast<int>(1150 * scale)};
+    frames(3);  // ImGui sizes its windows in the first frames
+  }
+
+  /// One frame of the demo's loop, a 60th of a second of real time.
+  void frame() {
+    session.advance(1.0001 / 60);
+    target_.bind();
+    gui_.begin_frame(input_);
+    interface.draw(session, ui, gui_.scale(), 0.0, &recorder);
+    gui_.end_frame();
+    ASSERT_EQ(collide::problem(session.world().collision()), "");
+  }
+  void frames(int count) {
+    for (int i = 0; i < count; ++i) frame();
+  }
+
+  void move(float x, float y) {
+    input_.mouse = {x, y};
+    frames(2);
+  }
+  void press() {
+    input_.buttons[0] = true;
+    frames(2);
+  }
+  void release() {
+    input_.buttons[0] = false;
+    frames(2);
+  }
+  void click_at(float x, float y) {
+    move(x, y);
+    press();
+    release();
+  }
+
+  Recorder::Widget widget(std::string_view label) const {
+    const Recorder::Widget* found = recorder.find(label);
+    if (!found) ADD_FAILURE() << "no widget '" << label << "'";
+    return found ? *found : Recorder::Widget{};
+  }
+  void click(std::string_view label) {
+    const auto [name, min, max, enabled] = widget(label);
+    click_at(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
+  }
+  /// Presses in the middle of a slider and drags far beyond its end.
+  void drag(std::string_view label, float by) {
+    const auto [name, min, max, enabled] = widget(label);
+    const float x = 0.5f * (min.x + max.x), y = 0.5f * (min.y + max.y);
+    move(x, y);
+    press();
+    move(x + 0.3f * by * scale_, y);
+    move(x + by * scale_, y);
+    release();
+  }
+
+ private:
+  engine::HeadlessContext context_;  // first: the others need it
+  engine::Framebuffer target_{{64, 64}, 0};
+  engine::Gui gui_;
+  engine::GuiInput input_;
+  float scale_;
+
+ public:
+  Session session{touching_pair(), {}, 1};
+  UiState ui;
+  Interface interface;
+  Recorder recorder;
+};
+
+}  // namespace app

@@ -1,0 +1,28 @@
+#pragma once
+// Scenes for the demo's tests, small and in motion from the first frame.
+
+#include "softbody/scene.h"
+
+namespace app {
+
+/// Two bodies that touch side by side in the air, ground and solid sphere below, and a dropper.
+inline softbody::Scene touching_pair() {
+  softbody::Scene scene;
+  scene.key = "pair";
+  scene.name = "Touching pair";
+  scene.collision.tolerance = 0.1f;
+  scene.materials.push_back({.name = "rubber", .start_in_equilibrium = false});
+  softbody::BodySource left, right;
+  left.position = {-0.51, 3, 0.03};
+  right.position = {0.51, 3, 0};
+  scene.bodies = {left, right};
+  scene.spheres.push_back({});
+  scene.ground = softbody::Ground{};
+  softbody::BodySource above;
+  above.position = {0, 5, 0};
+  scene.dropper = softbody::Dropper{.body = above};
+  scene.captions = {{2, "second"}, {5, "fifth"}};
+  return scene;
+}
+
+}  // namespace app

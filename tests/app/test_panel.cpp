@@ -1,0 +1,269 @@
+#include <algorithm>
+#include <cmath>
+
+#include "app/panel.h"
+#include "app/shortcuts.h"
+#include "tests/app/panel_rig.h"
+
+namespace app {
+namespace {
+
+TEST(Panel, SwitchesEveryOverlay) {
+  PanelRig rig;
+  for (const OverlayRow& row : overlay_table) {
+    const bool before = rig.session.overlays.*row.shown;
+    rig.click(row.label);
+    EXPECT_NE(rig.session.overlays.*row.shown, before) << row.key;
+    rig.frames(3);
+    rig.click(row.label);
+    EXPECT_EQ(rig.session.overlays.*row.shown, before) << row.key;
+  }
+  rig.click("Hash table");
+  EXPECT_FALSE(rig.ui.table);
+}
+
+TEST(Panel, ChoosesEveryMethodWhileRunning) {
+  PanelRig rig;
+  for (const collide::Method& method : collide::methods()) {
+    rig.click("Method");
+    rig.click(method.name);
+    EXPECT_EQ(rig.session.world().method().key, method.key);
+    rig.frames(5);
+    EXPECT_TRUE(rig.session.notice().empty()) << rig.session.notice();
+  }
+}
+
+TEST(Panel, EnablesOnlyWhatTheMethodUses) {
+  PanelRig rig;
+  for (const collide::Method& method : collide::methods()) {
+    rig.session.set_method(method.key);
+    rig.frames(2);
+    EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
+    EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
+    EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
+    EXPECT_TRUE(rig.widget("Tolerance").enabled);
+  }
+}
+
+TEST(Panel, DrivesTime) {
+  PanelRig rig;
+  rig.click("Pause");
+  EXPECT_TRUE(rig.session.paused);
+  const int frame = rig.session.world().frame();
+  rig.frames(10);
+  EXPECT_EQ(rig.session.world().frame(), frame);
+  rig.click("Step");
+  EXPECT_EQ(rig.session.world().frame(), frame + 1);
+  rig.click("Pause");
+  EXPECT_FALSE(rig.session.paused);
+  rig.click("Reset");
+  EXPECT_LT(rig.session.world().frame(), frame);
+  rig.click("Slow motion");
+  EXPECT_TRUE(rig.session.slow_motion);
+  rig.drag("Slow motion speed", -500);
+  EXPECT_NEAR(rig.session.slow_factor, Session::slowest, 1e-6);
+  rig.drag("Slow motion speed", 500);
+  EXPECT_NEAR(rig.session.slow_factor, Session::fastest, 1e-6);
+}
+
+TEST(Panel, DropsABody) {
+  PanelRig rig;
+  const auto before = rig.session.world().bodies().count();
+  rig.click("Drop");
+  EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
+}
+
+TEST(Panel, DragsEverySliderToItsEnds) {
+  PanelRig rig;
+  rig.session.set_method("multi-level-sb");
+  rig.frames(2);
+  const auto& settings = [&]() -> const collide::Settings& { return rig.session.world().collision(); };
+  rig.drag("Subdivision level", -500);
+  EXPECT_EQ(settings().levels, 0);
+  rig.drag("Subdivision level", 500);
+  EXPECT_EQ(settings().levels, collide::max_levels);
+  rig.drag("Buckets", -500);
+  EXPECT_EQ(settings().buckets, 1u);
+  rig.drag("Buckets", 500);
+  EXPECT_EQ(settings().buckets, collide::max_buckets);
+  rig.drag("Buckets", -500);
+  rig.click("Auto");
+  EXPECT_FALSE(rig.session.world().uses_default_cell_size());
+  rig.drag("Cell size", -500);
+  EXPECT_NEAR(settings().cell_size.x, least_cell, 1e-5);
+  rig.drag("Cell size", 500);
+  EXPECT_NEAR(settings().cell_size.y, most_cell, 1e-5);
+  rig.drag("Tolerance", -500);
+  EXPECT_NEAR(settings().tolerance, least_tolerance, 1e-5);
+  rig.drag("Tolerance", 500);
+  EXPECT_NEAR(settings().tolerance, most_tolerance, 1e-5);
+  rig.click("Self-collision");
+  EXPECT_FALSE(settings().self_collision);
+  rig.click("Scene's settings");
+  EXPECT_EQ(rig.session.world().method().key, collide::default_method);
+  EXPECT_EQ(settings().levels, 3);
+  EXPECT_TRUE(rig.session.world().uses_default_cell_size());
+}
+
+TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {
+  PanelRig rig;
+  for (const collide::Method& method : collide::methods()) {
+    rig.session.set_method(method.key);
+    for (const int levels : {0, collide::max_levels}) {
+      for (const float cell : {least_cell, most_cell}) {
+        for (const float tolerance : {least_tolerance, most_tolerance}) {
+          collide::Settings settings = rig.session.world().collision();
+          settings.levels = levels;
+          settings.cell_size = glm::vec3(cell);
+          settings.tolerance = tolerance;
+          settings.buckets = 1;
+          rig.session.set_collision(settings, false);
+          rig.frames(2);
+          EXPECT_FALSE(rig.session.paused) << method.key << ": " << rig.session.notice();
+        }
+      }
+    }
+  }
+}
+
+TEST(Panel, OffersThePapersBucketSizes) {
+  PanelRig rig;
+  for (const char* preset : {"101", "1,001", "1,009"}) {
+    rig.click("Bucket presets");
+    rig.click(preset);
+    std::string digits(preset);
+    std::erase(digits, ',');
+    EXPECT_EQ(std::to_string(rig.session.world().collision().buckets), digits);
+  }
+}
+
+TEST(Panel, AClickOnABucketSelectsItAndAnotherReleasesIt) {
+  PanelRig rig;
+  const HashView& view = rig.interface.hash_view();
+  const HashGrid& grid = view.grid();
+  const std::uint32_t square = 345;
+  const float x = view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side;
+  const float y = view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side;
+  rig.click_at(x, y);
+  EXPECT_EQ(rig.session.selected_bucket(), 345u);
+  rig.click_at(x, y);
+  EXPECT_FALSE(rig.session.selected_bucket());
+}
+
+TEST(Panel, AClickOnManyBucketsSelectsTheFullest) {
+  PanelRig rig;
+  collide::Settings settings = rig.session.world().collision();
+  settings.buckets = 1'000'003;
+  rig.session.set_collision(settings, true);
+  rig.session.paused = true;
+  rig.frames(2);
+  const HashView& view = rig.interface.hash_view();
+  ASSERT_GT(view.grid().per_square, 1u);
+  const auto& loads = rig.session.debug().bucket_load;
+  const auto used = static_cast<std::uint32_t>(std::ranges::max_element(loads) - loads.begin());
+  const std::uint32_t square = used / view.grid().per_square;
+  rig.click_at(view.grid_origin().x + (static_cast<float>(square % view.grid().columns) + 0.5f) * view.grid().side,
+               view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
+  ASSERT_TRUE(rig.session.selected_bucket());
+  EXPECT_EQ(loads[*rig.session.selected_bucket()], loads[used]);
+}
+
+TEST(Panel, NothingMovesWhileNumbersChange) {
+  PanelRig rig;
+  rig.frames(5);
+  const auto before = rig.recorder.widgets;
+  for (int i = 0; i < 90; ++i) {
+    rig.frame();
+    ASSERT_EQ(rig.recorder.widgets.size(), before.size());
+    for (std::size_t w = 0; w < before.size(); ++w) {
+      const auto &then = before[w], &now = rig.recorder.widgets[w];
+      ASSERT_EQ(now.label, then.label);
+      ASSERT_TRUE(now.min.x == then.min.x && now.min.y == then.min.y && now.max.x == then.max.x &&
+                  now.max.y == then.max.y)
+          << now.label << " moved";
+    }
+  }
+  EXPECT_GT(rig.session.world().frame(), 90);
+}
+
+TEST(Panel, FoldsItsSections) {
+  PanelRig rig;
+  ASSERT_TRUE(rig.recorder.find("Tolerance"));
+  rig.click("Detection");
+  EXPECT_FALSE(rig.recorder.find("Tolerance"));
+  EXPECT_TRUE(rig.recorder.find("Coverage"));  // the light stays
+}
+
+TEST(Panel, HidesAndShowsWithEverythingElseInPlace) {
+  PanelRig rig;
+  rig.ui.panel = false;
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Pause"));
+  EXPECT_TRUE(rig.recorder.find("Coverage"));
+  EXPECT_TRUE(rig.recorder.find("Live recall"));
+  EXPECT_LT(rig.widget("Coverage").min.x, 100);
+}
+
+TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
+  const ImVec2 one = PanelRig().widget("Pause").max;
+  const ImVec2 two = PanelRig(2).widget("Pause").max;
+  EXPECT_NEAR(two.x, 2 * one.x, 8);
+  EXPECT_NEAR(two.y, 2 * one.y, 8);
+}
+
+TEST(Panel, TheHelpOpensAndCloses) {
+  PanelRig rig;
+  rig.click("?");
+  rig.frames(2);
+  ASSERT_TRUE(rig.ui.help);
+  rig.click("Close");
+  EXPECT_FALSE(rig.ui.help);
+}
+
+TEST(Shortcuts, DoWhatTheHelpSays) {
+  Session session(touching_pair(), {}, 1);
+  UiState ui;
+  const auto tap = [&](int key) { return press(key, false, session, ui); };
+  EXPECT_TRUE(tap(' '));
+  EXPECT_TRUE(session.paused);
+  tap('N');
+  session.advance(0);
+  EXPECT_EQ(session.world().frame(), 1);
+  tap('S');
+  EXPECT_TRUE(session.slow_motion);
+  tap('D');
+  EXPECT_EQ(session.world().bodies().count(), 3u);
+  tap('R');
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  tap(']');
+  EXPECT_EQ(session.world().collision().levels, 4);
+  for (int i = 0; i < 20; ++i) tap('[');
+  EXPECT_EQ(session.world().collision().levels, 0);
+  tap('M');
+  EXPECT_NE(session.world().method().key, collide::default_method);
+  for (const OverlayRow& row : overlay_table) {
+    const bool before = session.overlays.*row.shown;
+    EXPECT_TRUE(tap(row.shortcut));
+    EXPECT_NE(session.overlays.*row.shown, before);
+  }
+  tap('H');
+  EXPECT_FALSE(ui.panel);
+  tap('C');
+  EXPECT_TRUE(ui.reset_camera);
+  tap('/');
+  EXPECT_TRUE(ui.help);
+  tap('Q');
+  EXPECT_TRUE(ui.quit);
+  EXPECT_FALSE(tap('Z'));
+}
+
+TEST(Shortcuts, HeldKeysRepeatOnlyWhereThatHelps) {
+  Session session(touching_pair(), {}, 1);
+  UiState ui;
+  EXPECT_FALSE(press(' ', true, session, ui));
+  EXPECT_FALSE(press('1', true, session, ui));
+  EXPECT_TRUE(press('N', true, session, ui));
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,215 @@
+#include "app/session.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+
+constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
+
+Session make_session() { return Session(touching_pair(), {}, 1); }
+
+TEST(Session, StepsInFixedFramesOfRealTime) {
+  Session session = make_session();
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 10);
+  for (int i = 0; i < 20; ++i) session.advance(tick / 2);
+  EXPECT_EQ(session.world().frame(), 20);
+}
+
+TEST(Session, DropsTimeInsteadOfSpiralling) {
+  Session session = make_session();
+  session.advance(1000);
+  const int first = session.world().frame();
+  EXPECT_GE(first, 1);
+  EXPECT_LE(first, Session::most_steps);
+  EXPECT_LT(session.pace(), 1);
+  session.advance(0);  // nothing is owed from before
+  EXPECT_EQ(session.world().frame(), first);
+  for (int i = 0; i < 60; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), first + 60);
+  EXPECT_GT(session.pace(), 0.95);
+}
+
+TEST(Session, IgnoresTimeThatRunsBackwards) {
+  Session session = make_session();
+  session.advance(-1);
+  EXPECT_EQ(session.world().frame(), 0);
+}
+
+TEST(Session, PausesAndStepsOnce) {
+  Session session = make_session();
+  session.paused = true;
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 0);
+  session.single_step();
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 1);
+  session.paused = false;
+  session.single_step();
+  EXPECT_TRUE(session.paused);
+}
+
+TEST(Session, RunsSlowlyByTheFactor) {
+  Session session = make_session();
+  session.slow_motion = true;
+  session.slow_factor = 0.1;
+  for (int i = 0; i < 100; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 10);
+}
+
+TEST(Session, ResetKeepsTheSettingsAndRestartsTheWorld) {
+  Session session = make_session();
+  session.set_method("grid-hash");
+  collide::Settings settings = session.world().collision();
+  settings.buckets = 77;
+  settings.cell_size = glm::vec3(0.25f);
+  session.set_collision(settings, false);
+  session.drop();
+  for (int i = 0; i < 5; ++i) session.advance(tick);
+  session.reset();
+  EXPECT_EQ(session.world().frame(), 0);
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_EQ(session.world().method().key, "grid-hash");
+  EXPECT_EQ(session.world().collision().buckets, 77u);
+  EXPECT_EQ(session.world().collision().cell_size, glm::vec3(0.25f));
+  session.restore_settings();
+  EXPECT_EQ(session.world().method().key, collide::default_method);
+  EXPECT_EQ(session.world().collision().buckets, 1001u);
+  EXPECT_TRUE(session.world().uses_default_cell_size());
+}
+
+TEST(Session, DropsABodyOnlyWhereTheSceneSaysWhere) {
+  Session session = make_session();
+  session.drop();
+  EXPECT_EQ(session.world().bodies().count(), 3u);
+  softbody::Scene scene = touching_pair();
+  scene.dropper.reset();
+  Session bare(scene, {}, 1);
+  EXPECT_FALSE(bare.can_drop());
+  bare.drop();
+  EXPECT_EQ(bare.world().bodies().count(), 2u);
+}
+
+TEST(Session, RefusesSettingsWithAProblem) {
+  Session session = make_session();
+  collide::Settings bad = session.world().collision();
+  bad.tolerance = -1;
+  session.set_collision(bad, true);
+  EXPECT_FALSE(session.notice().empty());
+  EXPECT_EQ(session.world().collision().tolerance, 0.1f);
+  session.set_collision(session.world().collision(), true);
+  EXPECT_TRUE(session.notice().empty());
+}
+
+TEST(Session, ShowsNewContactsWhilePausedAfterAChange) {
+  Session session = make_session();
+  session.paused = true;
+  const auto before = session.world().detection().contacts.size();
+  const auto revision = session.revision();
+  collide::Settings settings = session.world().collision();
+  settings.tolerance = 0.2f;
+  session.set_collision(settings, true);
+  EXPECT_GT(session.world().detection().contacts.size(), before);
+  EXPECT_NE(session.revision(), revision);
+}
+
+TEST(Session, GoesThroughAllMethods) {
+  Session session = make_session();
+  const std::string first(session.world().method().key);
+  for (std::size_t i = 0; i < collide::methods().size(); ++i) {
+    session.next_method();
+    session.advance(tick);
+    EXPECT_TRUE(session.notice().empty());
+  }
+  EXPECT_EQ(session.world().method().key, first);
+  session.set_method("no-such-method");
+  EXPECT_EQ(session.world().method().key, first);
+}
+
+TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
+  Session session = make_session();
+  session.select_bucket(900);
+  EXPECT_EQ(session.selected_bucket(), 900u);
+  session.select_bucket(1001);
+  EXPECT_FALSE(session.selected_bucket());
+  session.select_bucket(900);
+  collide::Settings settings = session.world().collision();
+  settings.buckets = 101;
+  session.set_collision(settings, true);
+  EXPECT_FALSE(session.selected_bucket());
+  session.select_bucket(7);
+  session.set_method("brute-force");
+  EXPECT_FALSE(session.selected_bucket());
+}
+
+TEST(Session, HandsOutTheMethodsInnerPictureOfThePresentState) {
+  Session session = make_session();
+  EXPECT_EQ(session.debug().bucket_load.size(), 1001u);
+  EXPECT_FALSE(session.debug().boxes.empty());
+  session.set_method("brute-force");
+  EXPECT_TRUE(session.debug().bucket_load.empty());
+}
+
+TEST(Session, SaysTheCaptionOfTheMoment) {
+  Session session = make_session();
+  EXPECT_EQ(session.caption(), "");
+  for (int i = 0; i < 4; ++i) session.advance(tick);
+  EXPECT_EQ(session.caption(), "second");
+  for (int i = 0; i < 4; ++i) session.advance(tick);
+  EXPECT_EQ(session.caption(), "fifth");
+}
+
+TEST(Session, KeepsTheSceneWhenAnotherCannotBeLoaded) {
+  Session session = make_session();
+  session.choose_scene("no-such-scene.toml");
+  EXPECT_NE(session.notice().find("no-such-scene"), std::string::npos);
+  EXPECT_EQ(session.world().scene().key, "pair");
+}
+
+/// Lets a paused session run until its recall is measured for the present state.
+bool wait_for_recall(Session& session) {
+  for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
+    session.advance(tick);
+    if (session.recall().id == session.revision()) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+TEST(Session, MeasuresTheRecallOfAPausedWorldAfterEveryChange) {
+  Session session = make_session();
+  session.paused = true;
+  ASSERT_TRUE(wait_for_recall(session));
+  EXPECT_EQ(session.recall().rows.at(0).recall, 1.0);
+  session.set_method("multi-level-sb");
+  collide::Settings settings = session.world().collision();
+  settings.cell_size = glm::vec3(0.13f);
+  settings.buckets = 1'000'003;
+  session.set_collision(settings, false);
+  EXPECT_EQ(session.recall().id, 0u);  // what was known of another method is forgotten
+  ASSERT_TRUE(wait_for_recall(session));
+  EXPECT_EQ(session.recall().rows.at(0).method, "multi-level-sb");
+  EXPECT_LT(session.recall().rows.at(0).recall, 1.0);
+  session.reset();
+  EXPECT_EQ(session.recall().id, 0u);
+}
+
+TEST(Ring, KeepsTheLastValuesInOrder) {
+  Ring ring;
+  EXPECT_EQ(ring.size(), 0u);
+  for (std::size_t i = 0; i < Ring::capacity + 5; ++i) ring.push(static_cast<float>(i));
+  EXPECT_EQ(ring.size(), Ring::capacity);
+  EXPECT_EQ(ring[0], 5.0f);
+  EXPECT_EQ(ring[Ring::capacity - 1], static_cast<float>(Ring::capacity + 4));
+  EXPECT_EQ(ring.largest(), static_cast<float>(Ring::capacity + 4));
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,99 @@
+#!/bin/bash
+# The real program in a real window under Xvfb: keys, a click, resizing, closing. Usage: window.sh PROGRAM
+# Exits 77 (skipped) if the X tools are missing.
+set -u
+program=$1
+work=$(mktemp -d)
+pids=()
+finish() {
+  for pid in "${pids[@]}"; do kill "$pid" 2>/dev/null; done
+  wait 2>/dev/null
+  rm -rf "$work"
+}
+trap finish EXIT
+
+fail() {
+  echo "window: $1" >&2
+  sed 's/^/program: /' "$work/err" >&2
+  exit 1
+}
+
+# Waits until a command succeeds. Machines may be slow, so the limit is generous.
+until_true() {
+  local what=$1
+  shift
+  for _ in $(seq 600); do
+    "$@" && return
+    sleep 0.1
+  done
+  fail "waited in vain: $what"
+}
+
+for tool in Xvfb xdotool; do
+  command -v $tool >/dev/null || { echo "window: $tool is missing, skipped"; exit 77; }
+done
+
+# Xvfb picks a free display itself and says which.
+Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+pids+=($!)
+until_true "the X server" test -s "$work/display"
+DISPLAY=:$(cat "$work/display")
+export DISPLAY LIBGL_ALWAYS_SOFTWARE=1
+
+start() {
+  "$program" "$@" >"$work/out" 2>"$work/err" &
+  demo=$!
+  pids+=("$demo")
+  until_true "the window" has_window
+  sleep 1
+}
+has_window() {
+  kill -0 "$demo" 2>/dev/null || fail "the program ended before it had a window"
+  window=$(xdotool search --onlyvisible --name "Multi-Level SB Collide" 2>/dev/null | head -1)
+  [ -n "$window" ]
+}
+# Held so long that even a slow machine draws two frames meanwhile.
+press() {
+  xdotool keydown "$1"
+  sleep 0.3
+  xdotool keyup "$1"
+  sleep 0.1
+}
+click() {
+  xdotool mousemove "$1" "$2"
+  sleep 0.3
+  xdotool mousedown "$3"
+  sleep 0.3
+  xdotool mouseup "$3"
+  sleep 0.1
+}
+has_ended() { ! kill -0 "$demo" 2>/dev/null; }
+expect_clean_end() {
+  until_true "the end of the program after $1" has_ended
+  wait "$demo"
+  local status=$?
+  [ $status -eq 0 ] || fail "exit status $status after $1"
+  [ ! -s "$work/err" ] || fail "output on standard error"
+}
+has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|HEIGHT' | tr '\n' ' ')" = "$1" ]; }
+
+start
+xdotool windowfocus "$window" 2>/dev/null
+for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t F1 Escape h h c r; do press $key; done
+click 30 369 1            # a switch of the panel
+click 700 400 1           # the scene
+xdotool mousemove 700 400 mousedown 1 mousemove_relative 120 40; sleep 0.3; xdotool mouseup 1
+xdotool click 4 click 5
+for size in "700 500" "1500 950" "320 240" "1280 720"; do
+  xdotool windowsize "$window" ${size% *} ${size#* }
+  until_true "the size $size" has_size "WIDTH=${size% *} HEIGHT=${size#* } "
+  sleep 0.3
+done
+xdotool windowminimize "$window" windowunmap "$window"
+sleep 1
+xdotool windowmap "$window"
+until_true "the window shows again" has_window
+kill -0 "$demo" 2>/dev/null || fail "the program died"
+xdotool windowfocus "$window" 2>/dev/null
+press q
+expect_clean_end "the key Q"
