@@ -70,16 +70,17 @@ FrameBlock Renderer::Passes::describe(const Camera& camera, const Viewport& view
   values.viewport = glm::vec4(viewport.origin, viewport.size);
   values.floor_map = glm::vec4(centre.x, centre.z, 0.5f / (floor_map_reach * radius), frame.ground.value_or(0.0f));
   values.scene = glm::vec4(centre.x, centre.z, radius, grid_spacing(radius));
+  values.casters = light.reach_of(occlusion.spheres());
   values.flags.x = frame.ground ? 1.0f : 0.0f;
   return values;
 }
 
 void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
   light = shadow_map.view(to_light, frame.bounds_centre, frame.bounds_radius);
+  occlusion.update(frame);
   const FrameBlock values = describe(camera, viewport, frame);
   block.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.id());
-  occlusion.update(frame);
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
   spheres.update(frame, occlusion);
@@ -120,6 +121,7 @@ void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameD
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
+  glDisable(GL_SCISSOR_TEST);
   passes_->update(camera, viewport, frame);
   passes_->draw_shadows();
   if (frame.ground) passes_->floor_map.draw(frame, passes_->occlusion);

@@ -7,6 +7,7 @@ layout(std140) uniform Frame {
   vec4 viewport;           // origin and size, pixels
   vec4 floor_map;          // centre x, centre z, 1 / extent, height of the floor
   vec4 scene;              // centre x, centre z, radius, distance between grid lines
+  vec4 casters;            // the part of the shadow map where shadows can be: least and greatest x, y
   vec4 flags;              // x: 1 if there is a floor
 } frame;
 

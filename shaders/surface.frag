@@ -20,7 +20,7 @@ void main() {
   // Lambert's law, but coming to 0 smoothly: the edge of the light on a sphere is soft.
   float cosine = max(dot(normal, frame.to_light.xyz), 0.0);
   float facing = 1.1 * cosine * cosine / (cosine + 0.1);
-  float lit = facing > 0.0 ? light_reaching(world_position, normal) : 0.0;
+  float lit = light_reaching(world_position, normal);
   vec3 key = vec3(0.86, 0.83, 0.79) * facing * lit;
   vec3 sky = vec3(0.40, 0.43, 0.48) * seen;
   vec3 floor_light = vec3(0.34, 0.33, 0.32) * bounce * (0.35 + 0.65 * seen);

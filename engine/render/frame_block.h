@@ -16,6 +16,7 @@ struct FrameBlock {
   glm::vec4 viewport;   // origin and size, pixels
   glm::vec4 floor_map;  // centre x, centre z, 1 / extent, height of the floor
   glm::vec4 scene;      // centre x, centre z, radius, distance between grid lines
+  glm::vec4 casters;    // the part of the shadow map where shadows can be: least and greatest x, y
   glm::vec4 flags;      // x: 1 if there is a floor
 };
 

@@ -1,6 +1,7 @@
 #include "engine/render/shadow.h"
 
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
 namespace engine {
@@ -8,6 +9,18 @@ namespace engine {
 glm::mat4 LightView::texture_from_world() const {
   const glm::mat4 half = glm::scale(glm::mat4(1.0f), glm::vec3(0.5f));
   return glm::translate(glm::mat4(1.0f), glm::vec3(0.5f)) * half * clip_from_world;
+}
+
+glm::vec4 LightView::reach_of(std::span<const glm::vec4> spheres) const {
+  const glm::mat4 from_world = texture_from_world();
+  glm::vec2 least(1.0f), greatest(0.0f);
+  for (const glm::vec4& sphere : spheres) {
+    const glm::vec2 middle(from_world * glm::vec4(glm::vec3(sphere), 1.0f));
+    const float margin = (1.5f * sphere.w / texel + 8.0f) / static_cast<float>(ShadowMap::size);
+    least = glm::min(least, middle - margin);
+    greatest = glm::max(greatest, middle + margin);
+  }
+  return {least, greatest};
 }
 
 ShadowMap::ShadowMap() {
@@ -19,11 +32,8 @@ ShadowMap::ShadowMap() {
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
   glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-  // Outside the map everything is lit.
-  constexpr float lit[4] = {1.0f, 1.0f, 1.0f, 1.0f};
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_BORDER);
-  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_BORDER);
-  glTexParameterfv(GL_TEXTURE_2D, GL_TEXTURE_BORDER_COLOR, lit);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_DEPTH_ATTACHMENT, GL_TEXTURE_2D, depth_.id(), 0);
   glDrawBuffer(GL_NONE);
@@ -48,10 +58,16 @@ void ShadowMap::begin() const {
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
   glViewport(0, 0, size, size);
   glClear(GL_DEPTH_BUFFER_BIT);
+  // The outermost texels stay empty: beyond the map, where they are repeated, everything is lit.
+  glEnable(GL_SCISSOR_TEST);
+  glScissor(1, 1, size - 2, size - 2);
   glEnable(GL_POLYGON_OFFSET_FILL);
   glPolygonOffset(1.5f, 2.0f);
 }
 
-void ShadowMap::end() const { glDisable(GL_POLYGON_OFFSET_FILL); }
+void ShadowMap::end() const {
+  glDisable(GL_POLYGON_OFFSET_FILL);
+  glDisable(GL_SCISSOR_TEST);
+}
 
 }  // namespace engine
