@@ -46,6 +46,7 @@ glm::vec3 Dynamics::contact_normal(const ShieldPair& pair, Index vertex_a, Index
 void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
                             const std::vector<collide::Contact>& contacts, float shield) {
   shield_.thickness = shield;
+  pairs_before_.swap(shield_.pairs);
   shield_.pairs.clear();
   contacts_of_.assign(vertex_body.size(), 0);
   const auto still = [&](const collide::Contact& c) {
@@ -61,18 +62,20 @@ void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const Bod
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     const Index va = c.a - vertices.first[a], vb = c.b - vertices.first[b];
     const Material &ma = prototype(a).material, &mb = prototype(b).material;
-    ShieldPair pair{slot(bodies_[a], va),
-                    slot(bodies_[b], vb),
-                    a,
-                    b,
-                    glm::vec3(bodies_[a].origin - bodies_[b].origin),
-                    {},
-                    float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
-                          double(std::max(contacts_of_[c.a], contacts_of_[c.b]))),
-                    float(std::sqrt(ma.friction * mb.friction))};
+    ShieldPair pair{.contact = c,
+                    .slot_a = slot(bodies_[a], va),
+                    .slot_b = slot(bodies_[b], vb),
+                    .body_a = a,
+                    .body_b = b,
+                    .offset = glm::vec3(bodies_[a].origin - bodies_[b].origin),
+                    .normal = {},
+                    .stiffness = float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
+                                       double(std::max(contacts_of_[c.a], contacts_of_[c.b]))),
+                    .friction = float(std::sqrt(ma.friction * mb.friction))};
     pair.normal = contact_normal(pair, va, vb);
     shield_.pairs.push_back(pair);
   }
+  shield_.inherit(pairs_before_);
   shield_.force.resize(shield_.pairs.size());
   shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
 }

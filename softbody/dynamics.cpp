@@ -91,10 +91,10 @@ void Dynamics::barrier() {
   if (active_threads_ > 1) workers_.barrier();
 }
 
-void Dynamics::contact_forces(int thread) {
+void Dynamics::contact_forces(int thread, float h) {
   if (shield_.pairs.empty()) return;
   shield_.evaluate(collide::part_of(shield_.pairs.size(), thread, active_threads_),
-                   {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()});
+                   {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()}, h);
   barrier();
 }
 

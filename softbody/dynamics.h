@@ -64,11 +64,11 @@ class Dynamics {
 
   // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
   std::span<Batch* const> share(int thread) const;
-  void contact_forces(int thread);     // of this thread's part of the contacts; needs a barrier() after it
-  void forces(Batch& batch);           // all forces at the current positions and velocities
-  void kick(Batch& batch, float h);    // v += h (f / m + g)
-  void solids(Batch& batch, float h);  // on the velocity, so that x + h v is not inside a solid
-  void drift(Batch& batch, float h);   // x += h v
+  void contact_forces(int thread, float h);  // of this thread's part of the contacts; needs a barrier() after it
+  void forces(Batch& batch);                 // all forces at the current positions and velocities
+  void kick(Batch& batch, float h);          // v += h (f / m + g)
+  void solids(Batch& batch, float h);        // on the velocity, so that x + h v is not inside a solid
+  void drift(Batch& batch, float h);         // x += h v
   void barrier();
 
   // Reading.
@@ -130,6 +130,7 @@ class Dynamics {
   std::vector<Body> bodies_;
   Components x_, v_, f_;
   Shield shield_;
+  std::vector<ShieldPair> pairs_before_;    // of the frame before
   std::vector<std::uint32_t> contacts_of_;  // a vertex, in the frame at hand
   std::vector<Batch*> moving_;
   int active_threads_ = 1;

@@ -8,6 +8,10 @@ Mesh MeshSource::make() const {
   return kind == "grid" ? quad_grid(columns, rows, width, depth) : icosphere(subdivisions, radius);
 }
 
+std::uint64_t MeshSource::vertex_count() const {
+  return kind == "grid" ? std::uint64_t(columns + 1) * std::uint64_t(rows + 1) : 10 * (1ull << (2 * subdivisions)) + 2;
+}
+
 std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
   std::vector<std::string> keys;
   std::error_code error;

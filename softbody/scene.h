@@ -50,6 +50,7 @@ struct MeshSource {
   int columns = 32, rows = 32;  // grid
   double width = 3, depth = 3;  // m, grid
   Mesh make() const;
+  std::uint64_t vertex_count() const;  // of the mesh, without making it
   bool operator==(const MeshSource&) const = default;
 };
 

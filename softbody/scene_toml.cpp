@@ -18,6 +18,7 @@ namespace {
 constexpr double any = std::numeric_limits<double>::max();
 constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
 constexpr std::uintmax_t max_file_size = 1 << 20;
+constexpr std::uint64_t max_particles = 4'000'000;
 
 /// One table of the file, with the place of an error in every message.
 class Table {
@@ -224,6 +225,31 @@ void read_solids(Table& root, Scene& scene) {
   t.close();
 }
 
+/// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
+/// if the table is empty.
+void add_lattice(Table table, const BodySource& body, std::vector<BodySource>& bodies) {
+  const glm::dvec3 size = table.vector("size", glm::dvec3(1.0), 1, 1000);
+  const glm::dvec3 spacing = table.vector("spacing", glm::dvec3(1.1), 0, 1e6);
+  const double jitter = table.number("jitter", 0, 0, 1e6);
+  const int nx = int(size.x), ny = int(size.y), nz = int(size.z);
+  const int number = table.integer("number", nx * ny * nz, 1, nx * ny * nz);
+  table.close();
+  std::uint64_t state = 1;
+  const auto random = [&state] {  // splitmix64, the same on every platform, to [-1, 1)
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return double(std::int64_t(z ^ (z >> 31))) * 0x1p-63;
+  };
+  for (int i = 0; i < number; ++i) {
+    const glm::dvec3 cell(i % nx - (nx - 1) / 2.0, double(i / (nx * nz)), i / nx % nz - (nz - 1) / 2.0);
+    BodySource copy = body;
+    copy.position += cell * spacing;
+    for (int k = 0; k < 3; ++k) copy.position[k] += jitter * random();
+    bodies.push_back(copy);
+  }
+}
+
 void read_bodies(Table& root, Scene& scene) {
   for (Table& t : root.children("material")) scene.materials.push_back(read_material(t));
   if (scene.materials.empty()) scene.materials.emplace_back();
@@ -233,8 +259,8 @@ void read_bodies(Table& root, Scene& scene) {
     b.appear = t.integer("appear", 0, 0, forever);
     b.release = t.integer("release", b.appear, 0, forever);
     if (b.release < b.appear) t.fail("release", "must not come before appear");
+    add_lattice(t.child("lattice"), b, scene.bodies);
     t.close();
-    scene.bodies.push_back(b);
   }
   if (!root.has("dropper")) return;
   Table t = root.child("dropper");
@@ -274,6 +300,11 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
   root.close();
   if (scene.bodies.empty() && !scene.dropper)
     throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
+  std::uint64_t particles = 0;
+  for (const BodySource& b : scene.bodies) particles += b.mesh.vertex_count();
+  if (particles > max_particles)
+    throw SceneError(file.string() + ": has " + std::to_string(particles) + " particles; at most " +
+                     std::to_string(max_particles) + " are allowed");
   return scene;
 }
 

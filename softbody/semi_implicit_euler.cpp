@@ -5,7 +5,7 @@
 namespace softbody {
 
 void semi_implicit_euler(Dynamics& dynamics, int thread, float h) {
-  dynamics.contact_forces(thread);
+  dynamics.contact_forces(thread, h);
   for (Batch* batch : dynamics.share(thread)) {
     dynamics.forces(*batch);
     dynamics.kick(*batch, h);

@@ -1,7 +1,6 @@
 #include "softbody/shield.h"
 
 #include <algorithm>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -12,25 +11,42 @@ glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[
 
 }  // namespace
 
-void Shield::evaluate(collide::Part part, Field<const float> x, Field<const float> v) {
+void Shield::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
   const float h = thickness;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    const ShieldPair& p = pairs[i];
+    ShieldPair& p = pairs[i];
     force[i] = glm::vec3(0.0f);
     const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
     const float s = glm::dot(d, p.normal);
     const float beyond = std::min(s, 0.0f);
     const float weight = 1 - (glm::dot(d, d) - beyond * beyond) / (h * h);
-    if (weight <= 0) continue;
+    if (weight <= 0) {
+      p.stretch = glm::vec3(0.0f);
+      continue;
+    }
     const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
     const float separating = glm::dot(velocity, p.normal);
     const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);
     const float push = p.stiffness * weight * std::min(h - s, h) * damping;
     const glm::vec3 slip = velocity - separating * p.normal;
-    const float speed = glm::length(slip);
-    const float viscous = 0.5f * p.stiffness * h / rebound_speed * weight;
-    const float drag = std::min(p.friction * push / std::max(speed, std::numeric_limits<float>::min()), viscous);
-    force[i] = push * p.normal - drag * slip;
+    const float viscous = 0.5f * p.stiffness * h / rebound_speed;
+    p.stretch += seconds * slip;
+    glm::vec3 drag = p.stiffness * p.stretch + viscous * slip;
+    if (const float size = glm::length(drag), limit = p.friction * push; size > limit) {
+      drag *= limit / size;
+      p.stretch = drag / p.stiffness;
+    }
+    force[i] = push * p.normal - drag;
+  }
+}
+
+void Shield::inherit(std::span<const ShieldPair> before) {
+  auto old = before.begin();
+  for (ShieldPair& p : pairs) {
+    while (old != before.end() && old->contact < p.contact) ++old;
+    if (old == before.end()) return;
+    if (old->contact != p.contact) continue;
+    p.stretch = old->stretch - glm::dot(old->stretch, p.normal) * p.normal;  // the normal may have turned
   }
 }
 

@@ -6,10 +6,11 @@
 //
 // which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump.
 // h is the shield's thickness, k its stiffness, u the speed at which the two separate: Hunt and Crossley's damping
-// (1975), under which nothing is thrown back faster than v. Coulomb friction, made viscous below its limit, acts across
-// n. Between closed bodies n comes from the surfaces' normals, so that a particle that has slipped through is still
-// pushed out; elsewhere it is the line between the two. k is shared among the contacts of a particle: a wide shield is
-// not stiffer.
+// (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a spring
+// of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to frame as
+// long as the pair does, so that bodies stick and not merely creep. Between closed bodies n comes from the surfaces'
+// normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between the two. k
+// is shared among the contacts of a particle: a wide shield is not stiffer.
 
 #include <cstdint>
 #include <span>
@@ -17,7 +18,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "collide/workers.h"
+#include "collide/detector.h"
 #include "softbody/lanes.h"
 
 namespace softbody {
@@ -25,12 +26,14 @@ namespace softbody {
 using BodyId = std::uint32_t;
 
 struct ShieldPair {
+  collide::Contact contact;    // the two vertices
   std::size_t slot_a, slot_b;  // into the state's arrays
   BodyId body_a, body_b;
-  glm::vec3 offset;  // origin of a minus origin of b, m
-  glm::vec3 normal;  // unit, from b to a
-  float stiffness;   // N/m
-  float friction;    // Coulomb
+  glm::vec3 offset;         // origin of a minus origin of b, m
+  glm::vec3 normal;         // unit, from b to a
+  float stiffness;          // N/m
+  float friction;           // Coulomb
+  glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
 };
 
 /// The end of a pair that falls to one batch.
@@ -49,13 +52,15 @@ struct Shield {
   std::vector<ShieldEnd> ends;           // grouped by batch
   std::vector<std::uint32_t> first_end;  // batches + 1 offsets into ends
 
-  /// Evaluates the forces of the pairs in `part`.
-  void evaluate(collide::Part part, Field<const float> x, Field<const float> v);
+  /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
+  void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
+  /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
+  void inherit(std::span<const ShieldPair> before);
   /// Fills `ends`: batch_of(body) gives a body's batch.
   void group(std::size_t batches, const auto& batch_of);
 
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
-  static float stiffness_bound(float k) { return 4.0f / 3 * approach_limit * k; }                        // N/m
+  static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }                  // N/m
   static float damping_bound(float k, float thickness) { return 1.5f * k * thickness / rebound_speed; }  // N s/m
 };
 
