@@ -8,7 +8,7 @@ uniform sampler2D floor_map;
 in vec2 ground;
 out vec4 fragment;
 
-// How much of a pixel the lines `spacing` apart cover: lines of constant width on the screen that thin out in the distance.
+// How much of a pixel the lines `spacing` apart cover: of constant width on the screen, fewer in the distance.
 float grid(float spacing) {
   vec2 at = ground / spacing;
   vec2 width = fwidth(at);

@@ -1,8 +1,8 @@
 uniform samplerBuffer occluders;  // spheres: centre, radius
 uniform sampler2D floor_map;      // how much of the sky the floor sees, tinted by what is in the way
 
-// Part of the sky that `count` spheres from `first` on leave to a point (Quilez, "sphere ambient occlusion"). A sphere's
-// share falls to nothing at 2.2 of its radii, so that none is missed when one leaves the list.
+// Part of the sky that `count` spheres from `first` on leave to a point (Quilez, "sphere ambient occlusion"). Their
+// share falls to nothing at 2.2 of their radii, so that none is missed when it leaves the list.
 float sky_seen(vec3 position, vec3 normal, uint first, uint count) {
   const float least = 1.0 / (2.2 * 2.2);
   float seen = 1.0;

@@ -8,8 +8,8 @@ float tap(vec3 at, vec2 texels) {
   return texture(shadow_map, vec3(at.xy + texels / float(textureSize(shadow_map, 0).x), at.z));
 }
 
-// 1 in the light, 0 in the shadow of something else, with an edge about ten texels wide. Loops of no turns, unlike branches, are what every
-// driver really skips.
+// 1 in the light, 0 in the shadow of something else, with an edge about ten texels wide. Loops of no turns, unlike
+// branches, are what every driver really skips.
 float light_reaching(vec3 position, vec3 normal) {
   // Moved off the surface, most where the light grazes it, so that the surface does not shade itself.
   float cosine = dot(normal, frame.to_light.xyz);
