@@ -1,5 +1,5 @@
-// Colours come and go as sRGB; light adds up in linear space. Both ways are fits, below half a step of 8 bits from the
-// definition, without its costly powers.
+// Colours come and go as sRGB; light adds up in linear space. Both ways are fits without costly powers, within half a
+// step of 8 bits of the definition but for the darkest tones.
 vec3 linear(vec3 s) { return s * (s * (s * 0.305306011 + 0.682171111) + 0.012522878); }
 
 vec3 srgb(vec3 linear) {

@@ -1,7 +1,7 @@
 uniform sampler2DShadow shadow_map;
 
-const int side = 6;
-const float spacing = 1.6;  // texels
+const int side = 5;
+const float spacing = 2.0;  // texels
 
 // Light at a place `texels` away; the texture unit blends 2 x 2 texels.
 float tap(vec3 at, vec2 texels) {
@@ -11,10 +11,10 @@ float tap(vec3 at, vec2 texels) {
 // 1 in the light, 0 in the shadow of something else, with an edge about ten texels wide. Loops of no turns, unlike
 // branches, are what every driver really skips.
 float light_reaching(vec3 position, vec3 normal) {
-  // Moved off the surface, most where the light grazes it, so that the surface does not shade itself.
+  // Moved off the surface, so that it does not shade itself within the filter's reach of four texels.
   float cosine = dot(normal, frame.to_light.xyz);
-  float grazing = 1.0 - max(cosine, 0.0);
-  vec3 at = (frame.shadow_from_world * vec4(position + normal * frame.to_light.w * (1.0 + 3.5 * grazing), 1.0)).xyz;
+  float off = 0.75 + 4.25 * sqrt(max(1.0 - cosine * cosine, 0.0));
+  vec3 at = (frame.shadow_from_world * vec4(position + normal * frame.to_light.w * off, 1.0)).xyz;
   at.z = min(at.z, 1.0);
   // First the middle and the four corners, and not even those where nothing casts a shadow or no light arrives anyway.
   vec2 inside = step(frame.casters.xy, at.xy) * step(at.xy, frame.casters.zw);
