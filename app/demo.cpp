@@ -4,9 +4,11 @@
 #include <cmath>
 #include <thread>
 
+#include "app/canvas.h"
 #include "app/interface.h"
 #include "app/scene_view.h"
 #include "app/shortcuts.h"
+#include "engine/context.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
 #include "engine/resources.h"
@@ -38,12 +40,31 @@ class Pacer {
   double last_ = now();
 };
 
+/// All that a picture of the scene depends on.
+struct PictureKey {
+  std::uint64_t revision = 0, recall = 0;
+  std::string scene;
+  collide::Index bodies = 0;
+  bool at_rest = false;
+  Overlays overlays;
+  std::optional<std::uint32_t> bucket;
+  glm::mat4 view{0.0f};
+  float scale = 0;
+  bool operator==(const PictureKey&) const = default;
+};
+
+bool draws_in_software() {
+  const std::string driver = engine::gl_description();
+  return driver.find("llvmpipe") != driver.npos || driver.find("softpipe") != driver.npos;
+}
+
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
-      : window_({.title = "Multi-Level SB Collide", .size = {options.width, options.height}}),
+      : window_({.title = "Multi-Level SB Collide", .size = {options.width, options.height}, .samples = 0}),
         gui_(window_),
         view_(engine::find_folder("shaders")),
+        canvas_(!draws_in_software()),
         session_(options.scene, options.scene_folder, options.threads) {}
 
   void run() {
@@ -103,17 +124,41 @@ class Demo {
   }
 
   void draw_scene(const engine::Viewport& viewport) {
+    if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
+    const PictureKey key = picture_key();
+    const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
+    canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
+      view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale);
+    });
+    drawn_ = key;
+    canvas_.show(viewport.origin);
+    const glm::ivec2 size = window_.framebuffer_size();
+    glViewport(0, 0, size.x, size.y);
+  }
+
+  PictureKey picture_key() const {
+    const softbody::World& world = session_.world();
+    // Steps of a world at rest change nothing that is drawn.
+    const bool unmoved = world.all_at_rest() && drawn_.at_rest && drawn_.bodies == world.bodies().count();
+    return {.revision = unmoved ? drawn_.revision : session_.revision(),
+            .recall = session_.overlays.missed ? session_.recall().id : 0,
+            .scene = world.scene().key,
+            .bodies = world.bodies().count(),
+            .at_rest = world.all_at_rest(),
+            .overlays = session_.overlays,
+            .bucket = session_.selected_bucket(),
+            .view = camera_.view(),
+            .scale = std::max(window_.content_scale(), window_.pixel_ratio())};
+  }
+
+  OverlayRequest overlay_request() const {
     OverlayRequest request;
     request.shown = session_.overlays;
     request.selected_bucket = session_.selected_bucket();
     const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
     if (needs_debug) request.debug = &session_.debug();
     if (const auto& rows = session_.recall().rows; !rows.empty()) request.missed = &rows.front().missed;
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    const float scale = std::max(window_.content_scale(), window_.pixel_ratio());
-    view_.draw(session_.world(), request, camera_, viewport, scale);
-    const glm::ivec2 size = window_.framebuffer_size();
-    glViewport(0, 0, size.x, size.y);
+    return request;
   }
 
   static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
@@ -121,11 +166,13 @@ class Demo {
   engine::Window window_;  // first: the others need its context
   engine::Gui gui_;
   SceneView view_;
+  Canvas canvas_;
   Session session_;
   Interface interface_;
   UiState ui_;
   engine::Camera camera_;
   std::string shown_scene_;  // the one that camera_ was set up for
+  PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;
   double seconds_ = 0;  // the window has been open
 };

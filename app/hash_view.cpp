@@ -9,15 +9,15 @@
 namespace app {
 namespace {
 
-constexpr float view_width = 276, grid_height = 170, least_square = 4;  // design pixels
+constexpr float grid_height = 170, least_square = 4;  // design pixels
 
 constexpr const char* grid_tooltip_end = "Click: show its boxes in the scene. Click again or Esc: release.";
 
 }  // namespace
 
-void HashView::refresh(const Session& session, float width, float height, float least_side) {
+void HashView::refresh(const Session& session, float room, float height, float least_side) {
   const auto& loads = session.debug().bucket_load;
-  const HashGrid grid = HashGrid::fit(static_cast<std::uint32_t>(loads.size()), width, height, least_side);
+  const HashGrid grid = HashGrid::fit(static_cast<std::uint32_t>(loads.size()), room, height, least_side);
   const bool same = revision_ == session.revision() && grid.side == grid_.side && grid.per_square == grid_.per_square;
   grid_ = grid;
   if (same) return;
@@ -37,11 +37,11 @@ glm::vec3 HashView::colour(std::uint32_t load) const {
   return sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(full_load_)));
 }
 
-void HashView::draw_squares(Widgets& w, Session& session, float width, float height) {
+void HashView::draw_squares(Widgets& w, Session& session, float room, float height) {
   origin_ = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::InvisibleButton("##buckets", {width, height});
+  const bool clicked = ImGui::InvisibleButton("##buckets", {room, height});
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(origin_, {origin_.x + width, origin_.y + height}, to_imgui(glm::vec3(0.93f)), w.px(3));
+  draw->AddRectFilled(origin_, {origin_.x + room, origin_.y + height}, to_imgui(glm::vec3(0.93f)), w.px(3));
   const float gap = grid_.side >= w.px(6) ? std::max(1.0f, std::floor(w.px(1))) : 0.0f;
   const auto corner = [&](std::uint32_t s) {
     return ImVec2(origin_.x + static_cast<float>(s % grid_.columns) * grid_.side,
@@ -78,12 +78,12 @@ void HashView::draw_squares(Widgets& w, Session& session, float width, float hei
 }
 
 void HashView::draw_legend(Widgets& w) const {
-  const float width = ImGui::GetContentRegionAvail().x;
+  const float room = ImGui::GetContentRegionAvail().x;
   const std::string most = grouped(full_load_);
   ImGui::TextDisabled("Load  1");
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float bar = width * 0.5f, height = ImGui::GetTextLineHeight();
+  const float bar = room * 0.5f, height = ImGui::GetTextLineHeight();
   constexpr int steps = 32;
   for (int i = 0; i < steps; ++i) {
     const float x0 = at.x + bar * static_cast<float>(i) / steps, x1 = at.x + bar * static_cast<float>(i + 1) / steps;
@@ -99,19 +99,19 @@ void HashView::draw_legend(Widgets& w) const {
 void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
   const float margin = w.px(12);
   ImGui::SetNextWindowPos({area.max.x - margin, area.max.y - margin}, ImGuiCond_Always, {1, 1});
-  ImGui::SetNextWindowSize({w.px(view_width), 0});
+  ImGui::SetNextWindowSize({w.px(HashView::width), 0});
   ImGui::Begin("Hash table", &open,
                ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
                    ImGuiWindowFlags_NoFocusOnAppearing);
-  const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
+  const float room = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.debug().bucket_load.empty()) {
-    ImGui::Dummy({width, 0.4f * height});
+    ImGui::Dummy({room, 0.4f * height});
     ImGui::TextWrapped("%s builds no hash table.", std::string(session.world().method().name).c_str());
-    ImGui::Dummy({width, 0.4f * height});
+    ImGui::Dummy({room, 0.4f * height});
   } else {
-    refresh(session, width, height, std::floor(w.px(least_square)));
-    draw_squares(w, session, width, height);
+    refresh(session, room, height, std::floor(w.px(least_square)));
+    draw_squares(w, session, room, height);
     draw_legend(w);
     const std::string buckets = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
     ImGui::TextDisabled(

@@ -10,6 +10,8 @@ namespace app {
 
 class HashView {
  public:
+  static constexpr float width = 276;  // design pixels
+
   /// Draws the view in the lower right corner of the area; `open` becomes false when it is closed.
   void draw(Widgets& widgets, Session& session, const SceneArea& area, bool& open);
 
@@ -22,8 +24,8 @@ class HashView {
     std::uint32_t load = 0, fullest = 0;  // the load of the fullest bucket in the square, and which one it is
   };
 
-  void refresh(const Session& session, float width, float height, float least_side);
-  void draw_squares(Widgets& widgets, Session& session, float width, float height);
+  void refresh(const Session& session, float room, float height, float least_side);
+  void draw_squares(Widgets& widgets, Session& session, float room, float height);
   void draw_legend(Widgets& widgets) const;
   glm::vec3 colour(std::uint32_t load) const;
 

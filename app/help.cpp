@@ -11,7 +11,8 @@ constexpr float key_width = 78, half_width = 270;  // design pixels
 void entry(const Widgets& w, std::string_view key, std::string_view what, float left) {
   ImGui::SetCursorPosX(left);
   ImGui::TextUnformatted(key.data(), key.data() + key.size());
-  ImGui::SameLine(left + w.px(key_width));
+  ImGui::SameLine();
+  ImGui::SetCursorPosX(left + w.px(key_width));
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextUnformatted(what.data(), what.data() + what.size());
   ImGui::PopStyleColor();
@@ -36,10 +37,11 @@ void overlays_and_mouse(const Widgets& w, float left) {
 void draw_help(Widgets& w, const SceneArea& area, bool& open) {
   const ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * (area.min.y + area.max.y)};
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowBgAlpha(1.0f);  // over the table's squares it would be hard to read otherwise
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PushTextWrapPos(w.px(2 * half_width));
+  ImGui::PushTextWrapPos(w.px(1.8f * half_width));
   ImGui::TextUnformatted(
       "Soft spheres fall on a solid sphere. In every frame a detector finds which of their vertices come closer than "
       "the "

@@ -10,7 +10,9 @@ namespace app {
 
 class Interface {
  public:
-  /// Where the scene shows: the display without the panel, in ImGui units.
+  static constexpr float least_scene_width = 240;  // design pixels
+
+  /// Where the scene shows, in ImGui units: beside the panel, or behind it where the window is too narrow for both.
   static SceneArea scene_area(const UiState& ui, float scale);
 
   /// One frame, between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.

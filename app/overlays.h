@@ -14,6 +14,7 @@ struct Overlays {
   bool springs = false;
   bool missed = false;
 
+  bool operator==(const Overlays&) const = default;
   bool any() const { return body_boxes || boxes || cells || contacts || springs || missed; }
 };
 

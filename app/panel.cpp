@@ -63,13 +63,15 @@ void draw_progress(Widgets& w, const Session& session) {
   if (session.paused) {
     right = "paused";
   } else if (session.pace() < 0.95) {
-    right = "at " + std::to_string(static_cast<int>(session.pace() * 100)) + " % of its pace";
+    right = "slowed to " + std::to_string(static_cast<int>(session.pace() * 100)) + " %";
   } else if (world.all_at_rest()) {
     right += ", all at rest";
   }
   w.value(right);
-  w.done("Progress", session.pace() < 0.95 ? "The machine cannot step the world in real time: time is dropped."
-                                           : "Simulated frames and time; bodies in the world.");
+  w.done("Progress",
+         session.pace() < 0.95
+             ? "The machine does not keep up: the world runs slower than asked for, and no time is made up for."
+             : "Simulated frames and time; bodies in the world.");
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {

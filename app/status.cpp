@@ -49,7 +49,7 @@ Light light_of(collide::Coverage coverage) {
   }
 }
 
-void draw_status(Widgets& w, const Session& session, const SceneArea& area) {
+float draw_status(Widgets& w, const Session& session, const SceneArea& area) {
   const Light light = light_of(session.world().detection().coverage);
   const float margin = w.px(12);
   const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
@@ -71,7 +71,9 @@ void draw_status(Widgets& w, const Session& session, const SceneArea& area) {
     ImGui::PopStyleColor();
     w.done("Notice", nullptr);
   }
+  const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
   ImGui::End();
+  return end;
 }
 
 namespace {
@@ -115,12 +117,11 @@ void table_legend(const Session& session) {
 
 }  // namespace
 
-void draw_legends(Widgets& w, const Session& session, const SceneArea& area) {
+void draw_legends(Widgets& w, const Session& session, const SceneArea& area, float top) {
   const Overlays& shown = session.overlays;
   const bool table = shown.boxes || shown.cells || session.selected_bucket();
   if (!table && !shown.contacts && !shown.springs && !shown.missed) return;
-  const float margin = w.px(12);
-  ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
+  ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
   ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   if (table) table_legend(session);
   if (shown.contacts) {

@@ -19,9 +19,10 @@ struct Light {
 };
 Light light_of(collide::Coverage coverage);
 
-/// The light, its sentence and the recall; below it the session's notice(), if any.
-void draw_status(Widgets& widgets, const Session& session, const SceneArea& area);
-void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area);
+/// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends.
+float draw_status(Widgets& widgets, const Session& session, const SceneArea& area);
+/// Below `top`.
+void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area, float top);
 /// `seconds`: how long the window has been open; the hint fades out after a while.
 void draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
 

@@ -62,18 +62,34 @@ namespace {
 
 std::string hidden(const char* label) { return std::string("##") + label; }
 
+/// Sliders write their value over the grab: a pale grab keeps it legible.
+class PaleGrab {
+ public:
+  PaleGrab() {
+    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
+      ImVec4 colour = ImGui::GetStyleColorVec4(which);
+      colour.w = which == ImGuiCol_SliderGrab ? 0.4f : 0.6f;
+      ImGui::PushStyleColor(which, colour);
+    }
+  }
+  ~PaleGrab() { ImGui::PopStyleColor(2); }
+};
+
+constexpr ImGuiSliderFlags kept_inside = ImGuiSliderFlags_AlwaysClamp;
+
 }  // namespace
 
 bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
-  const bool changed =
-      ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, ImGuiSliderFlags_AlwaysClamp);
+  const PaleGrab pale;
+  const bool changed = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
   done(label, tooltip);
   return changed;
 }
 
 bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const ImGuiSliderFlags flags = ImGuiSliderFlags_AlwaysClamp | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const PaleGrab pale;
+  const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   const bool changed = ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
   done(label, tooltip);
   return changed;
@@ -81,8 +97,9 @@ bool Widgets::slider(const char* label, float& value, float least, float most, c
 
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
+  const PaleGrab pale;
   const bool changed = ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
-                                           ImGuiSliderFlags_AlwaysClamp | ImGuiSliderFlags_Logarithmic);
+                                           kept_inside | ImGuiSliderFlags_Logarithmic);
   done(label, tooltip);
   return changed;
 }
