@@ -38,11 +38,12 @@ Row take_row(const softbody::World& world) {
 
 Json to_json(const Row& r) {
   const softbody::Measures& m = r.measures;
+  const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
   return {{"frame", r.frame},
           {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
           {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
           {"energy", m.energy},
-          {"volume_ratio", {{"min", m.volume_ratio_min}, {"max", m.volume_ratio_max}}},
+          {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
           {"deepest_penetration", m.deepest_penetration},
           {"max_speed", m.max_speed},
           {"finite", m.finite}};

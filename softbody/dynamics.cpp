@@ -151,7 +151,7 @@ SolidArguments Dynamics::solid_arguments(Batch& b, float h, double friction) con
 void Dynamics::solid_spheres(Batch& b, float h) {
   for (const SolidSphere* sphere : b.near_spheres) {
     SolidArguments s = solid_arguments(b, h, sphere->friction);
-    s.radius = static_cast<float>(sphere->radius);
+    s.radius = static_cast<float>(sphere->radius + b.prototype->material.thickness);
     for (int l = 0; l < b.used; ++l) {
       const glm::dvec3 c = sphere->centre - bodies_[b.body[std::size_t(l)]].origin;
       s.centre.x[l] = float(c.x), s.centre.y[l] = float(c.y), s.centre.z[l] = float(c.z);
@@ -164,7 +164,8 @@ void Dynamics::ground(Batch& b, float h) {
   if (!b.near_ground) return;
   SolidArguments s = solid_arguments(b, h, scene_.ground->friction);
   for (int l = 0; l < b.used; ++l)
-    s.centre.y[l] = float(scene_.ground->height - bodies_[b.body[std::size_t(l)]].origin.y);
+    s.centre.y[l] =
+        float(scene_.ground->height + b.prototype->material.thickness - bodies_[b.body[std::size_t(l)]].origin.y);
   kernels_.ground(s, at(x_, b), at(v_, b));
 }
 
@@ -195,7 +196,8 @@ void Dynamics::prepare_solids(Batch& b, double seconds) {
 
 double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
   const double fall = glm::length(scene_.gravity) * seconds;
-  return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius;
+  return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius +
+         b.prototype->material.thickness;
 }
 
 }  // namespace softbody

@@ -46,9 +46,9 @@ void add_body(const World& world, BodyId id, Measures& m) {
   const double volume = volume_of(particles, p.mesh.triangles);
   if (p.has_gas) m.energy += p.gas.energy(volume);
   const double ratio = volume / p.start_volume;
-  const bool first = m.volume_ratio_min == 0 && m.volume_ratio_max == 0;
-  m.volume_ratio_min = first ? ratio : std::min(m.volume_ratio_min, ratio);
-  m.volume_ratio_max = first ? ratio : std::max(m.volume_ratio_max, ratio);
+  m.volume_ratio_min = m.has_volume ? std::min(m.volume_ratio_min, ratio) : ratio;
+  m.volume_ratio_max = m.has_volume ? std::max(m.volume_ratio_max, ratio) : ratio;
+  m.has_volume = true;
 }
 
 }  // namespace

@@ -8,7 +8,8 @@ namespace softbody {
 struct Measures {
   double energy = 0;         // J: kinetic + springs + gas + gravity (measured from the world's origin)
   glm::dvec3 momentum{0.0};  // kg m/s
-  double volume_ratio_min = 0, volume_ratio_max = 0;  // of closed bodies, over the starting volume; 0 if there is none
+  bool has_volume = false;   // some body is closed; else the ratios are 0
+  double volume_ratio_min = 0, volume_ratio_max = 0;  // of closed bodies, over the starting volume
   double deepest_penetration = 0;                     // m >= 0, the deepest particle below a solid's surface
   double max_speed = 0;                               // m/s, of a particle
   bool finite = true;                                 // all positions and velocities

@@ -32,12 +32,13 @@ struct Material {
   double mass = 1;  // kg a body, shared equally by its particles
   SpringLaw structural{300, 0.1};
   SpringLaw bend{75, 0.1};
-  SpringLaw shear{};                 // quad grids only
-  double gas_pressure = 0;           // Pa, absolute, of the gas at the mesh's own volume: P = gas_pressure * V0 / V
-  double ambient_pressure = 0;       // Pa, absolute, outside
-  double internal_damping = 0;       // 1/s, rate at which a body's motion becomes rigid
-  double rebound_speed = 0;          // m/s: solids throw a body back no faster; 0: as fast as its springs and gas do
-  double friction = 0.5;             // Coulomb, against other bodies
+  SpringLaw shear{};            // quad grids only
+  double gas_pressure = 0;      // Pa, absolute, of the gas at the mesh's own volume: P = gas_pressure * V0 / V
+  double ambient_pressure = 0;  // Pa, absolute, outside
+  double internal_damping = 0;  // 1/s, rate at which a body's motion becomes rigid
+  double rebound_speed = 0;     // m/s: solids throw a body back no faster; 0: as fast as its springs and gas do
+  double thickness = 0.005;     // m: particles keep this far from solids, so that the faces between them stay outside
+  double friction = 0.5;        // Coulomb, against other bodies
   double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
   double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
   bool start_in_equilibrium = true;  // springs and gas are brought into balance when the scene is loaded

@@ -156,6 +156,7 @@ Material read_material(Table& table) {
   m.ambient_pressure = table.number("ambient_pressure", m.ambient_pressure, 0, 1e9);
   m.internal_damping = table.number("internal_damping", m.internal_damping, 0, 1e6);
   m.rebound_speed = table.number("rebound_speed", m.rebound_speed, 0, 1e6);
+  m.thickness = table.number("thickness", m.thickness, 0, 1e3);
   m.friction = table.number("friction", m.friction, 0, 10);
   m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
   m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);

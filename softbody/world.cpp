@@ -238,12 +238,14 @@ std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
 const Dynamics& World::dynamics() const { return state_->dynamics; }
 
 std::vector<SolidContact> World::solid_contacts() const {
-  constexpr double touching = 1e-4;  // m: particles end a substep on the surface, up to rounding
+  constexpr double hair = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding
   std::vector<SolidContact> contacts;
-  const Coordinates& p = state_->positions;
+  const State& s = *state_;
+  const Coordinates& p = s.positions;
   for (Index i = 0; i < p.x.size(); ++i) {
-    const SolidDepth d = solid_depth(state_->scene, {p.x[i], p.y[i], p.z[i]});
-    if (d.depth > -touching) contacts.push_back({i, d.normal});
+    const SolidDepth d = solid_depth(s.scene, {p.x[i], p.y[i], p.z[i]});
+    const double distance = prototype(s.vertex_body[i]).material.thickness + hair;
+    if (d.depth > -distance) contacts.push_back({i, d.normal});
   }
   return contacts;
 }
