@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "collide/reach.h"
+
 namespace collide {
 
 void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
   frame_ = &frame;
   points_ = &points;
   tolerance2_ = settings.tolerance * settings.tolerance;
+  reach_ = contact_reach(settings.tolerance);
   self_collision_ = settings.self_collision;
   found_ = 0;
   threads_.resize(static_cast<std::size_t>(threads));
@@ -19,17 +22,30 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
   }
 }
 
-void ContactSearch::test(int thread, Range a, Range b) {
+template <class Search>
+void ContactSearch::search_rows(Thread& own, Range a, Range b, const Search& search) {
   constexpr Index most_tests = 1u << 20;  // between two looks at the number of contacts
-  Thread& own = threads_[static_cast<std::size_t>(thread)];
-  const Index rows = std::max<Index>(1, most_tests / std::max<Index>(1, b.size()));
-  for (Range some{a.begin, a.begin}; some.begin < a.end; some.begin = some.end) {
-    some.end = a.end - some.begin > rows ? some.begin + rows : a.end;
-    near_pairs(*points_, some, b, tolerance2_, own.hits);
+  const Index most_rows = std::max<Index>(1, most_tests / std::max<Index>(1, b.size()));
+  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
+    rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
+    search(rows);
     if (!own.hits.empty()) keep_contacts(own);
   }
+}
+
+void ContactSearch::test(int thread, Range a, Range b) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  search_rows(own, a, b, [&](Range rows) { near_pairs(*points_, rows, b, tolerance2_, own.hits); });
   const std::uint64_t na = a.size(), nb = b.size();
   own.pair_tests += a.end > b.begin ? nb * (nb - 1) / 2 : na * nb;
+}
+
+void ContactSearch::test_near(int thread, Range a, Range b, const Aabb& region) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  search_rows(own, a, b, [&](Range rows) {
+    const std::uint64_t tested = near_pairs(*points_, rows, b, region, reach_, tolerance2_, own.hits);
+    own.pair_tests += tested * b.size();
+  });
 }
 
 void ContactSearch::keep_contacts(Thread& own) {

@@ -1,7 +1,7 @@
 // Multi-Level SB Collide made exact: the boxes of §2.1, padded by half of the tolerance, are put into every cell that
 // they overlap instead of the cells of their corners. Two vertices in contact then lie in padded boxes that overlap, so
-// these share a cell, hence a bucket. Where the grid is of no use (boxes of many cells, buckets of many boxes), pairs
-// of boxes are found by sort and sweep.
+// these share a cell, hence a bucket. Of two boxes only the vertices near the other box are tested. Where the grid is
+// of no use (boxes of many cells, buckets of many boxes), pairs of boxes are found by sort and sweep.
 
 #include "collide/box_sweep.h"
 #include "collide/box_table.h"
@@ -14,8 +14,9 @@ namespace collide {
 
 namespace {
 
-constexpr double most_cells = 27;             // of a box in the grid: what one as wide as two cells can overlap
-constexpr std::uint64_t most_meetings = 512;  // of a box in the table, on average: what a sweep about costs
+constexpr double most_cells = 27;  // of a box in the grid: what one as wide as two cells can overlap
+constexpr std::uint64_t most_meetings =
+    128;  // of a box in the table, on average: more cost more than a sweep (measured)
 
 class MultiLevelSbExact final : public Detector {
  public:
@@ -86,7 +87,9 @@ class MultiLevelSbExact final : public Detector {
       const Part part = part_of(boxes.size(), thread, threads);
       for (std::size_t a = part.begin; a < part.end; ++a) search_.test(thread, boxes[a].slots, boxes[a].slots);
     }
-    const auto test = [&](Index a, Index b) { search_.test(thread, boxes[a].slots, boxes[b].slots); };
+    const auto test = [&](Index a, Index b) {
+      search_.test_near(thread, boxes[a].slots, boxes[b].slots, boxes[b].region);
+    };
     if (sweep_all_) {
       sweep_.for_each_pair(thread, threads, test);
       return;
