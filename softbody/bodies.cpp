@@ -20,15 +20,23 @@ KernelSprings kernel_springs(const std::vector<Spring>& springs) {
 
 }  // namespace
 
+KernelMesh::KernelMesh(const Prototype& prototype)
+    : structural(kernel_springs(prototype.structural)),
+      bend(kernel_springs(prototype.bend)),
+      shear(kernel_springs(prototype.shear)) {
+  for (const auto& [i, j, k] : prototype.mesh.triangles) faces.push_back({i * lanes, j * lanes, k * lanes});
+}
+
 Batch& Dynamics::batch_with_room(const std::shared_ptr<const Prototype>& prototype) {
-  for (Batch& b : batches_)
-    if (b.prototype == prototype && b.used < lanes) return b;
+  std::shared_ptr<const KernelMesh> mesh;
+  for (Batch& b : batches_) {
+    if (b.prototype != prototype) continue;
+    if (b.used < lanes) return b;
+    mesh = b.mesh;
+  }
   Batch& b = batches_.emplace_back();
   b.prototype = prototype;
-  b.structural = kernel_springs(prototype->structural);
-  b.bend = kernel_springs(prototype->bend);
-  b.shear = kernel_springs(prototype->shear);
-  for (const auto& [i, j, k] : prototype->mesh.triangles) b.faces.push_back({i * lanes, j * lanes, k * lanes});
+  b.mesh = mesh ? mesh : std::make_shared<const KernelMesh>(*prototype);
   b.base = x_[0].size();
   for (auto* components : {&x_, &v_, &f_})
     for (auto& c : *components) c.resize(b.base + b.particles() * lanes, 0.0f);

@@ -40,7 +40,7 @@ int Dynamics::substeps(double seconds) const {
     alignas(32) float volume[lanes];
     double stiffest = stiffness_per_mass(p, p.gas.rest_volume);
     if (p.has_gas) {
-      kernels_.volume(b.faces, at(x_, b), volume);
+      kernels_.volume(b.mesh->faces, at(x_, b), volume);
       for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, double(volume[l])));
     }
     double damper = p.spring_damping_bound;
@@ -103,17 +103,17 @@ void Dynamics::forces(Batch& b) {
   for (const BatchStage stage : force_stages_) (this->*stage)(b);
 }
 
-void Dynamics::structural_springs(Batch& b) { kernels_.springs(b.structural, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::bend_springs(Batch& b) { kernels_.springs(b.bend, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::shear_springs(Batch& b) { kernels_.springs(b.shear, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::structural_springs(Batch& b) { kernels_.springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::bend_springs(Batch& b) { kernels_.springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::shear_springs(Batch& b) { kernels_.springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
 
 void Dynamics::gas_pressure(Batch& b) {
   if (!b.prototype->has_gas) return;
   const Gas& gas = b.prototype->gas;
   alignas(32) float volume[lanes], gauge[lanes]{};
-  kernels_.volume(b.faces, at(x_, b), volume);
+  kernels_.volume(b.mesh->faces, at(x_, b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.pressure(double(volume[l])) - gas.ambient);
-  kernels_.pressure(b.faces, at(x_, b), gauge, at(f_, b));
+  kernels_.pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
 }
 
 void Dynamics::shield_forces(Batch& b) {

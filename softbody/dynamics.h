@@ -8,11 +8,17 @@
 
 namespace softbody {
 
+/// A prototype's springs and faces as the kernels want them, shared by all its batches.
+struct KernelMesh {
+  explicit KernelMesh(const Prototype& prototype);
+  KernelSprings structural, bend, shear;
+  std::vector<KernelTriangle> faces;
+};
+
 /// Up to `lanes` bodies of one prototype. Its values start at `base` in every array of the state.
 struct Batch {
   std::shared_ptr<const Prototype> prototype;
-  KernelSprings structural, bend, shear;
-  std::vector<KernelTriangle> faces;
+  std::shared_ptr<const KernelMesh> mesh;
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
