@@ -43,9 +43,6 @@ class Pacer {
 /// All that a picture of the scene depends on.
 struct PictureKey {
   std::uint64_t revision = 0, recall = 0;
-  std::string scene;
-  collide::Index bodies = 0;
-  bool at_rest = false;
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
   glm::mat4 view{0.0f};
@@ -137,14 +134,8 @@ class Demo {
   }
 
   PictureKey picture_key() const {
-    const softbody::World& world = session_.world();
-    // Steps of a world at rest change nothing that is drawn.
-    const bool unmoved = world.all_at_rest() && drawn_.at_rest && drawn_.bodies == world.bodies().count();
-    return {.revision = unmoved ? drawn_.revision : session_.revision(),
+    return {.revision = session_.revision(),
             .recall = session_.overlays.missed ? session_.recall().id : 0,
-            .scene = world.scene().key,
-            .bodies = world.bodies().count(),
-            .at_rest = world.all_at_rest(),
             .overlays = session_.overlays,
             .bucket = session_.selected_bucket(),
             .view = camera_.view(),

@@ -74,7 +74,8 @@ void HashView::draw_squares(Widgets& w, Session& session, float room, float heig
     tooltip += grid_tooltip_end;
     if (clicked) session.select_bucket(selected == square.fullest ? std::nullopt : std::optional(square.fullest));
   }
-  w.done("Buckets of the table", under ? tooltip.c_str() : nullptr);
+  w.done("Buckets of the table", nullptr);
+  if (under) w.show_tooltip(tooltip.c_str());
 }
 
 void HashView::draw_legend(Widgets& w) const {
@@ -96,6 +97,13 @@ void HashView::draw_legend(Widgets& w) const {
   w.done("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
 }
 
+std::string HashView::summary(const Session& session) const {
+  std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
+  if (grid_.per_square > 1) text += "; a square is the fullest of " + grouped(grid_.per_square);
+  if (session.world().detection().counters.buckets_used == 0) text += "; none used at this cell size";
+  return text;
+}
+
 void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
   const float margin = w.px(12);
   ImGui::SetNextWindowPos({area.max.x - margin, area.max.y - margin}, ImGuiCond_Always, {1, 1});
@@ -113,10 +121,7 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
     refresh(session, room, height, std::floor(w.px(least_square)));
     draw_squares(w, session, room, height);
     draw_legend(w);
-    const std::string buckets = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
-    ImGui::TextDisabled(
-        "%s", (grid_.per_square == 1 ? buckets : buckets + "; a square is the fullest of " + grouped(grid_.per_square))
-                  .c_str());
+    ImGui::TextDisabled("%s", summary(session).c_str());
   }
   ImGui::End();
 }

@@ -14,7 +14,7 @@ SceneArea Interface::scene_area(const UiState& ui, float scale) {
 
 void Interface::draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder) {
   if (recorder) recorder->widgets.clear();
-  Widgets widgets(scale, recorder);
+  Widgets widgets(scale, hover_, recorder);
   const SceneArea area = scene_area(ui, scale);
   SceneArea left_of_table = area;
   if (ui.table) left_of_table.max.x -= widgets.px(HashView::width);

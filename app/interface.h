@@ -22,6 +22,7 @@ class Interface {
 
  private:
   HashView hash_view_;
+  Hover hover_;
 };
 
 }  // namespace app

@@ -58,7 +58,7 @@ void draw_progress(Widgets& w, const Session& session) {
   ImGui::TextDisabled("Frame %d", world.frame());
   ImGui::SameLine(w.px(label_column));
   ImGui::TextDisabled("%.2f s", world.frame() * world.frame_time());
-  ImGui::SameLine();
+  ImGui::SameLine(w.px(label_column + 76));
   std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
   if (session.paused) {
     right = "paused";

@@ -81,7 +81,9 @@ void Session::single_step() {
 }
 
 void Session::step() {
-  succeeds([&] { world_->step(); });
+  const bool was_at_rest = world_->all_at_rest();
+  const bool stepped = succeeds([&] { world_->step(); });
+  if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
   history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
   history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
   history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
@@ -90,7 +92,6 @@ void Session::step() {
 /// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
 template <class Change>
 bool Session::succeeds(Change&& change) {
-  ++revision_;
   try {
     change();
     return true;
@@ -125,7 +126,9 @@ void Session::restore_settings() {
 }
 
 void Session::drop() {
-  if (can_drop()) succeeds([&] { world_->drop(); });
+  if (!can_drop()) return;
+  succeeds([&] { world_->drop(); });
+  ++revision_;
 }
 
 const std::string& Session::caption() const {
@@ -141,6 +144,7 @@ void Session::set_method(std::string_view key) {
   if (!collide::find_method(key) || key == world_->method().key) return;
   notice_.clear();
   succeeds([&] { world_->set_method(key); });
+  ++revision_;
   select_bucket(selected_bucket_);
   forget_recall();
 }
@@ -157,6 +161,7 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   if (default_cell_size) checked.cell_size = world_->collision().cell_size;
   if (notice_ = collide::problem(checked); !notice_.empty()) return;
   succeeds([&] { world_->set_collision(checked, default_cell_size); });
+  ++revision_;
   select_bucket(selected_bucket_);
 }
 

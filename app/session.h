@@ -71,7 +71,7 @@ class Session {
 
   Overlays overlays;
   const History& history() const { return history_; }
-  /// Changes whenever anything about the positions or contacts may have changed.
+  /// Changes whenever anything about the positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// What went wrong last, for the user; empty again after the next successful action.
   const std::string& notice() const { return notice_; }

@@ -33,9 +33,15 @@ void Widgets::done(const char* label, const char* tooltip) {
                                   ImGui::GetItemRectMax(), enabled});
   }
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) hover_ = {label, 0};
+  hover_.seconds += ImGui::GetIO().DeltaTime;
+  if (hover_.seconds >= Hover::delay) show_tooltip(tooltip);
+}
+
+void Widgets::show_tooltip(const char* text) const {
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(px(320));
-  ImGui::TextUnformatted(tooltip);
+  ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
 }

@@ -26,6 +26,13 @@ struct Recorder {
   const Widget* find(std::string_view label) const;
 };
 
+/// What the mouse rests on, kept from frame to frame, so that tooltips come only to a mouse that rests.
+struct Hover {
+  static constexpr float delay = 0.4f;  // s
+  std::string label;
+  float seconds = 0;
+};
+
 ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 
 /// "1,234,567"
@@ -34,8 +41,8 @@ std::string grouped(std::uint64_t number);
 /// One frame of the panel. Labels are unique, also as ImGui's identifiers.
 class Widgets {
  public:
-  explicit Widgets(float scale, Recorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), recorder_(recorder) {}
+  Widgets(float scale, Hover& hover, Recorder* recorder = nullptr)
+      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), hover_(hover), recorder_(recorder) {}
 
   /// ImGui units of a length in the design's pixels.
   float px(float design) const { return design * scale_; }
@@ -65,11 +72,13 @@ class Widgets {
   /// A curve of the last values between 0 and `top`, as wide as what is left of the line.
   void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit);
 
-  /// Notes the last ImGui item as the widget `label`, and shows the tooltip while the mouse rests on it.
+  /// Notes the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void done(const char* label, const char* tooltip);
+  void show_tooltip(const char* text) const;
 
  private:
   float scale_, usual_alpha_;
+  Hover& hover_;
   Recorder* recorder_;
 };
 
