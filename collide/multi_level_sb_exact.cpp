@@ -14,9 +14,8 @@ namespace collide {
 
 namespace {
 
-constexpr double most_cells = 27;  // of a box in the grid: what one as wide as two cells can overlap
-constexpr std::uint64_t most_meetings =
-    128;  // of a box in the table, on average: more cost more than a sweep (measured)
+constexpr double most_cells = 27;             // of a box in the grid: what one as wide as two cells can overlap
+constexpr std::uint64_t most_meetings = 128;  // of a box in the table, on average: beyond it a sweep was faster
 
 class MultiLevelSbExact final : public Detector {
  public:
