@@ -6,23 +6,34 @@
 
 namespace app {
 
+bool Interface::panel_covers_scene(const UiState& ui, float scale) {
+  return ui.panel && ImGui::GetIO().DisplaySize.x < (panel_width + least_scene_width) * scale;
+}
+
 SceneArea Interface::scene_area(const UiState& ui, float scale) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  const bool beside = ui.panel && display.x >= (panel_width + least_scene_width) * scale;
-  return {{beside ? panel_width * scale : 0.0f, 0.0f}, display};
+  const bool beside = ui.panel && !panel_covers_scene(ui, scale);
+  return {{beside ? panel_width * scale : 0.0f, 0.0f}, ImGui::GetIO().DisplaySize};
 }
 
 void Interface::draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder) {
   if (recorder) recorder->widgets.clear();
   Widgets widgets(scale, hover_, recorder);
-  const SceneArea area = scene_area(ui, scale);
-  SceneArea left_of_table = area;
-  if (ui.table) left_of_table.max.x -= widgets.px(HashView::width);
-  draw_caption(widgets, session, left_of_table, seconds);
   if (ui.panel) draw_panel(widgets, session, ui);
-  draw_legends(widgets, session, area, draw_status(widgets, session, area));
-  if (ui.table) hash_view_.draw(widgets, session, area, ui.table);
+  const SceneArea area = scene_area(ui, scale);
+  if (!panel_covers_scene(ui, scale)) draw_over_scene(widgets, session, ui, area, seconds);
   if (ui.help) draw_help(widgets, area, ui.help);
+}
+
+void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area,
+                                double seconds) {
+  const bool table_fits = area.max.x - area.min.x >= widgets.px(HashView::width + least_scene_width) &&
+                          area.max.y >= widgets.px(least_height_for_table);
+  const bool table = ui.table && table_fits;
+  SceneArea left_of_table = area;
+  if (table) left_of_table.max.x -= widgets.px(HashView::width);
+  draw_caption(widgets, session, left_of_table, seconds);
+  draw_legends(widgets, session, area, draw_status(widgets, session, area));
+  if (table) hash_view_.draw(widgets, session, area, ui.table);
 }
 
 }  // namespace app

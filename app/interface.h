@@ -21,6 +21,11 @@ class Interface {
   const HashView& hash_view() const { return hash_view_; }
 
  private:
+  static constexpr float least_height_for_table = 400;  // design pixels
+
+  static bool panel_covers_scene(const UiState& ui, float scale);
+  void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area, double seconds);
+
   HashView hash_view_;
   Hover hover_;
 };

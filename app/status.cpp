@@ -142,6 +142,7 @@ namespace {
 /// Text on the scene itself, centred, with a light edge that keeps it legible on any colour.
 void text_on_scene(const Widgets& w, const char* text, float y, const SceneArea& area, float alpha) {
   const ImVec2 size = ImGui::CalcTextSize(text);
+  if (size.x > area.max.x - area.min.x) return;
   const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
   const ImVec2 pad{w.px(10), w.px(4)};
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
