@@ -46,7 +46,7 @@ struct PictureKey {
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
   glm::mat4 view{0.0f};
-  float scale = 0;
+  float scale = 0, between = 1;
   bool operator==(const PictureKey&) const = default;
 };
 
@@ -125,7 +125,9 @@ class Demo {
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
     canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale);
+      const Positions& before = session_.before_last_step();
+      view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale,
+                 {before.x, before.y, before.z, key.between});
     });
     drawn_ = key;
     canvas_.show(viewport.origin);
@@ -134,12 +136,16 @@ class Demo {
   }
 
   PictureKey picture_key() const {
+    const Overlays& shown = session_.overlays;
+    const bool whole_steps =
+        shown.boxes || shown.cells || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
-            .recall = session_.overlays.missed ? session_.recall().id : 0,
-            .overlays = session_.overlays,
+            .recall = shown.missed ? session_.recall().id : 0,
+            .overlays = shown,
             .bucket = session_.selected_bucket(),
             .view = camera_.view(),
-            .scale = std::max(window_.content_scale(), window_.pixel_ratio())};
+            .scale = std::max(window_.content_scale(), window_.pixel_ratio()),
+            .between = whole_steps ? 1.0f : session_.between()};
   }
 
   OverlayRequest overlay_request() const {

@@ -97,11 +97,12 @@ void HashView::draw_legend(Widgets& w) const {
   w.done("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
 }
 
-std::string HashView::summary(const Session& session) const {
-  std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
-  if (grid_.per_square > 1) text += "; a square is the fullest of " + grouped(grid_.per_square);
-  if (session.world().detection().counters.buckets_used == 0) text += "; none used at this cell size";
-  return text;
+void HashView::draw_summary(const Session& session) const {
+  ImGui::TextDisabled("%s %s", grouped(grid_.buckets).c_str(), grid_.buckets == 1 ? "bucket" : "buckets");
+  std::string note = " ";  // the line stays, so that the window does not change its height
+  if (grid_.per_square > 1) note = "each square: the fullest of " + grouped(grid_.per_square);
+  if (session.world().detection().counters.buckets_used == 0) note = "none used at this cell size";
+  ImGui::TextDisabled("%s", note.c_str());
 }
 
 void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
@@ -121,7 +122,7 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
     refresh(session, room, height, std::floor(w.px(least_square)));
     draw_squares(w, session, room, height);
     draw_legend(w);
-    ImGui::TextDisabled("%s", summary(session).c_str());
+    draw_summary(session);
   }
   ImGui::End();
 }

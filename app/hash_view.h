@@ -28,7 +28,7 @@ class HashView {
   void draw_squares(Widgets& widgets, Session& session, float room, float height);
   void draw_legend(Widgets& widgets) const;
   glm::vec3 colour(std::uint32_t load) const;
-  std::string summary(const Session& session) const;
+  void draw_summary(const Session& session) const;
 
   HashGrid grid_;
   ImVec2 origin_{0, 0};

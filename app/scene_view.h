@@ -19,6 +19,13 @@ struct OverlayRequest {
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
 };
 
+/// Positions to draw a vertex at: `part` of the way from `from` to where it is. Vertices beyond `from` are where they
+/// are.
+struct Blend {
+  std::span<const float> x, y, z;
+  float part = 1;
+};
+
 class SceneView {
  public:
   static constexpr std::size_t most_boxes = 20'000;  // of each kind; further ones are not drawn
@@ -28,7 +35,7 @@ class SceneView {
   explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
 
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale);
+            const engine::Viewport& viewport, float pixel_scale, const Blend& blend = {});
 
   /// The scene's own camera, with limits that suit its size.
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
@@ -43,6 +50,7 @@ class SceneView {
     std::vector<std::uint32_t> indices;
   };
 
+  void gather_positions(const collide::Frame& now, const Blend& blend);
   void gather_bodies(const softbody::World& world, bool dimmed);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);

@@ -21,6 +21,12 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
 
 }  // namespace
 
+void Positions::copy(const collide::Frame& frame) {
+  x.assign(frame.x.begin(), frame.x.end());
+  y.assign(frame.y.begin(), frame.y.end());
+  z.assign(frame.z.begin(), frame.z.end());
+}
+
 Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads)
     : scene_folder_(std::move(scene_folder)), scenes_(list_scenes(scene_folder_)), threads_(threads) {
   start(scene);
@@ -29,6 +35,7 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
 
 void Session::start(const softbody::Scene& scene) {
   world_ = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+  before_last_step_.copy(world_->positions());
   accumulator_ = 0;
   step_once_ = false;
   selected_bucket_.reset();
@@ -55,7 +62,8 @@ void Session::run(double elapsed) {
   accumulator_ += asked;
   int steps = 0;
   double spent_ms = 0;
-  while (accumulator_ >= frame && steps < most_steps && spent_ms < step_budget_ms) {
+  const double budget_ms = std::max(step_budget_ms, step_budget_part * 1e3 * elapsed);
+  while (accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
     spent_ms += world_->profile().total_ms;
@@ -75,12 +83,18 @@ void Session::follow_pace(double asked, int steps) {
   asked_ = done_ = 0;
 }
 
+float Session::between() const {
+  if (!slow_motion || paused || world_->all_at_rest()) return 1.0f;
+  return static_cast<float>(std::clamp(accumulator_ / world_->frame_time(), 0.0, 1.0));
+}
+
 void Session::single_step() {
   paused = true;
   step_once_ = true;
 }
 
 void Session::step() {
+  before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
   const bool stepped = succeeds([&] { world_->step(); });
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
@@ -191,11 +205,12 @@ void Session::exchange_recall() {
     recall_.skipped = std::move(why);
     return;
   }
-  const collide::Frame frame = world_->positions();
+  Positions now;
+  now.copy(world_->positions());
   Snapshot snapshot{.id = revision_,
-                    .x = {frame.x.begin(), frame.x.end()},
-                    .y = {frame.y.begin(), frame.y.end()},
-                    .z = {frame.z.begin(), frame.z.end()},
+                    .x = std::move(now.x),
+                    .y = std::move(now.y),
+                    .z = std::move(now.z),
                     .bodies = world_->bodies(),
                     .settings = world_->collision(),
                     .found = {}};

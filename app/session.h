@@ -16,6 +16,12 @@ struct SceneChoice {
   std::string key, name, look_at;
 };
 
+/// World positions of all vertices, in metres.
+struct Positions {
+  std::vector<float> x, y, z;
+  void copy(const collide::Frame& frame);
+};
+
 struct History {
   Ring frame_ms;  // real time from one advance() to the next
   Ring detect_ms, solve_ms, contacts, recall;
@@ -26,7 +32,8 @@ class Session {
  public:
   static constexpr double longest_elapsed = 0.5;  // s of real time that one advance() looks at; the rest is dropped
   static constexpr int most_steps = 15;           // of one advance()
-  static constexpr double step_budget_ms = 25;    // no further step is begun in one advance() after this much
+  // No further step is begun in one advance() after this much, or this part of the time between pictures.
+  static constexpr double step_budget_ms = 25, step_budget_part = 0.4;
   static constexpr double slowest = 0.02, fastest = 1.0;
 
   /// scene_folder: where other scenes are found by their keys. Throws SceneError.
@@ -41,6 +48,11 @@ class Session {
   void single_step();
   /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
   double pace() const { return pace_; }
+
+  /// How far a picture is on the way from the positions before the last step to the present ones, 0 .. 1: below 1 only
+  /// in slow motion, which would jerk otherwise.
+  float between() const;
+  const Positions& before_last_step() const { return before_last_step_; }
 
   // What is in the world.
   const softbody::World& world() const { return *world_; }
@@ -91,6 +103,7 @@ class Session {
   int threads_;
   softbody::Scene scene_;  // as it was loaded: the world's own has the settings in use
   std::unique_ptr<softbody::World> world_;
+  Positions before_last_step_;
   double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()
   bool step_once_ = false;
   double pace_ = 1, asked_ = 0, done_ = 0;  // s within the window of follow_pace()

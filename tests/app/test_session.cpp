@@ -64,6 +64,26 @@ TEST(Session, RunsSlowlyByTheFactor) {
   EXPECT_EQ(session.world().frame(), 10);
 }
 
+TEST(Session, ShowsSlowMotionBetweenTwoSteps) {
+  Session session = make_session();
+  EXPECT_EQ(session.between(), 1.0f);
+  session.slow_motion = true;
+  session.slow_factor = 0.25;
+  float last = -1;
+  for (int i = 0; i < 3; ++i) {
+    session.advance(tick);
+    EXPECT_GT(session.between(), last);
+    EXPECT_LT(session.between(), 1.0f);
+    last = session.between();
+  }
+  const float height = session.world().positions().y[0];
+  session.advance(tick);
+  EXPECT_LT(session.between(), last);
+  EXPECT_EQ(session.before_last_step().y[0], height);
+  session.paused = true;
+  EXPECT_EQ(session.between(), 1.0f);
+}
+
 TEST(Session, ResetKeepsTheSettingsAndRestartsTheWorld) {
   Session session = make_session();
   session.set_method("grid-hash");
