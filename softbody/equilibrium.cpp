@@ -32,18 +32,22 @@ class Relaxation {
   }
 
   double largest_force() const {
-    double largest2 = 0;
-    for (std::size_t i = 0; i < size_; i += lanes)
-      largest2 = std::max(largest2, f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i]);
+    double largest2 = 0;  // or NaN, once there is one
+    for (std::size_t i = 0; i < size_; i += lanes) {
+      const double force2 = f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i];
+      if (force2 > largest2 || std::isnan(force2)) largest2 = force2;
+    }
     return std::sqrt(largest2);
   }
 
-  /// One step of h of h; velocities are dropped whenever the kinetic energy has passed a peak.
+  /// One step of h; velocities are dropped whenever the kinetic energy has passed a peak. From rest it takes half a
+  /// kick, as leapfrog does: a whole one would overshoot by more than it started with where h is near the stable limit.
   void step(double h) {
+    const double kick = (kinetic_ > 0 ? h : h / 2) / prototype_.particle_mass;
     double kinetic = 0;
     for (int k = 0; k < 3; ++k)
       for (std::size_t i = 0; i < size_; i += lanes) {
-        v_[k][i] += h / prototype_.particle_mass * f_[k][i];
+        v_[k][i] += kick * f_[k][i];
         kinetic += v_[k][i] * v_[k][i];
       }
     if (kinetic < kinetic_) {

@@ -81,7 +81,7 @@ template <class Real>
 SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
                        Field<Real> f) {
   using V = Lane<Real>;
-  const V tiny = V{} + std::numeric_limits<Real>::min();
+  const V tiny = V{} + Real(1e-12);  // m; its inverse times any stiffness is finite, so that times dx = 0 it is 0
   for (const KernelSpring<Real>& s : list) {
     const Vec<V> dx = load(x, s.j) - load(x, s.i), dv = load(v, s.j) - load(v, s.i);
     const V length = square_root(dot(dx, dx));

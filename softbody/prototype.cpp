@@ -80,7 +80,7 @@ double stable_step(double k_m, double c_m) {
   const double omega2 = 2 * k_m, gamma = 2 * c_m;
   if (omega2 <= 0) return gamma > 0 ? 0.8 * 2 / gamma : 1e9;
   const double omega = std::sqrt(omega2), z = gamma / (2 * omega);
-  return 0.8 * (2 / omega) * (std::sqrt(1 + z * z) - z);
+  return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
 double stiffness_per_mass(const Prototype& p, double volume) {

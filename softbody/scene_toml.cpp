@@ -10,6 +10,8 @@
 #define TOML_EXCEPTIONS 1
 #include <toml++/toml.h>
 
+#include <glm/common.hpp>
+
 #include "softbody/scene.h"
 
 namespace softbody {
@@ -121,6 +123,7 @@ class Table {
 
   static std::string range(double lo, double hi) {
     std::ostringstream s;
+    s.precision(10);  // 16777216, not 1.67772e+07
     if (lo > -any && hi < any)
       s << " from " << lo << " to " << hi;
     else if (lo > -any)
@@ -129,8 +132,10 @@ class Table {
   }
 
   [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& what) const {
-    throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
-                     (name_.empty() ? "" : name_ + ".") + key + " " + what);
+    std::string line = (name_.empty() ? "" : name_ + ".") + key + " " + what;
+    for (char& c : line)
+      if (static_cast<unsigned char>(c) < ' ') c = '?';  // a quoted key may hold anything; the message stays one line
+    throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " + line);
   }
 
   const toml::table& table_;
@@ -227,14 +232,20 @@ void read_solids(Table& root, Scene& scene) {
 }
 
 /// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
-/// if the table is empty.
-void add_lattice(Table table, const BodySource& body, std::vector<BodySource>& bodies) {
+/// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
+void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
+                 std::uint64_t& particles) {
   const glm::dvec3 size = table.vector("size", glm::dvec3(1.0), 1, 1000);
   const glm::dvec3 spacing = table.vector("spacing", glm::dvec3(1.1), 0, 1e6);
+  if (size != glm::floor(size)) table.fail("size", "must be three whole numbers");
   const double jitter = table.number("jitter", 0, 0, 1e6);
   const int nx = int(size.x), ny = int(size.y), nz = int(size.z);
   const int number = table.integer("number", nx * ny * nz, 1, nx * ny * nz);
   table.close();
+  particles += std::uint64_t(number) * body.mesh.vertex_count();
+  if (particles > max_particles)
+    owner.fail("lattice", "brings the scene to " + std::to_string(particles) + " particles; at most " +
+                              std::to_string(max_particles) + " are allowed: use fewer bodies or coarser meshes");
   std::uint64_t state = 1;
   const auto random = [&state] {  // splitmix64, the same on every platform, to [-1, 1)
     std::uint64_t z = state += 0x9e3779b97f4a7c15u;
@@ -255,12 +266,13 @@ void read_bodies(Table& root, Scene& scene) {
   for (Table& t : root.children("material")) scene.materials.push_back(read_material(t));
   if (scene.materials.empty()) scene.materials.emplace_back();
   constexpr int forever = 1'000'000'000;
+  std::uint64_t particles = 0;
   for (Table& t : root.children("body")) {
     BodySource b = read_body(t, scene.materials);
     b.appear = t.integer("appear", 0, 0, forever);
     b.release = t.integer("release", b.appear, 0, forever);
     if (b.release < b.appear) t.fail("release", "must not come before appear");
-    add_lattice(t.child("lattice"), b, scene.bodies);
+    add_lattice(t, t.child("lattice"), b, scene.bodies, particles);
     t.close();
   }
   if (!root.has("dropper")) return;
@@ -301,11 +313,6 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
   root.close();
   if (scene.bodies.empty() && !scene.dropper)
     throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
-  std::uint64_t particles = 0;
-  for (const BodySource& b : scene.bodies) particles += b.mesh.vertex_count();
-  if (particles > max_particles)
-    throw SceneError(file.string() + ": has " + std::to_string(particles) + " particles; at most " +
-                     std::to_string(max_particles) + " are allowed");
   return scene;
 }
 
