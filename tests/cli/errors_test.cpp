@@ -1,0 +1,111 @@
+// Bad input: one line on standard error that names what is wrong, nothing on standard output, status 2.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/process.h"
+
+namespace cli::test {
+namespace {
+
+struct Bad {
+  const char* name;
+  std::vector<std::string> arguments;
+  std::vector<std::string> says;
+};
+
+void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& says) {
+  const Outcome o = run(arguments);
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_TRUE(o.err.ends_with('\n'));
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  for (const std::string& words : says) EXPECT_NE(o.err.find(words), std::string::npos) << words << " in: " << o.err;
+}
+
+class BadCommandLine : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadCommandLine, IsRefusedInOneLine) { expect_refused(GetParam().arguments, GetParam().says); }
+
+std::vector<std::string> drop(std::vector<std::string> more) {
+  more.insert(more.begin(), {"simulate", "--scene", "drop", "--frames", "2", "--json"});
+  return more;
+}
+
+const Bad bad_lines[]{
+    {"unknown_scene", {"simulate", "--scene", "dorp", "--frames", "2"}, {"'dorp'", "drop"}},
+    {"missing_scene_file", {"simulate", "--scene", "none.toml", "--frames", "2"}, {"none.toml", "cannot be read"}},
+    {"unknown_method", drop({"--method", "magic"}), {"--method magic", "brute-force"}},
+    {"unknown_integrator", drop({"--integrator", "magic"}), {"--integrator magic", "semi-implicit-euler"}},
+    {"unknown_option", drop({"--magic"}), {"--magic"}},
+    {"unknown_command", {"magic"}, {"magic"}},
+    {"unknown_list", {"list", "magic"}, {"magic", "scenes"}},
+    {"list_of_nothing", {"list"}, {}},
+    {"frames_zero", {"simulate", "--scene", "drop", "--frames", "0"}, {"--frames"}},
+    {"frames_negative", {"simulate", "--scene", "drop", "--frames", "-3"}, {"--frames"}},
+    {"frames_text", {"simulate", "--scene", "drop", "--frames", "many"}, {"--frames"}},
+    {"frames_fraction", {"simulate", "--scene", "drop", "--frames", "2.5"}, {"--frames"}},
+    {"frames_huge", {"simulate", "--scene", "drop", "--frames", "99999999999999999999"}, {"--frames"}},
+    {"levels_16", drop({"--levels", "16"}), {"levels", "0 to 15"}},
+    {"levels_negative", drop({"--levels", "-1"}), {"levels", "0 to 15"}},
+    {"levels_text", drop({"--levels", "x"}), {"--levels"}},
+    {"buckets_zero", drop({"--buckets", "0"}), {"buckets", "16777216"}},
+    {"buckets_negative", drop({"--buckets", "-5"}), {"buckets"}},
+    {"buckets_too_many", drop({"--buckets", "16777217"}), {"buckets", "16777216"}},
+    {"buckets_wrapping", drop({"--buckets", "4294967297"}), {"buckets"}},
+    {"cell_zero", drop({"--cell-size", "0"}), {"cell size"}},
+    {"cell_nan", drop({"--cell-size", "nan"}), {"cell size"}},
+    {"cell_overflow", drop({"--cell-size", "1e300"}), {"cell size"}},
+    {"tolerance_zero", drop({"--tolerance", "0"}), {"tolerance"}},
+    {"tolerance_negative", drop({"--tolerance", "-0.1"}), {"tolerance"}},
+    {"tolerance_nan", drop({"--tolerance", "nan"}), {"tolerance"}},
+    {"tolerance_infinite", drop({"--tolerance", "inf"}), {"tolerance"}},
+    {"tolerance_text", drop({"--tolerance", "0.1m"}), {"--tolerance"}},
+    {"dt_zero", drop({"--dt", "0"}), {"--dt"}},
+    {"dt_negative", drop({"--dt", "-0.01"}), {"--dt"}},
+    {"dt_nan", drop({"--dt", "nan"}), {"--dt"}},
+    {"dt_large", drop({"--dt", "1000"}), {"--dt"}},
+    {"threads_zero", drop({"--threads", "0"}), {"--threads"}},
+    {"threads_many", drop({"--threads", "100000"}), {"--threads"}},
+    {"size_text", drop({"--size", "large"}), {"--size large", "1280x720"}},
+    {"size_one", drop({"--size", "640"}), {"--size"}},
+    {"size_zero", drop({"--size", "0x480"}), {"--size"}},
+    {"size_negative", drop({"--size", "-640x480"}), {"--size"}},
+    {"size_trailing", drop({"--size", "640x480x3"}), {"--size"}},
+    {"size_too_large", drop({"--size", "640x100000"}), {"--size"}},
+    {"capture_beyond", drop({"--capture", "1,3"}), {"--capture", "3", "--frames 2"}},
+    {"capture_zero", drop({"--capture", "0"}), {"--capture"}},
+    {"capture_text", drop({"--capture", "1,last"}), {"--capture", "last"}},
+    {"capture_empty_item", drop({"--capture", "1,,2"}), {"--capture"}},
+    {"capture_nothing", drop({"--capture", ""}), {"--capture"}},
+    {"option_without_value", drop({"--method"}), {"--method"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Lines, BadCommandLine, testing::ValuesIn(bad_lines),
+                         [](const auto& i) { return i.param.name; });
+
+TEST(Errors, ABrokenSceneFileIsNamedWithItsLine) {
+  const TemporaryFolder folder;
+  const auto key = folder.write("key.toml", "[[body]]\n\ncolour = 3\n");
+  expect_refused({"simulate", "--scene", key, "--frames", "2"}, {key.string() + ":3: ", "colour"});
+  const auto syntax = folder.write("syntax.toml", "[[body]\n");
+  expect_refused({"simulate", "--scene", syntax, "--frames", "2"}, {syntax.string() + ":1: "});
+  const auto stiff = folder.write("stiff.toml", "[[material]]\nstructural = {stiffness = 1e9}\n[[body]]\n");
+  expect_refused({"simulate", "--scene", stiff, "--frames", "2"}, {"stiff", "substeps"});
+}
+
+#if SBCOLLIDE_GRAPHICS
+TEST(Errors, AFolderForPicturesThatCannotBeMadeIsNamedBeforeAnythingRuns) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "not a folder");  // a regular file stops even root
+  for (const auto& out : {file, file / "below"})
+    expect_refused({"simulate", "--scene", "drop", "--frames", "5", "--capture", "5", "--out", out, "--json"},
+                   {"--out", out.string()});
+  EXPECT_EQ(read_file(file), "not a folder");
+}
+#else
+TEST(Errors, CapturesNeedABuildWithGraphics) { expect_refused(drop({"--capture", "1"}), {"--capture", "graphics"}); }
+TEST(Errors, TheWindowNeedsABuildWithGraphics) { expect_refused({}, {"simulate"}); }
+#endif
+
+}  // namespace
+}  // namespace cli::test

@@ -1,0 +1,71 @@
+// `list`: key, tab, name, a line each.
+
+#include <gtest/gtest.h>
+
+#include <map>
+#include <sstream>
+
+#include "tests/cli/process.h"
+
+namespace cli::test {
+namespace {
+
+/// Name by key; fails the test on a line of another form.
+std::map<std::string, std::string> rows(const std::string& what) {
+  const Outcome o = run({"list", what});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.err, "");
+  EXPECT_TRUE(o.out.ends_with('\n'));
+  std::map<std::string, std::string> names;
+  std::istringstream in(o.out);
+  for (std::string line; std::getline(in, line);) {
+    const auto tab = line.find('\t');
+    EXPECT_NE(tab, std::string::npos) << line;
+    EXPECT_EQ(line.find('\t', tab + 1), std::string::npos) << line;
+    EXPECT_EQ(line.find(' ', 0) < tab, false) << "a key has no space: " << line;
+    const std::string name = line.substr(tab + 1);
+    EXPECT_FALSE(name.empty()) << line;
+    EXPECT_TRUE(names.emplace(line.substr(0, tab), name).second) << "twice: " << line;
+  }
+  return names;
+}
+
+TEST(List, ScenesNamesEachFileOfTheFolder) {
+  const auto scenes = rows("scenes");
+  EXPECT_EQ(scenes.at("drop"), "Drop");
+  std::size_t files = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(SBCOLLIDE_SCENES)) {
+    EXPECT_TRUE(scenes.contains(entry.path().stem().string())) << entry.path();
+    ++files;
+  }
+  EXPECT_EQ(scenes.size(), files);
+}
+
+TEST(List, MethodsHasTheKeysOfTheContract) {
+  const auto methods = rows("methods");
+  for (const char* key :
+       {"brute-force", "grid-hash", "bounding-box", "bounding-box-grid-hash", "multi-level-sb", "multi-level-sb-exact"})
+    EXPECT_TRUE(methods.contains(key)) << key;
+}
+
+TEST(List, IntegratorsHasTheDefault) { EXPECT_TRUE(rows("integrators").contains("semi-implicit-euler")); }
+
+TEST(List, EveryMethodAndIntegratorListedRuns) {
+  for (const auto& [key, name] : rows("methods"))
+    EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--method", key})["method"], key);
+  for (const auto& [key, name] : rows("integrators"))
+    EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--integrator", key})["frames"].size(), 3u);
+}
+
+TEST(Help, GoesToStandardOutput) {
+  for (const auto& arguments : {std::vector<std::string>{"--help"}, {"simulate", "--help"}}) {
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, 0);
+    EXPECT_EQ(o.err, "");
+    EXPECT_NE(o.out.find("--scene"), std::string::npos);
+  }
+  EXPECT_NE(run({"--version"}).out.find('.'), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cli::test

@@ -1,0 +1,178 @@
+// `simulate`: the JSON document and what the options do to it.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdlib>
+#include <regex>
+#include <set>
+
+#include "tests/cli/process.h"
+
+namespace cli::test {
+namespace {
+
+using nlohmann::json;
+
+std::set<std::string> keys(const json& object) {
+  std::set<std::string> names;
+  for (const auto& [key, value] : object.items()) names.insert(key);
+  return names;
+}
+
+using Keys = std::set<std::string>;
+
+/// A ball with gas a hand above the ground: something happens within a few frames.
+constexpr const char* small_scene = R"(
+[collision]
+tolerance = 0.1
+[ground]
+[[material]]
+gas_pressure = 113000
+ambient_pressure = 101325
+[[body]]
+position = [0, 0.55, 0]
+[[body]]
+position = [0.1, 1.7, 0]
+)";
+
+TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
+  const json d = simulate({"--scene", "drop", "--frames", "5"});
+  EXPECT_EQ(keys(d), (Keys{"scene", "method", "plan", "frames", "state_hash"}));
+  EXPECT_EQ(d["scene"], "drop");
+  EXPECT_EQ(d["method"], "multi-level-sb-exact");
+  EXPECT_TRUE(std::regex_match(d["state_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
+  ASSERT_EQ(d["frames"].size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    const json& f = d["frames"][i];
+    EXPECT_EQ(keys(f), (Keys{"frame", "ms", "contacts", "energy", "volume_ratio", "deepest_penetration", "max_speed",
+                             "finite"}));
+    EXPECT_EQ(f["frame"], i + 1) << "frame n is the state after n steps";
+    EXPECT_EQ(keys(f["ms"]), (Keys{"detect", "solve", "total"}));
+    EXPECT_EQ(keys(f["contacts"]), (Keys{"bodies", "self", "solid"}));
+    EXPECT_EQ(keys(f["volume_ratio"]), (Keys{"min", "max"}));
+    for (const char* key : {"detect", "solve", "total"}) EXPECT_TRUE(f["ms"][key].is_number()) << key;
+    for (const char* key : {"bodies", "self", "solid"}) EXPECT_TRUE(f["contacts"][key].is_number_unsigned()) << key;
+    for (const char* key : {"energy", "deepest_penetration", "max_speed"}) EXPECT_TRUE(f[key].is_number()) << key;
+    EXPECT_GE(f["deepest_penetration"], 0.0);
+    EXPECT_EQ(f["finite"], true);
+    EXPECT_NEAR(f["volume_ratio"]["min"], 1, 1e-3);
+  }
+}
+
+TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("small.toml", small_scene);
+  const json d = simulate({"--scene", scene, "--frames", "1"});
+  EXPECT_EQ(d["scene"], "small");
+  const json& plan = d["plan"];
+  EXPECT_EQ(keys(plan), (Keys{"stages", "left_out"}));
+  Keys all;
+  for (const json& s : plan["stages"]) EXPECT_TRUE(all.insert(s).second);
+  for (const json& l : plan["left_out"]) {
+    EXPECT_EQ(keys(l), (Keys{"stage", "why"}));
+    EXPECT_TRUE(all.insert(l["stage"]).second);
+    EXPECT_FALSE(l["why"].get<std::string>().empty());
+  }
+  EXPECT_EQ(all, (Keys{"arrive", "contact-response", "structural-springs", "bend-springs", "shear-springs",
+                       "gas-pressure", "gravity", "integrate", "solid-spheres", "ground", "internal-damping",
+                       "rebound-damping", "rolling-resistance", "detect", "sleep"}));
+  const auto runs = [&](const char* stage) {
+    return std::find(plan["stages"].begin(), plan["stages"].end(), stage) != plan["stages"].end();
+  };
+  EXPECT_TRUE(runs("ground") && runs("gas-pressure") && runs("detect"));
+  EXPECT_FALSE(runs("solid-spheres") || runs("arrive") || runs("shear-springs"));
+}
+
+TEST(Simulate, FiguresAreThoseOfThePhysics) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("fall.toml",
+                                  "[collision]\nself_collision = false\n[[material]]\nmass = 2\n[[body]]\n"
+                                  "position = [0, 50, 0]\nvelocity = [3, 0, 0]\n[ground]\n");
+  const json d = simulate({"--scene", scene, "--frames", "60"});
+  const json& last = d["frames"][59];
+  EXPECT_NEAR(last["max_speed"], std::hypot(3, 9.81), 1e-3) << "after a second";
+  EXPECT_NEAR(last["energy"], 2 * 9.81 * 50 + 0.5 * 2 * 9, 10) << "joules: potential and kinetic";
+  EXPECT_EQ(last["contacts"], json({{"bodies", 0}, {"self", 0}, {"solid", 0}}));
+  EXPECT_EQ(last["deepest_penetration"], 0.0);
+}
+
+TEST(Simulate, OpenMeshesHaveNoVolumeRatio) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("sheet.toml", "[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
+  const json ratio = simulate({"--scene", scene, "--frames", "1"})["frames"][0]["volume_ratio"];
+  EXPECT_TRUE(ratio["min"].is_null() && ratio["max"].is_null());
+}
+
+TEST(Simulate, TheStateHashIsTheSameOverRunsThreadsAndExactMethods) {
+  const auto hash = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"--scene", "drop", "--frames", "260"});
+    return simulate(more)["state_hash"];
+  };
+  const json once = hash({"--threads", "1"});
+  EXPECT_EQ(hash({"--threads", "1"}), once);
+  EXPECT_EQ(hash({"--threads", "2"}), once);
+  EXPECT_EQ(hash({}), once);
+  EXPECT_EQ(hash({"--method", "brute-force"}), once);
+  EXPECT_NE(hash({"--dt", "0.02"}), once);
+}
+
+TEST(Simulate, ToleranceDtAndMethodAreRespected) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("small.toml", small_scene);
+  const auto last = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--scene", scene, "--frames", "8"});
+    return simulate(more)["frames"][7];
+  };
+  const json plain = last({});
+  EXPECT_NEAR(plain["max_speed"], 9.81 * 8 / 60, 0.15);
+  EXPECT_GT(last({"--tolerance", "0.3"})["contacts"]["bodies"], plain["contacts"]["bodies"]);
+  EXPECT_EQ(last({"--tolerance", "0.001"})["contacts"]["bodies"], 0);
+  EXPECT_LT(last({"--dt", "0.001"})["max_speed"], 0.1) << "a shorter frame, a shorter fall";
+}
+
+TEST(Simulate, LevelsBucketsAndCellSizeReachTheLiteralMethod) {
+  const TemporaryFolder folder;  // two balls that overlap, held, so that only detection differs
+  const auto scene = folder.write("held.toml",
+                                  "gravity = [0, 0, 0]\n[collision]\ntolerance = 0.1\nself_collision = false\n"
+                                  "[[body]]\nrelease = 99\n[[body]]\nposition = [0.913, 3.057, 0.021]\nrelease = 99\n");
+  const auto contacts = [&](std::vector<std::string> more) {
+    more.insert(more.end(), {"--scene", scene, "--frames", "1"});
+    return simulate(more)["frames"][0]["contacts"]["bodies"].get<int>();
+  };
+  const std::vector<std::string> literal{"--method", "multi-level-sb"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), literal.begin(), literal.end());
+    return contacts(more);
+  };
+  const int all = contacts({"--method", "brute-force"});
+  ASSERT_GT(all, 5);
+  EXPECT_EQ(with({"--buckets", "1"}), all) << "one bucket holds all boxes";
+  EXPECT_LT(with({"--cell-size", "0.05", "--buckets", "16000057"}), all / 2) << "corners skip the cells between them";
+  EXPECT_EQ(with({"--cell-size", "50", "--buckets", "16000057"}), all);
+  EXPECT_LT(with({"--cell-size", "0.21", "--levels", "0", "--buckets", "16000057"}),
+            with({"--cell-size", "0.21", "--levels", "9", "--buckets", "16000057"}))
+      << "finer boxes fit the cells";
+}
+
+TEST(Simulate, WithoutJsonPrintsAShortTable) {
+  const Outcome o = run({"simulate", "--scene", "drop", "--frames", "100"});
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.err, "") << "progress is for terminals";
+  EXPECT_NE(
+      o.out.find("state hash " + simulate({"--scene", "drop", "--frames", "100"})["state_hash"].get<std::string>()),
+      std::string::npos);
+  EXPECT_LT(std::count(o.out.begin(), o.out.end(), '\n'), 40);
+}
+
+TEST(Simulate, WorksFromAnyWorkingDirectoryAndWithoutADisplay) {
+  const TemporaryFolder folder;
+  folder.write("here.toml", small_scene);
+  unsetenv("DISPLAY");
+  EXPECT_EQ(run({"simulate", "--scene", "here.toml", "--frames", "2", "--json"}, folder.path()).status, 0);
+  EXPECT_EQ(run({"simulate", "--scene", "drop", "--frames", "2", "--json"}, folder.path()).status, 0);
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 1) << "nothing was written";
+}
+
+}  // namespace
+}  // namespace cli::test

@@ -1,0 +1,135 @@
+// The drop scene, 800 frames: what the captions of the paper's figures 10 to 13 say, and bounds that hold throughout.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <set>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+constexpr int frames = 800;
+constexpr double radius = 0.5;     // of a body
+constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
+
+/// The bodies that lie against the solid sphere.
+std::set<BodyId> on_sphere(const World& world) {
+  const SolidSphere& sphere = world.scene().spheres.front();
+  std::set<BodyId> bodies;
+  for (const SolidContact& c : world.solid_contacts()) {
+    const collide::Frame p = world.positions();
+    const glm::dvec3 x(p.x[c.vertex], p.y[c.vertex], p.z[c.vertex]);
+    if (glm::distance(x, sphere.centre) < sphere.radius + touching) bodies.insert(world.vertex_body()[c.vertex]);
+  }
+  return bodies;
+}
+
+/// The largest difference in height of the centres of two bodies that touch.
+double stacked(const World& world) {
+  double height = 0;
+  for (const collide::Contact& c : world.detection().contacts) {
+    const BodyId a = world.vertex_body()[c.a], b = world.vertex_body()[c.b];
+    if (a != b) height = std::max(height, std::abs(motion(world, a).centre.y - motion(world, b).centre.y));
+  }
+  return height;
+}
+
+TEST(Drop, HoldsItsBoundsInEveryFrameAndSleepsAtTheEnd) {
+  World world(drop_scene(), {});
+  double highest = 0;
+  for (const BodySource& b : world.scene().bodies) highest = std::max(highest, b.position.y);
+  const double free_fall = std::sqrt(2 * 9.81 * (highest + radius - world.scene().ground->height));
+  double fastest = 0;
+  for (int frame = 1; frame <= frames; ++frame) {
+    world.step();
+    const Measures m = measure(world);
+    ASSERT_TRUE(m.finite && m.has_volume) << "frame " << frame;
+    ASSERT_GT(m.volume_ratio_min, 0.5) << "frame " << frame;
+    ASSERT_LT(m.volume_ratio_max, 2.0) << "frame " << frame;
+    ASSERT_LT(m.max_speed, 2 * free_fall) << "frame " << frame;
+    ASSERT_LT(m.deepest_penetration, 1e-5) << "frame " << frame;
+    fastest = std::max(fastest, m.max_speed);
+  }
+  EXPECT_GT(fastest, 4) << "they did fall";
+  EXPECT_TRUE(world.all_at_rest());
+  EXPECT_EQ(world.bodies().count(), world.scene().bodies.size());
+  EXPECT_EQ(measure(world).max_speed, 0);
+}
+
+TEST(Drop, ShowsWhatTheCaptionsSay) {
+  World world(drop_scene(), {});
+  const SolidSphere sphere = world.scene().spheres.front();
+  run(world, 100);  // figure 10: a body above the solid sphere
+  const glm::dvec3 first = motion(world, 0).centre;
+  EXPECT_GT(first.y - radius, sphere.centre.y + sphere.radius);
+  EXPECT_LT(std::hypot(first.x - sphere.centre.x, first.z - sphere.centre.z), sphere.radius);
+  EXPECT_TRUE(world.solid_contacts().empty());
+
+  std::set<BodyId> hit, around;  // figure 11: it has hit the sphere
+  while (world.frame() < 405) {
+    world.step();
+    const std::set<BodyId> now = on_sphere(world);
+    if (world.frame() <= 400) hit.insert(now.begin(), now.end());
+    if (world.frame() >= 395) around.insert(now.begin(), now.end());
+  }
+  EXPECT_TRUE(hit.contains(0));
+  EXPECT_FALSE(around.empty());
+
+  run(world, 600 - 405);  // figure 12: bodies on bodies
+  EXPECT_GT(stacked(world), 0.5 * radius);
+
+  run(world, 800 - 600);  // figure 13: all lie on the floor
+  for (BodyId b = 0; b < world.bodies().count(); ++b) {
+    const glm::dvec3 centre = motion(world, b).centre;
+    EXPECT_LT(centre.y, 1.05 * radius) << "body " << b;
+    EXPECT_GT(centre.y, 0.6 * radius) << "body " << b;
+    std::size_t floor = 0;
+    for (const SolidContact& c : world.solid_contacts())
+      floor += world.vertex_body()[c.vertex] == b && world.positions().y[c.vertex] < touching;
+    EXPECT_GE(floor, 1u) << "body " << b << " is not on the floor";
+  }
+  EXPECT_LT(stacked(world), 0.2 * radius) << "none on another";
+}
+
+std::uint64_t hash_of(const std::string& method, const World::Options& options) {
+  Scene scene = drop_scene();
+  scene.method = method;
+  World world(scene, options);
+  run(world, frames);
+  return world.state_hash();
+}
+
+TEST(Drop, IsTheSameTwiceOnAnyThreadsAndOnAnyInstructionSet) {
+  const std::string method(collide::default_method);
+  const std::uint64_t hash = hash_of(method, {});
+  EXPECT_EQ(hash_of(method, {}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 2}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 5}), hash);
+  for (const Isa isa : isas()) EXPECT_EQ(hash_of(method, {.isa = isa}), hash);
+}
+
+class DropWith : public testing::TestWithParam<std::string> {};
+
+TEST_P(DropWith, EqualContactsMakeAnEqualTrajectory) {
+  EXPECT_EQ(hash_of(GetParam(), {.threads = 2}), hash_of(std::string(collide::default_method), {}));
+}
+
+std::vector<std::string> exact_methods() {
+  std::vector<std::string> keys;
+  for (const collide::Method& m : collide::methods())
+    if (m.exact && m.key != collide::default_method) keys.emplace_back(m.key);
+  return keys;
+}
+
+INSTANTIATE_TEST_SUITE_P(Methods, DropWith, testing::ValuesIn(exact_methods()), [](const auto& i) {
+  std::string name = i.param;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace softbody::test

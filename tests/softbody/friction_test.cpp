@@ -1,0 +1,162 @@
+// Coulomb friction on solids, by closed forms.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+constexpr double g = 9.81;
+const glm::dvec3 down(0, -g, 0);
+
+TEST(Friction, ASlidingSheetLosesMuGTAndStops) {
+  for (const double mu : {0.2, 0.6}) {
+    const double v0 = 2, stop = v0 / (mu * g);
+    World world(sheet_on_ground(mu, down, glm::dvec3(0, 0, v0)), {});
+    for (int frame = 1; frame <= 120; ++frame) {
+      world.step();
+      const double t = frame / 60.0;
+      const Motion m = motion(world, 0);
+      ASSERT_NEAR(m.velocity.z, std::max(0.0, v0 - mu * g * t), 1e-4) << "mu " << mu << ", frame " << frame;
+      ASSERT_NEAR(m.centre.y, 0, 1e-6);
+    }
+    EXPECT_GT(2.0, stop);
+    const Motion end = motion(world, 0);
+    EXPECT_EQ(measure(world).max_speed, 0) << "it stands";
+    EXPECT_NEAR(end.centre.z, v0 * v0 / (2 * mu * g), 0.01);
+  }
+}
+
+TEST(Friction, NoneIsNoLoss) {
+  World world(sheet_on_ground(0, down, glm::dvec3(2, 0, 0)), {});
+  run(world, 60);
+  EXPECT_NEAR(motion(world, 0).velocity.x, 2, 1e-5);
+  EXPECT_NEAR(motion(world, 0).centre.x, 2, 1e-4);
+}
+
+/// Gravity at an angle is a slope.
+TEST(Friction, HoldsBelowTheConeAndSlidesAboveItByTheClosedForm) {
+  const double mu = 0.5;
+  for (const double tangent : {0.3, 0.49, 0.51, 0.9}) {
+    const double angle = std::atan(tangent);
+    World world(sheet_on_ground(mu, g * glm::dvec3(std::sin(angle), -std::cos(angle), 0), glm::dvec3(0.0)), {});
+    run(world, 60);
+    const double expected = std::max(0.0, g * (std::sin(angle) - mu * std::cos(angle)));
+    EXPECT_NEAR(motion(world, 0).velocity.x, expected, 1e-4) << "tangent " << tangent;
+    if (tangent < mu) {
+      EXPECT_LT(std::abs(motion(world, 0).centre.x), 1e-6);
+    }
+  }
+}
+
+TEST(Friction, TurnsASlidingBallIntoARollingOne) {
+  Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0, 0));
+  scene.gravity = down;
+  scene.bodies[0].position = {0, 0.53, 0};
+  scene.ground = Ground{0, 0.4};
+  World world(scene, {});
+  run(world, 150);
+  const Motion m = motion(world, 0);
+  EXPECT_LT(m.spin_momentum.z, -0.1) << "forward along x is a turn about -z";
+  // A thin shell that stops slipping keeps 3/5 of its speed.
+  EXPECT_NEAR(m.velocity.x, 0.6 * 3, 0.35);
+}
+
+/// The kernels on their own: one particle a lane.
+class SolidKernels : public testing::TestWithParam<Isa> {
+ protected:
+  SolidArguments arguments(double friction) {
+    return {1, 0.01f, 0.25f, float(friction), 1.0f, {}, moves, {impulse.x, impulse.y, impulse.z}};
+  }
+  const Kernels& k = kernels(GetParam());
+  alignas(32) float moves[lanes]{1, 1, 1, 1, 1, 1, 1, 1};
+  LaneVector impulse{};
+  LaneField x{1}, v{1};
+};
+
+TEST_P(SolidKernels, LeaveParticlesThatDoNotReachTheSurfaceAlone) {
+  for (int l = 0; l < lanes; ++l) {
+    x.set(0, l, {0, 0.05, 0});
+    v.set(0, l, {1, -0.6 * l, 0});  // reaches -0.05 m from l = 9 on
+  }
+  k.ground(arguments(1), std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) {
+    EXPECT_EQ(v.at(0, l).x, 1);
+    EXPECT_EQ(impulse.y[l], 0);
+  }
+}
+
+TEST_P(SolidKernels, StopAParticleAtTheSurfaceAndTakeFrictionTimesTheImpulse) {
+  const double gap = 0.02, h = 0.01;
+  for (int l = 0; l < lanes; ++l) {
+    x.set(0, l, {0, gap, 0});
+    v.set(0, l, {3, -3.0 - l, 4});  // 2 m/s is as fast as it may go
+  }
+  k.ground(arguments(0.5), std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) {
+    const double change = 3.0 + l - gap / h, kept = std::max(0.0, 1 - 0.5 * change / 5);
+    EXPECT_NEAR(v.at(0, l).y, -gap / h, 1e-5);
+    EXPECT_NEAR(v.at(0, l).x, 3 * kept, 1e-5);
+    EXPECT_NEAR(v.at(0, l).z, 4 * kept, 1e-5);
+    EXPECT_NEAR(impulse.y[l], 0.25 * change, 1e-5);
+  }
+}
+
+TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
+  for (int l = 0; l < lanes; ++l) {
+    x.set(0, l, {0, 0, 0});
+    v.set(0, l, l < 4 ? glm::dvec3(1, 2, 0) : glm::dvec3(0.1, -5, 0));
+  }
+  k.ground(arguments(10), std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) {
+    if (l < 4) {
+      EXPECT_EQ(v.at(0, l), glm::dvec3(1, 2, 0));
+    } else {
+      EXPECT_NEAR(glm::length(v.at(0, l)), 0, 1e-6);
+    }
+  }
+}
+
+TEST_P(SolidKernels, BringAParticleOutByATenthOfItsDepthAStepAtMost1MetreASecond) {
+  for (int l = 0; l < lanes; ++l) x.set(0, l, {0, -0.04 * l, 0});
+  k.ground(arguments(0), std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) EXPECT_NEAR(v.at(0, l).y, std::min(0.1 * 0.04 * l / 0.01, 1.0), 1e-5);
+}
+
+TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
+  SolidArguments s = arguments(0.25);
+  std::mt19937 random(9);
+  std::vector<glm::dvec3> normal, before;
+  for (int l = 0; l < lanes; ++l) {
+    const glm::dvec3 c(l, -l, 0.5 * l);
+    s.centre.x[l] = float(c.x), s.centre.y[l] = float(c.y), s.centre.z[l] = float(c.z);
+    normal.push_back(
+        glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1))));
+    x.set(0, l, c + 1.0 * normal.back());  // on the surface of radius 1, up to rounding
+    const glm::dvec3 across = glm::normalize(glm::cross(normal.back(), glm::dvec3(0.3, 0.5, 0.8)));
+    before.push_back(-2.0 * normal.back() + 4.0 * across);
+    v.set(0, l, before.back());
+  }
+  k.sphere(s, std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) {
+    const glm::dvec3 n = normal[std::size_t(l)], tangential = before[std::size_t(l)] + 2.0 * n;
+    EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
+    EXPECT_LT(glm::distance(glm::dvec3(impulse.x[l], impulse.y[l], impulse.z[l]), 0.25 * 2.0 * n), 1e-4);
+  }
+}
+
+TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {
+  moves[3] = 0;
+  k.sphere(arguments(1), std::as_const(x).field(), v.field());
+  for (int l = 0; l < lanes; ++l) EXPECT_EQ(v.at(0, l), glm::dvec3(0, l == 3 ? 0 : 1, 0));
+}
+
+INSTANTIATE_TEST_SUITE_P(Isa, SolidKernels, testing::ValuesIn(isas()),
+                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,170 @@
+// Volume and pressure kernels, and the law of the gas.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+struct Solid {
+  std::vector<glm::dvec3> corners;
+  std::vector<Triangle> faces;
+  double volume;
+};
+
+Solid tetrahedron() {
+  return {{{0, 0, 0}, {2, 0, 0}, {0, 3, 0}, {0, 0, 4}}, {{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}}, 4};
+}
+
+Solid cube() {
+  return {{{0, 0, 0}, {1, 0, 0}, {1, 2, 0}, {0, 2, 0}, {0, 0, 3}, {1, 0, 3}, {1, 2, 3}, {0, 2, 3}},
+          {{0, 2, 1},
+           {0, 3, 2},
+           {4, 5, 6},
+           {4, 6, 7},
+           {0, 1, 5},
+           {0, 5, 4},
+           {2, 3, 7},
+           {2, 7, 6},
+           {1, 2, 6},
+           {1, 6, 5},
+           {3, 0, 4},
+           {3, 4, 7}},
+          6};
+}
+
+Solid ball(int subdivisions) {
+  const Mesh mesh = icosphere(subdivisions, 1);
+  double volume = 20;  // of pyramids over the icosahedron's faces
+  if (subdivisions == 0)
+    volume *= 5 * (3 + std::sqrt(5.0)) / 12 / 20 * std::pow(std::sqrt(50 - 10 * std::sqrt(5)) / 5, 3);
+  else
+    volume = softbody::volume(mesh.vertices, mesh.triangles);
+  return {mesh.vertices, mesh.triangles, volume};
+}
+
+std::vector<KernelTriangle> kernel_faces(const Solid& solid) {
+  std::vector<KernelTriangle> faces;
+  for (const auto& [a, b, c] : solid.faces) faces.push_back({a * lanes, b * lanes, c * lanes});
+  return faces;
+}
+
+/// Each lane larger than the one before.
+double scale(int lane) { return 0.5 + 0.25 * lane; }
+LaneField positions(const Solid& solid) {
+  LaneField x(solid.corners.size());
+  for (std::size_t i = 0; i < solid.corners.size(); ++i)
+    for (int l = 0; l < lanes; ++l) x.set(i, l, scale(l) * solid.corners[i]);
+  return x;
+}
+
+class Pressure : public testing::TestWithParam<Isa> {
+ protected:
+  const Kernels& k = kernels(GetParam());
+  std::vector<Solid> solids{tetrahedron(), cube(), ball(0), ball(2)};
+};
+
+TEST_P(Pressure, VolumesHaveTheirClosedForms) {
+  for (const Solid& solid : solids) {
+    alignas(32) float v[lanes];
+    k.volume(kernel_faces(solid), positions(solid).field(), v);
+    for (int l = 0; l < lanes; ++l) {
+      const double expected = solid.volume * std::pow(scale(l), 3);
+      EXPECT_NEAR(v[l], expected, 4e-6 * expected) << solid.corners.size() << " corners, lane " << l;
+    }
+  }
+}
+
+TEST_P(Pressure, ForceIsPressureTimesTheGradientOfVolume) {
+  std::mt19937 random(11);
+  for (const Solid& solid : solids) {
+    LaneField x = positions(solid), f(solid.corners.size());
+    for (std::size_t i = 0; i < solid.corners.size(); ++i)  // no symmetry may hide a mistake
+      for (int l = 0; l < lanes; ++l)
+        x.set(i, l,
+              x.at(i, l) + glm::dvec3(uniform(random, -.1, .1), uniform(random, -.1, .1), uniform(random, -.1, .1)));
+    alignas(32) float gauge[lanes];
+    for (int l = 0; l < lanes; ++l) gauge[l] = 100.0f * float(l - 3);
+    k.pressure(kernel_faces(solid), std::as_const(x).field(), gauge, f.field());
+    for (int l = 0; l < lanes; ++l) {
+      std::vector<glm::dvec3> p;
+      for (std::size_t i = 0; i < solid.corners.size(); ++i) p.push_back(x.at(i, l));
+      for (std::size_t i = 0; i < p.size(); ++i)
+        for (int axis = 0; axis < 3; ++axis) {
+          constexpr double e = 1e-4;
+          auto more = p, less = p;
+          more[i][axis] += e;
+          less[i][axis] -= e;
+          const double gradient = (volume(more, solid.faces) - volume(less, solid.faces)) / (2 * e);
+          EXPECT_NEAR(f.at(i, l)[axis], gauge[l] * gradient, 1e-5 * std::abs(gauge[l]) * scale(l) * scale(l) + 1e-6);
+        }
+    }
+  }
+}
+
+TEST_P(Pressure, NetForceAndTorqueVanishAndGaugeZeroPushesNowhere) {
+  for (const Solid& solid : solids) {
+    const LaneField x = positions(solid);
+    LaneField f(solid.corners.size());
+    alignas(32) float gauge[lanes]{0, 1, 10, 100, 1e3f, 1e4f, -5, -50};
+    k.pressure(kernel_faces(solid), x.field(), gauge, f.field());
+    for (int l = 0; l < lanes; ++l) {
+      glm::dvec3 sum(0.0), torque(0.0);
+      double size = 0;
+      for (std::size_t i = 0; i < solid.corners.size(); ++i) {
+        sum += f.at(i, l);
+        torque += glm::cross(x.at(i, l), f.at(i, l));
+        size += glm::length(f.at(i, l));
+      }
+      EXPECT_EQ(size > 0, gauge[l] != 0);
+      EXPECT_LE(glm::length(sum), 1e-6 * size);
+      EXPECT_LE(glm::length(torque), 4e-6 * size);
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Isa, Pressure, testing::ValuesIn(isas()),
+                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+
+const Gas gas{.amount = 60000, .ambient = 101325, .rest_volume = 0.5};
+
+TEST(GasLaw, PressureTimesVolumeIsConstantDownToATenth) {
+  for (const double v : {0.05, 0.0501, 0.1, 0.3, 0.5, 2.0, 50.0}) EXPECT_NEAR(gas.pressure(v) * v, 60000, 1e-9 * 60000);
+}
+
+TEST(GasLaw, GoesOnLinearlyBelowATenthWithTheSameValueAndSlope) {
+  const double turn = 0.05, p = 60000 / turn, slope = -60000 / (turn * turn);
+  for (const double v : {0.04999, 0.03, 0.0, -0.01, -0.5, -2.0})
+    EXPECT_NEAR(gas.pressure(v), p + slope * (v - turn), 1e-9 * gas.pressure(v)) << v;
+  EXPECT_NEAR(gas.pressure(turn * (1 - 1e-9)), gas.pressure(turn * (1 + 1e-9)), 1e-7 * p);
+  const double below = (gas.pressure(turn) - gas.pressure(turn - 1e-7)) / 1e-7;
+  const double above = (gas.pressure(turn + 1e-7) - gas.pressure(turn)) / 1e-7;
+  EXPECT_NEAR(below, slope, 1e-4 * -slope);
+  EXPECT_NEAR(above, slope, 1e-4 * -slope);
+}
+
+TEST(GasLaw, AnInvertedBodyFeelsAFiniteOutwardPressureThatGrows) {
+  double last = gas.pressure(0.05);
+  for (double v = 0.04; v > -1; v -= 0.01) {
+    EXPECT_GT(gas.pressure(v), last);
+    last = gas.pressure(v);
+  }
+  EXPECT_TRUE(std::isfinite(last));
+}
+
+TEST(GasLaw, EnergyIsThePotentialOfThePressureOnBothSides) {
+  for (const double v : {-0.7, -0.05, -1e-3, 0.0, 1e-3, 0.02, 0.049, 0.05, 0.051, 0.2, 0.5, 1.0, 3.0}) {
+    const double e = 1e-6;
+    const double slope = (gas.energy(v + e) - gas.energy(v - e)) / (2 * e);
+    EXPECT_NEAR(slope, gas.ambient - gas.pressure(v), 1e-5 * (gas.ambient + gas.pressure(v))) << "V = " << v;
+  }
+  EXPECT_EQ(gas.energy(0.5), 0.0);
+  EXPECT_NEAR(gas.energy(0.05 - 1e-12), gas.energy(0.05 + 1e-12), 1e-4) << "no jump at the turn";
+}
+
+}  // namespace
+}  // namespace softbody::test

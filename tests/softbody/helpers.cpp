@@ -1,0 +1,141 @@
+#include "tests/softbody/helpers.h"
+
+#include <stdlib.h>
+
+#include <fstream>
+#include <glm/geometric.hpp>
+
+namespace softbody::test {
+
+Material spring_ball() {
+  Material m;
+  m.name = "springs";
+  m.rolling_resistance = 0;
+  m.thickness = 0;
+  return m;
+}
+
+Material gas_ball() {
+  Material m = spring_ball();
+  m.name = "gas";
+  m.structural = {200, 0.1};
+  m.bend = {50, 0.1};
+  m.gas_pressure = 113000;
+  m.ambient_pressure = 101325;
+  return m;
+}
+
+Scene lone_body(const Material& material, const glm::dvec3& velocity) {
+  Scene scene;
+  scene.key = "test";
+  scene.gravity = glm::dvec3(0.0);
+  scene.collision.self_collision = false;
+  scene.sleep.speed = 0;
+  scene.materials = {material};
+  add_body(scene, glm::dvec3(0.0), velocity);
+  return scene;
+}
+
+void add_body(Scene& scene, const glm::dvec3& position, const glm::dvec3& velocity) {
+  BodySource body;
+  body.position = position;
+  body.velocity = velocity;
+  scene.bodies.push_back(body);
+}
+
+Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dvec3& velocity) {
+  Scene scene = lone_body(spring_ball(), velocity);
+  MeshSource& mesh = scene.bodies.front().mesh;
+  mesh.kind = "grid";
+  mesh.columns = mesh.rows = 4;
+  mesh.width = mesh.depth = 1;
+  scene.gravity = gravity;
+  scene.ground = Ground{0, friction};
+  return scene;
+}
+
+Scene drop_scene() { return load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "drop.toml"); }
+
+void run(World& world, int frames) {
+  for (int i = 0; i < frames; ++i) world.step();
+}
+
+Motion motion(const World& world, BodyId body) {
+  const Prototype& p = world.prototype(body);
+  const auto count = static_cast<Index>(p.mesh.vertices.size());
+  Motion m{p.material.mass, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
+  for (Index i = 0; i < count; ++i) {
+    const Particle q = world.dynamics().particle(body, i);
+    m.centre += q.position / double(count);
+    m.velocity += q.velocity / double(count);
+  }
+  for (Index i = 0; i < count; ++i) {
+    const Particle q = world.dynamics().particle(body, i);
+    m.spin_momentum += p.particle_mass * glm::cross(q.position - m.centre, q.velocity - m.velocity);
+  }
+  return m;
+}
+
+glm::dvec3 angular_momentum(const World& world) {
+  glm::dvec3 total(0.0);
+  for (BodyId b = 0; b < world.bodies().count(); ++b) {
+    const Motion m = motion(world, b);
+    total += m.mass * glm::cross(m.centre, m.velocity) + m.spin_momentum;
+  }
+  return total;
+}
+
+std::vector<glm::dvec3> forces(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  std::vector<glm::dvec3> f(x.size(), glm::dvec3(0.0));
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *list) {
+      const glm::dvec3 d = x[s.j] - x[s.i];
+      const double length = glm::length(d);
+      const glm::dvec3 pull = s.stiffness * (1 - s.rest / length) * d;
+      f[s.i] += pull;
+      f[s.j] -= pull;
+    }
+  if (!p.has_gas) return f;
+  double v = 0;
+  for (const auto& t : p.mesh.triangles) v += glm::dot(x[t[0]], glm::cross(x[t[1]], x[t[2]])) / 6;
+  const double turn = 0.1 * p.gas.rest_volume;
+  const double pressure =
+      v >= turn ? p.gas.amount / v : p.gas.amount / turn - p.gas.amount / (turn * turn) * (v - turn);
+  for (const auto& t : p.mesh.triangles) {
+    const glm::dvec3 third = (pressure - p.gas.ambient) / 3 * 0.5 * glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+    for (const Index corner : t) f[corner] += third;
+  }
+  return f;
+}
+
+std::vector<Isa> isas() {
+  std::vector<Isa> list{Isa::baseline};
+  if (best_isa() != Isa::baseline) list.push_back(best_isa());
+  return list;
+}
+
+// Not the library's distributions: those differ between standard libraries.
+double uniform(std::mt19937& random, double lo, double hi) { return lo + (hi - lo) * double(random()) / 4294967296.0; }
+
+TemporaryFolder::TemporaryFolder() {
+  std::string name = (std::filesystem::temp_directory_path() / "sbcollide-XXXXXX").string();
+  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  std::filesystem::remove_all(path_, ignored);
+}
+
+std::filesystem::path TemporaryFolder::write(const std::string& name, const std::string& text) const {
+  std::ofstream(path_ / name, std::ios::binary) << text;
+  return path_ / name;
+}
+
+void LaneField::randomise(std::mt19937& random, double size) {
+  for (auto* component : {&x, &y, &z})
+    for (float& value : *component) value = float(uniform(random, -size, size));
+}
+
+}  // namespace softbody::test

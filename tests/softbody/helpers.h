@@ -1,0 +1,73 @@
+#pragma once
+// Small worlds to try, their totals, and forces worked out a second time by plain loops in double.
+
+#include <filesystem>
+#include <random>
+
+#include "softbody/measures.h"
+
+namespace softbody::test {
+
+/// Springs alone, no gas: the mesh itself is the resting shape. It goes as near to solids as it can.
+Material spring_ball();
+/// Springs and gas in balance, without any of the frame's dampers.
+Material gas_ball();
+/// One icosphere of 162 particles and 0.5 m: no gravity, no solids, no self-collision, no sleep.
+Scene lone_body(const Material& material, const glm::dvec3& velocity = glm::dvec3(0.0));
+/// A second body of the same mesh and material.
+void add_body(Scene& scene, const glm::dvec3& position, const glm::dvec3& velocity);
+/// A flat sheet of 4 x 4 quads that lies in the plane y = 0 on ground of the same height.
+Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dvec3& velocity);
+Scene drop_scene();
+
+void run(World& world, int frames);
+
+/// A body's rigid part.
+struct Motion {
+  double mass;
+  glm::dvec3 centre, velocity;
+  glm::dvec3 spin_momentum;  // angular momentum about the centre
+};
+Motion motion(const World& world, BodyId body);
+glm::dvec3 angular_momentum(const World& world);  // about the world's origin
+/// Forces of springs and gas at rest, by plain loops.
+std::vector<glm::dvec3> forces(const Prototype& prototype, const std::vector<glm::dvec3>& x);
+
+/// The instruction sets that this processor has.
+std::vector<Isa> isas();
+
+double uniform(std::mt19937& random, double lo, double hi);
+
+/// A folder of its own that vanishes with the object.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  std::filesystem::path write(const std::string& name, const std::string& text) const;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// Three components over `particles` particles, one value a lane.
+struct LaneField {
+  explicit LaneField(std::size_t particles) : x(particles * lanes), y(x), z(x) {}
+  LaneArray<float> x, y, z;
+  Field<float> field() { return {x.data(), y.data(), z.data()}; }
+  Field<const float> field() const { return {x.data(), y.data(), z.data()}; }
+  glm::dvec3 at(std::size_t particle, int lane) const {
+    const std::size_t s = particle * lanes + std::size_t(lane);
+    return {x[s], y[s], z[s]};
+  }
+  void set(std::size_t particle, int lane, const glm::dvec3& value) {
+    const std::size_t s = particle * lanes + std::size_t(lane);
+    x[s] = float(value.x), y[s] = float(value.y), z[s] = float(value.z);
+  }
+  void randomise(std::mt19937& random, double size);
+  bool operator==(const LaneField&) const = default;
+};
+
+}  // namespace softbody::test

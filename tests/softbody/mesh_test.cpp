@@ -1,0 +1,156 @@
+// Meshes: counts, topology, orientation.
+
+#include "softbody/mesh.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <map>
+#include <numbers>
+#include <set>
+
+namespace softbody {
+namespace {
+
+class Icosphere : public testing::TestWithParam<int> {};
+
+TEST_P(Icosphere, HasTheCountsOfItsSubdivision) {
+  const int s = GetParam();
+  const std::size_t quarter = std::size_t(1) << (2 * s);
+  const Mesh mesh = icosphere(s, 0.5);
+  EXPECT_EQ(mesh.vertices.size(), 10 * quarter + 2);
+  EXPECT_EQ(mesh.triangles.size(), 20 * quarter);
+  EXPECT_EQ(mesh.edges.size(), 30 * quarter);
+  EXPECT_EQ(mesh.bend_pairs.size(), 30 * quarter);
+  EXPECT_TRUE(mesh.shear_pairs.empty());
+  EXPECT_EQ(mesh.vertices.size() + mesh.triangles.size() - mesh.edges.size(), 2u) << "Euler's characteristic";
+}
+
+TEST_P(Icosphere, IsClosedWithEachEdgeRunOnceInEachDirection) {
+  const Mesh mesh = icosphere(GetParam(), 2.0);
+  EXPECT_TRUE(mesh.closed);
+  std::map<std::pair<Index, Index>, int> directed;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) ++directed[{t[k], t[(k + 1) % 3]}];
+  EXPECT_EQ(directed.size(), 2 * mesh.edges.size());
+  for (const auto& [edge, count] : directed) {
+    EXPECT_EQ(count, 1);
+    EXPECT_TRUE(directed.contains({edge.second, edge.first}));
+  }
+}
+
+TEST_P(Icosphere, LiesOnItsSphereAndFacesOutward) {
+  const Mesh mesh = icosphere(GetParam(), 0.7);
+  for (const auto& v : mesh.vertices) EXPECT_NEAR(glm::length(v), 0.7, 1e-14);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const auto &p = mesh.vertices[a], &q = mesh.vertices[b], &r = mesh.vertices[c];
+    EXPECT_GT(glm::dot(glm::cross(q - p, r - p), p + q + r), 0.0);
+  }
+  EXPECT_NEAR(bounding_radius(mesh), 0.7, 1e-12);
+}
+
+TEST_P(Icosphere, EdgesAndBendPairsAreAscendingAndUnique) {
+  const Mesh mesh = icosphere(GetParam(), 1.0);
+  for (const auto* pairs : {&mesh.edges, &mesh.bend_pairs}) {
+    for (const auto& [i, j] : *pairs) EXPECT_LT(i, j);
+    for (std::size_t k = 1; k < pairs->size(); ++k) EXPECT_LT((*pairs)[k - 1], (*pairs)[k]);
+  }
+}
+
+TEST_P(Icosphere, BendPairsAreTheCornersOppositeAnEdge) {
+  const Mesh mesh = icosphere(GetParam(), 1.0);
+  std::map<std::set<Index>, std::set<Index>> across;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) across[{t[k], t[(k + 1) % 3]}].insert(t[(k + 2) % 3]);
+  std::set<std::set<Index>> expected, found;
+  for (const auto& [edge, opposite] : across) expected.insert(opposite);
+  for (const auto& [i, j] : mesh.bend_pairs) found.insert({i, j});
+  EXPECT_EQ(found, expected);
+}
+
+INSTANTIATE_TEST_SUITE_P(Subdivisions, Icosphere, testing::Range(0, 5));
+
+TEST(IcosphereOfThePaper, Has162Particles320Faces480And480Pairs) {
+  const Mesh mesh = icosphere(2, 0.5);
+  EXPECT_EQ(mesh.vertices.size(), 162u);
+  EXPECT_EQ(mesh.triangles.size(), 320u);
+  EXPECT_EQ(mesh.edges.size(), 480u);
+  EXPECT_EQ(mesh.bend_pairs.size(), 480u);
+}
+
+TEST(IcosphereVolume, ConvergesToTheSphereFromBelow) {
+  const double sphere = 4.0 / 3 * std::numbers::pi * 0.125;
+  double last_error = sphere;
+  for (int s = 0; s <= 4; ++s) {
+    const Mesh mesh = icosphere(s, 0.5);
+    const double error = sphere - volume(mesh.vertices, mesh.triangles);
+    EXPECT_GT(error, 0.0);
+    EXPECT_LT(error, last_error / (s == 0 ? 1 : 3)) << "second order: about a quarter each time";
+    last_error = error;
+  }
+  EXPECT_LT(last_error / sphere, 0.005);
+}
+
+TEST(QuadGrid, HasTheCountsOfItsColumnsAndRows) {
+  const std::size_t c = 5, r = 3;
+  const Mesh mesh = quad_grid(int(c), int(r), 2.0, 1.0);
+  EXPECT_EQ(mesh.vertices.size(), (c + 1) * (r + 1));
+  EXPECT_EQ(mesh.triangles.size(), 2 * c * r);
+  EXPECT_EQ(mesh.edges.size(), c * (r + 1) + r * (c + 1));
+  EXPECT_EQ(mesh.shear_pairs.size(), 2 * c * r);
+  EXPECT_EQ(mesh.bend_pairs.size(), (c - 1) * (r + 1) + (r - 1) * (c + 1));
+  EXPECT_FALSE(mesh.closed);
+}
+
+TEST(QuadGrid, EdgesAreSidesShearPairsDiagonalsAndBendPairsSkipOneParticle) {
+  const Mesh mesh = quad_grid(4, 6, 4 * 0.5, 6 * 0.25);  // quads of 0.5 x 0.25
+  const auto apart = [&](const Edge& e) {
+    const glm::dvec3 d = glm::abs(mesh.vertices[e[0]] - mesh.vertices[e[1]]);
+    return std::pair(int(std::lround(d.x / 0.5)), int(std::lround(d.z / 0.25)));
+  };
+  for (const Edge& e : mesh.edges) EXPECT_TRUE(apart(e) == std::pair(1, 0) || apart(e) == std::pair(0, 1));
+  for (const Edge& e : mesh.shear_pairs) EXPECT_EQ(apart(e), std::pair(1, 1));
+  for (const Edge& e : mesh.bend_pairs) EXPECT_TRUE(apart(e) == std::pair(2, 0) || apart(e) == std::pair(0, 2));
+}
+
+TEST(QuadGrid, LiesFlatAroundItsOriginAndFacesUp) {
+  const Mesh mesh = quad_grid(3, 3, 3.0, 1.5);
+  glm::dvec3 mean(0.0);
+  double area = 0;
+  for (const auto& v : mesh.vertices) mean += v;
+  EXPECT_NEAR(glm::length(mean), 0.0, 1e-12);
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const glm::dvec3 n = glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+    EXPECT_GT(n.y, 0.0);
+    area += glm::length(n) / 2;
+  }
+  EXPECT_NEAR(area, 3.0 * 1.5, 1e-12);
+}
+
+TEST(QuadGrid, OneQuadHasNoBendPairs) {
+  const Mesh mesh = quad_grid(1, 1, 1.0, 1.0);
+  EXPECT_TRUE(mesh.bend_pairs.empty());
+  EXPECT_EQ(mesh.edges.size(), 4u);
+  EXPECT_EQ(mesh.shear_pairs.size(), 2u);
+}
+
+TEST(Volume, OfTetrahedronAndCubeWhereverTheyAre) {
+  const std::vector<Triangle> tetrahedron{{0, 2, 1}, {0, 1, 3}, {0, 3, 2}, {1, 2, 3}};
+  const std::vector<Triangle> cube{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                                   {2, 3, 7}, {2, 7, 6}, {1, 2, 6}, {1, 6, 5}, {3, 0, 4}, {3, 4, 7}};
+  for (const glm::dvec3& at : {glm::dvec3(0.0), glm::dvec3(3, -2, 7)}) {
+    const std::vector<glm::dvec3> corners{at, at + glm::dvec3(2, 0, 0), at + glm::dvec3(0, 3, 0),
+                                          at + glm::dvec3(0, 0, 4)};
+    EXPECT_NEAR(volume(corners, tetrahedron), 2.0 * 3 * 4 / 6, 1e-12);
+    std::vector<glm::dvec3> box;
+    for (const double z : {0.0, 3.0})
+      for (const auto& [x, y] : {std::pair(0.0, 0.0), {1.0, 0.0}, {1.0, 2.0}, {0.0, 2.0}})
+        box.push_back(at + glm::dvec3(x, y, z));
+    EXPECT_NEAR(volume(box, cube), 6.0, 1e-12);
+    for (auto& v : box) v.x = -v.x;  // mirrored: inside out
+    EXPECT_NEAR(volume(box, cube), -6.0, 1e-12);
+  }
+}
+
+}  // namespace
+}  // namespace softbody

@@ -1,0 +1,201 @@
+// Bodies in free flight: closed forms, order of convergence, what is conserved, far from the origin.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(FreeFall, IsTheClosedFormOfSemiImplicitEuler) {
+  Scene scene = lone_body(spring_ball(), glm::dvec3(1.5, 4, -0.5));
+  scene.gravity = {0.3, -9.81, 0};
+  World world(scene, {});
+  for (int frame = 1; frame <= 180; ++frame) {
+    world.step();
+    const double n = frame * world.profile().substeps, t = frame / 60.0, h = t / n;
+    const Motion m = motion(world, 0);
+    ASSERT_GT(world.profile().substeps, 1);
+    const glm::dvec3 v = scene.bodies[0].velocity + t * scene.gravity;
+    const glm::dvec3 x = t * scene.bodies[0].velocity + h * h * n * (n + 1) / 2 * scene.gravity;
+    ASSERT_LT(glm::distance(m.velocity, v), 2e-5 * (1 + glm::length(v))) << "frame " << frame;
+    ASSERT_LT(glm::distance(m.centre, x), 2e-5 * (1 + glm::length(x))) << "frame " << frame;
+  }
+}
+
+TEST(FreeFall, DoesNotDeformABody) {
+  Scene scene = lone_body(gas_ball());
+  scene.gravity = {0, -9.81, 0};
+  World world(scene, {});
+  run(world, 120);
+  const Measures m = measure(world);
+  EXPECT_NEAR(m.volume_ratio_min, 1, 1e-5);
+  const Motion motion_of = motion(world, 0);
+  for (Index i = 0; i < 162; ++i) {
+    const glm::dvec3 r = world.dynamics().particle(0, i).position - motion_of.centre;
+    EXPECT_LT(glm::distance(r, world.prototype(0).start[i]), 1e-4);
+  }
+}
+
+TEST(BodyOrigin, FollowsItsParticlesWithoutAJump) {
+  Scene scene = lone_body(spring_ball(), glm::dvec3(90, 0, 0));
+  World world(scene, {});
+  int moves = 0;
+  glm::dvec3 origin = world.body(0).origin;
+  for (int frame = 1; frame <= 300; ++frame) {
+    world.step();
+    EXPECT_NEAR(motion(world, 0).centre.x, frame * 1.5, 1e-6 * (1 + frame * 1.5));
+    EXPECT_LT(glm::distance(world.body(0).origin, motion(world, 0).centre), 0.5 * 6 + 1.5);
+    moves += world.body(0).origin != origin;
+    origin = world.body(0).origin;
+    EXPECT_EQ(origin, glm::round(origin * 64.0) / 64.0) << "floats hold the shift without loss";
+  }
+  EXPECT_GT(moves, 100);
+}
+
+/// Where the particles of a body that starts away from its balance are at eight times, after `steps` steps in all.
+std::vector<glm::dvec3> pulsate(double seconds, int steps) {
+  Material m = gas_ball();
+  m.gas_pressure = 160000;
+  m.start_in_equilibrium = false;
+  World world(lone_body(m), {.frame_time = seconds / steps});
+  std::vector<glm::dvec3> x;
+  for (int i = 1; i <= steps; ++i) {
+    world.step();
+    if (world.profile().substeps != 1) ADD_FAILURE() << "no substeps wanted here";
+    for (Index v = 0; i % (steps / 8) == 0 && v < 162; ++v) x.push_back(world.dynamics().particle(0, v).position);
+  }
+  return x;
+}
+
+TEST(Convergence, OfAPulsatingBodyIsOfFirstOrder) {
+  constexpr double seconds = 0.008;
+  const auto exact = pulsate(seconds, 4096);
+  std::vector<double> log_error;
+  for (const int steps : {32, 64, 128, 256}) {
+    const auto x = pulsate(seconds, steps);
+    ASSERT_EQ(x.size(), exact.size());
+    double error2 = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) error2 += glm::dot(x[i] - exact[i], x[i] - exact[i]) / double(x.size());
+    ASSERT_GT(std::sqrt(error2), 1e-5) << "above the noise of floats";
+    log_error.push_back(0.5 * std::log2(error2));
+  }
+  for (std::size_t i = 1; i < log_error.size(); ++i) {
+    EXPECT_GT(log_error[i - 1] - log_error[i], 0.8) << "halving " << i;
+    EXPECT_LT(log_error[i - 1] - log_error[i], 1.2) << "halving " << i;
+  }
+}
+
+TEST(Energy, OfABodyInFreeFlightDoesNotGrow) {
+  for (const double damping_ratio : {0.0, 0.3}) {
+    Material m = gas_ball();
+    m.structural.damping_ratio = m.bend.damping_ratio = damping_ratio;
+    m.gas_pressure = 102500;
+    m.start_in_equilibrium = false;
+    Scene scene = lone_body(m, glm::dvec3(0.5, 0, 0));
+    const auto kinetic = [](const World& world) {
+      double sum = 0;
+      for (Index i = 0; i < 162; ++i)
+        sum += 0.5 / 162 * glm::dot(world.dynamics().particle(0, i).velocity, world.dynamics().particle(0, i).velocity);
+      return sum;
+    };
+    World world(scene, {.frame_time = 1e-4});
+    const double start = measure(world).energy;
+    double swing = 0;
+    for (int i = 0; i < 3000; ++i) {
+      world.step();
+      swing = std::max(swing, kinetic(world));
+      ASSERT_LT(measure(world).energy, start + 0.1 * swing) << "step " << i << ", ratio " << damping_ratio;
+    }
+    EXPECT_GT(swing, 0.5) << "it pulsates";
+    if (damping_ratio > 0) {
+      EXPECT_LT(kinetic(world), 0.125 + 0.1 * swing) << "until its dampers have nearly stopped it";
+      EXPECT_LT(measure(world).energy, start - 0.3 * swing);
+    } else {
+      EXPECT_NEAR(measure(world).energy, start, 0.1 * swing);
+    }
+  }
+}
+
+TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
+  Scene scene = lone_body(gas_ball());
+  scene.gravity = {0, -9.81, 0};
+  World world(scene, {});
+  const double start = measure(world).energy;
+  run(world, 60);
+  const double fallen = 0.5 * 9.81;
+  EXPECT_NEAR(measure(world).energy, start, 0.01 * fallen * 9.81);
+  EXPECT_NEAR(measure(world).momentum.y, -9.81, 1e-3) << "1 kg after a second";
+}
+
+/// Gives a free body a spin: it grazes a rough solid sphere in passing, without gravity.
+Scene grazing(double internal_damping) {
+  Material m = gas_ball();
+  m.internal_damping = internal_damping;
+  Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
+  scene.bodies[0].position = {-1.5, 1.35, 0.2};
+  scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
+  return scene;
+}
+
+TEST(Spin, OfABodyInFreeFlightIsConserved) {
+  for (const double damping : {0.0, 10.0}) {
+    World world(grazing(damping), {});
+    run(world, 90);
+    ASSERT_TRUE(world.solid_contacts().empty());
+    const Motion before = motion(world, 0);
+    ASSERT_GT(glm::length(before.spin_momentum), 0.05) << "it spins";
+    run(world, 120);
+    const Motion after = motion(world, 0);
+    EXPECT_LT(glm::distance(after.spin_momentum, before.spin_momentum), 1e-3 * glm::length(before.spin_momentum));
+    EXPECT_LT(glm::distance(after.velocity, before.velocity), 1e-5 * glm::length(before.velocity));
+  }
+}
+
+/// 1 km away, by powers of two, so that no difference of positions is rounded.
+TEST(FarFromTheOrigin, ABodyMovesAsItDoesNearIt) {
+  const auto scene_at = [](const glm::dvec3& at) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(0.25, 0, 0));
+    scene.gravity = {0, -9.81, 0};
+    scene.bodies[0].position = at + glm::dvec3(0.125, 2.75, 0.0625);
+    scene.spheres = {{.centre = at + glm::dvec3(0, 1, 0)}};
+    scene.ground = Ground{at.y, 0.6};
+    return scene;
+  };
+  const glm::dvec3 away(1024, 2048, -1024);
+  World near(scene_at(glm::dvec3(0.0)), {}), far(scene_at(away), {});
+  for (int frame = 0; frame < 180; ++frame) {
+    near.step();
+    far.step();
+    double apart = 0;
+    for (Index i = 0; i < 162; ++i)
+      apart = std::max(
+          apart, glm::distance(near.dynamics().particle(0, i).position + away, far.dynamics().particle(0, i).position));
+    ASSERT_LT(apart, 1e-6) << "frame " << frame;
+  }
+  EXPECT_GT(glm::length(motion(near, 0).spin_momentum), 0.01) << "it rolled off the solid sphere";
+}
+
+TEST(FarFromTheOrigin, BodiesCollideAsTheyDoNearIt) {
+  const auto scene_at = [](const glm::dvec3& at) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
+    scene.bodies[0].position = at;
+    add_body(scene, at + glm::dvec3(1.5, 0.25, 0), glm::dvec3(-1, 0, 0));
+    return scene;
+  };
+  const glm::dvec3 away(1024, 2048, -1024);
+  World near(scene_at(glm::dvec3(0.0)), {}), far(scene_at(away), {});
+  run(near, 60);
+  run(far, 60);
+  ASSERT_LT(motion(near, 0).velocity.x, 1.0) << "they hit";
+  for (const BodyId b : {0u, 1u}) {  // detectors see world floats, 0.2 mm apart out there
+    EXPECT_LT(glm::distance(motion(near, b).centre + away, motion(far, b).centre), 0.02);
+    EXPECT_LT(glm::distance(motion(near, b).velocity, motion(far, b).velocity), 0.05);
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,169 @@
+// The plan: which stages a scene needs, why others are left out, and that a stage left out changes no bit.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <functional>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+World world_of(const std::string& toml) {
+  const TemporaryFolder folder;
+  return World(load_scene(folder.write("plan.toml", toml)), {});
+}
+
+std::string why(const Plan& plan, Stage stage) {
+  for (const LeftOut& l : plan.left_out)
+    if (l.stage == stage) return l.why;
+  return {};
+}
+
+TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
+  for (const char* toml : {"[[body]]\n", "[ground]\n[[body]]\n[[body]]\nrelease = 3\n"}) {
+    const World world = world_of(toml);
+    const Plan& plan = world.plan();
+    EXPECT_EQ(plan.stages.size() + plan.left_out.size(), std::size_t(Stage::count));
+    for (int s = 0; s < int(Stage::count); ++s) {
+      const auto stage = Stage(s);
+      EXPECT_FALSE(stage_key(stage).empty());
+      EXPECT_NE(plan.has(stage), !why(plan, stage).empty()) << stage_key(stage);
+    }
+    EXPECT_TRUE(std::is_sorted(plan.stages.begin(), plan.stages.end()));
+  }
+}
+
+TEST(Plan, OfAnOpenSheetHasNoGasAndNoRollingButShearSprings) {
+  const World world = world_of(
+      "[collision]\nself_collision = false\n[ground]\n[[material]]\nshear = {stiffness = 10}\n"
+      "gas_pressure = 2\nrolling_resistance = 1\n[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
+  const Plan& plan = world.plan();
+  EXPECT_EQ(why(plan, Stage::gas_pressure), "no closed body with gas");
+  EXPECT_EQ(why(plan, Stage::rolling_resistance), "no closed body with rolling resistance");
+  EXPECT_TRUE(plan.has(Stage::shear_springs) && plan.has(Stage::ground) && plan.has(Stage::gravity));
+  EXPECT_EQ(why(plan, Stage::detect), "one body, and self-collision is off");
+  EXPECT_EQ(why(plan, Stage::contact_response), "one body, and self-collision is off");
+  EXPECT_EQ(why(plan, Stage::solid_spheres), "the scene has no solid sphere");
+}
+
+TEST(Plan, OfABallAloneInEmptySpace) {
+  const World world = world_of("gravity = [0, 0, 0]\n[sleep]\nspeed = 0\n[[material]]\nrebound_speed = 2\n[[body]]\n");
+  const Plan& plan = world.plan();
+  EXPECT_EQ(why(plan, Stage::gravity), "the scene has none");
+  EXPECT_EQ(why(plan, Stage::ground), "the scene has no ground");
+  EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
+  EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
+  EXPECT_EQ(why(plan, Stage::internal_damping), "no material has internal damping");
+  EXPECT_EQ(why(plan, Stage::shear_springs), "no body has such springs");
+  EXPECT_EQ(why(plan, Stage::sleep), "the scene's sleep speed is 0");
+  EXPECT_EQ(why(plan, Stage::arrive), "all bodies are there and free from the start");
+  EXPECT_TRUE(plan.has(Stage::detect)) << "it may meet itself";
+  EXPECT_TRUE(plan.has(Stage::structural_springs) && plan.has(Stage::bend_springs) && plan.has(Stage::integrate));
+}
+
+TEST(Plan, ADropperCanAlwaysAddAnother) {
+  const World world = world_of("[collision]\nself_collision = false\n[[body]]\n[dropper]\n");
+  EXPECT_TRUE(world.plan().has(Stage::detect) && world.plan().has(Stage::contact_response));
+  EXPECT_FALSE(world_of("[collision]\nself_collision = false\n[[body]]\n").plan().has(Stage::detect));
+  EXPECT_TRUE(world_of("[collision]\nself_collision = false\n[[body]]\n[[body]]\nposition = [5, 5, 5]\n")
+                  .plan()
+                  .has(Stage::detect));
+}
+
+TEST(Plan, OfTheDropSceneLeavesOutShearSpringsOnly) {
+  const World world(drop_scene(), {});
+  ASSERT_EQ(world.plan().left_out.size(), 1u);
+  EXPECT_EQ(world.plan().left_out[0].stage, Stage::shear_springs);
+}
+
+/// Two scenes that differ by a stage which, where it runs, has nothing to do.
+struct Idle {
+  const char* name;
+  Stage stage;
+  std::function<void(Scene&)> without, with;
+};
+
+class StageLeftOut : public testing::TestWithParam<Idle> {};
+
+TEST_P(StageLeftOut, ChangesNoBitOfTheTrajectory) {
+  const Idle& idle = GetParam();
+  Scene base = lone_body(gas_ball(), glm::dvec3(1.5, 0.25, -1));
+  base.gravity = {0, -9.81, 0};
+  base.bodies[0].position = {0, 1, 0};
+  base.ground = Ground{0, 0.5};
+  base.spheres = {{.centre = {1, 0, 0.25}, .radius = 0.5}};
+  base.materials[0].start_in_equilibrium = false;
+  Scene absent = base, present = base;
+  idle.without(absent);
+  idle.with(present);
+  World a(absent, {}), b(present, {});
+  EXPECT_FALSE(a.plan().has(idle.stage));
+  EXPECT_TRUE(b.plan().has(idle.stage));
+  for (int frame = 0; frame < 90; ++frame) {
+    a.step();
+    b.step();
+    for (Index i = 0; i < a.bodies().size(0); ++i) {
+      const Particle p = a.dynamics().particle(0, i), q = b.dynamics().particle(0, i);
+      ASSERT_EQ(p.position, q.position) << "frame " << frame;
+      ASSERT_LT(glm::distance(p.velocity, q.velocity), 1e-20) << "an exact 0 may become 1e-30 times something";
+    }
+  }
+  EXPECT_GT(glm::distance(motion(a, 0).centre, base.bodies[0].position), 0.1) << "and it did move";
+}
+
+void sheet(Scene& s) { s.bodies[0].mesh = {.kind = "grid", .columns = 5, .rows = 5, .width = 1, .depth = 1}; }
+void nothing(Scene&) {}
+
+const Idle idle_stages[]{
+    {"sphere", Stage::solid_spheres, [](Scene& s) { s.spheres.clear(); },
+     [](Scene& s) {
+       s.spheres = {{.centre = {3000, 0, 0}}};
+     }},
+    {"ground", Stage::ground, [](Scene& s) { s.ground.reset(); }, [](Scene& s) { s.ground->height = -3000; }},
+    {"detect", Stage::detect, nothing,
+     [](Scene& s) {
+       s.collision.self_collision = true;
+       s.collision.tolerance = 1e-6f;
+     }},
+    {"response", Stage::contact_response, nothing,
+     [](Scene& s) {
+       s.collision.self_collision = true;
+       s.collision.tolerance = 1e-6f;
+     }},
+    {"arrive", Stage::arrive, nothing,
+     [](Scene& s) {
+       s.bodies.push_back(s.bodies[0]);
+       s.bodies[1].appear = s.bodies[1].release = 1000;
+     }},
+    {"damping", Stage::internal_damping, nothing, [](Scene& s) { s.materials[0].internal_damping = 1e-30; }},
+    {"rebound", Stage::rebound_damping, nothing, [](Scene& s) { s.materials[0].rebound_speed = 1e30; }},
+    {"rolling", Stage::rolling_resistance, nothing, [](Scene& s) { s.materials[0].rolling_resistance = 1e-30; }},
+    {"sleep", Stage::sleep, nothing, [](Scene& s) { s.sleep.speed = 1e-30; }},
+    {"gravity", Stage::gravity, [](Scene& s) { s.gravity = glm::dvec3(0.0); },
+     [](Scene& s) {
+       s.gravity = {0, -1e-30, 0};
+     }},
+    {"shear", Stage::shear_springs, sheet,
+     [](Scene& s) {
+       sheet(s);
+       s.materials[0].shear = {1e-30, 0};
+     }},
+    {"bend", Stage::bend_springs, [](Scene& s) { s.materials[0].bend = {}; },
+     [](Scene& s) {
+       s.materials[0].bend = {1e-30, 0};
+     }},
+    {"gas", Stage::gas_pressure, [](Scene& s) { s.materials[0].gas_pressure = s.materials[0].ambient_pressure = 0; },
+     [](Scene& s) {
+       s.materials[0].gas_pressure = 1e-30;
+       s.materials[0].ambient_pressure = 0;
+     }},
+};
+
+INSTANTIATE_TEST_SUITE_P(Stages, StageLeftOut, testing::ValuesIn(idle_stages),
+                         [](const auto& i) { return i.param.name; });
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,129 @@
+// What make_prototype() derives from a mesh and a material.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "softbody/prototype_set.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(Prototype, HasOneSpringAPairWithTheMeshsOwnLengths) {
+  Material m = spring_ball();
+  m.mass = 3;
+  m.structural = {300, 0.2};
+  m.bend = {75, 0.4};
+  m.shear = {10, 0.1};
+  const auto ball = make_prototype({}, m);
+  EXPECT_EQ(ball->structural.size(), 480u);
+  EXPECT_EQ(ball->bend.size(), 480u);
+  EXPECT_TRUE(ball->shear.empty()) << "shear springs are for quads";
+  MeshSource grid;
+  grid.kind = "grid";
+  grid.columns = grid.rows = 3;
+  EXPECT_EQ(make_prototype(grid, m)->shear.size(), 18u);
+  for (const auto* list : {&ball->structural, &ball->bend})
+    for (const Spring& s : *list)
+      EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
+}
+
+TEST(Prototype, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
+  Material m = spring_ball();
+  m.mass = 3;
+  m.structural = {300, 0.2};
+  m.bend = {75, 0.4};
+  const auto p = make_prototype({}, m);
+  const double reduced = 3.0 / 162 / 2;  // two equal masses
+  EXPECT_DOUBLE_EQ(p->particle_mass, 3.0 / 162);
+  for (const Spring& s : p->structural) {
+    EXPECT_EQ(s.stiffness, 300);
+    EXPECT_NEAR(s.damping, 0.2 * 2 * std::sqrt(300 * reduced), 1e-12);
+  }
+  for (const Spring& s : p->bend) {
+    EXPECT_EQ(s.stiffness, 75);
+    EXPECT_NEAR(s.damping, 0.4 * 2 * std::sqrt(75 * reduced), 1e-12);
+  }
+}
+
+TEST(Prototype, AStiffnessOfZeroMeansNoSprings) {
+  Material m = spring_ball();
+  m.bend.stiffness = 0;
+  EXPECT_TRUE(make_prototype({}, m)->bend.empty());
+}
+
+TEST(Prototype, BoundsAreTheLargestSumsAtOneParticle) {
+  Material m = spring_ball();
+  m.structural = {300, 0.2};
+  m.bend = {75, 0.4};
+  const auto p = make_prototype({}, m);
+  double stiffness = 0, damping = 0;
+  for (Index i = 0; i < 162; ++i) {
+    double k = 0, c = 0;
+    for (const auto* list : {&p->structural, &p->bend})
+      for (const Spring& s : *list)
+        if (s.i == i || s.j == i) k += s.stiffness, c += s.damping;
+    stiffness = std::max(stiffness, k), damping = std::max(damping, c);
+  }
+  EXPECT_NEAR(p->spring_stiffness_bound, stiffness, 1e-9);
+  EXPECT_NEAR(p->spring_damping_bound, damping, 1e-9);
+}
+
+TEST(Prototype, ListsTheFacesAtEachVertex) {
+  const auto p = make_prototype({}, spring_ball());
+  std::size_t total = 0;
+  for (Index v = 0; v < 162; ++v) {
+    const auto faces = p->faces_of(v);
+    EXPECT_TRUE(faces.size() == 5 || faces.size() == 6);
+    total += faces.size();
+    for (const Index f : faces) {
+      const Triangle& t = p->mesh.triangles[f];
+      EXPECT_TRUE(t[0] == v || t[1] == v || t[2] == v);
+    }
+  }
+  EXPECT_EQ(total, 3 * 320u);
+}
+
+TEST(Prototype, GasIsForClosedMeshesWithSomePressure) {
+  MeshSource grid;
+  grid.kind = "grid";
+  EXPECT_FALSE(make_prototype({}, spring_ball())->has_gas);
+  EXPECT_FALSE(make_prototype(grid, gas_ball())->has_gas);
+  EXPECT_EQ(make_prototype(grid, gas_ball())->start_volume, 0);
+  const auto p = make_prototype({}, gas_ball());
+  EXPECT_TRUE(p->has_gas);
+  EXPECT_DOUBLE_EQ(p->gas.rest_volume, volume(p->mesh.vertices, p->mesh.triangles));
+  EXPECT_DOUBLE_EQ(p->gas.pressure(p->gas.rest_volume), 113000);
+  EXPECT_EQ(p->gas.ambient, 101325);
+}
+
+TEST(Prototype, DetectorsSeeItsEdgesAndRestDistances) {
+  const auto p = make_prototype({}, spring_ball());
+  EXPECT_EQ(p->shape->vertex_count(), 162u);
+  const auto& [i, j] = p->mesh.edges.front();
+  EXPECT_TRUE(p->shape->excludes(i, j, 1e-12f));
+  Index far = 1;
+  while (glm::distance(p->mesh.vertices[0], p->mesh.vertices[far]) < 0.9) ++far;
+  EXPECT_FALSE(p->shape->excludes(0, far, 0.25f));
+  EXPECT_TRUE(p->shape->excludes(0, far, 1.5f)) << "closer than the tolerance at rest";
+}
+
+TEST(PrototypeSet, SharesOneAPairOfMeshAndMaterial) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials.push_back(gas_ball());
+  add_body(scene, glm::dvec3(3, 0, 0), glm::dvec3(0.0));
+  add_body(scene, glm::dvec3(6, 0, 0), glm::dvec3(0.0));
+  add_body(scene, glm::dvec3(9, 0, 0), glm::dvec3(0.0));
+  scene.bodies[2].material = 1;
+  scene.bodies[3].mesh.subdivisions = 1;
+  const PrototypeSet set(scene);
+  EXPECT_EQ(set.all().size(), 3u);
+  EXPECT_EQ(set.of(scene.bodies[0]), set.of(scene.bodies[1]));
+  EXPECT_NE(set.of(scene.bodies[0]), set.of(scene.bodies[2]));
+  EXPECT_EQ(set.of(scene.bodies[3])->mesh.vertices.size(), 42u);
+}
+
+}  // namespace
+}  // namespace softbody::test

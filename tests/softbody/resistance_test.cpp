@@ -1,0 +1,144 @@
+// What acts once a frame on a body as a whole: internal damping, rolling resistance, rebound damping.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Kinetic energy that is not the rigid motion's, in J.
+double vibration(const World& world) {
+  const Motion m = motion(world, 0);
+  const double mass = world.prototype(0).particle_mass;
+  glm::dmat3 inertia(0.0);
+  double kinetic = 0;
+  for (Index i = 0; i < 162; ++i) {
+    const Particle q = world.dynamics().particle(0, i);
+    const glm::dvec3 r = q.position - m.centre;
+    inertia += mass * (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r));
+    kinetic += 0.5 * mass * glm::dot(q.velocity - m.velocity, q.velocity - m.velocity);
+  }
+  return kinetic - 0.5 * glm::dot(m.spin_momentum, glm::inverse(inertia) * m.spin_momentum);
+}
+
+/// After a frame that shook a body without dampers against a solid, the frames that follow in free flight.
+Scene shaken(double internal_damping) {
+  Material m = gas_ball();
+  m.structural.damping_ratio = m.bend.damping_ratio = 0;
+  m.internal_damping = internal_damping;
+  Scene scene = lone_body(m, glm::dvec3(4, 0, 0));
+  scene.bodies[0].position = {-2, 1.2, 0};
+  scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
+  return scene;
+}
+
+TEST(InternalDamping, StillsABodyButLeavesItsMomentumAndItsSpin) {
+  double left[2];
+  for (const int on : {0, 1}) {
+    World world(shaken(on ? 10 : 0), {});
+    while (world.frame() < 30 || !world.solid_contacts().empty()) world.step();
+    const Motion before = motion(world, 0);
+    ASSERT_GT(glm::length(before.spin_momentum), 0.05);
+    run(world, 60);
+    const Motion after = motion(world, 0);
+    EXPECT_LT(glm::distance(after.velocity, before.velocity), 1e-5 * glm::length(before.velocity));
+    EXPECT_LT(glm::distance(after.spin_momentum, before.spin_momentum), 1e-3 * glm::length(before.spin_momentum));
+    left[on] = vibration(world);
+  }
+  EXPECT_GT(left[0], 1e-4);
+  EXPECT_LT(left[1], 0.05 * left[0]);
+}
+
+/// Relaxed once a frame and by nothing else, vibration velocities shrink by 1 / (1 + rate * dt).
+TEST(InternalDamping, HasTheRateOfItsMaterial) {
+  Material m = spring_ball();
+  m.structural = {1e-9, 0};
+  m.bend = {1e-9, 0};
+  m.internal_damping = 6;
+  Scene scene = lone_body(m, glm::dvec3(0, -2, 0));
+  scene.bodies[0].position = {0, 0.49, 0};  // only its lowest particles touch the ground, and stop
+  scene.ground = Ground{0, 0};
+  World world(scene, {});
+  world.step();
+  const double first = vibration(world);
+  ASSERT_GT(first, 1e-3);
+  const glm::dvec3 momentum = measure(world).momentum;
+  scene.ground.reset();
+  // The particles move apart freely from here, so compare frame by frame while no further ones touch.
+  world.step();
+  if (glm::length(measure(world).momentum - momentum) < 1e-6) {
+    EXPECT_NEAR(vibration(world) / first, std::pow(1 / (1 + 6.0 / 60), 2), 0.02);
+  }
+}
+
+/// A ball that rolls over the ground, after `frames`.
+double rolling_speed(double resistance, int frames) {
+  Material m = gas_ball();
+  m.structural.stiffness = 2000;  // hardly flattened, so that the closed form holds
+  m.bend.stiffness = 500;
+  m.rolling_resistance = resistance;
+  m.internal_damping = 20;
+  Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies[0].position = {0, 0.51, 0};
+  scene.ground = Ground{0, 1};
+  World world(scene, {});
+  run(world, frames);
+  return motion(world, 0).velocity.x;
+}
+
+TEST(RollingResistance, SlowsByItsClosedForm) {
+  const double c = 0.05, free = rolling_speed(0, 120), slowed = rolling_speed(c, 120);
+  EXPECT_GT(free, 1.2);
+  // m a = -f and (2/3) m R^2 a / R = f R - c R m g, rolling without slip: a = -(3/5) c g.
+  const double expected = 0.6 * c * 9.81 * (120 - 20) / 60;  // it slides for the first third of a second
+  EXPECT_GT(free - slowed, 0.6 * expected);
+  EXPECT_LT(free - slowed, 1.6 * expected);
+}
+
+TEST(RollingResistance, StopsABallAndNeverTurnsItBack) {
+  for (const int frames : {60, 120, 180, 240, 300}) EXPECT_GT(rolling_speed(0.3, frames), -0.05);
+  EXPECT_LT(rolling_speed(0.3, 240), 0.1);
+  EXPECT_GT(rolling_speed(0.0, 240), 0.8);
+}
+
+/// How fast a ball thrown at the ground without gravity leaves it.
+double rebound(double thrown, double limit) {
+  Material m = gas_ball();
+  m.rebound_speed = limit;
+  Scene scene = lone_body(m, glm::dvec3(0, -thrown, 0));
+  scene.bodies[0].position = {0, 1, 0};
+  scene.ground = Ground{0, 0.5};
+  World world(scene, {});
+  for (int i = 0; i < 240; ++i) world.step();
+  EXPECT_TRUE(world.solid_contacts().empty()) << "it left";
+  return motion(world, 0).velocity.y;
+}
+
+TEST(ReboundDamping, ThrowsNoBodyBackFasterThanItsSpeed) {
+  EXPECT_GT(rebound(6, 0), 2) << "without it springs and gas throw back";
+  for (const double limit : {0.5, 1.0, 2.0}) {
+    const double speed = rebound(6, limit);
+    EXPECT_GT(speed, 0.05 * limit);
+    EXPECT_LT(speed, 1.05 * limit) << "limit " << limit;
+  }
+  EXPECT_LT(rebound(6, 0.5), rebound(6, 2));
+}
+
+TEST(ReboundDamping, DoesNothingToABodyInFreeFlight) {
+  Material m = gas_ball();
+  m.rebound_speed = 0.5;
+  Scene scene = lone_body(m, glm::dvec3(0, 20, 0));
+  scene.ground = Ground{-1, 0.5};
+  World world(scene, {});
+  run(world, 60);
+  EXPECT_NEAR(motion(world, 0).velocity.y, 20, 1e-4);
+}
+
+}  // namespace
+}  // namespace softbody::test

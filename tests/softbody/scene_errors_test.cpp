@@ -1,0 +1,131 @@
+// Scene files that are not in order: one line that names the file, the line and what to do.
+
+#include <gtest/gtest.h>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+std::string error_of(const std::filesystem::path& file) {
+  try {
+    load_scene(file);
+  } catch (const SceneError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+struct Bad {
+  const char* name;
+  std::string toml;
+  int line;  // 0: the whole file
+  const char* says;
+};
+
+class BadScene : public testing::TestWithParam<Bad> {};
+
+TEST_P(BadScene, IsRefusedWithFileAndLine) {
+  const Bad& bad = GetParam();
+  const TemporaryFolder folder;
+  const auto file = folder.write("bad.toml", bad.toml);
+  const std::string message = error_of(file);
+  ASSERT_FALSE(message.empty()) << "was taken";
+  const std::string place = file.string() + ":" + (bad.line ? std::to_string(bad.line) + ": " : " ");
+  EXPECT_EQ(message.substr(0, place.size()), place) << message;
+  EXPECT_NE(message.find(bad.says), std::string::npos) << message;
+  EXPECT_EQ(message.find('\n'), std::string::npos) << "one line: " << message;
+}
+
+const Bad bad_scenes[]{
+    {"unknown_key", "name = \"x\"\ngravitas = 1\n[[body]]\n", 2, "gravitas is not known here"},
+    {"unknown_key_in_body", "[[body]]\n\npositions = [0, 1, 2]\n", 3, "body[0].positions is not known here"},
+    {"unknown_key_in_second_body", "[[body]]\n[[body]]\nhue = 1\n", 3, "body[1].hue"},
+    {"unknown_key_in_material", "[[material]]\nmas = 1\n[[body]]\n", 2, "material[0].mas"},
+    {"unknown_key_in_springs", "[[material]]\nbend = {stiff = 1}\n[[body]]\n", 2, "bend.stiff"},
+    {"unknown_key_in_mesh", "[[body]]\nmesh = {kind = \"icosphere\", rows = 3}\n", 2, "mesh.rows"},
+    {"unknown_key_in_collision", "[collision]\ntolerence = 1\n[[body]]\n", 2, "collision.tolerence"},
+    {"unknown_key_in_ground", "[ground]\nhigh = 1\n[[body]]\n", 2, "ground.high"},
+    {"unknown_key_in_sphere", "[[solid_sphere]]\ncenter = [0, 0, 0]\n[[body]]\n", 2, "solid_sphere[0].center"},
+    {"unknown_key_in_dropper", "[dropper]\nappear = 1\n", 2, "dropper.appear"},
+    {"unknown_key_in_sleep", "[[body]]\n[sleep]\nframe = 1\n", 3, "sleep.frame"},
+    {"unknown_key_in_view", "[[body]]\n[view]\nzoom = 1\n", 3, "view.zoom"},
+    {"unknown_key_in_caption", "[[body]]\n[[caption]]\nwords = \"\"\n", 3, "caption[0].words"},
+    {"unknown_table", "[[body]]\n[grounds]\n", 2, "grounds is not known here"},
+    {"key_with_a_line_break", "\"a\\nb\" = 1\n[[body]]\n", 1, "is not known here"},
+    {"number_as_text", "[[material]]\nmass = \"1\"\n[[body]]\n", 2, "material[0].mass must be a number"},
+    {"number_as_bool", "[[material]]\nfriction = true\n[[body]]\n", 2, "must be a number"},
+    {"text_as_number", "name = 5\n[[body]]\n", 1, "name must be a string"},
+    {"bool_as_number", "[collision]\nself_collision = 1\n[[body]]\n", 2, "must be true or false"},
+    {"whole_number_as_fraction", "[collision]\nlevels = 3.0\n[[body]]\n", 2, "must be a whole number"},
+    {"vector_of_two", "[[body]]\nposition = [1, 2]\n", 2, "must be three numbers"},
+    {"vector_as_number", "gravity = -9.81\n[[body]]\n", 1, "must be three numbers"},
+    {"vector_with_text", "[[body]]\nvelocity = [1, \"2\", 3]\n", 2, "must be three numbers"},
+    {"table_as_number", "collision = 3\n[[body]]\n", 1, "must be a table"},
+    {"ground_as_list", "[[ground]]\n[[body]]\n", 1, "must be a table"},
+    {"bodies_as_table", "[body]\n", 1, "[[body]]"},
+    {"bodies_as_numbers", "body = [1, 2]\n", 1, "[[body]]"},
+    {"springs_as_number", "[[material]]\nstructural = 300\n[[body]]\n", 2, "must be a table"},
+    {"mass_zero", "[[material]]\nmass = 0\n[[body]]\n", 2, "mass must be a number from"},
+    {"mass_negative", "[[material]]\nmass = -1\n[[body]]\n", 2, "mass must be"},
+    {"stiffness_negative", "[[material]]\nbend = {stiffness = -1}\n[[body]]\n", 2, "stiffness must be"},
+    {"friction_negative", "[ground]\nfriction = -0.1\n[[body]]\n", 2, "friction must be"},
+    {"radius_zero", "[[solid_sphere]]\nradius = 0\n[[body]]\n", 2, "radius must be"},
+    {"tolerance_zero", "[collision]\ntolerance = 0\n[[body]]\n", 2, "tolerance must be"},
+    {"levels_16", "[collision]\nlevels = 16\n[[body]]\n", 2, "from 0 to 15"},
+    {"levels_negative", "[collision]\nlevels = -1\n[[body]]\n", 2, "from 0 to 15"},
+    {"buckets_zero", "[collision]\nbuckets = 0\n[[body]]\n", 2, "from 1 to 16777216"},
+    {"buckets_too_many", "[collision]\nbuckets = 16777217\n[[body]]\n", 2, "from 1 to 16777216"},
+    {"buckets_huge", "[collision]\nbuckets = 9223372036854775807\n[[body]]\n", 2, "from 1 to 16777216"},
+    {"cell_size_zero", "[collision]\ncell_size = [1, 0, 1]\n[[body]]\n", 2, "cell_size must be"},
+    {"subdivisions_7", "[[body]]\nmesh = {subdivisions = 7}\n", 2, "from 0 to 6"},
+    {"columns_zero", "[[body]]\nmesh = {kind = \"grid\", columns = 0}\n", 2, "from 1 to 1000"},
+    {"frame_negative", "[[body]]\nappear = -1\n", 2, "appear must be"},
+    {"frames_zero", "[[body]]\n[sleep]\nframes = 0\n", 3, "frames must be"},
+    {"nan", "[[material]]\nmass = nan\n[[body]]\n", 2, "mass must be a number"},
+    {"infinite", "[[material]]\ngas_pressure = inf\n[[body]]\n", 2, "gas_pressure must be a number"},
+    {"nan_in_vector", "[[body]]\nposition = [0, nan, 0]\n", 2, "position must be three numbers"},
+    {"infinite_in_vector", "gravity = [0, -inf, 0]\n[[body]]\n", 1, "gravity must be three numbers"},
+    {"unknown_method", "[collision]\nmethod = \"magic\"\n[[body]]\n", 2, "multi-level-sb-exact"},
+    {"unknown_material", "[[material]]\nname = \"a\"\n[[body]]\nmaterial = \"b\"\n", 4, "names no [[material]]"},
+    {"unknown_mesh", "[[body]]\nmesh = {kind = \"teapot\"}\n", 2, "\"icosphere\" or \"grid\""},
+    {"release_before_appear", "[[body]]\nappear = 9\nrelease = 8\n", 3, "must not come before appear"},
+    {"unknown_key_in_lattice", "[[body]]\nlattice = {sise = [1, 1, 1]}\n", 2, "lattice.sise"},
+    {"lattice_of_none", "[[body]]\nlattice = {size = [1, 0, 1]}\n", 2, "lattice.size must be"},
+    {"lattice_of_fractions", "[[body]]\nlattice = {size = [1, 2.5, 1]}\n", 2, "lattice.size must be"},
+    {"lattice_too_few", "[[body]]\nlattice = {size = [2, 2, 2], number = 9}\n", 2, "from 1 to 8"},
+    {"lattice_too_large", "[[body]]\nlattice = {size = [1000, 1000, 1000]}\n", 2, "particles"},
+    {"thickness_negative", "[[material]]\nthickness = -1\n[[body]]\n", 2, "thickness must be"},
+    {"no_body", "name = \"empty\"\n", 0, "add a [[body]] or a [dropper]"},
+    {"empty_file", "", 0, "has no body"},
+    {"unclosed_string", "name = \"x\n[[body]]\n", 1, ""},
+    {"no_value", "[[body]]\nposition =\n", 2, ""},
+    {"key_twice", "name = \"x\"\nname = \"y\"\n[[body]]\n", 2, ""},
+    {"binary", std::string("\x00\x01\xff\xfe", 4), 1, ""},
+    {"bad_utf8", "name = \"\xc3\x28\"\n[[body]]\n", 1, ""},
+    {"deep_nesting", "name = " + std::string(100000, '[') + "\n", 1, ""},
+};
+
+INSTANTIATE_TEST_SUITE_P(Files, BadScene, testing::ValuesIn(bad_scenes), [](const auto& i) { return i.param.name; });
+
+TEST(SceneErrors, AMissingFileAFolderAndAFileTooLarge) {
+  const TemporaryFolder folder;
+  const auto missing = folder.path() / "missing.toml";
+  EXPECT_EQ(error_of(missing).find(missing.string() + ": cannot be read"), 0u) << error_of(missing);
+  EXPECT_FALSE(error_of(folder.path()).empty());
+  const auto large = folder.write("large.toml", "[[body]]\n#" + std::string(1 << 20, 'x') + "\n");
+  EXPECT_NE(error_of(large).find("larger than 1 MiB"), std::string::npos) << error_of(large);
+}
+
+TEST(SceneErrors, AnUnknownKeyListsTheKnownScenes) {
+  try {
+    find_scene("dorp", SBCOLLIDE_SCENES);
+    FAIL() << "found one";
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("'dorp'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("drop"), std::string::npos) << e.what();
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test

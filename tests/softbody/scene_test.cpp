@@ -1,0 +1,251 @@
+// Scene files that are in order: every key, every default.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+Scene read(const std::string& toml) {
+  const TemporaryFolder folder;
+  return load_scene(folder.write("some-scene.toml", toml));
+}
+
+TEST(SceneFile, OneBodyIsEnoughAndTheRestHasDefaults) {
+  const Scene s = read("[[body]]\n");
+  const Scene plain;
+  EXPECT_EQ(s.key, "some-scene");
+  EXPECT_EQ(s.name, "some-scene");
+  EXPECT_EQ(s.gravity, glm::dvec3(0, -9.81, 0));
+  EXPECT_EQ(s.method, collide::default_method);
+  EXPECT_EQ(s.collision.tolerance, plain.collision.tolerance);
+  EXPECT_EQ(s.collision.levels, 3);
+  EXPECT_EQ(s.collision.buckets, 1001u);
+  EXPECT_TRUE(s.collision.self_collision);
+  EXPECT_TRUE(s.default_cell_size);
+  EXPECT_FALSE(s.ground);
+  EXPECT_FALSE(s.dropper);
+  EXPECT_TRUE(s.spheres.empty() && s.captions.empty());
+  ASSERT_EQ(s.materials.size(), 1u);
+  ASSERT_EQ(s.bodies.size(), 1u);
+  EXPECT_EQ(s.bodies[0].mesh, MeshSource());
+  EXPECT_EQ(s.bodies[0].position, glm::dvec3(0, 3, 0));
+  EXPECT_EQ(s.bodies[0].velocity, glm::dvec3(0.0));
+  EXPECT_EQ(s.bodies[0].appear, 0);
+  EXPECT_EQ(s.bodies[0].release, 0);
+}
+
+constexpr const char* everything = R"(
+name = "All of it"
+look_at = "Every key at once."
+gravity = [0.5, -1.62, 0]
+
+[collision]
+method = "grid-hash"
+tolerance = 0.2
+self_collision = false
+levels = 6
+buckets = 997
+cell_size = [0.5, 0.6, 0.7]
+
+[[material]]
+name = "first"
+
+[[material]]
+name = "second"
+mass = 2.5
+structural = {stiffness = 400, damping_ratio = 0.25}
+bend = {stiffness = 90, damping_ratio = 0.5}
+shear = {stiffness = 30, damping_ratio = 0.75}
+gas_pressure = 120_000
+ambient_pressure = 101325
+internal_damping = 7
+rebound_speed = 1.5
+thickness = 0.03
+friction = 0.35
+rolling_resistance = 0.15
+contact_stiffness = 55
+start_in_equilibrium = false
+
+[[solid_sphere]]
+centre = [1, 2, 3]
+radius = 0.75
+friction = 0.45
+
+[[solid_sphere]]
+
+[ground]
+height = -0.5
+friction = 0.65
+
+[[body]]
+material = "second"
+mesh = {kind = "grid", columns = 7, rows = 9, width = 1.5, depth = 2.5}
+position = [4, 5, 6]
+velocity = [-1, 0, 1]
+appear = 12
+release = 34
+
+[[body]]
+mesh = {kind = "icosphere", subdivisions = 3, radius = 0.25}
+appear = 5
+
+[dropper]
+material = "second"
+position = [0, 9, 0]
+velocity = [0, -2, 0]
+spread = 0.6
+
+[sleep]
+speed = 0.04
+frames = 45
+
+[view]
+target = [1, 1, 1]
+distance = 12
+azimuth = -45
+elevation = 60
+
+[[caption]]
+frame = 10
+text = "first"
+
+[[caption]]
+frame = 20
+text = "second"
+)";
+
+TEST(SceneFile, EveryKeyArrivesWhereItBelongs) {
+  const Scene s = read(everything);
+  EXPECT_EQ(s.name, "All of it");
+  EXPECT_EQ(s.look_at, "Every key at once.");
+  EXPECT_EQ(s.gravity, glm::dvec3(0.5, -1.62, 0));
+  EXPECT_EQ(s.method, "grid-hash");
+  EXPECT_EQ(s.collision.tolerance, 0.2f);
+  EXPECT_FALSE(s.collision.self_collision);
+  EXPECT_EQ(s.collision.levels, 6);
+  EXPECT_EQ(s.collision.buckets, 997u);
+  EXPECT_FALSE(s.default_cell_size);
+  EXPECT_EQ(s.collision.cell_size, glm::vec3(0.5f, 0.6f, 0.7f));
+  EXPECT_EQ(s.sleep.speed, 0.04);
+  EXPECT_EQ(s.sleep.frames, 45);
+  EXPECT_EQ(s.view.target, glm::dvec3(1.0));
+  EXPECT_EQ(s.view.distance, 12);
+  EXPECT_EQ(s.view.azimuth, -45);
+  EXPECT_EQ(s.view.elevation, 60);
+  ASSERT_EQ(s.captions.size(), 2u);
+  EXPECT_EQ(s.captions[1].frame, 20);
+  EXPECT_EQ(s.captions[1].text, "second");
+}
+
+TEST(SceneFile, MaterialsAndSolids) {
+  const Scene s = read(everything);
+  ASSERT_EQ(s.materials.size(), 2u);
+  const Material& m = s.materials[1];
+  EXPECT_EQ(m.name, "second");
+  EXPECT_EQ(m.mass, 2.5);
+  EXPECT_EQ(std::pair(m.structural.stiffness, m.structural.damping_ratio), std::pair(400.0, 0.25));
+  EXPECT_EQ(std::pair(m.bend.stiffness, m.bend.damping_ratio), std::pair(90.0, 0.5));
+  EXPECT_EQ(std::pair(m.shear.stiffness, m.shear.damping_ratio), std::pair(30.0, 0.75));
+  EXPECT_EQ(m.gas_pressure, 120000);
+  EXPECT_EQ(m.ambient_pressure, 101325);
+  EXPECT_EQ(m.internal_damping, 7);
+  EXPECT_EQ(m.rebound_speed, 1.5);
+  EXPECT_EQ(m.thickness, 0.03);
+  EXPECT_EQ(m.friction, 0.35);
+  EXPECT_EQ(m.rolling_resistance, 0.15);
+  EXPECT_EQ(m.contact_stiffness, 55);
+  EXPECT_FALSE(m.start_in_equilibrium);
+  ASSERT_EQ(s.spheres.size(), 2u);
+  EXPECT_EQ(s.spheres[0].centre, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(s.spheres[0].radius, 0.75);
+  EXPECT_EQ(s.spheres[0].friction, 0.45);
+  EXPECT_EQ(s.spheres[1].radius, SolidSphere().radius);
+  ASSERT_TRUE(s.ground);
+  EXPECT_EQ(s.ground->height, -0.5);
+  EXPECT_EQ(s.ground->friction, 0.65);
+}
+
+TEST(SceneFile, BodiesAndTheDropper) {
+  const Scene s = read(everything);
+  ASSERT_EQ(s.bodies.size(), 2u);
+  const BodySource& grid = s.bodies[0];
+  EXPECT_EQ(grid.material, 1);
+  EXPECT_EQ(grid.mesh.kind, "grid");
+  EXPECT_EQ(std::pair(grid.mesh.columns, grid.mesh.rows), std::pair(7, 9));
+  EXPECT_EQ(std::pair(grid.mesh.width, grid.mesh.depth), std::pair(1.5, 2.5));
+  EXPECT_EQ(grid.mesh.make().vertices.size(), 80u);
+  EXPECT_EQ(grid.position, glm::dvec3(4, 5, 6));
+  EXPECT_EQ(grid.velocity, glm::dvec3(-1, 0, 1));
+  EXPECT_EQ(std::pair(grid.appear, grid.release), std::pair(12, 34));
+  EXPECT_EQ(s.bodies[1].mesh.make().vertices.size(), 642u);
+  EXPECT_EQ(s.bodies[1].mesh.radius, 0.25);
+  EXPECT_EQ(s.bodies[1].material, 0) << "the first is the default";
+  EXPECT_EQ(s.bodies[1].release, 5) << "not held";
+  ASSERT_TRUE(s.dropper);
+  EXPECT_EQ(s.dropper->body.material, 1);
+  EXPECT_EQ(s.dropper->body.position, glm::dvec3(0, 9, 0));
+  EXPECT_EQ(s.dropper->body.velocity, glm::dvec3(0, -2, 0));
+  EXPECT_EQ(s.dropper->spread, 0.6);
+}
+
+TEST(SceneFile, ALatticeIsCopiesOfABodyLayerByLayer) {
+  const Scene s = read(
+      "[[body]]\nposition = [1, 2, 3]\nvelocity = [0, 0, 7]\nlattice = {size = [2, 2, 3], spacing = [2, 3, 4], number "
+      "= 8}\n"
+      "[[body]]\nposition = [9, 9, 9]\n");
+  ASSERT_EQ(s.bodies.size(), 9u);
+  EXPECT_EQ(s.bodies[0].position, glm::dvec3(0, 2, -1));
+  EXPECT_EQ(s.bodies[1].position, glm::dvec3(2, 2, -1));
+  EXPECT_EQ(s.bodies[5].position, glm::dvec3(2, 2, 7));
+  EXPECT_EQ(s.bodies[6].position, glm::dvec3(0, 5, -1)) << "the next layer";
+  EXPECT_EQ(s.bodies[7].velocity, glm::dvec3(0, 0, 7));
+  EXPECT_EQ(s.bodies[8].position, glm::dvec3(9, 9, 9));
+}
+
+TEST(SceneFile, ALatticesJitterIsBoundedAndAlwaysTheSame) {
+  const std::string toml = "[[body]]\nlattice = {size = [5, 5, 5], spacing = [0, 0, 0], jitter = 0.25}\n";
+  const Scene s = read(toml), again = read(toml);
+  ASSERT_EQ(s.bodies.size(), 125u);
+  double widest = 0;
+  glm::dvec3 mean(0.0);
+  for (std::size_t i = 0; i < 125; ++i) {
+    EXPECT_EQ(s.bodies[i].position, again.bodies[i].position);
+    for (int k = 0; k < 3; ++k) widest = std::max(widest, std::abs(s.bodies[i].position[k] - (k == 1 ? 3 : 0)));
+    mean += s.bodies[i].position / 125.0;
+  }
+  EXPECT_GT(widest, 0.2);
+  EXPECT_LE(widest, 0.25);
+  EXPECT_NEAR(mean.x, 0, 0.05);
+  EXPECT_NEAR(mean.y, 3, 0.05);
+}
+
+TEST(SceneFile, ADropperAloneIsEnough) { EXPECT_TRUE(read("[dropper]\n").bodies.empty()); }
+
+TEST(SceneFolder, ListsItsScenesInOrderAndFindsThemByKeyOrPath) {
+  const TemporaryFolder folder;
+  folder.write("b.toml", "name = \"Bee\"\n[[body]]\n");
+  folder.write("a.toml", "[[body]]\n");
+  folder.write("notes.txt", "no scene");
+  EXPECT_EQ(scene_keys(folder.path()), (std::vector<std::string>{"a", "b"}));
+  EXPECT_EQ(find_scene("b", folder.path()).name, "Bee");
+  EXPECT_EQ(find_scene((folder.path() / "b.toml").string(), "/nowhere").name, "Bee");
+  EXPECT_TRUE(scene_keys(folder.path() / "none").empty());
+}
+
+TEST(SceneFolder, OfTheProgramLoadsWhole) {
+  const auto keys = scene_keys(SBCOLLIDE_SCENES);
+  EXPECT_NE(std::find(keys.begin(), keys.end(), "drop"), keys.end());
+  for (const std::string& key : keys) {
+    const Scene s = find_scene(key, SBCOLLIDE_SCENES);
+    EXPECT_FALSE(s.name.empty()) << key;
+    EXPECT_FALSE(s.look_at.empty()) << key;
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,93 @@
+// Collision settings changed while a scene runs: whatever a slider does, nothing flies off.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
+  Scene scene = drop_scene();
+  scene.collision.tolerance = 0.05f;
+  World world(scene, {.threads = 2});
+  while (!world.all_at_rest() && world.frame() < 2000) world.step();
+  ASSERT_TRUE(world.all_at_rest());
+  collide::Settings wide = world.collision();
+  wide.tolerance = 0.5f;
+  world.set_collision(wide, true);
+  EXPECT_FALSE(world.all_at_rest()) << "new settings wake all";
+  double fastest = 0;
+  for (int i = 0; i < 120; ++i) {
+    world.step();
+    const Measures m = measure(world);
+    ASSERT_TRUE(m.finite);
+    ASSERT_GT(m.volume_ratio_min, 0.5);
+    ASSERT_LT(m.volume_ratio_max, 2.0);
+    fastest = std::max(fastest, m.max_speed);
+  }
+  EXPECT_GT(fastest, 0.01) << "the shield does grow";
+  EXPECT_LT(fastest, 2);
+}
+
+struct End {
+  const char* name;
+  int levels;
+  std::uint32_t buckets;
+  float cell;  // m, 0: the default one
+  float tolerance;
+};
+
+class SliderEnd : public testing::TestWithParam<End> {};
+
+TEST_P(SliderEnd, KeepsTheRunningSceneWhole) {
+  const End& end = GetParam();
+  for (const collide::Method& method : collide::methods()) {
+    World world(drop_scene(), {.threads = 2});
+    run(world, 330);  // about when bodies roll off the solid sphere against each other
+    world.set_method(method.key);
+    collide::Settings s = world.collision();
+    s.levels = end.levels;
+    s.buckets = end.buckets;
+    s.tolerance = end.tolerance;
+    if (end.cell > 0) s.cell_size = glm::vec3(end.cell);
+    world.set_collision(s, end.cell == 0);
+    for (int i = 0; i < 20; ++i) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite) << method.key << ", frame " << world.frame();
+      ASSERT_LT(m.max_speed, 16) << method.key << ", frame " << world.frame();
+    }
+  }
+}
+
+const End ends[]{
+    {"levels_0", 0, 1001, 0, 0.1f},         {"levels_15", 15, 1001, 0, 0.1f},
+    {"one_bucket", 3, 1, 0, 0.1f},          {"most_buckets", 3, collide::max_buckets, 0, 0.1f},
+    {"tiny_cell", 3, 1001, 0.005f, 0.1f},   {"huge_cell", 3, 1001, 1e6f, 0.1f},
+    {"tiny_tolerance", 3, 1001, 0, 0.001f}, {"wide_tolerance", 3, 1001, 0, 1.0f},
+};
+
+INSTANTIATE_TEST_SUITE_P(Ends, SliderEnd, testing::ValuesIn(ends), [](const auto& i) { return i.param.name; });
+
+TEST(Settings, OfExactMethodsDoNotChangeTheTrajectory) {
+  const auto hash_with = [](const collide::Settings& settings) {
+    Scene scene = drop_scene();
+    scene.collision = settings;
+    scene.default_cell_size = false;
+    World world(scene, {});
+    run(world, 250);
+    return world.state_hash();
+  };
+  collide::Settings s = drop_scene().collision;
+  const std::uint64_t hash = hash_with(s);
+  s.levels = 9;
+  s.buckets = 17;
+  s.cell_size = glm::vec3(0.11f, 3.0f, 0.4f);
+  EXPECT_EQ(hash_with(s), hash);
+}
+
+}  // namespace
+}  // namespace softbody::test

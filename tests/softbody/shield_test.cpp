@@ -1,0 +1,210 @@
+// The response to contacts: its law pair by pair, and what it does to bodies.
+
+#include "softbody/shield.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// One pair of stiffness 100 N/m: b rests at the origin, a lies `apart` from it.
+struct Pair {
+  explicit Pair(const glm::dvec3& apart, double friction = 0, const glm::vec3& offset = glm::vec3(0.0f)) {
+    x.set(0, 0, apart);
+    shield.thickness = 0.1f;
+    shield.pairs.push_back({.contact = {0, 1},
+                            .slot_a = 0,
+                            .slot_b = 1,
+                            .body_a = 0,
+                            .body_b = 1,
+                            .offset = offset,
+                            .normal = glm::vec3(0, 1, 0),
+                            .stiffness = 100,
+                            .friction = float(friction)});
+    shield.force.resize(1);
+  }
+  /// The force on a after `seconds` at this velocity, which stretches the friction spring.
+  glm::dvec3 force(const glm::dvec3& velocity, double seconds = 0) {
+    v.set(0, 0, velocity);
+    shield.evaluate({0, 1}, std::as_const(x).field(), std::as_const(v).field(), float(seconds));
+    return glm::dvec3(shield.force[0]);
+  }
+  Shield shield;
+  LaneField x{1}, v{1};
+};
+
+glm::dvec3 force(const glm::dvec3& apart, const glm::dvec3& velocity) { return Pair(apart).force(velocity); }
+
+TEST(Shield, PushesAwayAlongItsNormalByItsLaw) {
+  const double k = 100, h = 0.1;
+  for (const double s : {-0.05, 0.0, 0.02, 0.05, 0.09})
+    for (const double across : {0.0, 0.03}) {
+      const double d2 = across * across + s * s, beyond2 = s < 0 ? s * s : 0;
+      const double weight = 1 - (d2 - beyond2) / (h * h);
+      const glm::dvec3 f = force({across, s, 0}, glm::dvec3(0.0));
+      if (weight <= 0) {
+        EXPECT_EQ(f, glm::dvec3(0.0));
+        continue;
+      }
+      EXPECT_NEAR(f.y, k * weight * std::min(h - s, h), 1e-4) << "s = " << s;
+      EXPECT_GT(f.y, 0) << "apart, never together";
+      EXPECT_EQ(f.x, 0);
+    }
+}
+
+TEST(Shield, FadesOutWhereTheDetectorLosesSight) {
+  EXPECT_NEAR(force({0, 0.0999, 0}, glm::dvec3(0.0)).y, 0, 1e-4);
+  EXPECT_EQ(force({0, 0.1001, 0}, glm::dvec3(0.0)).y, 0);
+  EXPECT_EQ(force({0.08, 0.08, 0}, glm::dvec3(0.0)).y, 0);
+  EXPECT_GT(force({0, -0.3, 0}, glm::dvec3(0.0)).y, 5) << "but not behind the surface: it still pushes out";
+}
+
+TEST(Shield, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
+  const double still = force({0, 0.05, 0}, glm::dvec3(0.0)).y;
+  EXPECT_NEAR(force({0, 0.05, 0}, {0, 1, 0}).y, 0.5 * still, 1e-4);
+  EXPECT_NEAR(force({0, 0.05, 0}, {0, -1, 0}).y, 1.5 * still, 1e-4);
+  EXPECT_NEAR(force({0, 0.05, 0}, {0, -40, 0}).y, 3 * still, 1e-4);
+  EXPECT_EQ(force({0, 0.05, 0}, {0, Shield::rebound_speed, 0}).y, 0) << "nothing is thrown back faster";
+  EXPECT_EQ(force({0, 0.05, 0}, {0, 9, 0}).y, 0) << "and nothing is pulled back";
+}
+
+TEST(Shield, SeesPositionsFromTheirBodiesOrigins) {
+  EXPECT_NEAR(Pair({0, 5.05, 0}, 0, {0, -5, 0}).force(glm::dvec3(0.0)).y, force({0, 0.05, 0}, glm::dvec3(0.0)).y, 1e-3);
+}
+
+TEST(Shield, FrictionIsADampedSpringUpToCoulombsLimit) {
+  const glm::dvec3 near(0, 0.05, 0);
+  const double push = force(near, glm::dvec3(0.0)).y, viscous = 0.5 * 100 * 0.1 / 2;  // k h / (2 v)
+  const glm::dvec3 fast = Pair(near, 0.5).force({3, 0, -4});
+  EXPECT_NEAR(fast.y, push, 1e-5);
+  EXPECT_NEAR(fast.x, -0.5 * push * 0.6, 1e-4);
+  EXPECT_NEAR(fast.z, 0.5 * push * 0.8, 1e-4);
+  EXPECT_NEAR(Pair(near, 0.5).force({0.01, 0, 0}).x, -viscous * 0.01, 1e-5) << "below the limit";
+  EXPECT_EQ(Pair(near, 0).force({1, 0, 0}, 1).x, 0);
+  Pair sticks(near, 0.5);
+  EXPECT_NEAR(sticks.force({0.1, 0, 0}, 0.1).x, -(100 * 0.01 + viscous * 0.1), 1e-4);
+  EXPECT_NEAR(sticks.force(glm::dvec3(0.0), 0.1).x, -100 * 0.01, 1e-4) << "it holds at rest as well";
+}
+
+TEST(Shield, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
+  Pair pair({0, 0.05, 0}, 0.5);
+  const double limit = 0.5 * force({0, 0.05, 0}, glm::dvec3(0.0)).y;
+  for (int i = 0; i < 10; ++i) EXPECT_NEAR(pair.force({2, 0, 0}, 0.1).x, -limit, 1e-4);
+  EXPECT_NEAR(pair.force(glm::dvec3(0.0), 0).x, -limit, 1e-4);
+  EXPECT_GT(pair.force({-0.1, 0, 0}, 2 * limit / 100 / 0.1).x, 0) << "and turns round at once";
+}
+
+TEST(Shield, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNormal) {
+  Pair pair({0, 0.05, 0}, 5);
+  pair.force({0.2, 0, 0}, 0.1);
+  Shield next;
+  for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}})
+    next.pairs.push_back({.contact = c,
+                          .slot_a = 0,
+                          .slot_b = 1,
+                          .body_a = 0,
+                          .body_b = 1,
+                          .offset = {},
+                          .normal = glm::normalize(glm::vec3(1, 1, 0)),
+                          .stiffness = 100,
+                          .friction = 5});
+  next.inherit(pair.shield.pairs);
+  EXPECT_EQ(next.pairs[0].stretch, glm::vec3(0.0f));
+  EXPECT_NEAR(glm::distance(next.pairs[1].stretch, glm::vec3(0.01f, -0.01f, 0)), 0, 1e-6);
+  EXPECT_EQ(next.pairs[2].stretch, glm::vec3(0.0f));
+}
+
+TEST(Shield, ABoundHoldsItsStiffnessAndDamping) {
+  double steepest = 0, most = 0;
+  for (double s = -0.05; s < 0.1; s += 0.002)
+    for (double u = -8; u < 4; u += 0.25) {
+      const double e = 1e-3;
+      steepest = std::max(steepest, (force({0, s - e, 0}, {0, u, 0}).y - force({0, s + e, 0}, {0, u, 0}).y) / (2 * e));
+      most = std::max(most, (force({0, s, 0}, {0, u - 0.1, 0}).y - force({0, s, 0}, {0, u + 0.1, 0}).y) / 0.2);
+    }
+  EXPECT_LE(2 * most, 2 * double(Shield::damping_bound(100, 0.1f)) * 1.001);
+  EXPECT_LE(steepest, 3.0 * 100 * 4 / 3 * 1.5) << "the law's own slope";
+  EXPECT_GT(steepest, 100);
+}
+
+/// Two bodies that meet off the line of their centres, one three times as heavy.
+Scene collision() {
+  Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0.2, 0));
+  scene.materials[0].internal_damping = 5;
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].mass = 3;
+  add_body(scene, {1.6, 0.3, 0.1}, {-1.5, 0, 0.3});
+  scene.bodies[1].material = 1;
+  return scene;
+}
+
+TEST(Collision, ConservesLinearMomentum) {
+  World world(collision(), {});
+  const glm::dvec3 before = measure(world).momentum;
+  const double size = 3 * 1 + 1.5 * 3;
+  std::size_t contacts = 0;
+  for (int i = 0; i < 90; ++i) {
+    world.step();
+    contacts += world.detection().contacts.size();
+    ASSERT_LT(glm::distance(measure(world).momentum, before), 1e-5 * size) << "frame " << i;
+  }
+  EXPECT_GT(contacts, 20u);
+  EXPECT_LT(motion(world, 0).velocity.x, motion(world, 1).velocity.x) << "they part";
+}
+
+TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanTheShieldAllows) {
+  World world(collision(), {});
+  const double before = measure(world).energy;
+  run(world, 90);
+  EXPECT_TRUE(world.detection().contacts.empty());
+  EXPECT_LT(measure(world).energy, before);
+  const double apart = motion(world, 1).velocity.x - motion(world, 0).velocity.x;
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, double(Shield::rebound_speed) + 1);
+}
+
+TEST(Collision, BodiesDoNotPassThroughEachOther) {
+  for (const double speed : {1.0, 6.0}) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(speed, 0, 0));
+    add_body(scene, {1.5, 0.02, 0.03}, {-speed, 0, 0});
+    World world(scene, {});
+    double nearest = 10;
+    for (int i = 0; i < 90; ++i) {
+      world.step();
+      nearest = std::min(nearest, motion(world, 1).centre.x - motion(world, 0).centre.x);
+    }
+    EXPECT_GT(nearest, 0.3) << speed << " m/s";
+    EXPECT_GT(motion(world, 1).velocity.x - motion(world, 0).velocity.x, 0) << "they bounce";
+  }
+}
+
+TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
+  Scene scene = lone_body(gas_ball(), glm::dvec3(0, -25, 0));
+  scene.collision.self_collision = true;
+  scene.materials[0].gas_pressure = 101325;
+  scene.bodies[0].position = {0, 0.7, 0};
+  scene.spheres = {{.centre = {0.2, -1, 0}, .radius = 1, .friction = 1}};
+  World world(scene, {});
+  std::uint64_t self = 0;
+  int free_frames = 0;
+  for (int i = 0; i < 120; ++i) {
+    const Motion before = motion(world, 0);
+    world.step();
+    self += world.detection().self_contacts;
+    if (glm::length(world.dynamics().solid_impulse(0)) > 0) continue;
+    ++free_frames;
+    const Motion after = motion(world, 0);
+    ASSERT_LT(glm::distance(after.velocity, before.velocity), 1e-4) << "frame " << i;
+    ASSERT_LT(glm::distance(after.spin_momentum, before.spin_momentum), 1e-3) << "frame " << i;
+  }
+  EXPECT_GT(free_frames, 40);
+  RecordProperty("self_contacts", std::to_string(self));
+}
+
+}  // namespace
+}  // namespace softbody::test

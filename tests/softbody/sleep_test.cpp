@@ -1,0 +1,145 @@
+// Bodies at rest sleep by islands, and wake when hit.
+
+#include "softbody/sleep.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Three bodies with speeds of their own; who touches whom is made up, so only the rule itself is tried.
+class SleepRules : public testing::Test {
+ protected:
+  SleepRules() {
+    const auto prototype = make_prototype({}, spring_ball());
+    for (const double speed : {0.0, 0.5, 0.02}) dynamics.add(prototype, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
+    for (BodyId b = 0; b < 3; ++b) vertex_body.insert(vertex_body.end(), 162, b);
+  }
+  void settle(int frames, const std::vector<collide::Contact>& contacts) {
+    for (int i = 0; i < frames; ++i) sleep.settle(dynamics, vertex_body, contacts);
+  }
+  bool asleep(BodyId b) const { return dynamics.body(b).asleep; }
+  static collide::Contact touch(BodyId a, BodyId b) { return {a * 162 + 5, b * 162 + 7}; }
+
+  Scene scene = lone_body(spring_ball());
+  collide::Workers workers{1};
+  Dynamics dynamics{scene, workers, best_isa()};
+  Sleep sleep{{.speed = 0.1, .frames = 10}};
+  std::vector<BodyId> vertex_body;
+};
+
+TEST_F(SleepRules, CalmBodiesSleepAfterTheFramesOfTheRule) {
+  settle(9, {});
+  EXPECT_FALSE(asleep(0) || asleep(1) || asleep(2));
+  settle(1, {});
+  EXPECT_TRUE(asleep(0));
+  EXPECT_FALSE(asleep(1)) << "too fast";
+  EXPECT_TRUE(asleep(2));
+  EXPECT_EQ(dynamics.fastest(2), 0) << "a sleeper stands still";
+}
+
+TEST_F(SleepRules, AnIslandSleepsTogetherOrNotAtAll) {
+  settle(100, {touch(0, 2), touch(1, 2)});
+  EXPECT_FALSE(asleep(0)) << "it touches 2, which touches 1, which moves";
+  EXPECT_FALSE(asleep(2));
+  settle(1, {touch(0, 2)});
+  EXPECT_TRUE(asleep(0) && asleep(2)) << "calm for long enough, and now away from 1";
+  EXPECT_FALSE(asleep(1));
+}
+
+TEST_F(SleepRules, AnIslandWaitsForItsLastBody) {
+  settle(5, {});
+  dynamics.set_calm_frames(2, 0);
+  settle(5, {touch(0, 2)});
+  EXPECT_FALSE(asleep(0) || asleep(2));
+  settle(5, {touch(0, 2)});
+  EXPECT_TRUE(asleep(0) && asleep(2));
+}
+
+TEST_F(SleepRules, ContactsInsideOneBodyBindNothing) {
+  settle(10, {{3, 50}});
+  EXPECT_TRUE(asleep(0));
+}
+
+TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
+  settle(10, {});
+  ASSERT_TRUE(asleep(0) && asleep(2));
+  sleep.wake_touched(dynamics, vertex_body, {touch(0, 2)});
+  EXPECT_TRUE(asleep(0) && asleep(2)) << "sleepers do not wake each other";
+  sleep.wake_touched(dynamics, vertex_body, {touch(0, 1)});
+  EXPECT_FALSE(asleep(0));
+  EXPECT_TRUE(asleep(2));
+  sleep.wake_touched(dynamics, vertex_body, {touch(0, 2)});
+  EXPECT_TRUE(asleep(2)) << "0 is awake but stands";
+  sleep.wake_touched(dynamics, vertex_body, {touch(1, 2)});
+  EXPECT_FALSE(asleep(2));
+}
+
+/// A body that lies on the ground, and one that falls on it later.
+Scene one_falls_on_another() {
+  Material m = gas_ball();
+  m.internal_damping = 20;
+  m.rebound_speed = 1;
+  m.rolling_resistance = 0.3;
+  Scene scene = lone_body(m);
+  scene.gravity = {0, -9.81, 0};
+  scene.sleep = {.speed = 0.05, .frames = 20};
+  scene.ground = Ground{};
+  scene.bodies[0].position = {0, 0.55, 0};
+  add_body(scene, {0.3, 2.5, 0}, glm::dvec3(0.0));
+  scene.bodies[1].appear = scene.bodies[1].release = 200;
+  return scene;
+}
+
+TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
+  World world(one_falls_on_another(), {});
+  run(world, 200);
+  ASSERT_TRUE(world.body(0).asleep);
+  EXPECT_FALSE(world.all_at_rest()) << "one is still to come";
+  const glm::dvec3 lying = motion(world, 0).centre;
+  run(world, 20);
+  EXPECT_EQ(motion(world, 0).centre, lying) << "not touched yet";
+  bool woke = false;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    woke = woke || !world.body(0).asleep;
+  }
+  EXPECT_TRUE(woke);
+  EXPECT_GT(glm::distance(motion(world, 0).centre, lying), 5e-4) << "it was pushed";
+  run(world, 600);
+  EXPECT_TRUE(world.all_at_rest());
+  const std::uint64_t hash = world.state_hash();
+  run(world, 10);
+  EXPECT_EQ(world.state_hash(), hash);
+  EXPECT_EQ(world.profile().substeps, 0) << "sleepers cost nothing";
+}
+
+TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
+  World world(drop_scene(), {});
+  std::vector<char> before;
+  int fell_asleep = 0;
+  for (int frame = 0; frame < 800; ++frame) {
+    before.clear();
+    for (BodyId b = 0; b < world.bodies().count(); ++b) before.push_back(world.body(b).asleep);
+    world.step();
+    before.resize(world.bodies().count(), false);
+    for (BodyId b = 0; b < world.bodies().count(); ++b) fell_asleep += world.body(b).asleep && !before[b];
+    for (const collide::Contact& c : world.detection().contacts) {
+      const BodyId a = world.vertex_body()[c.a], b = world.vertex_body()[c.b];
+      if (world.body(a).asleep && !before[a]) {
+        EXPECT_FALSE(world.body(b).moves()) << "frame " << frame;
+      }
+      if (world.body(b).asleep && !before[b]) {
+        EXPECT_FALSE(world.body(a).moves()) << "frame " << frame;
+      }
+    }
+  }
+  EXPECT_GE(fell_asleep, 15);
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,143 @@
+// Bodies against the ground and the solid sphere: nothing goes in, and what starts inside comes out gently.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+Scene falling(const glm::dvec3& position, const glm::dvec3& velocity) {
+  Scene scene = lone_body(gas_ball(), velocity);
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies[0].position = position;
+  return scene;
+}
+
+TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
+  for (const double speed : {0.0, 10.0, 50.0}) {
+    Scene scene = falling({0.1, 4, 0.05}, {0, -speed, 0});
+    scene.spheres = {{.centre = {0, 1, 0}}};
+    scene.ground = Ground{};
+    World world(scene, {});
+    std::size_t touched = 0;
+    for (int i = 0; i < 240; ++i) {
+      world.step();
+      ASSERT_LT(measure(world).deepest_penetration, 1e-5) << "frame " << i << " at " << speed << " m/s";
+      touched += world.solid_contacts().size();
+    }
+    EXPECT_GT(touched, 100u);
+  }
+}
+
+TEST(Solids, AThinFastSheetDoesNotTunnelThroughTheGround) {
+  Scene scene = sheet_on_ground(0.5, glm::dvec3(0.0), glm::dvec3(0, -300, 0));
+  scene.bodies[0].position = {0, 40, 0};
+  World world(scene, {});
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    ASSERT_LT(measure(world).deepest_penetration, 1e-4) << "frame " << i;
+  }
+  EXPECT_LT(motion(world, 0).centre.y, 5) << "it got there";
+}
+
+TEST(Solids, ABodyThatStartsInTheGroundIsPushedOutWithoutExploding) {
+  for (const double height : {0.4, 0.0, -0.4}) {
+    Scene scene = falling({0, height, 0}, glm::dvec3(0.0));
+    scene.ground = Ground{};
+    World world(scene, {});
+    EXPECT_NEAR(measure(world).deepest_penetration, 0.5 - height, 0.05);
+    for (int i = 0; i < 300; ++i) {
+      world.step();
+      ASSERT_LT(measure(world).max_speed, 5) << "frame " << i << " from " << height;
+    }
+    EXPECT_LT(measure(world).deepest_penetration, 1e-5);
+    EXPECT_NEAR(measure(world).volume_ratio_min, 1, 0.1) << "and it is right side out";
+  }
+}
+
+TEST(Solids, ABodyThatStartsInASolidSphereIsPushedOutWithoutExploding) {
+  Scene scene = falling({0.6, 1.8, 0}, glm::dvec3(0.0));
+  scene.spheres = {{.centre = {0, 1, 0}}};
+  scene.ground = Ground{};
+  World world(scene, {});
+  for (int i = 0; i < 600; ++i) {
+    world.step();
+    ASSERT_LT(measure(world).max_speed, 12) << "frame " << i;
+  }
+  EXPECT_LT(measure(world).deepest_penetration, 1e-5);
+}
+
+TEST(Solids, HoldABodysWeight) {
+  Scene scene = falling({0, 2.52, 0}, glm::dvec3(0.0));
+  scene.materials[0].internal_damping = 20;
+  scene.materials[0].rebound_speed = 1;
+  scene.materials[0].rolling_resistance = 0.3;
+  scene.ground = Ground{2.0, 0.6};
+  World world(scene, {});
+  run(world, 600);
+  const Motion m = motion(world, 0);
+  EXPECT_LT(glm::length(m.velocity), 2e-3);
+  EXPECT_GT(m.centre.y, 2.4);
+  EXPECT_LT(m.centre.y, 2.52);
+  // What the ground gives in a frame is the weight times its length.
+  glm::dvec3 impulse(0.0);
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    impulse += world.dynamics().solid_impulse(0);
+  }
+  EXPECT_NEAR(impulse.y, 9.81, 0.02);
+  EXPECT_NEAR(std::hypot(impulse.x, impulse.z), 0, 1e-9) << "only along the normal";
+}
+
+TEST(Solids, KeepParticlesOfAThickMaterialAtADistance) {
+  Scene scene = falling({0, 2.6, 0}, glm::dvec3(0.0));
+  scene.materials[0].thickness = 0.03;
+  scene.spheres = {{.centre = {0, 1, 0}}};
+  World world(scene, {});
+  double nearest = 1;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    for (Index v = 0; v < 162; ++v)
+      nearest = std::min(nearest, glm::distance(world.dynamics().particle(0, v).position, glm::dvec3(0, 1, 0)) - 1);
+  }
+  EXPECT_NEAR(nearest, 0.03, 1e-5);
+  scene = sheet_on_ground(0.5, {0, -9.81, 0}, glm::dvec3(0.0));
+  scene.materials[0].thickness = 0.03;
+  scene.bodies[0].position.y = 0.2;
+  World fallen(scene, {});
+  run(fallen, 60);
+  EXPECT_NEAR(motion(fallen, 0).centre.y, 0.03, 1e-5);
+  EXPECT_EQ(fallen.solid_contacts().size(), 25u) << "near is touching";
+  EXPECT_EQ(measure(fallen).deepest_penetration, 0);
+}
+
+TEST(Solids, ContactsAreTheParticlesOnASurfaceWithItsNormal) {
+  World world(sheet_on_ground(0.5, {0, -9.81, 0}, glm::dvec3(0.0)), {});
+  const auto contacts = world.solid_contacts();
+  ASSERT_EQ(contacts.size(), 25u);
+  for (std::size_t i = 0; i < 25; ++i) {
+    EXPECT_EQ(contacts[i].vertex, i);
+    EXPECT_EQ(contacts[i].normal, glm::vec3(0, 1, 0));
+  }
+}
+
+TEST(SolidDepth, IsTheDeepestOfAllSolids) {
+  Scene scene;
+  EXPECT_EQ(solid_depth(scene, {1, 2, 3}).depth, -std::numeric_limits<double>::infinity());
+  scene.ground = Ground{0.5, 0};
+  scene.spheres = {{.centre = {0, 1, 0}, .radius = 2}, {.centre = {10, 0, 0}, .radius = 1}};
+  EXPECT_NEAR(solid_depth(scene, {20, 0.2, 0}).depth, 0.3, 1e-12);
+  EXPECT_NEAR(solid_depth(scene, {0, 2.5, 0}).depth, 0.5, 1e-12);
+  EXPECT_NEAR(solid_depth(scene, {0, 4, 0}).depth, -1, 1e-12);
+  const SolidDepth side = solid_depth(scene, {1.5, 1, 0});
+  EXPECT_NEAR(side.depth, 0.5, 1e-12);
+  EXPECT_NEAR(glm::distance(side.normal, glm::vec3(1, 0, 0)), 0, 1e-6);
+  EXPECT_EQ(solid_depth(scene, {0, 1, 0}).normal, glm::vec3(0, 1, 0)) << "the very centre: out is up";
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,159 @@
+// The stability bound: sharp for one oscillator, and a bound for a body's whole stiffness matrix.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Largest |x| of the second half of a long run over that of its first steps: semi-implicit Euler with the
+/// stiffness 2 k_m and the damping 2 c_m that stable_step() allows for.
+double growth(double k_m, double c_m, double h) {
+  double x = 1, v = 0.3 * std::sqrt(2 * k_m);
+  double early = 0, late = 0;
+  constexpr int steps = 4000;
+  for (int i = 0; i < steps && std::abs(x) < 1e100; ++i) {
+    v += h * (-2 * k_m * x - 2 * c_m * v);
+    x += h * v;
+    (i < 100 ? early : late) = std::max(i < 100 ? early : late, std::abs(x));
+  }
+  return late / early;
+}
+
+TEST(StableStep, IsEightTenthsOfTheLimitOfOneOscillator) {
+  for (const double k : {1.0, 30.0, 4e3, 1e6})
+    for (const double zeta : {0.0, 0.01, 0.3, 1.0, 5.0}) {
+      const double c = zeta * std::sqrt(2 * k);  // gamma = 2 c = 2 zeta omega
+      const double limit = stable_step(k, c) / 0.8;
+      EXPECT_LT(growth(k, c, 0.99 * limit), 20) << "k " << k << ", zeta " << zeta;
+      EXPECT_GT(growth(k, c, 1.05 * limit), 1e6) << "k " << k << ", zeta " << zeta;
+    }
+}
+
+TEST(StableStep, OfADamperAloneAndOfNothing) {
+  EXPECT_DOUBLE_EQ(stable_step(0, 5), 0.8 * 2 / 10);
+  EXPECT_GT(stable_step(0, 0), 1e6);
+  EXPECT_NEAR(stable_step(1e-12, 5), stable_step(0, 5), 1e-9);
+}
+
+TEST(StableStep, ShrinksWithStiffnessAndWithDamping) {
+  for (double k = 1; k < 1e8; k *= 10)
+    for (double c = 0.1; c < 1e4; c *= 10) {
+      EXPECT_LT(stable_step(2 * k, c), stable_step(k, c));
+      EXPECT_LT(stable_step(k, 2 * c), stable_step(k, c));
+    }
+}
+
+/// Largest eigenvalue of -dF/dx over the particle mass at x, by power iteration; the shift makes it the one of largest
+/// size, even where squeezed springs bring negative ones.
+double largest_eigenvalue(const Prototype& p, const std::vector<glm::dvec3>& x, double shift) {
+  std::mt19937 random(7);
+  std::vector<glm::dvec3> mode(x.size());
+  for (auto& m : mode) m = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+  double value = 0;
+  for (int iteration = 0; iteration < 400; ++iteration) {
+    double norm2 = 0;
+    for (const auto& m : mode) norm2 += glm::dot(m, m);
+    auto more = x, less = x;
+    const double e = 1e-6;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      mode[i] /= std::sqrt(norm2);
+      more[i] += e * mode[i];
+      less[i] -= e * mode[i];
+    }
+    const auto up = forces(p, more), down = forces(p, less);
+    value = 0;
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const glm::dvec3 image = -(up[i] - down[i]) / (2 * e) / p.particle_mass;
+      value += glm::dot(mode[i], image);
+      mode[i] = image + shift * mode[i];
+    }
+  }
+  return value;
+}
+
+TEST(StiffnessBound, HoldsTheLargestEigenvalueOfTheSprings) {
+  const auto p = make_prototype({}, spring_ball());
+  const double bound = 2 * p->spring_stiffness_bound / p->particle_mass;
+  const double eigenvalue = largest_eigenvalue(*p, p->mesh.vertices, 0);
+  EXPECT_LE(eigenvalue, bound);
+  EXPECT_GT(eigenvalue, bound / 4) << "a bound so loose would waste substeps";
+  EXPECT_DOUBLE_EQ(2 * stiffness_per_mass(*p, 0.3), bound) << "without gas the volume does not matter";
+}
+
+TEST(StiffnessBound, HoldsSpringsAndGasTogetherAtEverySize) {
+  for (const double stiffness : {200.0, 20.0})
+    for (const double size : {0.5, 0.7, 1.0, 1.15, 1.4}) {
+      Material m = gas_ball();
+      m.structural.stiffness = stiffness;
+      m.bend.stiffness = stiffness / 4;
+      m.gas_pressure = 103000;
+      const auto p = make_prototype({}, m);
+      auto x = p->start;
+      for (auto& v : x) v *= size;
+      const double bound = 2 * stiffness_per_mass(*p, volume(x, p->mesh.triangles));
+      const double eigenvalue = largest_eigenvalue(*p, x, bound / 2);
+      EXPECT_LE(eigenvalue, bound) << "stiffness " << stiffness << ", size " << size;
+      EXPECT_GT(eigenvalue, bound / 50);
+    }
+}
+
+TEST(StiffnessBound, HoldsAFlattenedAndAnInvertedBody) {
+  const auto p = make_prototype({}, gas_ball());
+  for (const double height : {0.3, 0.05, -0.2, -1.0}) {
+    auto x = p->start;
+    for (auto& v : x) v.y *= height;
+    const double bound = 2 * stiffness_per_mass(*p, volume(x, p->mesh.triangles));
+    EXPECT_LE(largest_eigenvalue(*p, x, bound / 2), bound) << "height " << height;
+  }
+}
+
+TEST(Substeps, FollowTheBound) {
+  Scene scene = lone_body(spring_ball());
+  for (const double stiffness : {10.0, 300.0, 30000.0}) {
+    scene.materials[0].structural.stiffness = stiffness;
+    World world(scene, {});
+    const Prototype& p = world.prototype(0);
+    world.step();
+    const double h = stable_step(p.spring_stiffness_bound / p.particle_mass, p.spring_damping_bound / p.particle_mass);
+    EXPECT_EQ(world.profile().substeps, int(std::ceil(1.0 / 60 / h)));
+  }
+}
+
+TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials[0].structural.stiffness = 1e9;
+  try {
+    World world(scene, {});
+    FAIL() << "took it";
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("'springs'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("4000"), std::string::npos) << e.what();
+  }
+}
+
+/// A hard throw against a solid: however it deforms, the step that was chosen has to carry it.
+TEST(Substeps, KeepABodyThatIsCrushedInOnePiece) {
+  for (const double speed : {3.0, 10.0, 30.0}) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(0, -speed, 0));
+    scene.bodies[0].position = {0, 1, 0};
+    scene.ground = Ground{};
+    World world(scene, {});
+    const double before = measure(world).energy, kinetic = 0.5 * speed * speed;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite) << "frame " << i;
+      ASSERT_LT(m.max_speed, 3 * speed);
+      ASSERT_LT(m.energy, before + 0.1 * kinetic) << "frame " << i << " at " << speed << " m/s";
+    }
+    EXPECT_GT(measure(world).volume_ratio_min, 0.9);
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test

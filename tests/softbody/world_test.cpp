@@ -1,0 +1,147 @@
+// The world: arrivals, the dropper, settings, what can be read.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
+  Scene scene = lone_body(spring_ball());
+  scene.gravity = {0, -9.81, 0};
+  add_body(scene, {3, 5, 0}, {1, 0, 0});
+  scene.bodies[1].appear = 4;
+  scene.bodies[1].release = 7;
+  World world(scene, {});
+  for (int frame = 1; frame <= 9; ++frame) {
+    world.step();
+    EXPECT_EQ(world.bodies().count(), frame > 4 ? 2u : 1u) << "frame " << frame;
+    if (frame <= 4) continue;
+    const double flown = std::max(0, frame - 7) / 60.0;
+    EXPECT_NEAR(motion(world, 1).centre.x, 3 + flown, 1e-5) << "frame " << frame;
+    EXPECT_EQ(world.body(1).held, frame <= 7);
+  }
+  EXPECT_EQ(world.frame(), 9);
+}
+
+TEST(World, VerticesAreListedBodyByBody) {
+  Scene scene = lone_body(spring_ball());
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  scene.bodies[1].mesh.subdivisions = 1;
+  const World world(scene, {});
+  ASSERT_EQ(world.bodies().vertex_count(), 162u + 42u);
+  ASSERT_EQ(world.vertex_body().size(), 204u);
+  EXPECT_EQ(std::count(world.vertex_body().begin(), world.vertex_body().end(), 0u), 162);
+  const collide::Frame frame = world.positions();
+  for (Index i = 0; i < 42; ++i) {
+    const glm::dvec3 p = world.dynamics().particle(1, i).position;
+    EXPECT_EQ(glm::vec3(frame.x[162 + i], frame.y[162 + i], frame.z[162 + i]), glm::vec3(p));
+  }
+}
+
+TEST(World, MoreBodiesThanLanesMoveLikeOne) {
+  Scene scene = lone_body(gas_ball(), {1, 2, 3});
+  scene.gravity = {0, -9.81, 0};
+  for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
+  World many(scene, {.threads = 3});
+  scene.bodies.resize(1);
+  World one(scene, {});
+  run(many, 30);
+  run(one, 30);
+  for (BodyId b = 0; b < 19; ++b)
+    for (Index i = 0; i < 162; ++i)
+      EXPECT_EQ(many.dynamics().particle(b, i).velocity, one.dynamics().particle(0, i).velocity) << "body " << b;
+}
+
+TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
+  World world(drop_scene(), {});
+  do world.step();
+  while (world.detection().contacts.size() < 20 && world.frame() < 800);
+  const auto seen = world.detection().contacts;
+  ASSERT_FALSE(seen.empty());
+  world.redetect();
+  EXPECT_EQ(world.detection().contacts, seen);
+  const std::uint64_t hash = world.state_hash();
+  world.set_method("brute-force");
+  EXPECT_EQ(world.detection().contacts, seen);
+  EXPECT_EQ(world.state_hash(), hash) << "looking moves nothing";
+}
+
+TEST(World, NewSettingsAreFollowedAtOnce) {
+  World world(drop_scene(), {});
+  do world.step();
+  while (world.detection().contacts.size() < 20 && world.frame() < 800);
+  EXPECT_TRUE(world.uses_default_cell_size());
+  const glm::vec3 usual = world.collision().cell_size;
+  collide::Settings s = world.collision();
+  const std::size_t before = world.detection().contacts.size();
+  s.tolerance = 0.2f;
+  s.levels = 6;
+  world.set_collision(s, true);
+  EXPECT_GT(world.detection().contacts.size(), before);
+  EXPECT_LT(world.collision().cell_size.x, usual.x) << "the default follows the levels";
+  s.cell_size = glm::vec3(0.3f);
+  world.set_collision(s, false);
+  EXPECT_FALSE(world.uses_default_cell_size());
+  EXPECT_EQ(world.collision().cell_size, glm::vec3(0.3f));
+  world.set_method("grid-hash");
+  EXPECT_EQ(world.method().key, "grid-hash");
+}
+
+TEST(World, TheHashTellsStatesApart) {
+  const auto hash_of = [](double x, double v) {
+    Scene scene = lone_body(spring_ball(), {v, 0, 0});
+    scene.bodies[0].position.x = x;
+    return World(scene, {}).state_hash();
+  };
+  EXPECT_EQ(hash_of(1, 2), hash_of(1, 2));
+  EXPECT_NE(hash_of(1, 2), hash_of(1, std::nextafter(2.0f, 3.0f)));
+  EXPECT_NE(hash_of(1, 2), hash_of(std::nextafter(1.0, 2.0), 2));
+}
+
+TEST(Dropper, PutsBodiesClearOfAllOthers) {
+  World world(drop_scene(), {});
+  for (int i = 0; i < 20; ++i) {
+    const BodyId id = world.drop();
+    EXPECT_EQ(id, world.bodies().count() - 1);
+    const auto& contacts = world.detection().contacts;
+    EXPECT_TRUE(
+        std::none_of(contacts.begin(), contacts.end(),
+                     [&](const collide::Contact& c) { return world.vertex_body()[c.a] != world.vertex_body()[c.b]; }))
+        << "drop " << i;
+    const glm::dvec3 at = motion(world, id).centre;
+    EXPECT_LE(std::hypot(at.x, at.z), world.scene().dropper->spread + 1e-3);
+    EXPECT_GE(at.y, world.scene().dropper->body.position.y - 1e-3);
+  }
+  run(world, 300);
+  EXPECT_TRUE(measure(world).finite);
+  EXPECT_LT(measure(world).deepest_penetration, 1e-5);
+}
+
+TEST(Dropper, IsDeterministic) {
+  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2});
+  for (World* w : {&a, &b})
+    for (int i = 0; i < 12; ++i) {
+      w->drop();
+      run(*w, 10);
+    }
+  EXPECT_EQ(a.state_hash(), b.state_hash());
+}
+
+TEST(Integrators, AreFoundByKeyAndTheDefaultIsOne) {
+  ASSERT_FALSE(integrators().empty());
+  for (const Integrator& i : integrators()) {
+    EXPECT_EQ(find_integrator(i.key), &i);
+    EXPECT_NE(integrator_keys().find(i.key), std::string::npos);
+  }
+  EXPECT_TRUE(find_integrator(default_integrator));
+  EXPECT_FALSE(find_integrator("verlet-ish"));
+}
+
+}  // namespace
+}  // namespace softbody::test
