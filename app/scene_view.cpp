@@ -112,7 +112,10 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   const softbody::View& view = scene.view;
-  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance),
+  // Scenes are composed for wide pictures; in narrower ones the camera steps back until as much fits in.
+  constexpr double composed_for = 1.5;
+  const double step_back = std::max(1.0, composed_for * std::max(size.y, 1) / std::max(size.x, 1));
+  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * std::min(step_back, 3.0)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});
   return camera;
 }
