@@ -2,7 +2,9 @@
 
 #include <cstdio>
 #include <exception>
+#include <new>
 
+#include "app/detect.h"
 #include "app/list.h"
 #include "app/options.h"
 #include "app/simulate.h"
@@ -19,6 +21,9 @@ int run(const app::Options& options) {
       return 0;
     case app::Command::simulate:
       app::simulate(options);
+      return 0;
+    case app::Command::detect:
+      app::detect(options);
       return 0;
     case app::Command::demo:
       break;
@@ -41,6 +46,9 @@ int main(int argc, char** argv) {
   try {
     const auto options = app::parse_options(argc, argv);
     return options ? run(*options) : 0;
+  } catch (const std::bad_alloc&) {
+    std::fprintf(stderr, "sbcollide: not enough memory; give it less at a time\n");
+    return 2;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "sbcollide: %s\n", error.what());
     return 2;

@@ -46,18 +46,60 @@ void parse_captures(const std::string& text, Options& options) {
   std::sort(options.captures.begin(), options.captures.end());
 }
 
-void add_scene_options(CLI::App& command, Options& options) {
-  command.add_option("--scene", options.scene, "scene: a key of `list scenes` or a .toml file")->type_name("S");
-  auto& d = options.detection;
-  command.add_option("--method", d.method, "detector: a key of `list methods`")->type_name("M");
-  command.add_option("--levels", d.levels, "subdivision level: each body's box is cut into 2^N boxes (0-15)")
-      ->type_name("N");
-  command.add_option("--buckets", d.buckets, "number of buckets of the hash table")->type_name("N");
-  command.add_option("--cell-size", d.cell_size, "side of a grid cell in metres")->type_name("S");
-  command.add_option("--tolerance", d.tolerance, "collision tolerance in metres")->type_name("H");
+void add_common_options(CLI::App& command, Options& options) {
+  add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
+}
+
+void add_scene_options(CLI::App& command, Options& options) {
+  command.add_option("--scene", options.scene, "scene: a key of `list scenes` or a .toml file")->type_name("S");
+  add_common_options(command, options);
+}
+
+CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
+  CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
+  add_scene_options(*simulate, options);
+  simulate->add_option("--frames", options.frames, "frames to run")->type_name("N")->check(CLI::Range(1, 10'000'000));
+  simulate->add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
+  simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
+      ->type_name("N,N,...");
+  simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
+  simulate->add_option("--out", options.out, "folder for the pictures (default: the current one)")->type_name("DIR");
+  simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
+  return simulate;
+}
+
+CLI::App* add_detect(CLI::App& cli, Options& options) {
+  DetectOptions& d = options.detect;
+  CLI::App* detect = cli.add_subcommand("detect", "find the contacts in meshes of your own");
+  detect->add_option("FILE", d.files, "OBJ files: consecutive frames; each object is a body")->required();
+  add_common_options(*detect, options);
+  detect->get_option("--tolerance")->required();
+  detect->add_flag("--self,!--no-self", d.self_collision,
+                   "whether pairs of one body count (default: yes; of both, the last one holds)");
+  detect->add_option("--rest", d.rest, "bodies at rest: no pair of one body counts that is closer than H there")
+      ->type_name("FILE");
+  detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
+      ->type_name("K")
+      ->check(CLI::Range(1, 100'000));
+  detect->add_flag("!--no-reuse", d.reuse, "a fresh detector for every frame");
+  detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
+  detect->add_flag("--json", options.json, "print one JSON document instead of a table");
+  return detect;
+}
+
+/// CLI11 takes an empty value for none at all: `--tolerance ""` would go unnoticed.
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty())
+        throw UsageError(option->get_name() + ": the value is empty; give one or leave the option out");
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands()) refuse_empty_values(*below);
 }
 
 void check(const Options& options) {
@@ -86,17 +128,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   add_scene_options(cli, options);
   cli.add_option("--size", size, "size of the window or the pictures in pixels")->type_name("WxH");
 
-  CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
-  add_scene_options(*simulate, options);
-  simulate->add_option("--frames", options.frames, "frames to run")->type_name("N")->check(CLI::Range(1, 10'000'000));
-  simulate->add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
-  simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
-  simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
-      ->type_name("N,N,...");
-  simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
-  simulate->add_option("--out", options.out, "folder for the pictures (default: the current one)")->type_name("DIR");
-  simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
-
+  const CLI::App* simulate = add_simulate(cli, options, size, captures);
+  const CLI::App* detect = add_detect(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods or integrators")
       ->required()
@@ -110,7 +143,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     throw UsageError(one_line(error.what()) + "; see sbcollide --help");
   }
-  options.command = *simulate ? Command::simulate : *list ? Command::list : Command::demo;
+  refuse_empty_values(cli);
+  options.command = *simulate ? Command::simulate : *detect ? Command::detect : *list ? Command::list : Command::demo;
   if (!size.empty()) parse_size(size, options);
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);
@@ -119,25 +153,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 
 softbody::Scene load_scene(const Options& options) {
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
-  const DetectionOptions& d = options.detection;
-  if (d.method) {
-    if (!collide::find_method(*d.method))
-      throw UsageError("--method " + *d.method + ": unknown; use one of: " + collide::method_keys());
-    scene.method = *d.method;
-  }
-  if (d.levels) scene.collision.levels = *d.levels;
-  if (d.buckets) {
-    if (*d.buckets < 1 || *d.buckets > collide::max_buckets)
-      throw UsageError("--buckets " + std::to_string(*d.buckets) + ": must be from 1 to " +
-                       std::to_string(collide::max_buckets));
-    scene.collision.buckets = static_cast<std::uint32_t>(*d.buckets);
-  }
-  if (d.tolerance) scene.collision.tolerance = static_cast<float>(*d.tolerance);
-  if (d.cell_size) {
-    scene.collision.cell_size = glm::vec3(static_cast<float>(*d.cell_size));
-    scene.default_cell_size = false;
-  }
-  if (const std::string wrong = collide::problem(scene.collision); !wrong.empty()) throw UsageError(wrong);
+  scene.method = chosen_method(options.detection, scene.method).key;
+  apply(options.detection, scene.collision);
+  if (options.detection.cell_size) scene.default_cell_size = false;
   return scene;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/detection_options.h"
 #include "softbody/scene.h"
 
 namespace app {
@@ -15,20 +16,23 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { demo, simulate, list };
+enum class Command { demo, simulate, detect, list };
 
-/// What the command line says about detection; what it leaves open stays as the scene or the default has it.
-struct DetectionOptions {
-  std::optional<std::string> method;
-  std::optional<int> levels;
-  std::optional<std::int64_t> buckets;
-  std::optional<double> cell_size, tolerance;  // m
+/// What only `detect` has.
+struct DetectOptions {
+  std::vector<std::string> files;                 // OBJ, at least one
+  std::optional<std::string> rest;                // OBJ: pairs closer than the tolerance in it are no self-collisions
+  std::optional<std::filesystem::path> contacts;  // CSV to write
+  bool self_collision = true;
+  int repeat = 1;
+  bool reuse = true;  // a detector may use what it learnt from earlier frames
 };
 
 struct Options {
   Command command = Command::demo;
   std::string scene = "drop";
   DetectionOptions detection;
+  DetectOptions detect;
   std::string integrator;
   int threads = 1;
   double frame_time = 1.0 / 60.0;  // s

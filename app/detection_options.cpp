@@ -1,0 +1,43 @@
+#include "app/detection_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "app/options.h"
+
+namespace app {
+
+void add_detection_options(CLI::App& command, DetectionOptions& options) {
+  command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
+  command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes (0-15)")
+      ->type_name("N");
+  command.add_option("--buckets", options.buckets, "number of buckets of the hash table")->type_name("N");
+  command.add_option("--cell-size", options.cell_size, "side of a grid cell in metres")->type_name("S");
+  command.add_option("--tolerance", options.tolerance, "collision tolerance in metres")->type_name("H");
+}
+
+const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise) {
+  const collide::Method* method = collide::find_method(options.method ? *options.method : otherwise);
+  if (!method) throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys());
+  return *method;
+}
+
+void apply(const DetectionOptions& options, collide::Settings& settings) {
+  const auto check = [&](const char* option) {
+    if (const std::string wrong = collide::problem(settings); !wrong.empty())
+      throw UsageError(std::string(option) + ": " + wrong);
+  };
+  if (options.levels) settings.levels = *options.levels;
+  check("--levels");
+  if (options.buckets) {
+    if (*options.buckets < 1 || *options.buckets > collide::max_buckets)
+      throw UsageError("--buckets " + std::to_string(*options.buckets) + ": must be from 1 to " +
+                       std::to_string(collide::max_buckets));
+    settings.buckets = static_cast<std::uint32_t>(*options.buckets);
+  }
+  if (options.tolerance) settings.tolerance = static_cast<float>(*options.tolerance);
+  check("--tolerance");
+  if (options.cell_size) settings.cell_size = glm::vec3(static_cast<float>(*options.cell_size));
+  check("--cell-size");
+}
+
+}  // namespace app

@@ -1,0 +1,33 @@
+#pragma once
+// The options of detection, which the demo, `simulate` and `detect` share.
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "collide/methods.h"
+
+namespace CLI {
+class App;
+}
+
+namespace app {
+
+/// What the command line says about detection; what it leaves open stays as the scene or the default has it.
+struct DetectionOptions {
+  std::optional<std::string> method;
+  std::optional<int> levels;
+  std::optional<std::int64_t> buckets;
+  std::optional<double> cell_size, tolerance;  // m
+};
+
+/// Offers them on the command line.
+void add_detection_options(CLI::App& command, DetectionOptions& options);
+
+/// The method asked for, or else the one with the key `otherwise`. Throws UsageError if there is no such method.
+const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise);
+
+/// Puts all the others into `settings`, which must be usable. Throws UsageError that names the option at fault.
+void apply(const DetectionOptions& options, collide::Settings& settings);
+
+}  // namespace app

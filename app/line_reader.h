@@ -1,0 +1,39 @@
+#pragma once
+// The lines of a text file, of any size, read piece by piece.
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace app {
+
+class LineReader {
+ public:
+  static constexpr std::size_t longest_line = std::size_t{1} << 20;  // bytes; no sensible file has such lines
+
+  /// Throws std::system_error, as next() does, if the file cannot be read.
+  explicit LineReader(const std::filesystem::path& file);
+  ~LineReader();
+  LineReader(const LineReader&) = delete;
+  LineReader& operator=(const LineReader&) = delete;
+
+  /// The next line, without its end (LF or CRLF); false if there is none. The text is valid until the next call. A line
+  /// that ends with a backslash goes on in the next one, unless it has a comment (#): the joint becomes spaces.
+  /// Throws std::length_error if the line is longer than longest_line.
+  bool next(std::string_view& line);
+  /// Of the line that next() gave, or at which it failed: 1 is the first. The first one of lines that were joined.
+  std::uint64_t number() const { return number_; }
+
+ private:
+  bool read_more();
+  bool joins_next(std::size_t begin, std::size_t end);
+
+  int file_;
+  std::vector<char> buffer_;
+  std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out
+  std::uint64_t number_ = 0, lines_read_ = 0;
+};
+
+}  // namespace app

@@ -1,0 +1,50 @@
+#include "app/output_file.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <utility>
+
+#include "app/options.h"
+
+namespace app {
+namespace fs = std::filesystem;
+
+OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+  std::error_code ignored;
+  const fs::file_status status = fs::status(path_, ignored);
+  if (fs::exists(status) && !fs::is_regular_file(status)) fail("it is not a regular file");
+  std::string name = path_.string() + ".XXXXXX";
+  const int descriptor = ::mkstemp(name.data());
+  if (descriptor < 0) fail(std::strerror(errno));
+  temporary_ = std::move(name);
+  // mkstemp makes it private; the result gets the rights of any other new file.
+  const mode_t mask = ::umask(0);
+  ::umask(mask);
+  ::fchmod(descriptor, 0666 & ~mask);
+  file_.reset(::fdopen(descriptor, "wb"));
+}
+
+OutputFile::~OutputFile() {
+  if (!temporary_.empty()) std::remove(temporary_.c_str());
+}
+
+void OutputFile::write(std::string_view bytes) {
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail(std::strerror(errno));
+}
+
+void OutputFile::commit() {
+  // A full disk may show only when the file is closed.
+  if (std::fclose(file_.release()) != 0) fail(std::strerror(errno));
+  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
+  temporary_.clear();
+}
+
+void OutputFile::fail(const std::string& why) const {
+  throw UsageError(path_.string() + ": cannot be written: " + why + "; name a file in a folder of your own");
+}
+
+}  // namespace app

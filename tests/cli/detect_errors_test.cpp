@@ -1,0 +1,153 @@
+// `detect` on bad input: one line that names the file and the line or the option, nothing half written, status 2.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/detect_rig.h"
+
+namespace cli::test {
+namespace {
+
+struct BadFile {
+  const char* name;
+  std::string text;
+  std::vector<std::string> words;
+};
+
+class BadObj : public testing::TestWithParam<BadFile> {};
+
+TEST_P(BadObj, IsRefusedWithItsLine) {
+  const TemporaryFolder folder;
+  const std::string bad = folder.write("bad.obj", GetParam().text), out = folder.path() / "out.csv";
+  std::vector<std::string> words{bad};
+  words.insert(words.end(), GetParam().words.begin(), GetParam().words.end());
+  expect_refused({"detect", bad, "--tolerance", "0.1", "--json", "--contacts", out}, words);
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"bad.obj"});
+}
+
+const std::string three = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+const BadFile bad_files[]{
+    {"empty", "", {"no vertex"}},
+    {"comment_only", "# nothing", {"no vertex"}},
+    {"nan", three + "v 0 nan 0\n", {":4: ", "'nan'", "finite"}},
+    {"infinite", "v 0 0 -inf\n", {":1: ", "'-inf'"}},
+    {"overflow", "v 1e39 0 0\n", {":1: ", "'1e39'"}},
+    {"overflow_of_double", "v 0 -1e999 0\n", {":1: ", "'-1e999'"}},
+    {"text", "v 0 zero 0\n", {":1: ", "'zero'", "no number"}},
+    {"trailing_text", "v 0 0 1.5x\n", {":1: ", "'1.5x'"}},
+    {"hexadecimal", "v 0 0 0x10\n", {":1: ", "'0x10'"}},
+    {"two_signs", "v 0 0 +-1\n", {":1: ", "'+-1'"}},
+    {"comma", "v 0,5 0 0\n", {":1: ", "'0,5'"}},
+    {"two_coordinates", "v 1 2\n", {":1: ", "fewer than 3 coordinates"}},
+    {"truncated_number", "v 1 2 -", {":1: ", "'-'"}},
+    {"truncated_continuation", "v 1 2 3 \\", {":1: ", "'\\'"}},
+    {"merged_lines", "v 1 2 3 4 5 6 7 8\n", {":1: ", "more than 7"}},
+    {"two_corners", three + "f 1 2\n", {":4: ", "fewer than 3 corners"}},
+    {"no_corners", three + "f\n", {":4: ", "fewer than 3 corners"}},
+    {"index_zero", three + "\n\nf 1 2 0\n", {":6: ", "'0'"}},
+    {"index_zero_with_normal", three + "f 1//1 0//1 2//1\n", {":4: ", "'0//1'"}},
+    {"index_beyond", three + "f 1 2 4\n", {":4: ", "vertex 4 of 3"}},
+    {"index_before", three + "f 1 2 -4\n", {":4: ", "'-4'"}},
+    {"index_huge", three + "f 1 2 4294967297\n", {":4: ", "'4294967297'"}},
+    {"index_overflow", three + "f 1 2 99999999999999999999\n", {":4: ", "no vertex"}},
+    {"index_fraction", three + "f 1 2 3.0\n", {":4: ", "'3.0'"}},
+    {"corner_open", three + "f 1/ 2/ 3/\n", {":4: ", "'1/'", "V/VT"}},
+    {"corner_four_parts", three + "f 1/1/1/1 2 3\n", {":4: ", "'1/1/1/1'"}},
+    {"across_bodies", three + "o two\nv 5 5 5\nf 1 2 3\nf 1 2 4\n", {":7: ", "across bodies"}},
+    {"line_numbers_with_crlf", "v 0 0 0\r\n\r\nv 0 0 \\\r\n0 \\\r\n0\r\nv nan 0 0\r\n", {":6: ", "'nan'"}},
+    {"binary", std::string("\x7f\x45LF\0\x01\x02\n\xff\xfe", 10), {":1: ", "no OBJ statement"}},
+    {"control_characters", "v 0 0 \x1b[31m\x07\n", {":1: ", "'?[31m?'"}},
+    {"zero_byte", std::string("v 0 0 0\0\n", 9), {":1: ", "'0?'"}},
+    {"long_line", "# " + std::string(3 << 20, 'x'), {":1: ", "longer than 1 MiB"}},
+    {"long_continued_line",
+     "v 0 0 0\nf" +
+         [] {
+           std::string text;
+           for (int i = 0; i < 400'000; ++i) text += " 1 \\\n";
+           return text;
+         }(),
+     {":2: ", "longer than 1 MiB"}},
+};
+
+INSTANTIATE_TEST_SUITE_P(Files, BadObj, testing::ValuesIn(bad_files), [](const auto& i) { return i.param.name; });
+
+class DetectErrors : public testing::Test {
+ protected:
+  void refuse(std::vector<std::string> more, const std::vector<std::string>& words) {
+    more.insert(more.begin(), {"detect", good});
+    expect_refused(more, words);
+    EXPECT_EQ(file_names(folder.path()), before);
+  }
+
+  TemporaryFolder folder;
+  std::string good = folder.write("good.obj", three + "f 1 2 3\no b\nv 0 0 1\n");
+  std::string fewer = folder.write("fewer.obj", "v 0 0 0\nv 1 0 0\no b\nv 0 1 0\nv 1 1 1\n");
+  std::string lone = folder.write("lone.obj", three + "v 1 2 3\n");
+  std::set<std::string> before = file_names(folder.path());
+};
+
+TEST_F(DetectErrors, FilesThatDoNotMatchBodyByBodyAreNamed) {
+  refuse({fewer, "--tolerance", "1"}, {fewer, good, "body 0", "2", "3"});
+  refuse({lone, "--tolerance", "1"}, {lone, good, "number of bodies"});
+  refuse({"--rest", fewer, "--tolerance", "1"}, {fewer, "body 0"});
+  refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
+}
+
+TEST_F(DetectErrors, FilesThatCannotBeReadAreNamed) {
+  const std::string missing = folder.path() / "missing.obj", inside = good + "/x.obj";
+  refuse({missing, "--tolerance", "1"}, {missing, "cannot be read"});
+  refuse({inside, "--tolerance", "1"}, {inside, "cannot be read"});
+  refuse({"--rest", missing, "--tolerance", "1"}, {missing, "cannot be read"});
+  refuse({folder.path().string(), "--tolerance", "1"}, {folder.path().string(), "cannot be read"});
+  expect_refused({"detect", "/dev/zero", "--tolerance", "1"}, {"/dev/zero:1: "});
+}
+
+TEST_F(DetectErrors, FacesOfLaterFilesAreCheckedToo) {
+  const std::string bad = folder.write("bad.obj", three + "f 1 2 9\no b\nv 0 0 1\n");
+  before.insert("bad.obj");
+  refuse({bad, "--tolerance", "1"}, {bad + ":4: "});
+  refuse({"--rest", bad, "--tolerance", "1"}, {bad + ":4: "});
+}
+
+TEST_F(DetectErrors, OptionsAreNamed) {
+  expect_refused({"detect", "--tolerance", "1"}, {"FILE"});
+  expect_refused({"detect"}, {"required"});
+  refuse({}, {"--tolerance"});
+  for (const char* value : {"0", "-1", "-0.5", "nan", "inf", "1e300", "1e-60", "one", "0.1m", ""})
+    refuse({"--tolerance", value}, {"--tolerance"});
+  const auto with = [](std::vector<std::string> more) {
+    more.insert(more.begin(), {"--tolerance", "1"});
+    return more;
+  };
+  refuse(with({"--method", "magic"}), {"--method magic", "brute-force", "multi-level-sb-exact"});
+  refuse(with({"--scene", "drop"}), {"--scene"});
+  for (const char* value : {"-1", "16", "3.5", "x", ""}) refuse(with({"--levels", value}), {"--levels"});
+  for (const char* value : {"0", "-1", "16777217", "9999999999999999999999", "x", ""})
+    refuse(with({"--buckets", value}), {"--buckets"});
+  for (const char* value : {"0", "-1", "nan", "inf", "1e300", "x", ""})
+    refuse(with({"--cell-size", value}), {"--cell-size"});
+  for (const char* value : {"0", "-1", "257", "x", ""}) refuse(with({"--threads", value}), {"--threads"});
+  for (const char* value : {"0", "-1", "2.5", "x", ""}) refuse(with({"--repeat", value}), {"--repeat"});
+  for (const char* option : {"--rest", "--contacts", "--method"}) {
+    refuse(with({option}), {option});
+    refuse(with({option, ""}), {option});
+  }
+}
+
+TEST_F(DetectErrors, AContactsFileThatCannotBeWrittenIsNamedAndWhatIsThereStays) {
+  const std::string nowhere = folder.path() / "none" / "out.csv", below_file = good + "/out.csv", dir = folder.path();
+  for (const std::string& out : {nowhere, below_file, dir})
+    refuse({"--tolerance", "1", "--json", "--contacts", out}, {out, "cannot be written"});
+  if (std::filesystem::exists("/dev/full"))
+    refuse({"--tolerance", "1", "--contacts", "/dev/full"}, {"/dev/full", "not a regular file"});
+}
+
+TEST_F(DetectErrors, FailingLateLeavesTheOldContacts) {
+  const std::string old = folder.write("old.csv", "old");
+  before.insert("old.csv");
+  refuse({lone, "--tolerance", "1", "--contacts", old}, {lone});
+  EXPECT_EQ(read_file(old), "old");
+}
+
+}  // namespace
+}  // namespace cli::test
