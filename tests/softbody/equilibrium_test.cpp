@@ -98,6 +98,12 @@ TEST(Equilibrium, OfASoftSkinIsNearlyTheVolumeAtAmbientPressure) {
     }
 }
 
+TEST(Equilibrium, IsNeverNotANumber) {
+  Prototype broken = *make_prototype({}, gas_ball());
+  broken.mesh.vertices[7].y = std::nan("");
+  EXPECT_THROW(find_equilibrium(broken), SceneError);
+}
+
 TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {
   Material m = gas_ball();
   m.name = "balloon";
