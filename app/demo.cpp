@@ -42,7 +42,8 @@ class Pacer {
 
 /// All that a picture of the scene depends on.
 struct PictureKey {
-  std::uint64_t revision = 0, recall = 0;
+  std::uint64_t revision = 0, comparison = 0;
+  std::size_t misses_of = 0;
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
   glm::mat4 view{0.0f};
@@ -140,7 +141,8 @@ class Demo {
     const bool whole_steps =
         shown.boxes || shown.cells || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
-            .recall = shown.missed ? session_.recall().id : 0,
+            .comparison = shown.missed ? session_.comparisons() : 0,
+            .misses_of = session_.compare.misses_of.value_or(session_.driver()),
             .overlays = shown,
             .bucket = session_.selected_bucket(),
             .view = camera_.view(),
@@ -154,7 +156,7 @@ class Demo {
     request.selected_bucket = session_.selected_bucket();
     const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
     if (needs_debug) request.debug = &session_.debug();
-    if (const auto& rows = session_.recall().rows; !rows.empty()) request.missed = &rows.front().missed;
+    request.missed = session_.missed();
     return request;
   }
 

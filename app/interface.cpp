@@ -1,5 +1,6 @@
 #include "app/interface.h"
 
+#include "app/compare_view.h"
 #include "app/help.h"
 #include "app/panel.h"
 #include "app/status.h"
@@ -26,14 +27,16 @@ void Interface::draw(Session& session, UiState& ui, float scale, double seconds,
 
 void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area,
                                 double seconds) {
+  SceneArea above = area;
+  above.max.y = draw_compare(widgets, session, area);
   const bool table_fits = area.max.x - area.min.x >= widgets.px(HashView::width + least_scene_width) &&
-                          area.max.y >= widgets.px(least_height_for_table);
+                          above.max.y >= widgets.px(least_height_for_table);
   const bool table = ui.table && table_fits;
-  SceneArea left_of_table = area;
+  SceneArea left_of_table = above;
   if (table) left_of_table.max.x -= widgets.px(HashView::width);
   draw_caption(widgets, session, left_of_table, seconds);
-  draw_legends(widgets, session, area, draw_status(widgets, session, area));
-  if (table) hash_view_.draw(widgets, session, area, ui.table);
+  draw_legends(widgets, session, above, draw_status(widgets, session, above));
+  if (table) hash_view_.draw(widgets, session, above, ui.table);
 }
 
 }  // namespace app

@@ -85,6 +85,9 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
     w.checkbox(std::string(row.label).c_str(), session.overlays.*row.shown, tooltip.c_str());
   }
   w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
+  place(1);
+  w.checkbox("Compare methods", session.compare.on,
+             "All methods on the same frozen frame: what each costs, and what it misses (V).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {

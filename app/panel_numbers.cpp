@@ -7,19 +7,13 @@
 
 #include "app/palette.h"
 #include "app/panel.h"
+#include "app/status.h"
 
 namespace app {
 namespace {
 
 constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
-
-/// The next of 1, 2, 5, 10, ... above: an axis that stays while values change.
-float axis_end(float most, float least) {
-  float end = least;
-  for (int i = 0; end < most; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
-  return end;
-}
 
 void draw_curve(Widgets& w, const char* label, const std::string& value, const Ring& ring, float top,
                 const glm::vec3& colour, const char* unit) {
@@ -49,8 +43,8 @@ void draw_curves(Widgets& w, const Session& session) {
              axis_end(history.frame_ms.largest(), 20.0f), glm::vec3(0.45f), "ms from picture to picture");
   draw_curve(w, "Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
              axis_end(history.contacts.largest(), 10.0f), glm::vec3(0.45f), "contacts");
-  const RecallReport& recall = session.recall();
-  const std::string value = recall.rows.empty() ? "-" : text("%.4f", recall.rows.front().recall);
+  const CompareRow* driver = session.driver_row();
+  const std::string value = driver ? text("%.4f", rounded_down(driver->recall)) : "-";
   draw_curve(w, "Recall", value, history.recall, 1.0f, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 

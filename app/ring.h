@@ -1,8 +1,10 @@
 #pragma once
 // The last values of a quantity, for plots.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <vector>
 
 namespace app {
 
@@ -23,6 +25,15 @@ class Ring {
     float most = 0;
     for (std::size_t i = 0; i < size_; ++i) most = values_[i] > most ? values_[i] : most;
     return most;
+  }
+  /// Of the last values, at most `last` of them; 0 if there are none.
+  float median(std::size_t last) const {
+    std::vector<float> some;
+    for (std::size_t i = size_ - std::min(size_, last); i < size_; ++i) some.push_back((*this)[i]);
+    if (some.empty()) return 0;
+    const auto middle = some.begin() + static_cast<std::ptrdiff_t>(some.size() / 2);
+    std::nth_element(some.begin(), middle, some.end());
+    return *middle;
   }
 
  private:

@@ -21,12 +21,6 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
 
 }  // namespace
 
-void Positions::copy(const collide::Frame& frame) {
-  x.assign(frame.x.begin(), frame.x.end());
-  y.assign(frame.y.begin(), frame.y.end());
-  z.assign(frame.z.begin(), frame.z.end());
-}
-
 Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads)
     : scene_folder_(std::move(scene_folder)), scenes_(list_scenes(scene_folder_)), threads_(threads) {
   start(scene);
@@ -42,7 +36,9 @@ void Session::start(const softbody::Scene& scene) {
   history_.clear();
   notice_.clear();
   ++revision_;
-  forget_recall();
+  ++worlds_;
+  comparison_ = {};
+  forget_measurements();
 }
 
 void Session::advance(double elapsed) {
@@ -53,7 +49,7 @@ void Session::advance(double elapsed) {
   } else if (!paused) {
     run(elapsed);
   }
-  exchange_recall();
+  exchange_comparison();
 }
 
 void Session::run(double elapsed) {
@@ -160,7 +156,7 @@ void Session::set_method(std::string_view key) {
   succeeds([&] { world_->set_method(key); });
   ++revision_;
   select_bucket(selected_bucket_);
-  forget_recall();
+  history_.recall.clear();
 }
 
 void Session::next_method() {
@@ -177,6 +173,7 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   succeeds([&] { world_->set_collision(checked, default_cell_size); });
   ++revision_;
   select_bucket(selected_bucket_);
+  forget_measurements();
 }
 
 void Session::select_bucket(std::optional<std::uint32_t> bucket) {
@@ -192,34 +189,56 @@ const collide::DebugGeometry& Session::debug() const {
   return debug_;
 }
 
-void Session::exchange_recall() {
-  if (auto report = recall_worker_.take(); report && report->id >= first_comparable_) {
-    recall_ = std::move(*report);
-    if (!recall_.rows.empty()) history_.recall.push(static_cast<float>(recall_.rows.front().recall));
-  }
-  if (offered_ == revision_ || !recall_worker_.ready()) return;
-  offered_ = revision_;
-  if (std::string why = refusal(world_->bodies(), world_->collision().self_collision); !why.empty()) {
-    recall_ = {};
-    recall_.id = revision_;
-    recall_.skipped = std::move(why);
-    return;
-  }
-  Positions now;
-  now.copy(world_->positions());
-  Snapshot snapshot{.id = revision_,
-                    .x = std::move(now.x),
-                    .y = std::move(now.y),
-                    .z = std::move(now.z),
-                    .bodies = world_->bodies(),
-                    .settings = world_->collision(),
-                    .found = {}};
-  snapshot.found.push_back({world_->method().key, world_->detection().contacts});
-  recall_worker_.offer(std::move(snapshot));
+const CompareRow* Session::driver_row() const {
+  if (comparison_.rows.empty()) return nullptr;
+  const CompareRow& row = comparison_.rows[driver()];
+  return row.scored ? &row : nullptr;
 }
 
-void Session::forget_recall() {
-  recall_ = {};
+const std::vector<collide::Contact>* Session::missed() const {
+  if (comparison_.rows.empty()) return nullptr;
+  const CompareRow& row = comparison_.rows[compare.on ? compare.misses_of.value_or(driver()) : driver()];
+  return row.scored ? &row.missed : nullptr;
+}
+
+void Session::exchange_comparison() {
+  if (auto report = compare_worker_.take(); report && report->id >= first_comparable_) keep(std::move(*report));
+  // A world at rest has nothing new for the recall, but times want to be taken again and again.
+  if ((offered_ == revision_ && !compare.on) || !compare_worker_.ready()) return;
+  offered_ = revision_;
+  compare_worker_.offer(snapshot());
+}
+
+void Session::keep(CompareReport report) {
+  comparison_ = std::move(report);
+  ++comparisons_;
+  if (const CompareRow* row = driver_row()) history_.recall.push(static_cast<float>(row->recall));
+  for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
+    Ring& times = history_.method_ms[i];
+    if (const auto ms = comparison_.rows[i].ms)
+      times.push(static_cast<float>(*ms));
+    else
+      times.clear();
+  }
+}
+
+Snapshot Session::snapshot() const {
+  Snapshot copy;
+  copy.id = revision_;
+  copy.world = worlds_;
+  copy.at.copy(world_->positions());
+  copy.bodies = world_->bodies();
+  copy.settings = world_->collision();
+  copy.driver = driver();
+  copy.found = world_->detection();
+  if (compare.on) copy.chosen = compare.methods;
+  return copy;
+}
+
+/// What was measured with other settings: its report stays until there is a new one, its curves do not.
+void Session::forget_measurements() {
+  history_.recall.clear();
+  for (Ring& times : history_.method_ms) times.clear();
   first_comparable_ = revision_;
 }
 

@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
+#include "app/compare_worker.h"
 #include "app/overlays.h"
-#include "app/recall.h"
 #include "app/ring.h"
 #include "softbody/world.h"
 
@@ -16,16 +16,18 @@ struct SceneChoice {
   std::string key, name, look_at;
 };
 
-/// World positions of all vertices, in metres.
-struct Positions {
-  std::vector<float> x, y, z;
-  void copy(const collide::Frame& frame);
-};
-
 struct History {
   Ring frame_ms;  // real time from one advance() to the next
   Ring detect_ms, solve_ms, contacts, recall;
+  std::vector<Ring> method_ms = std::vector<Ring>(collide::methods().size());  // of the comparison, by method
   void clear() { *this = {}; }
+};
+
+/// What to compare with the driving method, which is compared with the reference in any case.
+struct CompareChoice {
+  bool on = false;
+  std::vector<bool> methods = std::vector<bool>(collide::methods().size(), true);
+  std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
 };
 
 class Session {
@@ -77,9 +79,17 @@ class Session {
   void select_bucket(std::optional<std::uint32_t> bucket);
   /// The method's boxes, cells and loads on the current positions, computed once a state when first asked for.
   const collide::DebugGeometry& debug() const;
-  /// The last comparison of the method in use with brute force: a few frames old, id 0 if there is none yet. Its
-  /// vertices still exist.
-  const RecallReport& recall() const { return recall_; }
+
+  // Comparison, by a worker of its own: a few frames old, and its vertices still exist.
+  CompareChoice compare;
+  const CompareReport& comparison() const { return comparison_; }
+  /// Counts the reports, so that a new one is noticed.
+  std::uint64_t comparisons() const { return comparisons_; }
+  /// The index of the driving method, and its row: nullptr until it is measured, or if it cannot be.
+  std::size_t driver() const { return method_index(world_->method().key); }
+  const CompareRow* driver_row() const;
+  /// What the method of choice missed; nullptr if that is not known.
+  const std::vector<collide::Contact>* missed() const;
 
   Overlays overlays;
   const History& history() const { return history_; }
@@ -94,8 +104,10 @@ class Session {
   void step();
   template <class Change>
   bool succeeds(Change&& change);
-  void exchange_recall();
-  void forget_recall();
+  void exchange_comparison();
+  void keep(CompareReport report);
+  Snapshot snapshot() const;
+  void forget_measurements();
   void follow_pace(double asked, int steps);
 
   std::filesystem::path scene_folder_;
@@ -108,13 +120,14 @@ class Session {
   bool step_once_ = false;
   double pace_ = 1, asked_ = 0, done_ = 0;  // s within the window of follow_pace()
   std::uint64_t revision_ = 1, offered_ = 0, first_comparable_ = 0;
+  std::uint64_t worlds_ = 0, comparisons_ = 0;
   std::optional<std::uint32_t> selected_bucket_;
   mutable collide::DebugGeometry debug_;
   mutable std::uint64_t debug_revision_ = 0;
   History history_;
-  RecallReport recall_;
+  CompareReport comparison_;
   std::string notice_;
-  RecallWorker recall_worker_;
+  CompareWorker compare_worker_;
 };
 
 }  // namespace app

@@ -15,25 +15,19 @@ constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFl
                                    ImGuiWindowFlags_NoNav;
 constexpr double hint_seconds = 20, fade_seconds = 2;
 
-void dot(const Widgets& w, const glm::vec3& colour) {
-  const float radius = ImGui::GetFontSize() * 0.36f;
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 centre{at.x + radius, at.y + 0.5f * ImGui::GetTextLineHeight()};
-  ImGui::GetWindowDrawList()->AddCircleFilled(centre, radius, to_imgui(colour), 24);
-  ImGui::Dummy({2 * radius + w.px(2), ImGui::GetTextLineHeight()});
-  ImGui::SameLine();
-}
-
 std::string recall_sentence(const Session& session) {
-  const RecallReport& recall = session.recall();
-  if (!recall.skipped.empty()) return "Recall " + recall.skipped;
-  if (recall.rows.empty()) return "Recall: measuring";
-  const RecallRow& row = recall.rows.front();
-  if (recall.reference == 0) return "Recall 1.0000   no contacts at the moment";
+  const CompareReport& report = session.comparison();
+  if (report.id != 0 && !report.reference) return "Recall not measured: " + report.stands_in;
+  const CompareRow* row = session.driver_row();
+  if (!row) return "Recall: measuring";
   std::array<char, 32> number{};
-  // Rounded down: one missed contact of a million is not a recall of 1.
-  std::snprintf(number.data(), number.size(), "Recall %.4f   ", std::floor(row.recall * 1e4) / 1e4);
-  return number.data() + grouped(row.missed.size()) + " of " + grouped(recall.reference) + " contacts missed";
+  std::snprintf(number.data(), number.size(), "Recall %.4f   ", rounded_down(row->recall));
+  std::string text = number.data();
+  text += report.true_contacts == 0
+              ? "no contacts at the moment"
+              : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) + " contacts missed";
+  if (!report.stands_in.empty()) text += " (see Compare: V)";
+  return text;
 }
 
 }  // namespace
@@ -49,6 +43,15 @@ Light light_of(collide::Coverage coverage) {
   }
 }
 
+double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
+
+std::string reference_sentence(const CompareReport& report) {
+  if (!report.reference) return report.stands_in.empty() ? "Measuring" : "Not measured: " + report.stands_in;
+  const std::string name(collide::methods()[*report.reference].name);
+  std::string text = "Measured against " + name;
+  return report.stands_in.empty() ? text : text + ": " + report.stands_in;
+}
+
 float draw_status(Widgets& w, const Session& session, const SceneArea& area) {
   const Light light = light_of(session.world().detection().coverage);
   const float margin = w.px(12);
@@ -56,15 +59,18 @@ float draw_status(Widgets& w, const Session& session, const SceneArea& area) {
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Status", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
-  dot(w, light.colour);
+  w.dot(light.colour);
   ImGui::TextWrapped("%s: %s", light.name, light.sentence);
   w.done("Coverage",
          "What the method and its settings promise on this frame (§2.2). Green: complete. Amber: the paper's method, "
          "and every box fits a cell. Red: the paper's method with boxes larger than a cell.");
   w.line(recall_sentence(session));
+  const std::string against = reference_sentence(session.comparison());
   w.done("Live recall",
-         "Found true contacts over all true contacts: the driving method against brute force on the same frame, "
-         "measured beside the simulation.");
+         ("Found true contacts over all true contacts, of the driving method on a frame of a moment ago, "
+          "counted beside the simulation. " +
+          against)
+             .c_str());
   if (!session.notice().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
     ImGui::TextWrapped("%s", session.notice().c_str());

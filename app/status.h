@@ -19,6 +19,11 @@ struct Light {
 };
 Light light_of(collide::Coverage coverage);
 
+/// To four digits: one missed contact of a million is not a recall of 1.
+double rounded_down(double share);
+/// "Measured against ...", with the reason if that is not brute force.
+std::string reference_sentence(const CompareReport& report);
+
 /// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends.
 float draw_status(Widgets& widgets, const Session& session, const SceneArea& area);
 /// Below `top`.

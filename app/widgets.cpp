@@ -16,12 +16,10 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
 }
 
-std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
-    text.insert(static_cast<std::size_t>(at), 1, ',');
-  }
-  return text;
+float axis_end(float most, float least) {
+  float end = least;
+  for (int i = 0; end < most; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
+  return end;
 }
 
 void Widgets::done(const char* label, const char* tooltip) {
@@ -48,6 +46,12 @@ void Widgets::show_tooltip(const char* text) const {
 
 bool Widgets::button(const char* label, const char* tooltip, float width) {
   const bool pressed = ImGui::Button(label, {width, 0});
+  done(label, tooltip);
+  return pressed;
+}
+
+bool Widgets::radio(const char* label, bool active, const char* tooltip) {
+  const bool pressed = ImGui::RadioButton(label, active);
   done(label, tooltip);
   return pressed;
 }
@@ -161,12 +165,22 @@ void Widgets::chip(const glm::vec3& colour, float line_height) {
   ImGui::Dummy({side, line_height});
 }
 
-void Widgets::sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit) {
+void Widgets::dot(const glm::vec3& colour) {
+  const float radius = ImGui::GetFontSize() * 0.36f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const ImVec2 size{ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
+  const ImVec2 centre{at.x + radius, at.y + 0.5f * ImGui::GetTextLineHeight()};
+  ImGui::GetWindowDrawList()->AddCircleFilled(centre, radius, to_imgui(colour), 24);
+  ImGui::Dummy({2 * radius + px(2), ImGui::GetTextLineHeight()});
+  ImGui::SameLine();
+}
+
+void Widgets::sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit,
+                        float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(hidden(label).c_str(), size);
   std::array<char, 96> tip{};
-  std::snprintf(tip.data(), tip.size(), "The last %zu frames, from 0 to %g %s.", Ring::capacity,
+  std::snprintf(tip.data(), tip.size(), "The last %zu values, from 0 to %g %s.", Ring::capacity,
                 static_cast<double>(top), unit);
   done(label, tip.data());
 

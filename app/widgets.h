@@ -10,6 +10,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "app/grouped.h"
 #include "app/ring.h"
 
 namespace app {
@@ -35,8 +36,8 @@ struct Hover {
 
 ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 
-/// "1,234,567"
-std::string grouped(std::uint64_t number);
+/// The first of `least`, 2, 5, 10, ... times it that is not below `most`: an axis that stays while values change.
+float axis_end(float most, float least);
 
 /// One frame of the panel. Labels are unique, also as ImGui's identifiers.
 class Widgets {
@@ -48,6 +49,7 @@ class Widgets {
   float px(float design) const { return design * scale_; }
 
   bool button(const char* label, const char* tooltip, float width = 0);
+  bool radio(const char* label, bool active, const char* tooltip);
   bool checkbox(const char* label, bool& value, const char* tooltip);
   /// A section that folds; true if it is open.
   bool section(const char* label, bool open_at_first);
@@ -69,8 +71,11 @@ class Widgets {
   void value(const std::string& text);
   /// A square of colour in the middle of a line.
   void chip(const glm::vec3& colour, float line_height);
-  /// A curve of the last values between 0 and `top`, as wide as what is left of the line.
-  void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit);
+  /// A dot of colour that starts a line.
+  void dot(const glm::vec3& colour);
+  /// A curve of the last values between 0 and `top`; width 0: what is left of the line.
+  void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit,
+                 float width = 0);
 
   /// Notes the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void done(const char* label, const char* tooltip);

@@ -22,6 +22,8 @@ struct Settings {
   std::uint32_t buckets = 1001;  // 1 .. max_buckets: the paper's "bucket size" (§2.2)
   glm::vec3 cell_size{1.0f};     // m, finite and > 0: the paper's length, height, width; see default_cell_size()
   std::array<std::uint32_t, 3> primes = default_primes;  // > 0
+
+  bool operator==(const Settings&) const = default;
 };
 
 /// Empty if the settings are usable, else one line that names the setting, its value and what is allowed.

@@ -197,7 +197,7 @@ TEST(Session, KeepsTheSceneWhenAnotherCannotBeLoaded) {
 bool wait_for_recall(Session& session) {
   for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
     session.advance(tick);
-    if (session.recall().id == session.revision()) return true;
+    if (session.comparison().id == session.revision()) return true;
     std::this_thread::sleep_for(1ms);
   }
   return false;
@@ -206,19 +206,39 @@ bool wait_for_recall(Session& session) {
 TEST(Session, MeasuresTheRecallOfAPausedWorldAfterEveryChange) {
   Session session = make_session();
   session.paused = true;
+  EXPECT_EQ(session.driver_row(), nullptr);
   ASSERT_TRUE(wait_for_recall(session));
-  EXPECT_EQ(session.recall().rows.at(0).recall, 1.0);
+  EXPECT_EQ(session.driver_row()->recall, 1.0);
   session.set_method("multi-level-sb");
+  EXPECT_EQ(session.driver_row(), nullptr);  // what is known of another method says nothing of this one
   collide::Settings settings = session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
   session.set_collision(settings, false);
-  EXPECT_EQ(session.recall().id, 0u);  // what was known of another method is forgotten
   ASSERT_TRUE(wait_for_recall(session));
-  EXPECT_EQ(session.recall().rows.at(0).method, "multi-level-sb");
-  EXPECT_LT(session.recall().rows.at(0).recall, 1.0);
+  EXPECT_LT(session.driver_row()->recall, 1.0);
+  EXPECT_EQ(session.missed(), &session.driver_row()->missed);
   session.reset();
-  EXPECT_EQ(session.recall().id, 0u);
+  EXPECT_EQ(session.comparison().id, 0u);
+  EXPECT_EQ(session.missed(), nullptr);
+}
+
+TEST(Session, ComparesAllMethodsAgainAndAgainWhileAskedTo) {
+  Session session = make_session();
+  session.paused = true;
+  session.compare.on = true;
+  const std::size_t method = method_index("grid-hash");
+  for (const auto end = std::chrono::steady_clock::now() + 60s;
+       session.history().method_ms[method].size() < 3 && std::chrono::steady_clock::now() < end;) {
+    session.advance(tick);
+    std::this_thread::sleep_for(1ms);
+  }
+  EXPECT_GE(session.history().method_ms[method].size(), 3u);
+  EXPECT_GT(session.history().method_ms[method].median(15), 0.0f);
+  collide::Settings settings = session.world().collision();
+  settings.levels = 5;
+  session.set_collision(settings, true);
+  EXPECT_EQ(session.history().method_ms[method].size(), 0u);  // other settings, other times
 }
 
 TEST(Ring, KeepsTheLastValuesInOrder) {
@@ -229,6 +249,8 @@ TEST(Ring, KeepsTheLastValuesInOrder) {
   EXPECT_EQ(ring[0], 5.0f);
   EXPECT_EQ(ring[Ring::capacity - 1], static_cast<float>(Ring::capacity + 4));
   EXPECT_EQ(ring.largest(), static_cast<float>(Ring::capacity + 4));
+  EXPECT_EQ(ring.median(3), static_cast<float>(Ring::capacity + 3));
+  EXPECT_EQ(Ring().median(3), 0.0f);
 }
 
 }  // namespace

@@ -1,0 +1,52 @@
+#pragma once
+// What a method will have to do on a frame, before it does it: so that no method holds a core for long.
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "collide/body_boxes.h"
+#include "collide/methods.h"
+
+namespace app {
+
+struct Work {
+  std::uint64_t pair_tests = 0, hashes = 0;
+
+  /// In pair tests: a hash with the visit of its cell takes about as long as 32 of them.
+  std::uint64_t cost() const { return pair_tests + 32 * hashes; }
+  /// "1,234 million pair tests", or hash evaluations where those are what takes long.
+  std::string in_words() const;
+};
+
+/// Distances that brute force evaluates on these bodies.
+std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision);
+
+/// Predicts the work of every method of collide::methods(), by its index. Exact for the methods without a hash table;
+/// for the others what they did last with the same settings in the same world, and before that an estimate: all
+/// vertices of bodies whose boxes overlap, and aliasing as if the entries were spread evenly over the buckets.
+class Forecast {
+ public:
+  /// Another frame. `world` tells worlds apart: what was learnt in another one is forgotten.
+  void begin(const collide::Frame& frame, const collide::Settings& settings, std::uint64_t world);
+  Work of(std::size_t method) const;
+  /// What the method really did on this frame.
+  void learn(std::size_t method, const collide::Counters& counters);
+
+ private:
+  struct Learnt {
+    Work work;
+    double vertices = 0;  // 0: nothing learnt
+  };
+  Work estimate(const collide::Method& method) const;
+
+  collide::Settings settings_;
+  std::uint64_t world_ = 0;
+  std::vector<Learnt> learnt_;
+  double vertices_ = 0, bodies_ = 0;
+  std::uint64_t all_ = 0, in_near_bodies_ = 0;  // pair tests
+  collide::BodyBoxes boxes_;
+  collide::BodyPairs pairs_;
+};
+
+}  // namespace app

@@ -1,0 +1,21 @@
+#pragma once
+// A copy of where all vertices are.
+
+#include <vector>
+
+#include "collide/frame.h"
+
+namespace app {
+
+/// World positions of all vertices, in metres.
+struct Positions {
+  std::vector<float> x, y, z;
+
+  void copy(const collide::Frame& frame) {
+    x.assign(frame.x.begin(), frame.x.end());
+    y.assign(frame.y.begin(), frame.y.end());
+    z.assign(frame.z.begin(), frame.z.end());
+  }
+};
+
+}  // namespace app
