@@ -11,6 +11,7 @@
 #include "engine/render/overlays.h"
 #include "engine/render/shadow.h"
 #include "engine/render/solids.h"
+#include "engine/render/studio.h"
 
 namespace engine {
 namespace {
@@ -84,6 +85,7 @@ void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, co
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
   spheres.update(frame, occlusion);
+  studio.update(frame, occlusion.spheres(), to_light, 8.0f * light.texel);
 }
 
 void Renderer::Passes::draw_shadows() {

@@ -1,5 +1,5 @@
 uniform samplerBuffer occluders;  // spheres: centre, radius
-uniform sampler2D floor_map;      // how much of the sky the floor sees, tinted by what is in the way
+uniform sampler2D floor_map;      // how much of the sky the floor sees, tinted by what is in the way (sRGB)
 
 // Part of the sky that `count` spheres from `first` on leave to a point (Quilez, "sphere ambient occlusion"). Their
 // share falls to nothing at 2.2 of their radii, so that none is missed when it leaves the list.
@@ -21,6 +21,7 @@ float sky_seen(vec3 position, vec3 normal, uint first, uint count) {
 vec3 floor_bounce(vec3 position, float reach) {
   if (frame.flags.x == 0.0) return vec3(0.6);
   vec3 lit = texture(floor_map, floor_map_coordinates(position.xz)).rgb;
+  lit *= lit;  // linear, nearly
   float height = max(position.y - frame.floor_map.w, 0.0);
   return mix(lit * lit, vec3(1.0), smoothstep(0.0, 2.0, height / reach));
 }

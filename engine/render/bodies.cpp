@@ -16,7 +16,7 @@ const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(byt
 
 /// The coarsest level whose outline is less than `slack` pixels from round.
 int level_for(float radius_in_pixels, std::uint32_t vertex_count) {
-  constexpr float slack = 0.35f;
+  constexpr float slack = 0.5f;
   // On a sphere of n even vertices an edge spans an angle of about sqrt(14.5 / n); every level halves it.
   const float gap = radius_in_pixels * 14.5f / (8.0f * static_cast<float>(vertex_count));
   if (!(gap > slack)) return 0;

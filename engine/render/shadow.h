@@ -21,7 +21,7 @@ struct LightView {
 
 class ShadowMap {
  public:
-  static constexpr int size = 1024;
+  static constexpr int size = 512;
 
   ShadowMap();
   LightView view(const glm::vec3& to_light, const glm::vec3& centre, float radius) const;

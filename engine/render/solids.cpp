@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <glm/geometric.hpp>
 
+#include "engine/render/floor_cells.h"
 #include "engine/render/frame_block.h"
 #include "engine/render/refine.h"
 
@@ -17,12 +18,13 @@ struct UnitSphere {
   std::vector<std::uint32_t> indices;
 };
 
-/// An octahedron cut fine and blown up: 6,402 points.
+/// An octahedron cut fine and blown up: 1,602 points. Drivers in software shade blocks of pixels, so smaller triangles
+/// would cost more.
 UnitSphere unit_sphere() {
   constexpr std::array<glm::vec3, 6> corners{glm::vec3(1, 0, 0),  glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
                                              glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),  glm::vec3(0, 0, -1)};
   constexpr std::array<std::uint32_t, 24> faces{2, 4, 0, 2, 0, 5, 2, 5, 1, 2, 1, 4, 3, 0, 4, 3, 5, 0, 3, 1, 5, 3, 4, 1};
-  RefinedMesh mesh = refine(faces, corners.size(), 40);
+  RefinedMesh mesh = refine(faces, corners.size(), 20);
   UnitSphere sphere;
   for (const RefinedVertex& vertex : mesh.vertices) {
     const auto [u, v] = vertex.weights;
@@ -113,7 +115,7 @@ void FloorMap::draw(const FrameData& frame, const Occlusion& occlusion) {
     const glm::vec4& sphere = occlusion.spheres()[i];
     const std::size_t bodies = frame.meshes.size();
     // Higher up than this it darkens the floor by less than one part in a hundred.
-    if (sphere.y - *frame.ground > 8.0f * sphere.w || sphere.y + sphere.w < *frame.ground) continue;
+    if (sphere.y - *frame.ground > sky_height * sphere.w || sphere.y + sphere.w < *frame.ground) continue;
     instances_.push_back({sphere, i < bodies ? frame.meshes[i].colour : frame.spheres[i - bodies].colour});
   }
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer_.get());
@@ -130,27 +132,6 @@ void FloorMap::draw(const FrameData& frame, const Occlusion& occlusion) {
   glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(instances_.size()));
   glDisable(GL_BLEND);
   glEnable(GL_DEPTH_TEST);
-}
-
-Studio::Studio(const std::filesystem::path& shaders)
-    : floor_(scene_program(shaders, "floor.vert", "floor.frag")),
-      backdrop_(shaders, "backdrop.vert", "backdrop.frag") {}
-
-void Studio::draw(bool with_floor) const {
-  empty_.bind();
-  if (with_floor) {
-    // From below there is no floor: one looks through it at the bodies that lie on it.
-    glEnable(GL_CULL_FACE);
-    glCullFace(GL_FRONT);
-    floor_.use();
-    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
-    glCullFace(GL_BACK);
-    glDisable(GL_CULL_FACE);
-  }
-  // Last and farthest away, so that it is computed only where nothing else is.
-  glDepthFunc(GL_LEQUAL);
-  backdrop_.use();
-  glDrawArrays(GL_TRIANGLES, 0, 3);
 }
 
 }  // namespace engine

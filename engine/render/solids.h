@@ -1,5 +1,5 @@
 #pragma once
-// Solid spheres, the floor with what the bodies keep from it, and the backdrop.
+// Solid spheres, and what they and the bodies keep from the floor.
 
 #include <glm/mat4x4.hpp>
 #include <vector>
@@ -53,16 +53,6 @@ class FloorMap {
   Texture map_;
   GlName<detail::delete_framebuffer> framebuffer_;
   std::vector<Instance> instances_;
-};
-
-class Studio {
- public:
-  explicit Studio(const std::filesystem::path& shaders);
-  void draw(bool with_floor) const;
-
- private:
-  Program floor_, backdrop_;
-  VertexArray empty_;
 };
 
 }  // namespace engine
