@@ -98,7 +98,7 @@ Scale common_scale(const Session& session) {
     scale.slowest = std::max(scale.slowest, times.median(median_of));
     most = std::max(most, times.largest());
   }
-  scale.axis = axis_end(most, 1.0f);
+  scale.axis = axis_end(most, 0.1f);
   return scale;
 }
 
