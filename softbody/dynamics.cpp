@@ -37,11 +37,13 @@ int Dynamics::substeps(double seconds) const {
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const Prototype& p = *b.prototype;
-    alignas(32) float volume[lanes];
-    double stiffest = stiffness_per_mass(p, p.gas.rest_volume);
+    double stiffest = stiffness_per_mass(p, {});
     if (p.has_gas) {
+      alignas(32) float volume[lanes], cross_square_sum[lanes], perimeter[lanes];
       kernels_.volume(b.mesh->faces, at(x_, b), volume);
-      for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, double(volume[l])));
+      kernels_.surface(b.mesh->faces, at(x_, b), cross_square_sum, perimeter);
+      for (int l = 0; l < b.used; ++l)
+        stiffest = std::max(stiffest, stiffness_per_mass(p, {volume[l], cross_square_sum[l], perimeter[l]}));
     }
     double damper = p.spring_damping_bound;
     if (!shield_.pairs.empty()) {
@@ -68,18 +70,40 @@ int Dynamics::advance(double seconds) {
     prepare_solids(b, seconds);
   }
   if (moving_.empty()) return 0;
-  const int count = substeps(seconds);
-  const float h = static_cast<float>(seconds / count);
   // A handful of bodies is done before a second thread has woken up.
   active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
-  const auto run = [&](int thread) {
+  int total = 0;
+  for (double left = seconds; left > 0;) {
+    const int count = substeps(left), now = std::min(count, substeps_within_bound(left / count));
+    run(now, static_cast<float>(left / count));
+    total += now;
+    left = now == count ? 0 : left - now * (left / count);
+  }
+  return total;
+}
+
+/// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
+/// body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
+int Dynamics::substeps_within_bound(double h) const {
+  constexpr double most = 16;
+  double trusted = most;
+  for (const Batch* b : moving_) {
+    Extent e;
+    kernels_.extent(b->particles(), at(x_, *b), at(v_, *b), e);
+    const double speed2 = *std::max_element(std::begin(e.speed2), std::end(e.speed2));
+    trusted = std::min(trusted, 0.2 * b->prototype->radius / (std::sqrt(speed2) * h));
+  }
+  return std::max(1, static_cast<int>(trusted));
+}
+
+void Dynamics::run(int count, float h) {
+  const auto task = [&](int thread) {
     for (int s = 0; s < count; ++s) integrate_(*this, thread, h);
   };
   if (active_threads_ == 1)
-    run(0);
+    task(0);
   else
-    workers_.run(run);
-  return count;
+    workers_.run(task);
 }
 
 std::span<Batch* const> Dynamics::share(int thread) const {

@@ -61,7 +61,8 @@ class Dynamics {
   void set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
                     const std::vector<collide::Contact>& contacts, float shield);
 
-  /// Advances by `seconds` in equal substeps, as many as the stability bound asks for; returns their number.
+  /// Advances by `seconds` in equal substeps, as many as the stability bound asks for, which is worked
+  /// out anew as bodies move; returns their number.
   int advance(double seconds);
   /// Substeps that advance(seconds) would take now.
   int substeps(double seconds) const;
@@ -118,6 +119,8 @@ class Dynamics {
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
   void prepare_solids(Batch& batch, double seconds);
+  int substeps_within_bound(double h) const;
+  void run(int substeps, float h);
   void resist(BodyId id, double seconds);
   void follow(BodyId id);
   void update_moves(const Body& body);

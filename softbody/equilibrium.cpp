@@ -85,7 +85,8 @@ std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype) {
   const double scale = (prototype.spring_stiffness_bound + std::abs(prototype.gas.ambient) * prototype.radius +
                         prototype.material.gas_pressure * prototype.radius) *
                        prototype.radius;
-  const double h = stable_step(stiffness_per_mass(prototype, prototype.gas.rest_volume), 0);
+  const double h =
+      stable_step(stiffness_per_mass(prototype, measure_surface(prototype.mesh.vertices, prototype.mesh.triangles)), 0);
   constexpr int limit = 50'000;
   for (int i = 0; i < limit; ++i) {
     relaxation.evaluate();

@@ -23,6 +23,7 @@ using Triangles = std::span<const KernelTriangle>;
       body::springs<float>(s, x, v, f);                                                                           \
     }                                                                                                             \
     target static void volume(Triangles t, ConstField x, float* r) { body::volume<float>(t, x, r); }              \
+    target static void surface(Triangles t, ConstField x, float* c, float* p) { body::surface(t, x, c, p); }      \
     target static void pressure(Triangles t, ConstField x, const float* p, Field<float> f) {                      \
       body::pressure<float>(t, x, p, f);                                                                          \
     }                                                                                                             \
@@ -33,7 +34,7 @@ using Triangles = std::span<const KernelTriangle>;
       body::drift(n, h, moves, v, x);                                                                             \
     }                                                                                                             \
     target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); } \
-    static constexpr Kernels table{springs, volume, pressure, kick, sphere, ground, drift, extent};               \
+    static constexpr Kernels table{springs, volume, surface, pressure, kick, sphere, ground, drift, extent};      \
   };
 
 SB_KERNEL_TABLE(Baseline, )

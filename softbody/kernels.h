@@ -56,6 +56,7 @@ struct Extent {
 struct Kernels {
   void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
   void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
+  void (*surface)(std::span<const KernelTriangle>, Field<const float> x, float* cross_square_sum, float* perimeter);
   void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
   void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
   void (*sphere)(const SolidArguments&, Field<const float> x, Field<float> v);

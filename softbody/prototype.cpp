@@ -42,23 +42,6 @@ void list_faces(Prototype& p) {
   }
 }
 
-/// What the stability bound of the gas needs of the mesh.
-void measure_surface(Prototype& p) {
-  const auto& vertices = p.mesh.vertices;
-  std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0.0));
-  std::vector<double> perimeter(vertices.size(), 0.0);
-  for (const auto& t : p.mesh.triangles) {
-    const glm::dvec3 a = vertices[t[0]], b = vertices[t[1]], c = vertices[t[2]];
-    const double around = glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a);
-    for (const Index corner : t) {
-      area[corner] += glm::cross(b - a, c - a) / 6.0;
-      perimeter[corner] += around;
-    }
-  }
-  for (const auto& a : area) p.area_square_sum += glm::dot(a, a);
-  p.perimeter_bound = *std::max_element(perimeter.begin(), perimeter.end());
-}
-
 }  // namespace
 
 double Gas::pressure(double v) const {
@@ -83,18 +66,27 @@ double stable_step(double k_m, double c_m) {
   return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
-double stiffness_per_mass(const Prototype& p, double volume) {
-  double bound = p.spring_stiffness_bound / p.particle_mass;
-  if (!p.has_gas) return bound;
-  // Gas: F_i = (P - P_ambient) A_i with A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2, plus
-  // (P - P_ambient) d2V/dx2, bounded by its largest row. A grows with r^(2/3), the rows with r^(1/3) <= 1 + (r - 1) /
-  // 3, r = V / V0. (A cube root of the C library would not give the same bits on every processor.)
-  const double bend = linear_below * p.gas.rest_volume, held = std::max(volume, bend);
-  const double r = std::max(std::abs(volume) / p.gas.rest_volume, 1.0), growth = 1 + (r - 1) / 3;
+double stiffness_per_mass(const Prototype& p, const Surface& surface) {
+  const double springs = p.spring_stiffness_bound / p.particle_mass;
+  if (!p.has_gas) return springs;
+  // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i = the sum of c_f / 6 over the particle's faces, c_f twice the face's
+  // area vector. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2 <= -dP/dV degree / 12 * sum |c_f|^2 (Cauchy and
+  // Schwarz), plus (P - P_ambient) d2V/dx2, whose largest row is at most degree * perimeter / 6.
+  const double bend = linear_below * p.gas.rest_volume, held = std::max(surface.volume, bend);
   const double slope = p.gas.amount / (held * held);
-  const double gauge = std::abs(p.gas.pressure(volume) - p.gas.ambient);
-  const double gas = slope * p.area_square_sum * r * growth + gauge * p.perimeter_bound / 6 * growth;
-  return bound + gas / (2 * p.particle_mass);  // stable_step() doubles spring sums, which this is not
+  const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
+  const double gas = p.largest_degree * (slope * surface.cross_square_sum / 12 + gauge * surface.perimeter / 6);
+  return springs + gas / (2 * p.particle_mass);  // stable_step() doubles spring sums, which this is not
+}
+
+Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {
+  Surface s{.volume = volume(vertices, triangles)};
+  for (const auto& [i, j, k] : triangles) {
+    const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], cross = glm::cross(b - a, c - a);
+    s.cross_square_sum += glm::dot(cross, cross);
+    s.perimeter = std::max(s.perimeter, glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a));
+  }
+  return s;
 }
 
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const Material& material) {
@@ -110,7 +102,8 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const 
   p->spring_damping_bound = largest_sum(*p, &Spring::damping);
 
   list_faces(*p);
-  measure_surface(*p);
+  for (Index i = 0; i < p->mesh.vertices.size(); ++i)
+    p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
   if (p->mesh.closed) {
     p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
     p->gas.ambient = material.ambient_pressure;

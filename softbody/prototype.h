@@ -42,8 +42,7 @@ struct Prototype {
   // Gershgorin bounds over the particles (see stable_step()):
   double spring_stiffness_bound = 0;  // N/m: largest sum of the stiffnesses at one particle
   double spring_damping_bound = 0;    // N s/m
-  double area_square_sum = 0;         // m^4: sum over the particles of |dV/dx|^2 at rest
-  double perimeter_bound = 0;         // m: largest sum of the perimeters of one particle's faces at rest
+  double largest_degree = 0;          // faces at one particle
 
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
@@ -53,8 +52,16 @@ struct Prototype {
 /// Throws SceneError if no equilibrium is found.
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material);
 
-/// Bound of the stiffness over mass that springs and gas act with on one particle of a body of this volume, in 1/s^2.
-double stiffness_per_mass(const Prototype& prototype, double volume);
+/// What the stability bound of the gas needs of a body's shape.
+struct Surface {
+  double volume = 0;            // m^3
+  double cross_square_sum = 0;  // m^4: over the faces, of (twice the area)^2
+  double perimeter = 0;         // m, of the face with the largest
+};
+Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
+
+/// Bound of the stiffness over mass that springs and gas act with on one particle of a body of this shape, in 1/s^2.
+double stiffness_per_mass(const Prototype& prototype, const Surface& surface);
 
 /// Largest stable step of semi-implicit Euler times 0.8, in s, for stiffness/mass sum k_m (1/s^2) and damping/mass sum
 /// c_m (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m / (2 omega).

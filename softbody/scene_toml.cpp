@@ -196,7 +196,7 @@ BodySource read_body(Table& table, const std::vector<Material>& materials) {
   while (std::size_t(b.material) < materials.size() && materials[std::size_t(b.material)].name != name) ++b.material;
   if (std::size_t(b.material) == materials.size()) table.fail("material", "names no [[material]] of this file");
   b.position = table.vector("position", b.position, -1e6, 1e6);
-  b.velocity = table.vector("velocity", b.velocity, -1e4, 1e4);
+  b.velocity = table.vector("velocity", b.velocity, -1e3, 1e3);
   return b;
 }
 

@@ -95,7 +95,7 @@ World::State::State(Scene s, const Options& o)
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
   for (const auto& p : prototypes.all()) {
-    const double k = stiffness_per_mass(*p, p->start_volume) +
+    const double k = stiffness_per_mass(*p, measure_surface(p->start, p->mesh.triangles)) +
                      Shield::stiffness_bound(float(p->material.contact_stiffness)) / p->particle_mass;
     const double c = p->spring_damping_bound + Shield::damping_bound(float(p->material.contact_stiffness), shield);
     const double steps = options.frame_time / stable_step(k, c / p->particle_mass);
