@@ -226,7 +226,7 @@ void draw_head(Widgets& w, Grid& grid) {
 std::string footing(const Session& session) {
   const CompareReport& report = session.comparison();
   std::string text = reference_sentence(report) + ".";
-  if (report.reference) text += " " + grouped(report.true_contacts) + " true contacts.";
+  if (report.reference) text.append(" ").append(grouped(report.true_contacts)).append(" true contacts.");
   return text + " One frozen frame, one core, shuffled order.";
 }
 
