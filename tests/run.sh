@@ -5,9 +5,10 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/../app/setup.sh"
 preset=${1:-release}
 
-packages=("${program_packages[@]}" libgtest-dev xvfb xdotool x11-utils)
+packages=("${program_packages[@]}" libgtest-dev xvfb xauth xdotool)
 [ "$preset" != ci-clang ] || packages+=(clang)
 install_missing "${packages[@]}"
 build "$preset" all -DBUILD_TESTING=ON
 cd "$root"
-exec ctest --preset "$preset" --parallel "$(nproc)"
+# A display of its own for the tests with a window, whether there is a screen or not.
+exec xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24" ctest --preset "$preset" --parallel "$(nproc)"
