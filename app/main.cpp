@@ -2,6 +2,7 @@
 
 #include <cstdio>
 #include <exception>
+#include <iostream>
 #include <new>
 
 #include "app/detect.h"
@@ -45,7 +46,10 @@ int run(const app::Options& options) {
 int main(int argc, char** argv) {
   try {
     const auto options = app::parse_options(argc, argv);
-    return options ? run(*options) : 0;
+    const int status = options ? run(*options) : 0;
+    if (!std::cout.flush() || std::fflush(stdout) != 0)
+      throw app::UsageError("standard output cannot be written to; is the disk full?");
+    return status;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "sbcollide: not enough memory; give it less at a time\n");
     return 2;

@@ -59,7 +59,7 @@ void Session::run(double elapsed) {
   int steps = 0;
   double spent_ms = 0;
   const double budget_ms = std::max(step_budget_ms, step_budget_part * 1e3 * elapsed);
-  while (accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
+  while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
     spent_ms += world_->profile().total_ms;
@@ -127,7 +127,23 @@ void Session::reset() {
   scene.method = world_->method().key;
   scene.collision = world_->collision();
   scene.default_cell_size = world_->uses_default_cell_size();
-  start(scene);
+  try {
+    start(scene);
+  } catch (const std::exception& error) {
+    notice_ = error.what();  // the present world goes on
+  }
+}
+
+/// False, with a notice(), if the method would hold the window up: it runs where the bodies are moved and drawn.
+bool Session::affordable(const collide::Method& method, const collide::Settings& settings) {
+  constexpr std::uint64_t most = 1'000'000'000;  // pair tests: about half a second
+  Forecast forecast;
+  forecast.begin(world_->positions(), settings, 0);
+  const Work work = forecast.of(static_cast<std::size_t>(&method - collide::methods().data()));
+  if (work.cost() <= most) return true;
+  notice_ = std::string(method.name);
+  notice_.append(" would take ").append(work.in_words()).append(" a frame here: too long to drive the bodies with");
+  return false;
 }
 
 void Session::restore_settings() {
@@ -143,6 +159,7 @@ void Session::drop() {
 
 const std::string& Session::caption() const {
   static const std::string none;
+  if (world_->bodies().count() > world_->scene().bodies.size()) return none;  // dropped bodies tell another story
   const std::string* text = &none;
   for (const softbody::Caption& caption : world_->scene().captions) {
     if (caption.frame <= world_->frame()) text = &caption.text;
@@ -151,7 +168,8 @@ const std::string& Session::caption() const {
 }
 
 void Session::set_method(std::string_view key) {
-  if (!collide::find_method(key) || key == world_->method().key) return;
+  const collide::Method* method = collide::find_method(key);
+  if (!method || key == world_->method().key || !affordable(*method, world_->collision())) return;
   notice_.clear();
   succeeds([&] { world_->set_method(key); });
   ++revision_;
@@ -162,7 +180,13 @@ void Session::set_method(std::string_view key) {
 void Session::next_method() {
   const auto all = collide::methods();
   const auto here = std::ranges::find(all, world_->method().key, &collide::Method::key);
-  set_method(all[static_cast<std::size_t>(here - all.begin() + 1) % all.size()].key);
+  const auto first = static_cast<std::size_t>(here - all.begin());
+  for (std::size_t i = 1; i < all.size(); ++i) {
+    const collide::Method& next = all[(first + i) % all.size()];
+    if (!affordable(next, world_->collision())) continue;
+    set_method(next.key);
+    return;
+  }
 }
 
 void Session::set_collision(const collide::Settings& settings, bool default_cell_size) {
@@ -170,6 +194,7 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   collide::Settings checked = settings;
   if (default_cell_size) checked.cell_size = world_->collision().cell_size;
   if (notice_ = collide::problem(checked); !notice_.empty()) return;
+  if (!affordable(world_->method(), checked)) return;
   succeeds([&] { world_->set_collision(checked, default_cell_size); });
   ++revision_;
   select_bucket(selected_bucket_);

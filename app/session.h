@@ -104,6 +104,7 @@ class Session {
   void step();
   template <class Change>
   bool succeeds(Change&& change);
+  bool affordable(const collide::Method& method, const collide::Settings& settings);
   void exchange_comparison();
   void keep(CompareReport report);
   Snapshot snapshot() const;

@@ -1,6 +1,6 @@
 # Shared by app/run.sh and tests/run.sh: installs what is missing and builds. Source it; it changes no directory.
 
-root=$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
+root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # What the program is built from and runs on (Debian 12, Ubuntu 24.04).
 program_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libglew-dev libglm-dev libimgui-dev libgl-dev libegl-dev
@@ -14,7 +14,8 @@ install_missing() {
   command -v dpkg-query >/dev/null || { say "This is no Debian or Ubuntu: install these yourself if the build misses them: $*"; return; }
   local missing=() package
   for package in "$@"; do
-    [ "$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null)" = installed ] || missing+=("$package")
+    # One line an architecture: installed for any of them will do.
+    dpkg-query -W -f='${db:Status-Status}\n' "$package" 2>/dev/null | grep -qx installed || missing+=("$package")
   done
   [ ${#missing[@]} -gt 0 ] || return 0
   local as_root=()

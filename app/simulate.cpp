@@ -71,15 +71,16 @@ void print_json(const softbody::World& world, const std::vector<Row>& rows) {
                       {"plan", to_json(world.plan())},
                       {"frames", frames},
                       {"state_hash", hex(world.state_hash())}};
-  std::cout << document.dump() << '\n';
+  std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
 }
 
 /// About twenty lines, however many frames.
 void print_table(const softbody::World& world, const std::vector<Row>& rows) {
-  std::printf("%s, %s, %u bodies, %u vertices\n", world.scene().name.c_str(), std::string(world.method().name).c_str(),
-              world.bodies().count(), world.bodies().vertex_count());
-  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "bodies", "self",
-              "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
+  std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
+              world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
+              world.bodies().vertex_count());
+  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "between",
+              "inside", "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
   const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;

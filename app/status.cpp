@@ -23,9 +23,9 @@ std::string recall_sentence(const Session& session) {
   std::array<char, 32> number{};
   std::snprintf(number.data(), number.size(), "Recall %.4f   ", rounded_down(row->recall));
   std::string text = number.data();
-  text += report.true_contacts == 0
-              ? "no contacts at the moment"
-              : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) + " contacts missed";
+  text += report.true_contacts == 0 ? "no contacts in the frame last measured"
+                                    : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) +
+                                          " contacts missed when last measured";
   if (!report.stands_in.empty()) text += " (see Compare: V)";
   return text;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -99,7 +100,9 @@ double Dynamics::fastest(BodyId id) const {
   double speed2 = 0;
   for (Index i = 0; i < count; ++i) {
     const std::size_t s = slot(body, i);
-    speed2 = std::max(speed2, double(v_[0][s]) * v_[0][s] + double(v_[1][s]) * v_[1][s] + double(v_[2][s]) * v_[2][s]);
+    const double here = double(v_[0][s]) * v_[0][s] + double(v_[1][s]) * v_[1][s] + double(v_[2][s]) * v_[2][s];
+    if (!std::isfinite(here)) return std::numeric_limits<double>::infinity();  // no rest for a body that is lost
+    speed2 = std::max(speed2, here);
   }
   return std::sqrt(speed2);
 }

@@ -64,7 +64,7 @@ class Dynamics {
   /// Advances by `seconds` in equal substeps, as many as the stability bound asks for, which is worked
   /// out anew as bodies move; returns their number.
   int advance(double seconds);
-  /// Substeps that advance(seconds) would take now.
+  /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
   void finish_frame(double seconds);

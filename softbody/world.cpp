@@ -140,7 +140,10 @@ void World::State::gather() {
 
 void World::State::detect() {
   const auto start = Clock::now();
-  if (plan.has(Stage::detect)) detector->detect(positions.frame(bodies), settings, workers, result);
+  if (plan.has(Stage::detect))
+    detector->detect(positions.frame(bodies), settings, workers, result);
+  else
+    result = {};
   profile.detect_ms = ms_since(start);
 }
 
@@ -169,7 +172,8 @@ void World::step() {
   s.gather();
   s.profile.solve_ms = ms_since(start);
   s.detect();
-  if (s.plan.has(Stage::sleep)) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  const bool shield_grows = s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
+  if (s.plan.has(Stage::sleep) && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.profile.total_ms = ms_since(start);
 }
 
@@ -219,7 +223,9 @@ void World::set_method(std::string_view key) {
 
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
   State& s = *state_;
-  s.settings = settings;
+  s.settings = s.scene.collision = settings;
+  s.plan = make_plan(s.scene, s.prototypes.all());  // self-collision decides whether a lone body needs detection
+  s.dynamics.set_plan(s.plan);
   s.default_cell = default_cell_size;
   if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
   s.wake_all();

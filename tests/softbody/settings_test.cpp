@@ -32,6 +32,39 @@ TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
   EXPECT_LT(fastest, 2);
 }
 
+TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
+  World world(find_scene("cloth", SBCOLLIDE_SCENES), {});
+  run(world, 120);
+  ASSERT_GT(world.detection().self_contacts, 0u);
+  collide::Settings settings = world.collision();
+  settings.self_collision = false;
+  world.set_collision(settings, true);
+  EXPECT_FALSE(world.plan().has(Stage::detect));
+  EXPECT_TRUE(world.detection().contacts.empty());
+  Scene scene = world.scene();  // as a reset does
+  World again(scene, {});
+  run(again, 120);
+  EXPECT_TRUE(again.detection().contacts.empty());
+  settings.self_collision = true;
+  again.set_collision(settings, true);
+  EXPECT_TRUE(again.plan().has(Stage::detect));
+  EXPECT_GT(again.detection().self_contacts, 0u);
+}
+
+TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheShieldGrows) {
+  World world(drop_scene(), {});
+  run(world, 800);
+  ASSERT_TRUE(world.all_at_rest());
+  collide::Settings wide = world.collision();
+  wide.tolerance = 0.2f;
+  world.set_collision(wide, true);
+  const std::size_t before = world.detection().contacts.size();
+  run(world, 110);  // 0.1 m at 5 cm a second
+  EXPECT_FALSE(world.all_at_rest());
+  run(world, 110);
+  EXPECT_LT(world.detection().contacts.size(), before) << "the shield pushed bodies apart";
+}
+
 struct End {
   const char* name;
   int levels;
