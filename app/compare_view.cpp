@@ -122,7 +122,7 @@ void draw_switches(Widgets& w, Session& session, const Grid& grid, const Row& ro
     }
   }
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
-  const bool shown = session.compare.misses_of.value_or(session.driver()) == row.index;
+  const bool shown = session.misses_of() == row.index;
   if (w.radio(row.label("Misses of").c_str(), shown, "Shows what this method misses, in the scene.")) {
     session.compare.misses_of = row.index;
     session.overlays.missed = true;

@@ -142,7 +142,7 @@ class Demo {
         shown.boxes || shown.cells || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
             .comparison = shown.missed ? session_.comparisons() : 0,
-            .misses_of = session_.compare.misses_of.value_or(session_.driver()),
+            .misses_of = session_.misses_of(),
             .overlays = shown,
             .bucket = session_.selected_bucket(),
             .view = camera_.view(),

@@ -222,7 +222,7 @@ const CompareRow* Session::driver_row() const {
 
 const std::vector<collide::Contact>* Session::missed() const {
   if (comparison_.rows.empty()) return nullptr;
-  const CompareRow& row = comparison_.rows[compare.on ? compare.misses_of.value_or(driver()) : driver()];
+  const CompareRow& row = comparison_.rows[misses_of()];
   return row.scored ? &row.missed : nullptr;
 }
 

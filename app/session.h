@@ -88,6 +88,8 @@ class Session {
   /// The index of the driving method, and its row: nullptr until it is measured, or if it cannot be.
   std::size_t driver() const { return method_index(world_->method().key); }
   const CompareRow* driver_row() const;
+  /// The index in collide::methods() of the method whose missed contacts are shown.
+  std::size_t misses_of() const { return compare.on ? compare.misses_of.value_or(driver()) : driver(); }
   /// What the method of choice missed; nullptr if that is not known.
   const std::vector<collide::Contact>* missed() const;
 
