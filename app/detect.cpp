@@ -75,6 +75,7 @@ struct Row {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
+  collide::Skipped skipped{};
   std::vector<double> ms;  // of each repetition
 
   double least() const { return *std::min_element(ms.begin(), ms.end()); }
@@ -107,13 +108,14 @@ std::vector<Row> run(const Options& options, const collide::Method& method, cons
   for (int repetition = 0; repetition < options.detect.repeat; ++repetition) {
     auto detector = method.make();
     for (std::size_t f = 0; f < rows.size(); ++f) {
-      if (f > 0 && !options.detect.reuse) detector = method.make();
+      if (!options.detect.reuse) detector->forget();
       const collide::Frame frame = sequence.frame(f);
       rows[f].ms.push_back(timed_detect(*detector, frame, settings, workers, result, options.detect.files[f]));
       if (repetition > 0) continue;
       rows[f].contacts = result.contacts.size();
       rows[f].self_contacts = result.self_contacts;
       rows[f].counters = result.counters;
+      rows[f].skipped = result.skipped;
       if (csv) csv->add(f, frame, result.contacts);  // at once: the lists of all frames may be too large to keep
     }
   }
@@ -126,6 +128,9 @@ void print_json(const Options& options, const collide::Method& method, const col
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
   for (const Row& r : rows) {
+    Json skipped = Json::object();
+    for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
+      skipped[std::string(collide::skip_kinds[kind].key)] = r.skipped[kind];
     frames.push_back({{"frame", frames.size()},
                       {"contacts", r.contacts},
                       {"self_contacts", r.self_contacts},
@@ -133,7 +138,7 @@ void print_json(const Options& options, const collide::Method& method, const col
                       {"pair_tests", r.counters.pair_tests},
                       {"hashes", r.counters.hashes},
                       {"boxes", r.counters.boxes},
-                      {"skipped", Json::object()}});
+                      {"skipped", skipped}});
   }
   const Json document{
       {"method", method.key},     {"tolerance", *options.detection.tolerance}, {"threads", options.threads},

@@ -85,7 +85,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
       ->type_name("K")
       ->check(CLI::Range(1, 100'000));
-  detect->add_flag("!--no-reuse", d.reuse, "a fresh detector for every frame");
+  detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
   return detect;

@@ -43,6 +43,7 @@ void BodyBoxes::build(const Frame& frame, Result& result) {
   result.contacts.clear();
   result.self_contacts = 0;
   result.counters = {};
+  result.skipped = {};
   result.coverage = Coverage::exact;
   result.non_finite_bodies.clear();
   box.resize(bodies.count());

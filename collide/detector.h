@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <string>
+#include <string_view>
 
 #include "collide/frame.h"
 #include "collide/workers.h"
@@ -50,6 +51,27 @@ struct Counters {
   std::uint64_t longest_bucket = 0;  // entries of the fullest bucket
 };
 
+/// Work that a frame did not need. Each kind is left out on a proof, so that the contacts stay the same.
+enum class Skip {
+  far_pairs,         // pairs of bodies whose boxes are out of reach of each other
+  separated_pairs,   // pairs of bodies with near boxes, but a plane or two spheres part them
+  lone_bodies,       // bodies that no other body is near: no pair pass at all
+  unfolded_bodies,   // bodies that cannot touch themselves: no self pass
+  remembered_pairs,  // pairs of bodies of which only candidates remembered from an earlier frame were tested
+  kept_pairs,        // pairs of bodies of which neither has moved: their contacts are kept, not found again
+};
+struct SkipKind {
+  std::string_view key;   // in JSON
+  std::string_view text;  // in the panel, after a number: "3 pairs of far bodies"
+};
+inline constexpr std::array<SkipKind, 6> skip_kinds{{{"far_pairs", "pairs of far bodies"},
+                                                     {"separated_pairs", "pairs parted by a plane or spheres"},
+                                                     {"lone_bodies", "bodies alone"},
+                                                     {"unfolded_bodies", "bodies that cannot touch themselves"},
+                                                     {"remembered_pairs", "pairs with remembered candidates"},
+                                                     {"kept_pairs", "pairs at rest"}}};
+using Skipped = std::array<std::uint64_t, skip_kinds.size()>;  // by Skip
+
 /// What §2.2 promises of the settings on this frame.
 enum class Coverage {
   exact,     // the method cannot miss a contact (green)
@@ -61,6 +83,7 @@ struct Result {
   std::vector<Contact> contacts;    // ascending, no duplicates
   std::uint64_t self_contacts = 0;  // how many of them lie inside one body
   Counters counters;
+  Skipped skipped{};  // all 0 for a method that leaves nothing out
   Coverage coverage = Coverage::exact;
   std::vector<Index> non_finite_bodies;  // bodies with a NaN or infinite coordinate: left out, named here, ascending
 };
@@ -92,6 +115,8 @@ class Detector {
   virtual ~Detector() = default;
   /// settings must have no problem(). Throws std::length_error if the method would need more memory than it may take.
   virtual void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) = 0;
+  /// Drops all that was learnt from earlier frames and keeps the scratch memory: the next frame is found from scratch.
+  virtual void forget() {}
   /// The picture of the last detect(); empty for methods that build no boxes and no table.
   virtual DebugGeometry debug() const { return {}; }
 };
