@@ -13,16 +13,34 @@ namespace collide {
 
 using Index = std::uint32_t;
 
-/// Mesh shared by all bodies of one kind. It decides which vertex pairs of one body can never be contacts:
-/// those joined by a mesh edge, and those closer than the tolerance at rest. Immutable after construction.
-class Shape {
+/// Which vertices of a mesh are joined by an edge. Shared by all bodies that are copies of one mesh. Immutable.
+class Topology {
  public:
   /// edges: pairs of local vertex indices, in any order, duplicates allowed; self loops are ignored.
-  /// rest: rest positions in metres, one a vertex, or empty: then no pair is left out for its rest distance.
-  /// Throws std::invalid_argument if an edge names a missing vertex or the number of rest positions is another.
-  Shape(Index vertex_count, std::span<const std::array<Index, 2>> edges, std::vector<glm::vec3> rest = {});
+  /// Throws std::invalid_argument if an edge names a missing vertex.
+  Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges);
 
   Index vertex_count() const { return static_cast<Index>(first_.size() - 1); }
+  bool joined(Index i, Index j) const;
+  bool operator==(const Topology&) const = default;
+
+ private:
+  std::vector<Index> first_;      // vertex_count + 1 offsets into neighbour_
+  std::vector<Index> neighbour_;  // the mesh neighbours of each vertex, ascending
+};
+
+/// A mesh and, where it is known, its shape at rest. It decides which vertex pairs of one body can never be contacts:
+/// those joined by a mesh edge, and those closer than the tolerance at rest. Immutable.
+class Shape {
+ public:
+  /// rest: rest positions in metres, one a vertex, or empty: then no pair is left out for its rest distance.
+  /// Throws std::invalid_argument if the number of rest positions is another.
+  explicit Shape(std::shared_ptr<const Topology> topology, std::vector<glm::vec3> rest = {});
+  /// With a topology of its own.
+  Shape(Index vertex_count, std::span<const std::array<Index, 2>> edges, std::vector<glm::vec3> rest = {});
+
+  Index vertex_count() const { return topology_->vertex_count(); }
+  const Topology& topology() const { return *topology_; }
   const std::vector<glm::vec3>& rest() const { return rest_; }
 
   /// True if the local vertices i and j may never be a contact of one body.
@@ -30,8 +48,7 @@ class Shape {
   bool excludes(Index i, Index j, float tolerance2) const;
 
  private:
-  std::vector<Index> first_;      // vertex_count + 1 offsets into neighbour_
-  std::vector<Index> neighbour_;  // the mesh neighbours of each vertex, ascending
+  std::shared_ptr<const Topology> topology_;
   std::vector<glm::vec3> rest_;
 };
 
