@@ -1,5 +1,7 @@
 #include "collide/box_table.h"
 
+#include <algorithm>
+
 namespace collide {
 
 void BoxTable::clear() {
@@ -17,12 +19,37 @@ void BoxTable::add(std::span<const std::uint32_t> buckets_of_box) {
 
 void BoxTable::build(std::uint32_t buckets) {
   table_.build(bucket_, buckets);
-  box_in_slot_.resize(bucket_.size());
-  for (std::size_t box = 0; box < size(); ++box) {
+  place_.resize(bucket_.size());
+  word_.resize(bucket_.size());
+  bits_.resize(bucket_.size());
+  for (Index box = 0; box < size(); ++box) {
     for (std::uint32_t entry = first_[box]; entry < first_[box + 1]; ++entry) {
-      box_in_slot_[table_.slot(entry)] = static_cast<Index>(box);
+      const Index slot = table_.slot(entry);
+      place_[slot] = add_to_list(box, slot, table_.slots(bucket_[entry]).begin);
     }
   }
+}
+
+Index BoxTable::add_to_list(Index box, Index slot, Index first_slot) {
+  const Index word = box / IndexSet::word_size;
+  const IndexSet::Word bit = IndexSet::Word{1} << box % IndexSet::word_size;
+  Index place = first_slot;
+  if (slot > first_slot) {
+    place = place_[slot - 1];  // boxes come in the order of the slots, so this one is known
+    if (word_[place] == word) {
+      bits_[place] |= bit;
+      return place;
+    }
+    ++place;
+  }
+  word_[place] = word;
+  bits_[place] = bit;
+  return place;
+}
+
+void BoxTable::prepare_meetings(int threads) {
+  met_.resize(static_cast<std::size_t>(threads));
+  for (IndexSet& met : met_) met.reset(static_cast<Index>(size()));
 }
 
 void BoxTable::describe(DebugGeometry& geometry) const {

@@ -1,10 +1,10 @@
 #pragma once
-// Boxes in the lists of buckets, and the pairs of boxes that share a bucket (§2.2, §2.3).
+// Boxes in the lists of buckets, and which boxes share a bucket (§2.2, §2.3).
 
 #include <algorithm>
 
 #include "collide/bucket_table.h"
-#include "collide/subdivision.h"
+#include "collide/index_set.h"
 
 namespace collide {
 
@@ -15,11 +15,23 @@ class BoxTable {
   void add(std::span<const std::uint32_t> buckets_of_box);
   void build(std::uint32_t buckets);
 
-  /// The part of one thread of all pairs a < b of boxes that share a bucket: calls meet(a, b) once for each pair,
-  /// however many buckets the two share. Prepare first, once and not in parallel.
-  void prepare_pairs(int threads) { met_.resize(static_cast<std::size_t>(threads)); }
+  /// The part of one thread of all meetings in the buckets: for each box a of its part, the boxes b >= first(a), where
+  /// first(a) >= a, that share a bucket with a, each once however many buckets they share. They come as runs of
+  /// consecutive boxes: meet(a, run). A box shares its buckets with itself. Prepare first, once and not in parallel.
+  void prepare_meetings(int threads);
+  template <class First, class Meet>
+  void for_each_run(int thread, int threads, const First& first, const Meet& meet);
+
+  /// The same box by box: meet(a, b) for all pairs a < b.
+  void prepare_pairs(int threads) { prepare_meetings(threads); }
   template <class Meet>
-  void for_each_pair(int thread, int threads, const Meet& meet);
+  void for_each_pair(int thread, int threads, const Meet& meet) {
+    for_each_run(
+        thread, threads, [](Index a) { return a; },
+        [&](Index a, Range run) {
+          for (Index b = std::max(run.begin, a + 1); b < run.end; ++b) meet(a, b);
+        });
+  }
 
   std::size_t size() const { return first_.size() - 1; }
   const BucketTable& buckets() const { return table_; }
@@ -27,28 +39,38 @@ class BoxTable {
   void describe(DebugGeometry& geometry) const;
 
  private:
+  /// Appends the box in the slot to the list of its bucket, which begins at first_slot; returns the place of its word.
+  Index add_to_list(Index box, Index slot, Index first_slot);
+
   std::vector<std::uint32_t> first_{0};  // size() + 1 offsets into bucket_
   std::vector<std::uint32_t> bucket_;    // of each entry: box by box
   BucketTable table_;
-  std::vector<Index> box_in_slot_;       // ascending within a bucket
-  std::vector<std::vector<Index>> met_;  // by thread, for each box: the last box it has met
+
+  // Neighbouring boxes are often in one bucket. So a bucket's list holds words of an IndexSet, ascending, from the
+  // bucket's first slot on; there are no more of them than slots.
+  std::vector<Index> place_;          // of each slot's box: where its word is
+  std::vector<Index> word_;           // by place
+  std::vector<IndexSet::Word> bits_;  // by place
+  std::vector<IndexSet> met_;         // by thread
 };
 
-template <class Meet>
-void BoxTable::for_each_pair(int thread, int threads, const Meet& meet) {
+template <class First, class Meet>
+void BoxTable::for_each_run(int thread, int threads, const First& first, const Meet& meet) {
   const auto boxes = static_cast<Index>(size());
-  std::vector<Index>& met = met_[static_cast<std::size_t>(thread)];
-  met.assign(boxes, boxes);
+  IndexSet& met = met_[static_cast<std::size_t>(thread)];
   for (auto a = static_cast<Index>(thread); a < boxes; a += static_cast<Index>(threads)) {
+    const Index least = first(a), least_word = least / IndexSet::word_size;
+    const IndexSet::Word from_least = ~IndexSet::Word{0} << least % IndexSet::word_size;
     for (std::uint32_t entry = first_[a]; entry < first_[a + 1]; ++entry) {
-      const Index end = table_.slots(bucket_[entry]).end;
-      for (Index slot = table_.slot(entry) + 1; slot < end; ++slot) {
-        const Index b = box_in_slot_[slot];
-        if (met[b] == a) continue;
-        met[b] = a;
-        meet(a, b);
+      const Index last = place_[table_.slots(bucket_[entry]).end - 1];
+      for (Index place = place_[table_.slot(entry)]; place <= last; ++place) {
+        if (word_[place] > least_word)
+          met.add(word_[place], bits_[place]);
+        else if (word_[place] == least_word)
+          met.add(word_[place], bits_[place] & from_least);
       }
     }
+    met.take_runs(least, [&](Range run) { meet(a, run); });
   }
 }
 

@@ -37,7 +37,7 @@ void ContactSearch::test(int thread, Range a, Range b) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   search_rows(own, a, b, [&](Range rows) { near_pairs(*points_, rows, b, tolerance2_, own.hits); });
   const std::uint64_t na = a.size(), nb = b.size();
-  own.pair_tests += a.end > b.begin ? nb * (nb - 1) / 2 : na * nb;
+  own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
 }
 
 void ContactSearch::test_near(int thread, Range a, Range b, const Aabb& region) {

@@ -14,8 +14,9 @@ class ContactSearch {
   /// All of it must stay alive and unchanged until finish().
   void begin(const Frame& frame, const Settings& settings, const Points& points, int threads);
 
-  /// Finds the contacts of all slots i < j, i from a and j from b. The two are the same run, or a ends where b begins
-  /// or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts contacts.
+  /// Finds the contacts of all slots i < j, i from a and j from b. Either b begins with all of a, or a ends where b
+  /// begins or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts
+  /// contacts.
   void test(int thread, Range a, Range b);
 
   /// The same for different runs, where all of b lies inside the region: vertices of a out of reach of it are not

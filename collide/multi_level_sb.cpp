@@ -5,6 +5,7 @@
 #include "collide/cell_hash.h"
 #include "collide/contact_search.h"
 #include "collide/detectors.h"
+#include "collide/subdivision.h"
 
 namespace collide {
 
@@ -35,7 +36,7 @@ class MultiLevelSb final : public Detector {
     subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
     hash_corners(result);                                                        // §2.2
     search_.begin(frame, settings, subdivision_.points(), workers.threads());
-    table_.prepare_pairs(workers.threads());
+    table_.prepare_meetings(workers.threads());
     workers.run([&](int thread) { test_boxes(thread, workers.threads()); });  // §2.3, §2.4
     search_.finish(result);
   }
@@ -58,7 +59,9 @@ class MultiLevelSb final : public Detector {
     const CellHash hash(settings_);
     bool exceeded = false;
     table_.clear();
+    end_of_body_.resize(bodies_.box.size());
     for (const Box& box : subdivision_.boxes()) {
+      end_of_body_[box.body] = static_cast<Index>(table_.size() + 1);
       std::array<std::uint32_t, 8> buckets;
       const auto cells = corner_cells(hash, box.region);
       for (std::size_t corner = 0; corner < 8; ++corner) buckets[corner] = hash.bucket(cells[corner]);
@@ -74,19 +77,16 @@ class MultiLevelSb final : public Detector {
 
   void test_boxes(int thread, int threads) {
     const std::vector<Box>& boxes = subdivision_.boxes();
-    if (settings_.self_collision) {  // a box meets itself, too
-      const Part part = part_of(boxes.size(), thread, threads);
-      for (std::size_t a = part.begin; a < part.end; ++a) search_.test(thread, boxes[a].slots, boxes[a].slots);
-    }
-    table_.for_each_pair(thread, threads, [&](Index a, Index b) {
-      if (!settings_.self_collision && boxes[a].body == boxes[b].body) return;
-      search_.test(thread, boxes[a].slots, boxes[b].slots);
+    const auto first = [&](Index a) { return settings_.self_collision ? a : end_of_body_[boxes[a].body]; };
+    table_.for_each_run(thread, threads, first, [&](Index a, Range run) {
+      search_.test(thread, boxes[a].slots, {boxes[run.begin].slots.begin, boxes[run.end - 1].slots.end});
     });
   }
 
   Settings settings_;
   BodyBoxes bodies_;
   Subdivision subdivision_;
+  std::vector<Index> end_of_body_;  // of the bodies with boxes: past their last one
   BoxTable table_;
   ContactSearch search_;
 };
