@@ -1,0 +1,21 @@
+#pragma once
+// Repeated measurements of one duration.
+
+#include <algorithm>
+#include <vector>
+
+namespace app {
+
+/// In milliseconds; least() and median() need at least one.
+struct Times {
+  std::vector<double> ms;
+
+  double least() const { return *std::min_element(ms.begin(), ms.end()); }
+  double median() const {
+    std::vector<double> sorted = ms;
+    std::sort(sorted.begin(), sorted.end());
+    return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
+  }
+};
+
+}  // namespace app

@@ -1,0 +1,167 @@
+#include "app/sweep.h"
+
+#include <gtest/gtest.h>
+
+#include "app/compare.h"
+#include "app/heap.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+collide::Workers& alone() {
+  static collide::Workers workers(1);
+  return workers;
+}
+
+const softbody::World& pair_world() {
+  static const softbody::World world(touching_pair(), {});
+  return world;
+}
+
+/// Quick ones: one bucket count of each configuration of the whole sweep.
+std::vector<Configuration> some_configurations() {
+  std::vector<Configuration> some;
+  for (const Configuration& c : sweep_configurations(pair_world())) {
+    const bool hashes = collide::methods()[c.method].uses_hash;
+    if (!hashes || c.settings.buckets == sweep_buckets.back()) some.push_back(c);
+  }
+  return some;
+}
+
+SweepReport run(const std::vector<Configuration>& configurations, const SweepLimits& limits) {
+  Sweep sweep(pair_world().positions(), configurations, limits, alone());
+  while (sweep.step()) continue;
+  return sweep.report();
+}
+
+std::size_t count(std::string_view method) {
+  return static_cast<std::size_t>(
+      std::ranges::count(sweep_configurations(pair_world()), method_index(method), &Configuration::method));
+}
+
+TEST(SweepConfigurations, EveryMethodTakesAllCombinationsOfTheAxesThatItUses) {
+  std::size_t expected = 0;
+  for (const collide::Method& method : collide::methods()) {
+    const std::size_t own = (method.uses_levels ? 4 : 1) * (method.uses_hash ? 4 * 5 : 1);
+    EXPECT_EQ(count(method.key), own) << method.key;
+    expected += own;
+  }
+  const auto all = sweep_configurations(pair_world());
+  EXPECT_EQ(all.size(), expected);
+  for (const Configuration& c : all) EXPECT_EQ(collide::problem(c.settings), "");
+  EXPECT_EQ(count("multi-level-sb"), 80u);
+  EXPECT_EQ(count("brute-force"), 1u);
+}
+
+TEST(SweepConfigurations, TheAutomaticCellIsTheWorldsOwn) {
+  const softbody::World& world = pair_world();
+  EXPECT_EQ(automatic_cell_size(world, world.collision().levels), world.collision().cell_size);
+  EXPECT_LT(automatic_cell_size(world, 9).x, automatic_cell_size(world, 0).x);
+  for (const Configuration& c : sweep_configurations(world)) {
+    if (!collide::methods()[c.method].uses_hash) continue;
+    EXPECT_EQ(c.settings.cell_size, automatic_cell_size(world, c.settings.levels) * static_cast<float>(c.cell));
+  }
+}
+
+TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
+  const auto configurations = some_configurations();
+  const SweepReport report = run(configurations, {.repetitions = 1});
+  ASSERT_EQ(report.rows.size(), configurations.size());
+  ASSERT_TRUE(report.reference);
+  EXPECT_EQ(report.reference->method, method_index("brute-force"));
+  EXPECT_EQ(report.stands_in, "");
+  EXPECT_GT(report.true_contacts, 0u);
+  for (std::size_t i = 0; i < configurations.size(); ++i) {
+    const Configuration& c = configurations[i];
+    const collide::Method& method = collide::methods()[c.method];
+    collide::Result expected;
+    method.make()->detect(pair_world().positions(), c.settings, alone(), expected);
+    const SweepRow& row = report.rows[i];
+    ASSERT_TRUE(row.checked) << method.key;
+    EXPECT_EQ(row.not_run, "");
+    EXPECT_EQ(row.times.ms.size(), 1u);
+    EXPECT_EQ(row.contacts, expected.contacts.size());
+    EXPECT_EQ(row.counters.pair_tests, expected.counters.pair_tests);
+    EXPECT_EQ(row.counters.hashes, expected.counters.hashes);
+    EXPECT_EQ(row.skipped, expected.skipped);
+    EXPECT_EQ(row.coverage, expected.coverage);
+    EXPECT_EQ(row.precision, 1.0);
+    EXPECT_EQ(row.missed, report.true_contacts - row.contacts);
+    EXPECT_TRUE(row.recall == 1.0 || !method.exact) << method.key;
+    EXPECT_TRUE(row.memory >= row.contacts * sizeof(collide::Contact) || heap_in_use() == 0);
+  }
+}
+
+TEST(Sweep, SeesWhatTheLiteralMethodMissesWithSmallCells) {
+  const SweepReport report = run(some_configurations(), {.repetitions = 0});
+  bool missed = false;
+  for (const SweepRow& row : report.rows) {
+    if (row.configuration.method != method_index("multi-level-sb")) continue;
+    EXPECT_LE(row.recall, 1.0);
+    if (row.configuration.settings.levels == 0 && row.configuration.cell == 0.25) missed = row.recall < 0.5;
+  }
+  EXPECT_TRUE(missed);
+}
+
+TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
+  softbody::World world(touching_pair(), {});
+  world.drop();  // a third body, out of reach of the others: only brute force tests all 117,855 pairs of vertices
+  Sweep sweep(world.positions(), sweep_configurations(world), {.budget = 110'000, .repetitions = 1}, alone());
+  while (sweep.step()) continue;
+  const SweepReport& report = sweep.report();
+  EXPECT_EQ(report.rows[method_index("brute-force")].not_run, "over budget: 117,855 pair tests predicted");
+  for (const SweepRow& row : report.rows) {
+    EXPECT_EQ(row.checked, row.not_run.empty());
+    EXPECT_EQ(row.times.ms.empty(), !row.not_run.empty());
+  }
+  ASSERT_TRUE(report.reference) << "another exact method stands in";
+  const collide::Method& reference = collide::methods()[report.reference->method];
+  EXPECT_TRUE(reference.exact);
+  EXPECT_FALSE(reference.uses_levels);
+  EXPECT_EQ(report.stands_in, "brute force is over budget: 117,855 pair tests predicted");
+  EXPECT_EQ(report.true_contacts, world.detection().contacts.size());
+}
+
+TEST(Sweep, WithoutAnyBudgetThereIsNoReferenceAndNothingRuns) {
+  const SweepReport report = run(some_configurations(), {.budget = 0});
+  EXPECT_FALSE(report.reference);
+  for (const SweepRow& row : report.rows) EXPECT_FALSE(row.checked);
+}
+
+TEST(Sweep, TimesEachAsOftenAsAskedForUnlessItTakesTooLong) {
+  for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e9}).rows)
+    EXPECT_EQ(row.times.ms.size(), 3u);
+  for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e-9}).rows)
+    EXPECT_EQ(row.times.ms.size(), 1u) << "but once at least";
+}
+
+TEST(Sweep, CanBeLeftAtAnyStepAndTellsItsProgress) {
+  Sweep sweep(pair_world().positions(), some_configurations(), {.repetitions = 2}, alone());
+  EXPECT_EQ(sweep.progress(), 0.0);
+  double before = 0;
+  for (int i = 0; i < 10; ++i) {
+    EXPECT_TRUE(sweep.step());
+    EXPECT_GE(sweep.progress(), before);
+    before = sweep.progress();
+  }
+  EXPECT_EQ(std::ranges::count(sweep.report().rows, true, &SweepRow::checked), 9) << "the first step is the reference";
+  while (sweep.step()) continue;
+  EXPECT_EQ(sweep.progress(), 1.0);
+  EXPECT_FALSE(sweep.step());
+}
+
+TEST(ParetoFront, HoldsWhatNothingElseBeats) {
+  EXPECT_TRUE(pareto_front({}).empty());
+  const std::vector<Tradeoff> points{{3, 0.1}, {1, 0.5}, {2, 0.5}, {4, 0.2}, {5, 0.0}, {5, 0.0}, {9, 0.0}};
+  EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 0, 4}));
+}
+
+TEST(TimesTest, MedianIsTheMiddleOrTheMeanOfTheTwoMiddleOnes) {
+  EXPECT_EQ((Times{{3, 1, 2}}.median()), 2);
+  EXPECT_EQ((Times{{4, 1, 2, 9}}.median()), 3);
+  EXPECT_EQ((Times{{4, 1, 2, 9}}.least()), 1);
+}
+
+}  // namespace
+}  // namespace app
