@@ -15,22 +15,21 @@ class BoxTable {
   void add(std::span<const std::uint32_t> buckets_of_box);
   void build(std::uint32_t buckets);
 
-  /// The part of one thread of all meetings in the buckets: for each box a of its part, the boxes b >= first(a), where
-  /// first(a) >= a, that share a bucket with a, each once however many buckets they share. They come as runs of
-  /// consecutive boxes: meet(a, run). A box shares its buckets with itself. Prepare first, once and not in parallel.
+  /// Calls meet(run) for all runs of consecutive boxes b >= least, ascending, that share a bucket with the box, each
+  /// box once however many buckets the two share. least >= box. Prepare first, once and not in parallel.
   void prepare_meetings(int threads);
-  template <class First, class Meet>
-  void for_each_run(int thread, int threads, const First& first, const Meet& meet);
+  template <class Meet>
+  void for_each_run(int thread, Index box, Index least, const Meet& meet);
 
-  /// The same box by box: meet(a, b) for all pairs a < b.
+  /// The part of one thread of all pairs a < b of boxes that share a bucket: calls meet(a, b) once for each.
   void prepare_pairs(int threads) { prepare_meetings(threads); }
   template <class Meet>
   void for_each_pair(int thread, int threads, const Meet& meet) {
-    for_each_run(
-        thread, threads, [](Index a) { return a; },
-        [&](Index a, Range run) {
-          for (Index b = std::max(run.begin, a + 1); b < run.end; ++b) meet(a, b);
-        });
+    for (auto a = static_cast<Index>(thread); a < size(); a += static_cast<Index>(threads)) {
+      for_each_run(thread, a, a + 1, [&](Range run) {
+        for (Index b = run.begin; b < run.end; ++b) meet(a, b);
+      });
+    }
   }
 
   std::size_t size() const { return first_.size() - 1; }
@@ -54,24 +53,19 @@ class BoxTable {
   std::vector<IndexSet> met_;         // by thread
 };
 
-template <class First, class Meet>
-void BoxTable::for_each_run(int thread, int threads, const First& first, const Meet& meet) {
-  const auto boxes = static_cast<Index>(size());
+template <class Meet>
+void BoxTable::for_each_run(int thread, Index box, Index least, const Meet& meet) {
   IndexSet& met = met_[static_cast<std::size_t>(thread)];
-  for (auto a = static_cast<Index>(thread); a < boxes; a += static_cast<Index>(threads)) {
-    const Index least = first(a), least_word = least / IndexSet::word_size;
-    const IndexSet::Word from_least = ~IndexSet::Word{0} << least % IndexSet::word_size;
-    for (std::uint32_t entry = first_[a]; entry < first_[a + 1]; ++entry) {
-      const Index last = place_[table_.slots(bucket_[entry]).end - 1];
-      for (Index place = place_[table_.slot(entry)]; place <= last; ++place) {
-        if (word_[place] > least_word)
-          met.add(word_[place], bits_[place]);
-        else if (word_[place] == least_word)
-          met.add(word_[place], bits_[place] & from_least);
-      }
+  const Index least_word = least / IndexSet::word_size;
+  const IndexSet::Word from_least = ~IndexSet::Word{0} << least % IndexSet::word_size;
+  for (std::uint32_t entry = first_[box]; entry < first_[box + 1]; ++entry) {
+    const Index last = place_[table_.slots(bucket_[entry]).end - 1];
+    for (Index place = place_[table_.slot(entry)]; place <= last; ++place) {
+      const Index word = word_[place];
+      if (word >= least_word) met.add(word, word == least_word ? bits_[place] & from_least : bits_[place]);
     }
-    met.take_runs(least, [&](Range run) { meet(a, run); });
   }
+  met.take_runs(least, meet);
 }
 
 }  // namespace collide

@@ -17,7 +17,10 @@ class ContactSearch {
   /// Finds the contacts of all slots i < j, i from a and j from b. Either b begins with all of a, or a ends where b
   /// begins or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts
   /// contacts.
-  void test(int thread, Range a, Range b);
+  void test(int thread, Range a, Range b) { test(thread, *points_, a, b); }
+
+  /// The same for slots of other points, such as copies of some of those that the search has begun with.
+  void test(int thread, const Points& points, Range a, Range b);
 
   /// The same for different runs, where all of b lies inside the region: vertices of a out of reach of it are not
   /// tested.
@@ -36,8 +39,8 @@ class ContactSearch {
   };
   /// Calls search(rows) for a few rows of a at a time, and keeps the contacts among the hits.
   template <class Search>
-  void search_rows(Thread& own, Range a, Range b, const Search& search);
-  void keep_contacts(Thread& own);
+  void search_rows(Thread& own, const Points& points, Range a, Range b, const Search& search);
+  void keep_contacts(Thread& own, const Points& points);
 
   const Frame* frame_ = nullptr;
   const Points* points_ = nullptr;

@@ -41,6 +41,7 @@ class Shape {
 
   Index vertex_count() const { return topology_->vertex_count(); }
   const Topology& topology() const { return *topology_; }
+  const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
   const std::vector<glm::vec3>& rest() const { return rest_; }
 
   /// True if the local vertices i and j may never be a contact of one body.

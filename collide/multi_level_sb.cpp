@@ -3,22 +3,50 @@
 
 #include "collide/box_table.h"
 #include "collide/cell_hash.h"
-#include "collide/contact_search.h"
 #include "collide/detectors.h"
+#include "collide/scattered_search.h"
 #include "collide/subdivision.h"
 
 namespace collide {
 
 namespace {
 
-/// §2.2: the cells of the eight corner points, the minimum point's first.
-std::array<CellHash::Cell, 8> corner_cells(const CellHash& hash, const Aabb& box) {
-  std::array<CellHash::Cell, 8> cells;
-  for (std::size_t corner = 0; corner < 8; ++corner) {
-    cells[corner] =
-        hash.cell(corner & 4 ? box.hi.x : box.lo.x, corner & 2 ? box.hi.y : box.lo.y, corner & 1 ? box.hi.z : box.lo.z);
+/// Something of a box's minimum and of its maximum on each axis. The eight corners are their combinations.
+template <class T>
+using Sides = std::array<std::array<T, 2>, 3>;
+
+/// Calls visit(x, y, z) for each corner, the minimum point first.
+template <class T, class Visit>
+void for_each_corner(const Sides<T>& sides, const Visit& visit) {
+  for (const T x : sides[0]) {
+    for (const T y : sides[1]) {
+      for (const T z : sides[2]) visit(x, y, z);
+    }
   }
-  return cells;
+}
+
+/// The cells' indices.
+Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
+  Sides<std::int64_t> indices;
+  for (int axis = 0; axis < 3; ++axis) {
+    indices[static_cast<std::size_t>(axis)] = {hash.index(axis, box.lo[axis]), hash.index(axis, box.hi[axis])};
+  }
+  return indices;
+}
+
+/// §2.2: the buckets of the eight corner points. Corners share coordinates, hence the terms of the sum.
+std::array<std::uint32_t, 8> buckets_of(const Aabb& box, const CellHash& hash) {
+  const Sides<std::int64_t> indices = indices_of(box, hash);
+  Sides<std::uint64_t> terms;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    for (std::size_t side = 0; side < 2; ++side) {
+      terms[axis][side] = hash.term(static_cast<int>(axis), indices[axis][side]);
+    }
+  }
+  std::array<std::uint32_t, 8> buckets;
+  std::size_t corner = 0;
+  for_each_corner(terms, [&](auto x, auto y, auto z) { buckets[corner++] = hash.bucket(x, y, z); });
+  return buckets;
 }
 
 bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
@@ -36,6 +64,7 @@ class MultiLevelSb final : public Detector {
     subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
     hash_corners(result);                                                        // §2.2
     search_.begin(frame, settings, subdivision_.points(), workers.threads());
+    scattered_.begin(search_, subdivision_.points(), workers.threads());
     table_.prepare_meetings(workers.threads());
     workers.run([&](int thread) { test_boxes(thread, workers.threads()); });  // §2.3, §2.4
     search_.finish(result);
@@ -47,7 +76,7 @@ class MultiLevelSb final : public Detector {
     CellList cells;
     for (const Box& box : subdivision_.boxes()) {
       geometry.boxes.push_back({box.region.lo, box.region.hi, box.body});
-      for (const auto& cell : corner_cells(hash, box.region)) cells.add(cell, hash);
+      for_each_corner(indices_of(box.region, hash), [&](auto x, auto y, auto z) { cells.add({x, y, z}, hash); });
     }
     geometry.cells = cells.take();
     table_.describe(geometry);
@@ -62,10 +91,7 @@ class MultiLevelSb final : public Detector {
     end_of_body_.resize(bodies_.box.size());
     for (const Box& box : subdivision_.boxes()) {
       end_of_body_[box.body] = static_cast<Index>(table_.size() + 1);
-      std::array<std::uint32_t, 8> buckets;
-      const auto cells = corner_cells(hash, box.region);
-      for (std::size_t corner = 0; corner < 8; ++corner) buckets[corner] = hash.bucket(cells[corner]);
-      table_.add(buckets);
+      table_.add(buckets_of(box.region, hash));
       exceeded = exceeded || exceeds_cell(box.region, settings_.cell_size);
     }
     table_.build(settings_.buckets);
@@ -77,10 +103,14 @@ class MultiLevelSb final : public Detector {
 
   void test_boxes(int thread, int threads) {
     const std::vector<Box>& boxes = subdivision_.boxes();
-    const auto first = [&](Index a) { return settings_.self_collision ? a : end_of_body_[boxes[a].body]; };
-    table_.for_each_run(thread, threads, first, [&](Index a, Range run) {
-      search_.test(thread, boxes[a].slots, {boxes[run.begin].slots.begin, boxes[run.end - 1].slots.end});
-    });
+    const bool self = settings_.self_collision;
+    for (auto a = static_cast<Index>(thread); a < boxes.size(); a += static_cast<Index>(threads)) {
+      scattered_.start(thread, boxes[a].slots, self);  // a box meets itself, too
+      table_.for_each_run(thread, a, self ? a + 1 : end_of_body_[boxes[a].body], [&](Range run) {
+        scattered_.add(thread, {boxes[run.begin].slots.begin, boxes[run.end - 1].slots.end});
+      });
+      scattered_.finish(thread);
+    }
   }
 
   Settings settings_;
@@ -89,6 +119,7 @@ class MultiLevelSb final : public Detector {
   std::vector<Index> end_of_body_;  // of the bodies with boxes: past their last one
   BoxTable table_;
   ContactSearch search_;
+  ScatteredSearch scattered_;
 };
 
 }  // namespace

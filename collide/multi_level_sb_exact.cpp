@@ -1,119 +1,249 @@
-// Multi-Level SB Collide made exact: the boxes of §2.1, padded by half of the tolerance, are put into every cell that
-// they overlap instead of the cells of their corners. Two vertices in contact then lie in padded boxes that overlap, so
-// these share a cell, hence a bucket. Of two boxes only the vertices near the other box are tested. Where the grid is
-// of no use (boxes of many cells, buckets of many boxes), pairs of boxes are found by sort and sweep.
+// Multi-Level SB Collide made exact, and kept to where bodies can touch. Of every two bodies whose boxes (§2.1) and
+// spheres come near each other, only the vertices that face the other body along the line of centres are looked at; the
+// area that they fill is subdivided level by level (§5) as long as that pays. Inside a body all pairs are looked at, by
+// the same tree, unless it is proven that it cannot touch itself. No hash: what is near a body is found by sweep.
 
-#include "collide/box_sweep.h"
-#include "collide/box_table.h"
-#include "collide/cell_hash.h"
-#include "collide/contact_search.h"
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <stdexcept>
+#include <utility>
+
 #include "collide/detectors.h"
+#include "collide/near_bodies.h"
+#include "collide/overlap_tree.h"
 #include "collide/reach.h"
+#include "collide/self_proof.h"
 
 namespace collide {
 
 namespace {
 
-constexpr double most_cells = 27;             // of a box in the grid: what one as wide as two cells can overlap
-constexpr std::uint64_t most_meetings = 128;  // of a box in the table, on average: beyond it a sweep was faster
+constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
+
+/// See Slab. A projection errs by at most 7u of the largest coordinate, u = 2^-24, the sum with the reach by 3u of it.
+/// Nothing where the projections could overflow.
+std::optional<Slab> slab_between(const Bound& a, const Bound& b, float reach) {
+  double largest = 0;
+  for (const glm::vec3& corner : {a.box.lo, a.box.hi, b.box.lo, b.box.hi}) {
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(double{corner[axis]}));
+  }
+  if (largest > 1e37) return std::nullopt;
+  const double x = double{b.centre.x} - a.centre.x, y = double{b.centre.y} - a.centre.y,
+               z = double{b.centre.z} - a.centre.z;
+  const double length = std::sqrt(x * x + y * y + z * z);
+  const double scale = length > 0 ? 1 / length : 0;
+  return Slab{glm::vec3(static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)),
+              round_up(reach * (1 + 0x1p-20) + largest * 0x1p-19)};
+}
 
 class MultiLevelSbExact final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    frame_ = &frame;
     settings_ = settings;
     reach_ = contact_reach(settings.tolerance);
-    bodies_.build(frame, result);
-    const std::vector<BodyPair>& near_bodies = pairs_.find(bodies_, reach_);
-    subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
-    hash_boxes(result.counters);                                                 // §2.2
-    search_.begin(frame, settings, subdivision_.points(), workers.threads());
-    table_.prepare_pairs(workers.threads());
-    sweep_.begin(bodies_, near_bodies, subdivision_.boxes(), settings.self_collision, reach_, workers.threads());
-    workers.run([&](int thread) { test_boxes(thread, workers.threads()); });  // §2.3, §2.4
-    search_.finish(result);
+    tolerance2_ = settings.tolerance * settings.tolerance;
+    result.self_contacts = 0;
+    result.counters = {};
+    result.skipped = {};
+    result.coverage = Coverage::exact;
+    bound_bodies(workers, result);
+    near_.find(bounds_, live_, reach_, workers);
+    threads_.resize(static_cast<std::size_t>(workers.threads()));
+    if (settings.self_collision) self_.update(frame, live_, reach_);
+    found_ = 0;
+    workers.run([&](int thread) { find_contacts(thread, workers.threads()); });
+    gather(workers, result);
   }
+
+  void forget() override { self_.forget(); }
 
   DebugGeometry debug() const override {
     DebugGeometry geometry;
-    const CellHash hash(settings_);
-    const float half = reach_ / 2;
-    CellList cells;
-    for (const Box& box : subdivision_.boxes()) {
-      geometry.boxes.push_back({box.region.lo - half, box.region.hi + half, box.body});
-      const CellRange range = cells_of(box.region, hash);
-      if (range.count() <= most_cells) range.for_each([&](const CellHash::Cell& cell) { cells.add(cell, hash); });
+    for (const Index a : live_) {
+      for (const Index b : near_.behind(a)) {
+        const Aabb &one = bounds_[a].box, &other = bounds_[b].box;
+        glm::vec3 lo, hi;
+        for (int axis = 0; axis < 3; ++axis) {
+          lo[axis] = std::max(one.lo[axis], other.lo[axis]) - reach_ / 2;
+          hi[axis] = std::min(one.hi[axis], other.hi[axis]) + reach_ / 2;
+        }
+        geometry.boxes.push_back({lo, hi, a});
+      }
     }
-    geometry.cells = cells.take();
-    table_.describe(geometry);
+    for (const Thread& thread : threads_) {
+      const auto& leaves = thread.tree.leaves_list();
+      geometry.boxes.insert(geometry.boxes.end(), leaves.begin(), leaves.end());
+    }
+    geometry.box_first.assign(geometry.boxes.size() + 1, 0);
     return geometry;
   }
 
  private:
-  /// The cells that the padded box overlaps. Exact in spite of rounding: for boxes within reach, lo - half of the one
-  /// is not above hi + half of the other, and subtraction, division, floor and clamping all keep that order.
-  CellRange cells_of(const Aabb& box, const CellHash& hash) const {
-    const double half = double{reach_} / 2;
-    return {hash.cell(box.lo.x - half, box.lo.y - half, box.lo.z - half),
-            hash.cell(box.hi.x + half, box.hi.y + half, box.hi.z + half)};
+  struct alignas(64) Thread {
+    OverlapTree tree;
+    FacingScratch facing;
+    Picked near_a, near_b;
+    std::vector<Contact> contacts;  // in their final order
+    std::vector<Contact> group, sorted;
+    std::vector<Index> count;
+    std::uint64_t self_contacts = 0, pair_tests = 0, parted = 0, unfolded = 0;
+  };
+
+  Run run(Index body) const {
+    const Index first = frame_->bodies->first[body];
+    return {frame_->x.data() + first, frame_->y.data() + first, frame_->z.data() + first, frame_->bodies->size(body)};
   }
 
-  void hash_boxes(Counters& counters) {
-    const CellHash hash(settings_);
-    const std::vector<Box>& boxes = subdivision_.boxes();
-    swept_.assign(boxes.size(), false);
-    any_swept_ = false;
-    table_.clear();
-    for (std::size_t b = 0; b < boxes.size(); ++b) {
-      buckets_.clear();
-      const CellRange cells = cells_of(boxes[b].region, hash);
-      if (cells.count() <= most_cells) {
-        cells.for_each([&](const CellHash::Cell& cell) { buckets_.push_back(hash.bucket(cell)); });
-      } else {
-        swept_[b] = any_swept_ = true;
+  void bound_bodies(Workers& workers, Result& result) {
+    const Index bodies = frame_->bodies->count();
+    bounds_.resize(bodies);
+    workers.run([&](int thread) {
+      const Part part = part_of(bodies, thread, workers.threads());
+      for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
+        if (frame_->bodies->size(body) > 0) bounds_[body] = bound_of(run(body));
       }
-      counters.hashes += buckets_.size();
-      table_.add(buckets_);
+    });
+    live_.clear();
+    result.non_finite_bodies.clear();
+    for (Index body = 0; body < bodies; ++body) {
+      if (frame_->bodies->size(body) == 0) continue;
+      (bounds_[body].finite ? live_ : result.non_finite_bodies).push_back(body);
     }
-    table_.build(settings_.buckets);
-    table_.buckets().count(counters);
-    counters.boxes = boxes.size();
-    sweep_all_ = table_.buckets().meetings() > most_meetings * boxes.size();
   }
 
-  void test_boxes(int thread, int threads) {
-    const std::vector<Box>& boxes = subdivision_.boxes();
-    if (settings_.self_collision) {  // a box meets itself, too
-      const Part part = part_of(boxes.size(), thread, threads);
-      for (std::size_t a = part.begin; a < part.end; ++a) search_.test(thread, boxes[a].slots, boxes[a].slots);
+  /// Each thread takes consecutive bodies with about the same number of pairs, and each body's pairs with those behind.
+  void find_contacts(int thread, int threads) {
+    Thread& own = threads_[static_cast<std::size_t>(thread)];
+    own.tree.begin(settings_.levels, reach_, tolerance2_);
+    own.contacts.clear();
+    own.self_contacts = own.pair_tests = own.parted = own.unfolded = 0;
+    const std::size_t work = near_.pairs() + live_.size();
+    const Part part = part_of(work, thread, threads);
+    for (std::size_t k = 0; k < live_.size(); ++k) {
+      const std::size_t place = near_.pairs_before(live_[k]) + k;
+      if (place >= part.begin && place < part.end) find_group(own, live_[k]);
     }
-    const auto test = [&](Index a, Index b) {
-      search_.test_near(thread, boxes[a].slots, boxes[b].slots, boxes[b].region);
-    };
-    if (sweep_all_) {
-      sweep_.for_each_pair(thread, threads, test);
+  }
+
+  /// All contacts whose first vertex is the body's.
+  void find_group(Thread& own, Index a) {
+    own.group.clear();
+    if (settings_.self_collision) find_self(own, a);
+    std::size_t runs = own.group.empty() ? 0 : 1;
+    own.self_contacts += own.group.size();
+    bool ordered = true;
+    for (const Index b : near_.behind(a)) {
+      const std::size_t before = own.group.size(), leaves = own.tree.leaves();
+      find_between(own, a, b);
+      runs += own.group.size() > before;
+      ordered = ordered && own.tree.leaves() == leaves;
+    }
+    if (runs > 1 || !ordered) order(own, a, ordered);
+    own.contacts.insert(own.contacts.end(), own.group.begin(), own.group.end());
+    if (found_.fetch_add(own.group.size(), std::memory_order_relaxed) + own.group.size() > max_contacts) {
+      throw std::length_error("more than 134217728 contacts in one frame: lower the tolerance");
+    }
+  }
+
+  void find_between(Thread& own, Index a, Index b) {
+    const Run run_a = run(a), run_b = run(b);
+    const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
+    if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], reach_)) {
+      if (!facing(run_a, first_a, run_b, first_b, *slab, own.facing, own.near_a, own.near_b)) {
+        ++own.parted;
+        return;
+      }
+    } else {
+      own.near_a.take(run_a, first_a);
+      own.near_b.take(run_b, first_b);
+    }
+    own.tree.between(own.near_a, own.near_b, a, own.group);
+  }
+
+  void find_self(Thread& own, Index body) {
+    const Index first = frame_->bodies->first[body];
+    const Run vertices = run(body);
+    const SelfReference* reference = self_.of(body);
+    const auto at_risk = reference ? reference->pairs_at_risk(vertices, bounds_[body]) : std::nullopt;
+    if (at_risk) {
+      own.unfolded += 1;
+      own.pair_tests += at_risk->size();
+      for (const auto& [i, j] : *at_risk) {
+        if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
+            tolerance2_) {
+          own.group.push_back({first + i, first + j});
+        }
+      }
+    } else {
+      own.near_a.take(vertices, first);
+      own.tree.within(own.near_a, body, own.group);
+    }
+    if (own.group.empty()) return;
+    const Shape& shape = *frame_->bodies->shape[body];
+    std::erase_if(own.group, [&](Contact& pair) {
+      if (pair.a > pair.b) std::swap(pair.a, pair.b);
+      return shape.excludes(pair.a - first, pair.b - first, tolerance2_);
+    });
+    std::sort(own.group.begin(), own.group.end());
+  }
+
+  /// Sorts a group. If each of its runs is ordered and they come by their second body, it takes a stable sort by the
+  /// first vertex: counting, unless the body has far more vertices than contacts.
+  void order(Thread& own, Index a, bool runs_ordered) {
+    const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
+    if (!runs_ordered || own.group.size() < size / 16) {
+      std::sort(own.group.begin(), own.group.end());
       return;
     }
-    table_.for_each_pair(thread, threads, [&](Index a, Index b) {
-      if (!settings_.self_collision && boxes[a].body == boxes[b].body) return;
-      if (near(boxes[a].region, boxes[b].region, reach_)) test(a, b);
-    });
-    if (!any_swept_) return;
-    sweep_.for_each_pair(thread, threads, [&](Index a, Index b) {
-      if (swept_[a] || swept_[b]) test(a, b);  // the table has the others
-    });
+    own.count.assign(size, 0);
+    for (const Contact& contact : own.group) ++own.count[contact.a - first];
+    Index end = 0;
+    for (Index& count : own.count) end += std::exchange(count, end);
+    own.sorted.resize(own.group.size());
+    for (const Contact& contact : own.group) own.sorted[own.count[contact.a - first]++] = contact;
+    own.group.swap(own.sorted);
   }
 
+  void gather(Workers& workers, Result& result) {
+    std::size_t total = 0;
+    std::vector<std::size_t>& begin = begin_;
+    begin.clear();
+    for (const Thread& thread : threads_) {
+      begin.push_back(total);
+      total += thread.contacts.size();
+      result.self_contacts += thread.self_contacts;
+      result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
+      result.counters.boxes += thread.tree.leaves();
+      skip(result, Skip::separated_pairs) += thread.parted;
+      skip(result, Skip::unfolded_bodies) += thread.unfolded;
+    }
+    result.contacts.resize(total);
+    workers.run([&](int thread) {
+      const auto t = static_cast<std::size_t>(thread);
+      std::copy(threads_[t].contacts.begin(), threads_[t].contacts.end(),
+                result.contacts.begin() + static_cast<std::ptrdiff_t>(begin[t]));
+    });
+    const std::uint64_t live = live_.size();
+    result.counters.boxes += live;
+    skip(result, Skip::far_pairs) = live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_boxes();
+    skip(result, Skip::separated_pairs) += near_.near_boxes() - near_.pairs();
+    skip(result, Skip::lone_bodies) = near_.alone();
+  }
+
+  static std::uint64_t& skip(Result& result, Skip kind) { return result.skipped[static_cast<std::size_t>(kind)]; }
+
+  const Frame* frame_ = nullptr;
   Settings settings_;
-  float reach_ = 0;
-  BodyBoxes bodies_;
-  BodyPairs pairs_;
-  Subdivision subdivision_;
-  BoxTable table_;
-  BoxSweep sweep_;
-  std::vector<std::uint32_t> buckets_;  // of one box
-  std::vector<bool> swept_;             // boxes that are not in the table
-  bool any_swept_ = false, sweep_all_ = false;
-  ContactSearch search_;
+  float reach_ = 0, tolerance2_ = 0;
+  std::vector<Bound> bounds_;  // of every body
+  std::vector<Index> live_;    // bodies with vertices, all of them finite; ascending
+  NearBodies near_;
+  SelfReferences self_;
+  std::vector<Thread> threads_;
+  std::vector<std::size_t> begin_;
+  std::atomic<std::size_t> found_ = 0;
 };
 
 }  // namespace

@@ -3,9 +3,9 @@
 namespace collide {
 
 void Points::resize(Index count) {
+  size_ = count;
   for (auto* coordinate : {&x, &y, &z}) coordinate->resize(std::size_t{count} + padding);
-  vertex.resize(count);
-  body.resize(count);
+  for (auto* owner : {&vertex, &body}) owner->resize(std::size_t{count} + padding);
 }
 
 void Points::gather(const Frame& frame, std::span<const Index> which, std::vector<Range>& ranges) {

@@ -1,6 +1,8 @@
 #pragma once
 // Vertices in the order in which a method tests them.
 
+#include <cstring>
+
 #include "collide/frame.h"
 
 namespace collide {
@@ -11,14 +13,14 @@ struct Range {
   Index size() const { return end - begin; }
 };
 
-/// Structure of arrays: slot s holds the vertex vertex[s] of the body body[s]. The coordinates go on for `padding`
-/// values of no meaning, so that whole blocks can be read at the end.
+/// Structure of arrays: slot s holds the vertex vertex[s] of the body body[s]. Every array goes on for `padding` values
+/// of no meaning, so that whole blocks can be read at the end.
 struct Points {
   static constexpr Index padding = 16;
   std::vector<float> x, y, z;
   std::vector<Index> vertex, body;
 
-  Index size() const { return static_cast<Index>(vertex.size()); }
+  Index size() const { return size_; }
   void resize(Index count);
   void set(Index slot, const Frame& frame, Index of_vertex, Index of_body) {
     x[slot] = frame.x[of_vertex];
@@ -28,8 +30,29 @@ struct Points {
     body[slot] = of_body;
   }
 
+  /// Copies a run of other points behind the last one. There must be room: an earlier resize() to as many.
+  void append(const Points& from, Range run) {
+    constexpr Index block = padding / 2;  // runs are short, and a copy of constant size costs no call
+    const auto copy = [&](auto& to, const auto& of) {
+      auto* const out = to.data() + size_;
+      const auto* const in = of.data() + run.begin;
+      for (Index k = 0; k < run.size(); k += block) std::memcpy(out + k, in + k, block * sizeof(*in));
+    };
+    copy(x, from.x);
+    copy(y, from.y);
+    copy(z, from.z);
+    copy(vertex, from.vertex);
+    copy(body, from.body);
+    size_ += run.size();
+  }
+  /// Drops the points from `count` on, and keeps their room.
+  void shrink(Index count) { size_ = count; }
+
   /// All vertices of the given bodies, in their order. ranges[k] becomes the slots of the body which[k].
   void gather(const Frame& frame, std::span<const Index> which, std::vector<Range>& ranges);
+
+ private:
+  Index size_ = 0;
 };
 
 }  // namespace collide

@@ -1,0 +1,45 @@
+#pragma once
+// The broad phase of bodies: sort and sweep over their boxes, and a test of the spheres around them.
+
+#include "collide/vertex_kernels.h"
+#include "collide/workers.h"
+
+namespace collide {
+
+class NearBodies {
+ public:
+  /// Finds every two of the `live` bodies whose boxes are near() and whose spheres are within reach of each other.
+  /// bounds: of all bodies. Throws std::length_error at more than max_pairs of them.
+  void find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers);
+
+  /// Those near a body that have a greater number than it; ascending.
+  std::span<const Index> behind(Index body) const {
+    return {other_.data() + first_[body], other_.data() + first_[body + std::size_t{1}]};
+  }
+  std::size_t pairs() const { return other_.size(); }
+  std::size_t pairs_before(Index body) const { return first_[body]; }
+  /// Pairs of bodies whose boxes are near(): pairs() and those that only their spheres part.
+  std::uint64_t near_boxes() const { return near_boxes_; }
+  /// How many of the `live` bodies are in no pair.
+  std::uint64_t alone() const { return alone_; }
+
+  static constexpr std::size_t max_pairs = std::size_t{1} << 27;  // 512 MiB of them
+
+ private:
+  struct alignas(64) Thread {
+    std::vector<Index> found, count;  // of each row: how many, and which places of the sweep
+    std::uint64_t near_boxes;
+  };
+  void sort(std::span<const Bound> bounds, std::span<const Index> live);
+  void group(std::size_t bodies);
+
+  SweepBoxes boxes_;
+  std::vector<std::uint64_t> order_;  // by place in the sweep: a key that sorts like lo, and the body
+  std::vector<Thread> threads_;
+  std::vector<std::uint32_t> first_;  // bodies + 1 offsets into other_
+  std::vector<Index> other_;
+  std::vector<bool> in_pair_;
+  std::uint64_t near_boxes_ = 0, alone_ = 0;
+};
+
+}  // namespace collide

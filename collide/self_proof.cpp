@@ -1,0 +1,137 @@
+#include "collide/self_proof.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace collide {
+
+namespace {
+
+/// A lower bound of the smallest singular value of a 3 x 3 matrix: the eigenvalues of M^T M lie within sqrt(2) standard
+/// deviations of their mean (Samuelson's inequality for three values).
+double least_singular_value(const std::array<float, 9>& m) {
+  std::array<double, 6> g{};  // xx, yy, zz, xy, xz, yz of M^T M
+  for (std::size_t row = 0; row < 3; ++row) {
+    const double a = m[3 * row], b = m[3 * row + 1], c = m[3 * row + 2];
+    g[0] += a * a, g[1] += b * b, g[2] += c * c, g[3] += a * b, g[4] += a * c, g[5] += b * c;
+  }
+  const double mean = (g[0] + g[1] + g[2]) / 3;
+  const double off = g[3] * g[3] + g[4] * g[4] + g[5] * g[5];
+  const double spread = (g[0] - mean) * (g[0] - mean) + (g[1] - mean) * (g[1] - mean) + (g[2] - mean) * (g[2] - mean);
+  const double variance = (spread + 2 * off) / 3;
+  return std::sqrt(std::max(0.0, mean - std::sqrt(2 * variance))) * (1 - 1e-9);
+}
+
+}  // namespace
+
+SelfReference::SelfReference(const Run& positions, const Topology& topology, float reach) : reach_(reach) {
+  const Index size = positions.size;
+  if (size < fewest || size > most) return;
+  glm::dvec3 centre(0);
+  for (Index v = 0; v < size; ++v) centre += glm::dvec3(positions.x[v], positions.y[v], positions.z[v]);
+  centre /= size;
+  glm::dmat3 moment(0);
+  double farthest = 0;
+  for (Index v = 0; v < size; ++v) {
+    const glm::dvec3 p = glm::dvec3(positions.x[v], positions.y[v], positions.z[v]) - centre;
+    x_.push_back(static_cast<float>(p.x));
+    y_.push_back(static_cast<float>(p.y));
+    z_.push_back(static_cast<float>(p.z));
+    moment += glm::outerProduct(p, p);
+    farthest = std::max(farthest, glm::dot(p, p));
+  }
+  radius_ = static_cast<float>(std::sqrt(farthest) * (1 + 1e-6));
+  const double scale = (moment[0][0] + moment[1][1] + moment[2][2]) / 3;
+  if (!(glm::determinant(moment) > 1e-4 * scale * scale * scale)) return;  // flat, or not finite
+  const glm::dmat3 inverse = glm::inverse(moment);
+  for (std::size_t k = 0; k < 9; ++k) {
+    inverse_moment_[k] = static_cast<float>(inverse[static_cast<int>(k / 3)][static_cast<int>(k % 3)]);
+    if (!std::isfinite(inverse_moment_[k])) return;
+  }
+  usable_ = true;
+  list_pairs(topology);
+}
+
+void SelfReference::list_pairs(const Topology& topology) {
+  Picked all;
+  all.take({x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, 0);
+  covered_ = reach_ + 0.3f * radius_;
+  std::vector<Contact> close;
+  contacts_within(all, covered_ * covered_, close);
+  std::vector<std::pair<float, std::array<Index, 2>>> listed;
+  for (const Contact& pair : close) {
+    if (topology.joined(pair.a, pair.b)) continue;
+    const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
+    listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
+  }
+  std::sort(listed.begin(), listed.end());
+  const std::size_t most_pairs = 4 * x_.size();  // beyond them a self pass is as fast
+  if (listed.size() > most_pairs) {
+    covered_ = listed[most_pairs].first;
+    listed.resize(most_pairs);
+  }
+  covered_ *= 1 - 1e-6f;  // for the rounding of the distances
+  for (const auto& [distance, pair] : listed) {
+    distance_.push_back(distance);
+    pairs_.push_back(pair);
+  }
+}
+
+std::optional<std::span<const std::array<Index, 2>>> SelfReference::pairs_at_risk(const Run& body,
+                                                                                  const Bound& bound) const {
+  const AffineFit fit =
+      fit_affine(body, {x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, inverse_moment_, bound.centre);
+  // The residual was computed in float. With u = 2^-24 each of its coordinates errs by at most 8u of the sum of what
+  // went into it, which no coordinate exceeds:
+  double size = bound.radius;
+  for (const float m : fit.matrix) size += std::abs(double{m}) * radius_;
+  for (const float t : fit.offset) size += std::abs(double{t});
+  const double error = fit.residual * (1 + 1e-6) + 2 * 8 * 0x1p-24 * size;
+  const double needed = (double{reach_} + 2 * error) / least_singular_value(fit.matrix) * (1 + 1e-6);
+  if (!(needed < covered_)) return std::nullopt;  // also where something was no number
+  const auto end = std::upper_bound(distance_.begin(), distance_.end(), static_cast<float>(needed * (1 + 1e-6)));
+  return std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin()));
+}
+
+void SelfReferences::update(const Frame& frame, std::span<const Index> live, float reach) {
+  for (auto& [topology, entry] : entries_) entry.bodies = 0;
+  by_body_.resize(frame.bodies->count());
+  Entry* entry = nullptr;
+  for (const Index body : live) {
+    const Shape& shape = *frame.bodies->shape[body];
+    if (!entry || entry->topology != shape.shared_topology()) {
+      entry = &entries_[&shape.topology()];
+      entry->topology = shape.shared_topology();
+    }
+    if (entry->bodies++ == 0) entry->first_body = body;
+    by_body_[body] = entry;
+  }
+  std::erase_if(entries_, [](const auto& item) { return item.second.bodies == 0; });
+  for (auto& [topology, made] : entries_) {
+    if (made.reach != reach) make(made, frame, reach);
+  }
+}
+
+void SelfReferences::forget() {
+  for (auto& [topology, entry] : entries_) entry.reach = entry.from_frame ? 0 : entry.reach;
+}
+
+void SelfReferences::make(Entry& entry, const Frame& frame, float reach) {
+  const Shape& shape = *frame.bodies->shape[entry.first_body];
+  const Index first = frame.bodies->first[entry.first_body], size = shape.vertex_count();
+  entry.reference.reset();
+  entry.from_frame = shape.rest().empty();
+  if (entry.from_frame && entry.bodies < enough) return;
+  entry.reach = reach;
+  std::vector<float> x, y, z;
+  for (const glm::vec3& p : shape.rest()) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  const Run run = entry.from_frame ? Run{&frame.x[first], &frame.y[first], &frame.z[first], size}
+                                   : Run{x.data(), y.data(), z.data(), size};
+  auto reference = std::make_unique<SelfReference>(run, shape.topology(), reach);
+  if (reference->usable()) entry.reference = std::move(reference);
+}
+
+}  // namespace collide

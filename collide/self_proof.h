@@ -1,0 +1,69 @@
+#pragma once
+// When a body cannot touch itself: a proof for each frame that costs less than the self pass that it saves.
+
+#include <memory>
+#include <optional>
+#include <unordered_map>
+
+#include "collide/vertex_kernels.h"
+
+namespace collide {
+
+/// A mesh as it was seen somewhere, whatever the frame: the shape that bodies are compared with.
+///
+/// Fit an affine map to a body: x_i = A X_i + t + e_i with |e_i| <= e. Then for any two of its vertices
+///     |x_i - x_j| >= s |X_i - X_j| - 2e,   s the smallest singular value of A,
+/// so that only pairs with |X_i - X_j| <= (reach + 2e) / s can be in contact. Those pairs are few where a body is
+/// neither flattened nor folded; they are listed here once, and only they are tested.
+class SelfReference {
+ public:
+  /// Positions of one body. usable() if it has neither too few nor too many vertices and is not flat.
+  SelfReference(const Run& positions, const Topology& topology, float reach);
+
+  bool usable() const { return usable_; }
+
+  /// The pairs that are left to test, if that is proven; nothing if the whole self pass is needed.
+  std::optional<std::span<const std::array<Index, 2>>> pairs_at_risk(const Run& body, const Bound& bound) const;
+
+ private:
+  void list_pairs(const Topology& topology);
+
+  static constexpr Index fewest = Picked::padding, most = 2048;  // vertices
+  bool usable_ = false;
+  float reach_ = 0;
+  std::vector<float> x_, y_, z_;             // centred
+  std::array<float, 9> inverse_moment_;      // of the sum of X X^T
+  float radius_ = 0;                         // the farthest vertex from the centre
+  float covered_ = 0;                        // all pairs not joined by an edge and closer than this are listed
+  std::vector<std::array<Index, 2>> pairs_;  // the closest first
+  std::vector<float> distance_;              // of each pair
+};
+
+/// A reference for each topology of a frame: its shape at rest where that is known, else its first body in the frame if
+/// enough bodies share it.
+class SelfReferences {
+ public:
+  /// Makes what is missing and throws away what no live body needs any more.
+  void update(const Frame& frame, std::span<const Index> live, float reach);
+  /// Drops the references taken from frames; those at rest stay.
+  void forget();
+
+  /// nullptr if the body has none.
+  const SelfReference* of(Index body) const { return by_body_[body]->reference.get(); }
+
+ private:
+  struct Entry {
+    std::shared_ptr<const Topology> topology;  // kept, so that no other one can take its address
+    std::unique_ptr<SelfReference> reference;  // if there is one of use
+    float reach = 0;
+    bool from_frame = false;
+    Index first_body = 0, bodies = 0;  // in this frame
+  };
+  static void make(Entry& entry, const Frame& frame, float reach);
+
+  static constexpr Index enough = 4;
+  std::unordered_map<const Topology*, Entry> entries_;
+  std::vector<const Entry*> by_body_;
+};
+
+}  // namespace collide

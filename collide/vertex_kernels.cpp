@@ -1,0 +1,389 @@
+#include "collide/vertex_kernels.h"
+
+#include <cmath>
+#include <limits>
+
+// Highway compiles this file once for each of its targets; the last two were seen to gain nothing here.
+#define HWY_DISABLED_TARGETS (HWY_SSSE3 | HWY_AVX3_DL)
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collide/vertex_kernels.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace collide {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using V = hn::Vec<Floats>;
+using M = hn::Mask<Floats>;
+constexpr Index lanes = static_cast<Index>(hn::MaxLanes(Floats()));
+static_assert(lanes <= Picked::padding && 64 % lanes == 0);
+
+HWY_INLINE V load(const float* at) { return hn::LoadU(Floats(), at); }
+HWY_INLINE V all(float value) { return hn::Set(Floats(), value); }
+
+HWY_INLINE std::uint64_t bits_of(M mask) {
+  std::uint64_t bits = 0;
+  hn::StoreMaskBits(Floats(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+/// Calls block(first, skip) for blocks that cover 0 .. size - 1. The last one is moved back to end with the last
+/// vertex: its first `skip` lanes come up for the second time. `first` is negative if there are fewer vertices than
+/// lanes.
+template <class Block>
+HWY_INLINE void for_blocks(Index size, const Block& block) {
+  Index i = 0;
+  for (; i + lanes <= size; i += lanes) block(static_cast<std::ptrdiff_t>(i), 0u);
+  if (i < size) block(static_cast<std::ptrdiff_t>(size) - static_cast<std::ptrdiff_t>(lanes), lanes - (size - i));
+}
+
+/// A run in front of which for_blocks() may read: a copy if there are fewer vertices than lanes, led by the first one.
+class Readable {
+ public:
+  explicit Readable(const Run& run) : run_(run) {
+    if (run.size >= lanes) return;
+    const Index skip = lanes - run.size;
+    for (Index lane = 0; lane < lanes; ++lane) {
+      const Index v = lane < skip ? 0 : lane - skip;
+      copy_[0][lane] = run.x[v];
+      copy_[1][lane] = run.y[v];
+      copy_[2][lane] = run.z[v];
+    }
+    run_ = {copy_[0] + skip, copy_[1] + skip, copy_[2] + skip, run.size};
+  }
+  Readable(const Readable&) = delete;
+  Readable& operator=(const Readable&) = delete;
+  HWY_INLINE V x(std::ptrdiff_t at) const { return load(run_.x + at); }
+  HWY_INLINE V y(std::ptrdiff_t at) const { return load(run_.y + at); }
+  HWY_INLINE V z(std::ptrdiff_t at) const { return load(run_.z + at); }
+
+ private:
+  Run run_;
+  float copy_[3][lanes];
+};
+
+HWY_INLINE V squared_length(V x, V y, V z) {  // as squared_distance()
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+HWY_INLINE float least(V v) { return hn::GetLane(hn::MinOfLanes(Floats(), v)); }
+HWY_INLINE float most(V v) { return hn::GetLane(hn::MaxOfLanes(Floats(), v)); }
+HWY_INLINE float sum(V v) { return hn::GetLane(hn::SumOfLanes(Floats(), v)); }
+
+bool all_finite(const Run& run) {
+  for (Index v = 0; v < run.size; ++v) {
+    if (!std::isfinite(run.x[v]) || !std::isfinite(run.y[v]) || !std::isfinite(run.z[v])) return false;
+  }
+  return true;
+}
+
+Bound BoundOf(const Run& run) {
+  const Readable at(run);
+  V lx = all(run.x[0]), ly = all(run.y[0]), lz = all(run.z[0]), hx = lx, hy = ly, hz = lz;
+  for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
+    const V x = at.x(i), y = at.y(i), z = at.z(i);
+    lx = hn::Min(lx, x), ly = hn::Min(ly, y), lz = hn::Min(lz, z);
+    hx = hn::Max(hx, x), hy = hn::Max(hy, y), hz = hn::Max(hz, z);
+  });
+  Bound bound;
+  bound.box = {{least(lx), least(ly), least(lz)}, {most(hx), most(hy), most(hz)}};
+  bound.centre = bound.box.lo * 0.5f + bound.box.hi * 0.5f;
+
+  const V cx = all(bound.centre.x), cy = all(bound.centre.y), cz = all(bound.centre.z);
+  V farthest = hn::Zero(Floats()), total = farthest;
+  for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
+    const V d2 = squared_length(hn::Sub(at.x(i), cx), hn::Sub(at.y(i), cy), hn::Sub(at.z(i), cz));
+    farthest = hn::Max(farthest, d2);
+    total = hn::Add(total, d2);
+  });
+  // Four units of rounding, and what products lose by underflow. NaN and infinity show in the sum; so does overflow.
+  bound.radius = static_cast<float>(std::sqrt(double{most(farthest)} + 0x1p-147) * (1 + 0x1p-21));
+  bound.finite = std::isfinite(sum(total)) || all_finite(run);
+  if (!std::isfinite(sum(total))) bound.radius = std::numeric_limits<float>::infinity();
+  return bound;
+}
+
+/// One bit a vertex: bits come in by the block, in order.
+class BitWriter {
+ public:
+  explicit BitWriter(std::uint64_t* words) : words_(words) {}
+  HWY_INLINE void add(std::uint64_t bits) {
+    word_ |= bits << used_;
+    used_ += lanes;
+    if (used_ == 64) flush();
+  }
+  HWY_INLINE void end() {
+    if (used_ > 0) flush();
+  }
+
+ private:
+  HWY_INLINE void flush() {
+    *words_++ = word_;
+    word_ = 0;
+    used_ = 0;
+  }
+  std::uint64_t* words_;
+  std::uint64_t word_ = 0;
+  Index used_ = 0;
+};
+
+template <class Visit>
+HWY_INLINE void for_bits(const std::uint64_t* words, Index bits, const Visit& visit) {
+  for (Index first = 0; first < bits; first += 64) {
+    for (std::uint64_t word = *words++; word != 0; word &= word - 1) {
+      visit(first + static_cast<Index>(__builtin_ctzll(word)));
+    }
+  }
+}
+
+/// Picks the vertices whose bits are set.
+HWY_INLINE void pick(const Run& run, Index first, const std::uint64_t* words, Picked& picked) {
+  picked.size = 0;
+  for_bits(words, run.size, [&](Index v) HWY_ATTR { picked.add(run.x[v], run.y[v], run.z[v], first + v); });
+  picked.end();
+}
+
+bool Facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
+            Picked& near_a, Picked& near_b) {
+  const V nx = all(slab.normal.x), ny = all(slab.normal.y), nz = all(slab.normal.z);
+  const auto along = [&](const Readable& at, std::ptrdiff_t i) HWY_ATTR {
+    return hn::Add(hn::Add(hn::Mul(nx, at.x(i)), hn::Mul(ny, at.y(i))), hn::Mul(nz, at.z(i)));
+  };
+  const std::size_t needed = std::size_t{std::max(a.size, b.size)} + lanes;
+  if (scratch.along_a.size() < needed) {
+    scratch.along_a.resize(needed);
+    scratch.words.resize(needed / 64 + 1);
+  }
+  float* const along_a = scratch.along_a.data() + lanes;
+  std::uint64_t* const words = scratch.words.data();
+
+  const Readable at_a(a), at_b(b);
+  V front = all(-std::numeric_limits<float>::infinity());
+  for_blocks(a.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
+    const V p = along(at_a, i);
+    hn::StoreU(p, Floats(), along_a + i);
+    front = hn::Max(front, p);
+  });
+  const V limit_b = all(most(front) + slab.reach);
+  V back = all(std::numeric_limits<float>::infinity());
+  BitWriter bits_b(words);
+  for_blocks(b.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
+    const V p = along(at_b, i);
+    back = hn::Min(back, p);
+    bits_b.add(bits_of(hn::Le(p, limit_b)) >> skip);
+  });
+  bits_b.end();
+  const float back_b = least(back);
+  if (!(back_b <= hn::GetLane(limit_b))) return false;
+  pick(b, first_b, words, near_b);
+
+  const V limit_a = all(back_b - slab.reach);
+  BitWriter bits_a(words);
+  for_blocks(a.size, [&](std::ptrdiff_t i, Index skip)
+                         HWY_ATTR { bits_a.add(bits_of(hn::Ge(load(along_a + i), limit_a)) >> skip); });
+  bits_a.end();
+  pick(a, first_a, words, near_a);
+  return true;
+}
+
+void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
+                     std::vector<Contact>& contacts) {
+  Index shift = 4;  // each row of a takes 2^shift bits
+  while (Index{1} << shift < b.size) ++shift;
+  const Index row = Index{1} << shift;
+  const std::size_t needed = (std::size_t{a.size} * row) / 64 + 1;
+  if (words.size() < needed) words.resize(needed);
+
+  BitWriter bits(words.data());
+  const V limit = all(tolerance2);
+  for (Index i = 0; i < a.size; ++i) {
+    const V ax = all(a.x[i]), ay = all(a.y[i]), az = all(a.z[i]);
+    for (Index j = 0; j < row; j += lanes) {
+      if (j >= b.size) {
+        bits.add(0);
+        continue;
+      }
+      const V d2 = squared_length(hn::Sub(ax, load(&b.x[j])), hn::Sub(ay, load(&b.y[j])), hn::Sub(az, load(&b.z[j])));
+      bits.add(bits_of(hn::Lt(d2, limit)));
+    }
+  }
+  bits.end();
+  for_bits(words.data(), a.size << shift, [&](Index bit) HWY_ATTR {
+    contacts.push_back({a.vertex[bit >> shift], b.vertex[bit & (row - 1)]});
+  });
+}
+
+void ContactsWithin(const Picked& set, float tolerance2, std::vector<Contact>& contacts) {
+  const V limit = all(tolerance2);
+  for (Index i = 0; i + 1 < set.size; ++i) {
+    const V ax = all(set.x[i]), ay = all(set.y[i]), az = all(set.z[i]);
+    const Index first = (i + 1) / lanes * lanes;
+    std::uint64_t later = ~std::uint64_t{0} << (i + 1 - first);  // the block that holds i itself
+    for (Index j = first; j < set.size; j += lanes) {
+      const V d2 =
+          squared_length(hn::Sub(ax, load(&set.x[j])), hn::Sub(ay, load(&set.y[j])), hn::Sub(az, load(&set.z[j])));
+      for (std::uint64_t bits = bits_of(hn::Lt(d2, limit)) & later; bits != 0; bits &= bits - 1) {
+        contacts.push_back({set.vertex[i], set.vertex[j + static_cast<Index>(__builtin_ctzll(bits))]});
+      }
+      later = ~std::uint64_t{0};
+    }
+  }
+}
+
+AffineFit FitAffine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+                    const glm::vec3& centre) {
+  const Readable x(body), X(reference);
+  const V cx = all(centre.x), cy = all(centre.y), cz = all(centre.z), zero = hn::Zero(Floats());
+  V xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
+  V mx = zero, my = zero, mz = zero;
+  for_blocks(body.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
+    const M fresh = hn::Not(hn::FirstN(Floats(), skip));
+    const V bx = hn::IfThenElseZero(fresh, hn::Sub(x.x(i), cx)), by = hn::IfThenElseZero(fresh, hn::Sub(x.y(i), cy)),
+            bz = hn::IfThenElseZero(fresh, hn::Sub(x.z(i), cz));
+    const V rx = X.x(i), ry = X.y(i), rz = X.z(i);
+    xx = hn::Add(xx, hn::Mul(bx, rx)), xy = hn::Add(xy, hn::Mul(bx, ry)), xz = hn::Add(xz, hn::Mul(bx, rz));
+    yx = hn::Add(yx, hn::Mul(by, rx)), yy = hn::Add(yy, hn::Mul(by, ry)), yz = hn::Add(yz, hn::Mul(by, rz));
+    zx = hn::Add(zx, hn::Mul(bz, rx)), zy = hn::Add(zy, hn::Mul(bz, ry)), zz = hn::Add(zz, hn::Mul(bz, rz));
+    mx = hn::Add(mx, bx), my = hn::Add(my, by), mz = hn::Add(mz, bz);
+  });
+
+  AffineFit fit;
+  const std::array<float, 9> moment{sum(xx), sum(xy), sum(xz), sum(yx), sum(yy), sum(yz), sum(zx), sum(zy), sum(zz)};
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      fit.matrix[3 * row + column] = moment[3 * row] * inverse_moment[column] +
+                                     moment[3 * row + 1] * inverse_moment[3 + column] +
+                                     moment[3 * row + 2] * inverse_moment[6 + column];
+    }
+  }
+  const float share = 1.0f / static_cast<float>(body.size);
+  fit.offset = {sum(mx) * share, sum(my) * share, sum(mz) * share};
+
+  V farthest = zero;
+  const auto error = [&](std::size_t row, V b, V c, V rx, V ry, V rz) HWY_ATTR {
+    const float* m = &fit.matrix[3 * row];
+    const V mapped = hn::Add(hn::Add(hn::Mul(all(m[0]), rx), hn::Mul(all(m[1]), ry)), hn::Mul(all(m[2]), rz));
+    return hn::Sub(hn::Sub(hn::Sub(b, c), all(fit.offset[row])), mapped);
+  };
+  for_blocks(body.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
+    const V rx = X.x(i), ry = X.y(i), rz = X.z(i);
+    farthest = hn::Max(farthest, squared_length(error(0, x.x(i), cx, rx, ry, rz), error(1, x.y(i), cy, rx, ry, rz),
+                                                error(2, x.z(i), cz, rx, ry, rz)));
+  });
+  fit.residual = std::sqrt(most(farthest));
+  return fit;
+}
+
+Index SweepRow(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found) {
+  const V limit = all(reach);
+  const auto axis = static_cast<std::size_t>(boxes.axis), side = (axis + 1) % 3, other = (axis + 2) % 3;
+  const V end = all(boxes.hi[axis][i]);
+  const V lo1 = all(boxes.lo[side][i]), hi1 = all(boxes.hi[side][i]);
+  const V lo2 = all(boxes.lo[other][i]), hi2 = all(boxes.hi[other][i]);
+  const V c0 = all(boxes.centre[0][i]), c1 = all(boxes.centre[1][i]), c2 = all(boxes.centre[2][i]);
+  const V radius = all(boxes.radius[i] + reach);
+  Index near_boxes = 0;
+  for (Index j = i + 1;; j += lanes) {
+    const M within = hn::Le(hn::Sub(load(&boxes.lo[axis][j]), end), limit);  // a prefix of the block
+    const M near1 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[side][j]), hi1), limit),
+                            hn::Le(hn::Sub(lo1, load(&boxes.hi[side][j])), limit));
+    const M near2 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[other][j]), hi2), limit),
+                            hn::Le(hn::Sub(lo2, load(&boxes.hi[other][j])), limit));
+    const M near = hn::And(within, hn::And(near1, near2));
+    if (!hn::AllFalse(Floats(), near)) {
+      const V d2 = squared_length(hn::Sub(load(&boxes.centre[0][j]), c0), hn::Sub(load(&boxes.centre[1][j]), c1),
+                                  hn::Sub(load(&boxes.centre[2][j]), c2));
+      // A relative margin for the rounding of both sides, an absolute one for their underflow; overflow makes both inf.
+      const V reached = hn::Add(radius, load(&boxes.radius[j]));
+      const V most2 = hn::Add(hn::Mul(hn::Mul(reached, reached), all(1 + 0x1p-18f)), all(1e-37f));
+      near_boxes += static_cast<Index>(hn::CountTrue(Floats(), near));
+      for (std::uint64_t bits = bits_of(hn::And(near, hn::Not(hn::Gt(d2, most2)))); bits != 0; bits &= bits - 1) {
+        found.push_back(j + static_cast<Index>(__builtin_ctzll(bits)));
+      }
+    }
+    if (!hn::AllTrue(Floats(), within)) return near_boxes;
+  }
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace collide
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace collide {
+
+HWY_EXPORT(BoundOf);
+HWY_EXPORT(Facing);
+HWY_EXPORT(ContactsBetween);
+HWY_EXPORT(ContactsWithin);
+HWY_EXPORT(FitAffine);
+HWY_EXPORT(SweepRow);
+
+Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
+
+bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
+            Picked& near_a, Picked& near_b) {
+  near_a.reserve(a.size);
+  near_b.reserve(b.size);
+  return HWY_DYNAMIC_DISPATCH(Facing)(a, first_a, b, first_b, slab, scratch, near_a, near_b);
+}
+
+void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
+                      std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, words, contacts);
+}
+
+void contacts_within(const Picked& set, float tolerance2, std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, contacts);
+}
+
+AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+                     const glm::vec3& centre) {
+  return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre);
+}
+
+Index sweep_row(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found) {
+  return HWY_DYNAMIC_DISPATCH(SweepRow)(boxes, i, reach, found);
+}
+
+void Picked::reserve(Index count) {
+  if (vertex.size() >= count) return;
+  for (auto* coordinate : {&x, &y, &z}) coordinate->resize(std::size_t{count} + padding);
+  vertex.resize(count);
+}
+
+void Picked::end() {
+  for (Index k = size; k < size + padding; ++k) {
+    x[k] = y[k] = z[k] = std::numeric_limits<float>::quiet_NaN();
+  }
+}
+
+void Picked::take(const Run& run, Index first) {
+  reserve(run.size);
+  size = 0;
+  for (Index v = 0; v < run.size; ++v) add(run.x[v], run.y[v], run.z[v], first + v);
+  end();
+}
+
+void SweepBoxes::resize(Index count) {
+  size = count;
+  for (auto* bounds : {&lo, &hi, &centre}) {
+    for (auto& values : *bounds) values.resize(std::size_t{count} + Picked::padding);
+  }
+  radius.resize(std::size_t{count} + Picked::padding);
+  for (Index k = count; k < count + Picked::padding; ++k) {
+    for (std::size_t a = 0; a < 3; ++a) {
+      lo[a][k] = std::numeric_limits<float>::infinity();
+      hi[a][k] = centre[a][k] = radius[k] = 0;
+    }
+  }
+}
+
+}  // namespace collide
+#endif  // HWY_ONCE

@@ -1,0 +1,91 @@
+#pragma once
+// The loops over the vertices of one body or of two, in the widest instructions of the processor (chosen at run time).
+// Which contacts come out is the same on all of them: distances by squared_distance(), never fused.
+
+#include "collide/aabb.h"
+#include "collide/detector.h"
+
+namespace collide {
+
+/// Some vertices of one body.
+struct Run {
+  const float *x, *y, *z;
+  Index size;  // > 0
+};
+
+/// Where a body is. `radius`: m, every vertex is within it of the box's centre, rounding included.
+struct Bound {
+  Aabb box;
+  glm::vec3 centre;
+  float radius;
+  bool finite;  // if not, the rest means nothing
+};
+Bound bound_of(const Run& run);
+
+/// Vertices picked out of a body, with their numbers in the frame; padded with NaN, which is near nothing.
+class Picked {
+ public:
+  static constexpr Index padding = 16;  // at least as many as an instruction takes
+  std::vector<float> x, y, z;
+  std::vector<Index> vertex;
+  Index size = 0;
+
+  void reserve(Index count);
+  void add(float px, float py, float pz, Index v) {
+    x[size] = px;
+    y[size] = py;
+    z[size] = pz;
+    vertex[size++] = v;
+  }
+  void end();  // writes the padding
+  /// All vertices of a run, whose first has the number `first`.
+  void take(const Run& run, Index first);
+};
+
+/// Two vertices a and b in contact satisfy dot(normal, b) - dot(normal, a) <= reach, rounding included.
+struct Slab {
+  glm::vec3 normal;
+  float reach;
+};
+
+/// Memory of facing().
+struct FacingScratch {
+  std::vector<float> along_a, along_b;
+  std::vector<std::uint64_t> words;
+};
+
+/// Picks the vertices of each body that the slab cannot part from all of the other body's. Both stay in order. False,
+/// and nothing picked, if there are none: a plane parts the two.
+bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
+            Picked& near_a, Picked& near_b);
+
+/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are.
+void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
+                      std::vector<Contact>& contacts);
+/// The same for all pairs of one set, i before j.
+void contacts_within(const Picked& set, float tolerance2, std::vector<Contact>& contacts);
+
+/// The affine map of reference positions (centred on the origin) that fits a body: x = matrix * X + offset + centre.
+struct AffineFit {
+  std::array<float, 9> matrix;  // by row
+  std::array<float, 3> offset;
+  float residual;  // m, the farthest vertex from where the map takes its reference, as computed
+};
+/// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T. Sizes are equal, at least Picked::padding.
+AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+                     const glm::vec3& centre);
+
+/// Boxes in the order of a sweep: of each its bounds and the sphere around its centre; padded so that a sweep ends.
+struct SweepBoxes {
+  std::array<std::vector<float>, 3> lo, hi, centre;
+  std::vector<float> radius;
+  int axis = 0;  // lo[axis] ascends
+  Index size = 0;
+
+  void resize(Index count);
+};
+/// Appends every box behind box i that is near() it and whose sphere is within reach of its own. Returns how many were
+/// near(), whatever their spheres.
+Index sweep_row(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found);
+
+}  // namespace collide
