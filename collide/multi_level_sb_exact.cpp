@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <optional>
 #include <stdexcept>
 #include <utility>
 
@@ -84,6 +85,8 @@ class MultiLevelSbExact final : public Detector {
   struct alignas(64) Thread {
     OverlapTree tree;
     FacingScratch facing;
+    SelfReference::Scratch self;
+    Words words;
     Picked near_a, near_b;
     std::vector<Contact> contacts;  // in their final order
     std::vector<Contact> group, sorted;
@@ -166,27 +169,31 @@ class MultiLevelSbExact final : public Detector {
     const Index first = frame_->bodies->first[body];
     const Run vertices = run(body);
     const SelfReference* reference = self_.of(body);
-    const auto at_risk = reference ? reference->pairs_at_risk(vertices, bounds_[body]) : std::nullopt;
-    if (at_risk) {
-      own.unfolded += 1;
-      own.pair_tests += at_risk->size();
-      for (const auto& [i, j] : *at_risk) {
-        if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
-            tolerance2_) {
-          own.group.push_back({first + i, first + j});
-        }
+    const SelfRisk risk = reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfRisk{};
+    if (!risk.proven || !risk.odd.empty()) own.near_a.take(vertices, first);
+    if (!risk.proven) own.tree.within(own.near_a, body, own.group);
+    for (const auto& [i, j] : risk.pairs) {
+      if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
+          tolerance2_) {
+        own.group.push_back({first + i, first + j});
       }
-    } else {
-      own.near_a.take(vertices, first);
-      own.tree.within(own.near_a, body, own.group);
     }
-    if (own.group.empty()) return;
+    for (const Index odd : risk.odd) contacts_of(own.near_a, odd, tolerance2_, own.words, own.group);
+    own.unfolded += risk.proven && risk.odd.empty();
+    own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
+    if (!own.group.empty()) tidy_self(own, body);
+  }
+
+  /// Brings the pairs into order, each once, and leaves out those that can never be contacts.
+  void tidy_self(Thread& own, Index body) {
+    const Index first = frame_->bodies->first[body];
     const Shape& shape = *frame_->bodies->shape[body];
     std::erase_if(own.group, [&](Contact& pair) {
       if (pair.a > pair.b) std::swap(pair.a, pair.b);
       return shape.excludes(pair.a - first, pair.b - first, tolerance2_);
     });
     std::sort(own.group.begin(), own.group.end());
+    own.group.erase(std::unique(own.group.begin(), own.group.end()), own.group.end());
   }
 
   /// Sorts a group. If each of its runs is ordered and they come by their second body, it takes a stable sort by the

@@ -101,7 +101,7 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});
-    contacts_within(set, tolerance2_, *contacts_);
+    contacts_within(set, tolerance2_, words_, *contacts_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];

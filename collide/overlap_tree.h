@@ -37,7 +37,7 @@ class OverlapTree {
   Index body_ = 0;
   std::vector<Contact>* contacts_ = nullptr;
   std::vector<Level> level_;
-  std::vector<std::uint64_t> words_;
+  Words words_;
   std::vector<DebugGeometry::Box> leaves_;
   std::uint64_t pair_tests_ = 0;
 };

@@ -33,16 +33,14 @@ struct Points {
   /// Copies a run of other points behind the last one. There must be room: an earlier resize() to as many.
   void append(const Points& from, Range run) {
     constexpr Index block = padding / 2;  // runs are short, and a copy of constant size costs no call
-    const auto copy = [&](auto& to, const auto& of) {
-      auto* const out = to.data() + size_;
-      const auto* const in = of.data() + run.begin;
-      for (Index k = 0; k < run.size(); k += block) std::memcpy(out + k, in + k, block * sizeof(*in));
-    };
-    copy(x, from.x);
-    copy(y, from.y);
-    copy(z, from.z);
-    copy(vertex, from.vertex);
-    copy(body, from.body);
+    const auto copy = [](auto* to, const auto* begin) { std::memcpy(to, begin, block * sizeof(*to)); };
+    for (Index k = 0; k < run.size(); k += block) {
+      copy(&x[size_ + k], &from.x[run.begin + k]);
+      copy(&y[size_ + k], &from.y[run.begin + k]);
+      copy(&z[size_ + k], &from.z[run.begin + k]);
+      copy(&vertex[size_ + k], &from.vertex[run.begin + k]);
+      copy(&body[size_ + k], &from.body[run.begin + k]);
+    }
     size_ += run.size();
   }
   /// Drops the points from `count` on, and keeps their room.

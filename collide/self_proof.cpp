@@ -6,6 +6,8 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "collide/reach.h"
+
 namespace collide {
 
 namespace {
@@ -58,9 +60,10 @@ SelfReference::SelfReference(const Run& positions, const Topology& topology, flo
 void SelfReference::list_pairs(const Topology& topology) {
   Picked all;
   all.take({x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, 0);
-  covered_ = reach_ + 0.3f * radius_;
+  covered_ = 2 * reach_ + 0.3f * radius_;
+  Words words;
   std::vector<Contact> close;
-  contacts_within(all, covered_ * covered_, close);
+  contacts_within(all, covered_ * covered_, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
   for (const Contact& pair : close) {
     if (topology.joined(pair.a, pair.b)) continue;
@@ -68,7 +71,7 @@ void SelfReference::list_pairs(const Topology& topology) {
     listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
   }
   std::sort(listed.begin(), listed.end());
-  const std::size_t most_pairs = 4 * x_.size();  // beyond them a self pass is as fast
+  const std::size_t most_pairs = x_.size() * x_.size() / 128;  // to test them takes a third of a self pass
   if (listed.size() > most_pairs) {
     covered_ = listed[most_pairs].first;
     listed.resize(most_pairs);
@@ -80,20 +83,31 @@ void SelfReference::list_pairs(const Topology& topology) {
   }
 }
 
-std::optional<std::span<const std::array<Index, 2>>> SelfReference::pairs_at_risk(const Run& body,
-                                                                                  const Bound& bound) const {
-  const AffineFit fit =
-      fit_affine(body, {x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, inverse_moment_, bound.centre);
-  // The residual was computed in float. With u = 2^-24 each of its coordinates errs by at most 8u of the sum of what
-  // went into it, which no coordinate exceeds:
+SelfRisk SelfReference::at_risk(const Run& body, const Bound& bound, Scratch& scratch) const {
+  scratch.residual2.resize(body.size);
+  const AffineFit fit = fit_affine(body, {x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())},
+                                   inverse_moment_, bound.centre, scratch.residual2);
+  // Residuals were computed in float. With u = 2^-24 each of their coordinates errs by at most 8u of the sum of what
+  // went into it, which is at most:
   double size = bound.radius;
   for (const float m : fit.matrix) size += std::abs(double{m}) * radius_;
   for (const float t : fit.offset) size += std::abs(double{t});
-  const double error = fit.residual * (1 + 1e-6) + 2 * 8 * 0x1p-24 * size;
-  const double needed = (double{reach_} + 2 * error) / least_singular_value(fit.matrix) * (1 + 1e-6);
-  if (!(needed < covered_)) return std::nullopt;  // also where something was no number
-  const auto end = std::upper_bound(distance_.begin(), distance_.end(), static_cast<float>(needed * (1 + 1e-6)));
-  return std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin()));
+  const double rounding = 2 * 8 * 0x1p-24 * size;
+  const double stretch = least_singular_value(fit.matrix);
+  const double allowed = (stretch * covered_ - reach_) * (0.5 - 1e-6) - rounding;  // of a residual
+  if (!(allowed > 0)) return {};                                                   // also where it is no number
+  if (fit.residual <= allowed) {
+    const double needed = (reach_ + 2 * (fit.residual + rounding)) / stretch * (1 + 1e-6);
+    const auto end = std::upper_bound(distance_.begin(), distance_.end(), round_up(needed));
+    return {true, std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin())), {}};
+  }
+  scratch.odd.clear();
+  const float allowed2 = static_cast<float>(allowed * allowed * (1 - 1e-6));
+  for (Index v = 0; v < body.size; ++v) {
+    if (!(scratch.residual2[v] <= allowed2)) scratch.odd.push_back(v);
+  }
+  if (scratch.odd.size() > body.size / 8) return {};
+  return {true, pairs_, scratch.odd};
 }
 
 void SelfReferences::update(const Frame& frame, std::span<const Index> live, float reach) {

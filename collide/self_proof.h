@@ -2,19 +2,26 @@
 // When a body cannot touch itself: a proof for each frame that costs less than the self pass that it saves.
 
 #include <memory>
-#include <optional>
 #include <unordered_map>
 
 #include "collide/vertex_kernels.h"
 
 namespace collide {
 
+/// What is left to test of a body's own pairs, if not all of them.
+struct SelfRisk {
+  bool proven;                                  // if not, all pairs are
+  std::span<const std::array<Index, 2>> pairs;  // these, of vertices that are not in `odd`,
+  std::span<const Index> odd;                   // and each of these vertices with every other; ascending
+};
+
 /// A mesh as it was seen somewhere, whatever the frame: the shape that bodies are compared with.
 ///
-/// Fit an affine map to a body: x_i = A X_i + t + e_i with |e_i| <= e. Then for any two of its vertices
-///     |x_i - x_j| >= s |X_i - X_j| - 2e,   s the smallest singular value of A,
-/// so that only pairs with |X_i - X_j| <= (reach + 2e) / s can be in contact. Those pairs are few where a body is
-/// neither flattened nor folded; they are listed here once, and only they are tested.
+/// Fit an affine map to a body: x_i = A X_i + t + e_i. Then for any two of its vertices
+///     |x_i - x_j| >= s |X_i - X_j| - |e_i| - |e_j|,   s the smallest singular value of A.
+/// All pairs closer than `covered` in the reference are listed here, once. Every other pair is farther apart than the
+/// reach, unless |e| exceeds (s covered - reach) / 2 for one of its two vertices: these are the odd ones. Where a body
+/// is neither flattened nor folded, both are few. The bodies' positions decide how much is left, never what is found.
 class SelfReference {
  public:
   /// Positions of one body. usable() if it has neither too few nor too many vertices and is not flat.
@@ -22,8 +29,12 @@ class SelfReference {
 
   bool usable() const { return usable_; }
 
-  /// The pairs that are left to test, if that is proven; nothing if the whole self pass is needed.
-  std::optional<std::span<const std::array<Index, 2>>> pairs_at_risk(const Run& body, const Bound& bound) const;
+  struct Scratch {
+    std::vector<float> residual2;
+    std::vector<Index> odd;
+  };
+  /// The answer lives as long as the scratch and the reference are left alone.
+  SelfRisk at_risk(const Run& body, const Bound& bound, Scratch& scratch) const;
 
  private:
   void list_pairs(const Topology& topology);

@@ -191,8 +191,7 @@ bool Facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   return true;
 }
 
-void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
-                     std::vector<Contact>& contacts) {
+void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts) {
   Index shift = 4;  // each row of a takes 2^shift bits
   while (Index{1} << shift < b.size) ++shift;
   const Index row = Index{1} << shift;
@@ -218,25 +217,40 @@ void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::ve
   });
 }
 
-void ContactsWithin(const Picked& set, float tolerance2, std::vector<Contact>& contacts) {
-  const V limit = all(tolerance2);
+/// Bits of the vertices of a set, from the block of `begin` on, that are close to one point.
+HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Index begin, float tolerance2,
+                           std::uint64_t* words) {
+  const V x = all(px), y = all(py), z = all(pz), limit = all(tolerance2);
+  const float *sx = set.x.data(), *sy = set.y.data(), *sz = set.z.data();
+  BitWriter bits(words);
+  for (Index j = begin; j < set.size; j += lanes) {
+    bits.add(bits_of(
+        hn::Lt(squared_length(hn::Sub(x, load(sx + j)), hn::Sub(y, load(sy + j)), hn::Sub(z, load(sz + j))), limit)));
+  }
+  bits.end();
+}
+
+void ContactsWithin(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  if (words.size() < set.size / 64 + 1) words.resize(set.size / 64 + 1);
   for (Index i = 0; i + 1 < set.size; ++i) {
-    const V ax = all(set.x[i]), ay = all(set.y[i]), az = all(set.z[i]);
-    const Index first = (i + 1) / lanes * lanes;
-    std::uint64_t later = ~std::uint64_t{0} << (i + 1 - first);  // the block that holds i itself
-    for (Index j = first; j < set.size; j += lanes) {
-      const V d2 =
-          squared_length(hn::Sub(ax, load(&set.x[j])), hn::Sub(ay, load(&set.y[j])), hn::Sub(az, load(&set.z[j])));
-      for (std::uint64_t bits = bits_of(hn::Lt(d2, limit)) & later; bits != 0; bits &= bits - 1) {
-        contacts.push_back({set.vertex[i], set.vertex[j + static_cast<Index>(__builtin_ctzll(bits))]});
-      }
-      later = ~std::uint64_t{0};
-    }
+    const Index begin = (i + 1) / lanes * lanes;
+    close_bits(set.x[i], set.y[i], set.z[i], set, begin, tolerance2, words.data());
+    words[0] &= ~std::uint64_t{0} << (i + 1 - begin);
+    for_bits(words.data(), set.size - begin, [&](Index bit) HWY_ATTR {
+      contacts.push_back({set.vertex[i], set.vertex[begin + bit]});
+    });
   }
 }
 
+void ContactsOf(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  if (words.size() < set.size / 64 + 1) words.resize(set.size / 64 + 1);
+  close_bits(set.x[i], set.y[i], set.z[i], set, 0, tolerance2, words.data());
+  words[i / 64] &= ~(std::uint64_t{1} << i % 64);
+  for_bits(words.data(), set.size, [&](Index bit) HWY_ATTR { contacts.push_back({set.vertex[i], set.vertex[bit]}); });
+}
+
 AffineFit FitAffine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
-                    const glm::vec3& centre) {
+                    const glm::vec3& centre, float* residual2) {
   const Readable x(body), X(reference);
   const V cx = all(centre.x), cy = all(centre.y), cz = all(centre.z), zero = hn::Zero(Floats());
   V xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
@@ -272,8 +286,10 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
   };
   for_blocks(body.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
     const V rx = X.x(i), ry = X.y(i), rz = X.z(i);
-    farthest = hn::Max(farthest, squared_length(error(0, x.x(i), cx, rx, ry, rz), error(1, x.y(i), cy, rx, ry, rz),
-                                                error(2, x.z(i), cz, rx, ry, rz)));
+    const V e2 = squared_length(error(0, x.x(i), cx, rx, ry, rz), error(1, x.y(i), cy, rx, ry, rz),
+                                error(2, x.z(i), cz, rx, ry, rz));
+    farthest = hn::Max(farthest, e2);
+    hn::StoreU(e2, Floats(), residual2 + i);
   });
   fit.residual = std::sqrt(most(farthest));
   return fit;
@@ -322,6 +338,7 @@ HWY_EXPORT(BoundOf);
 HWY_EXPORT(Facing);
 HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsWithin);
+HWY_EXPORT(ContactsOf);
 HWY_EXPORT(FitAffine);
 HWY_EXPORT(SweepRow);
 
@@ -334,18 +351,22 @@ bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   return HWY_DYNAMIC_DISPATCH(Facing)(a, first_a, b, first_b, slab, scratch, near_a, near_b);
 }
 
-void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
+void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words& words,
                       std::vector<Contact>& contacts) {
   HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, words, contacts);
 }
 
-void contacts_within(const Picked& set, float tolerance2, std::vector<Contact>& contacts) {
-  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, contacts);
+void contacts_within(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, words, contacts);
+}
+
+void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsOf)(set, i, tolerance2, words, contacts);
 }
 
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
-                     const glm::vec3& centre) {
-  return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre);
+                     const glm::vec3& centre, std::span<float> residual2) {
+  return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
 }
 
 Index sweep_row(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found) {

@@ -2,6 +2,8 @@
 // The loops over the vertices of one body or of two, in the widest instructions of the processor (chosen at run time).
 // Which contacts come out is the same on all of them: distances by squared_distance(), never fused.
 
+#include <array>
+
 #include "collide/aabb.h"
 #include "collide/detector.h"
 
@@ -59,21 +61,25 @@ struct FacingScratch {
 bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
             Picked& near_a, Picked& near_b);
 
+/// Bits that say which vertices are close: memory of the functions below.
+using Words = std::vector<std::uint64_t>;
+
 /// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are.
-void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::vector<std::uint64_t>& words,
-                      std::vector<Contact>& contacts);
-/// The same for all pairs of one set, i before j.
-void contacts_within(const Picked& set, float tolerance2, std::vector<Contact>& contacts);
+void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts);
+/// The same for all pairs of one set, i before j; and for all pairs of its vertex i with another.
+void contacts_within(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts);
+void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
 
 /// The affine map of reference positions (centred on the origin) that fits a body: x = matrix * X + offset + centre.
 struct AffineFit {
   std::array<float, 9> matrix;  // by row
   std::array<float, 3> offset;
-  float residual;  // m, the farthest vertex from where the map takes its reference, as computed
+  float residual;  // m, the root of the greatest residual2
 };
 /// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T. Sizes are equal, at least Picked::padding.
+/// residual2: the squared distance of each vertex from where the map takes its reference, as computed.
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
-                     const glm::vec3& centre);
+                     const glm::vec3& centre, std::span<float> residual2);
 
 /// Boxes in the order of a sweep: of each its bounds and the sphere around its centre; padded so that a sweep ends.
 struct SweepBoxes {
