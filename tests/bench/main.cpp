@@ -1,0 +1,110 @@
+// bench_detection: records states, and times the project's detectors beside libraries on them.
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+#include <CLI/CLI.hpp>
+
+#include "app/options.h"
+#include "tests/bench/piles.h"
+#include "tests/bench/report.h"
+
+namespace {
+
+struct Options {
+  std::string folder;
+  int threads = 1, bodies = 0, repeat = 10;
+  std::vector<float> tolerances{0.25f, 0.5f};
+  std::vector<std::string> only;  // keys of candidates beside the first; empty: all
+  bool json = false;
+};
+
+void record(const Options& options) {
+  std::error_code error;
+  std::filesystem::create_directories(options.folder, error);  // what is wrong with it shows when a state is saved
+  for (const bench::Pile& pile : bench::piles()) {
+    if (options.bodies > 0 && pile.bodies != options.bodies) continue;
+    bench::State state = pile.make(options.threads);
+    state.key = pile.key;
+    bench::save(state, options.folder);
+    std::printf("%s: %s; %zu frames, %.4f edges a frame\n", state.key.c_str(), std::string(pile.what).c_str(),
+                state.frames.size(), bench::mean_displacement(state) / bench::mean_edge);
+    std::fflush(stdout);
+  }
+}
+
+/// The first candidate, which the others are divided by, and those asked for.
+std::vector<bench::Candidate> chosen(const Options& options) {
+  const auto all = bench::candidates();
+  for (const std::string& key : options.only)
+    if (std::none_of(all.begin(), all.end(), [&](const auto& c) { return c.key == key; }))
+      throw app::UsageError("--only " + key + ": unknown; see bench_detection list");
+  std::vector<bench::Candidate> some{all.front()};
+  for (const bench::Candidate& c : all.subspan(1))
+    if (options.only.empty() || std::find(options.only.begin(), options.only.end(), c.key) != options.only.end())
+      some.push_back(c);
+  return some;
+}
+
+void run(const Options& options) {
+  const auto candidates = chosen(options);
+  const auto states = bench::load_states(options.folder);
+  std::vector<bench::Measured> all;
+  for (const bench::State& state : states) {
+    if (options.bodies > 0 && state.bodies.count() != collide::Index(options.bodies)) continue;
+    for (const float tolerance : options.tolerances) {
+      all.push_back(bench::measure({&state, tolerance, options.threads, options.repeat}, candidates));
+      if (!options.json) bench::print_table(all.back());
+    }
+  }
+  if (options.json) bench::print_json(all);
+}
+
+void list() {
+  for (const bench::Candidate& c : bench::candidates())
+    std::printf("%s\t%s\n", std::string(c.key).c_str(), std::string(c.name).c_str());
+}
+
+/// Exit status: 0, or 1 if a candidate finds another set of contacts.
+int parse_and_run(int argc, char** argv) {
+  Options options;
+  CLI::App cli{"Times exact detection beside libraries, on the same recorded states.", "bench_detection"};
+  cli.require_subcommand(1);
+  CLI::App* record_command = cli.add_subcommand("record", "simulate the piles and write them to a folder");
+  CLI::App* run_command = cli.add_subcommand("run", "compare the contacts, then the times, on the states of a folder");
+  CLI::App* list_command = cli.add_subcommand("list", "print the candidates, a line each: key, tab, name");
+  for (CLI::App* command : {record_command, run_command}) {
+    command->add_option("DIR", options.folder, "folder of the states")->required();
+    command->add_option("--threads", options.threads, "threads (default: 1)")->check(CLI::Range(1, 256));
+    command->add_option("--bodies", options.bodies, "only states of so many bodies")->check(CLI::PositiveNumber);
+  }
+  run_command->add_option("--tolerance", options.tolerances, "in mean edges (default: 0.25 0.5)")
+      ->check(CLI::Range(0.001, 10.0));
+  run_command->add_option("--repeat", options.repeat, "rounds (default: 10)")->check(CLI::Range(1, 100'000));
+  run_command->add_option("--only", options.only, "candidates, beside the first one (default: all)");
+  run_command->add_flag("--json", options.json, "print one JSON document instead of tables");
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    return cli.exit(asked);
+  }
+  if (*record_command) record(options);
+  if (*run_command) run(options);
+  if (*list_command) list();
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
+  } catch (const bench::Difference& difference) {
+    std::fprintf(stderr, "bench_detection: %s\n", difference.what());
+    return 1;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "bench_detection: %s\n", error.what());
+    return 2;
+  }
+}
