@@ -1,8 +1,6 @@
 #pragma once
 // Boxes in the lists of buckets, and which boxes share a bucket (§2.2, §2.3).
 
-#include <algorithm>
-
 #include "collide/bucket_table.h"
 #include "collide/index_set.h"
 
@@ -20,17 +18,6 @@ class BoxTable {
   void prepare_meetings(int threads);
   template <class Meet>
   void for_each_run(int thread, Index box, Index least, const Meet& meet);
-
-  /// The part of one thread of all pairs a < b of boxes that share a bucket: calls meet(a, b) once for each.
-  void prepare_pairs(int threads) { prepare_meetings(threads); }
-  template <class Meet>
-  void for_each_pair(int thread, int threads, const Meet& meet) {
-    for (auto a = static_cast<Index>(thread); a < size(); a += static_cast<Index>(threads)) {
-      for_each_run(thread, a, a + 1, [&](Range run) {
-        for (Index b = run.begin; b < run.end; ++b) meet(a, b);
-      });
-    }
-  }
 
   std::size_t size() const { return first_.size() - 1; }
   const BucketTable& buckets() const { return table_; }
