@@ -22,20 +22,14 @@ namespace {
 
 constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
 
-/// See Slab. A projection errs by at most 7u of the largest coordinate, u = 2^-24, the sum with the reach by 3u of it.
-/// Nothing where the projections could overflow.
+/// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the reach by 3u of
+/// it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
 std::optional<Slab> slab_between(const Bound& a, const Bound& b, float reach) {
-  double largest = 0;
-  for (const glm::vec3& corner : {a.box.lo, a.box.hi, b.box.lo, b.box.hi}) {
-    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(double{corner[axis]}));
-  }
-  if (largest > 1e37) return std::nullopt;
-  const double x = double{b.centre.x} - a.centre.x, y = double{b.centre.y} - a.centre.y,
-               z = double{b.centre.z} - a.centre.z;
-  const double length = std::sqrt(x * x + y * y + z * z);
-  const double scale = length > 0 ? 1 / length : 0;
-  return Slab{glm::vec3(static_cast<float>(x * scale), static_cast<float>(y * scale), static_cast<float>(z * scale)),
-              round_up(reach * (1 + 0x1p-20) + largest * 0x1p-19)};
+  const float largest = std::max(a.largest, b.largest);
+  const glm::vec3 d = b.centre - a.centre;
+  const float length2 = d.x * d.x + d.y * d.y + d.z * d.z;
+  if (!(largest < 1e18f && length2 > 1e-30f)) return std::nullopt;
+  return Slab{d * (1 / std::sqrt(length2)), reach * (1 + 0x1p-19f) + largest * 0x1p-18f};
 }
 
 class MultiLevelSbExact final : public Detector {
@@ -87,7 +81,7 @@ class MultiLevelSbExact final : public Detector {
     FacingScratch facing;
     SelfReference::Scratch self;
     Words words;
-    Picked near_a, near_b;
+    Picked whole;                   // of one body
     std::vector<Contact> contacts;  // in their final order
     std::vector<Contact> group, sorted;
     std::vector<Index> count;
@@ -154,15 +148,18 @@ class MultiLevelSbExact final : public Detector {
     const Run run_a = run(a), run_b = run(b);
     const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
     if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], reach_)) {
-      if (!facing(run_a, first_a, run_b, first_b, *slab, own.facing, own.near_a, own.near_b)) {
-        ++own.parted;
+      const Facing facing =
+          face(run_a, first_a, run_b, first_b, *slab, tolerance2_, OverlapTree::leaf_tests, own.facing, own.group);
+      own.parted += facing.tests == 0;
+      if (facing.done) {
+        own.pair_tests += facing.tests;
         return;
       }
     } else {
-      own.near_a.take(run_a, first_a);
-      own.near_b.take(run_b, first_b);
+      own.facing.near_a.take(run_a, first_a);
+      own.facing.near_b.take(run_b, first_b);
     }
-    own.tree.between(own.near_a, own.near_b, a, own.group);
+    own.tree.between(own.facing.near_a, own.facing.near_b, a, own.group);
   }
 
   void find_self(Thread& own, Index body) {
@@ -170,15 +167,15 @@ class MultiLevelSbExact final : public Detector {
     const Run vertices = run(body);
     const SelfReference* reference = self_.of(body);
     const SelfRisk risk = reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfRisk{};
-    if (!risk.proven || !risk.odd.empty()) own.near_a.take(vertices, first);
-    if (!risk.proven) own.tree.within(own.near_a, body, own.group);
+    if (!risk.proven || !risk.odd.empty()) own.whole.take(vertices, first);
+    if (!risk.proven) own.tree.within(own.whole, body, own.group);
     for (const auto& [i, j] : risk.pairs) {
       if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
           tolerance2_) {
         own.group.push_back({first + i, first + j});
       }
     }
-    for (const Index odd : risk.odd) contacts_of(own.near_a, odd, tolerance2_, own.words, own.group);
+    for (const Index odd : risk.odd) contacts_of(own.whole, odd, tolerance2_, own.words, own.group);
     own.unfolded += risk.proven && risk.odd.empty();
     own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
     if (!own.group.empty()) tidy_self(own, body);

@@ -9,6 +9,9 @@ namespace collide {
 /// One thread's search for the contacts of picked vertices. Keeps its memory.
 class OverlapTree {
  public:
+  /// A cut reads both sides some three times; that pays where it saves more tests than these.
+  static constexpr std::uint64_t leaf_tests = 2048;
+
   /// levels: of cuts, at most. Clears the counts and the leaves.
   void begin(int levels, float reach, float tolerance2);
 
@@ -30,8 +33,6 @@ class OverlapTree {
   void cut_between(const Picked& a, const Picked& b, int depth);
   void cut_within(const Picked& set, int depth);
 
-  // A cut reads both sides some three times; that pays where it saves more tests than these.
-  static constexpr std::uint64_t leaf_tests = 2048;
   int levels_ = 0;
   float reach_ = 0, tolerance2_ = 0;
   Index body_ = 0;

@@ -1,6 +1,9 @@
 #include "collide/vertex_kernels.h"
 
+#include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 // Highway compiles this file once for each of its targets; the last two were seen to gain nothing here.
@@ -42,30 +45,23 @@ HWY_INLINE void for_blocks(Index size, const Block& block) {
   if (i < size) block(static_cast<std::ptrdiff_t>(size) - static_cast<std::ptrdiff_t>(lanes), lanes - (size - i));
 }
 
-/// A run in front of which for_blocks() may read: a copy if there are fewer vertices than lanes, led by the first one.
-class Readable {
- public:
-  explicit Readable(const Run& run) : run_(run) {
-    if (run.size >= lanes) return;
-    const Index skip = lanes - run.size;
-    for (Index lane = 0; lane < lanes; ++lane) {
-      const Index v = lane < skip ? 0 : lane - skip;
-      copy_[0][lane] = run.x[v];
-      copy_[1][lane] = run.y[v];
-      copy_[2][lane] = run.z[v];
-    }
-    run_ = {copy_[0] + skip, copy_[1] + skip, copy_[2] + skip, run.size};
-  }
-  Readable(const Readable&) = delete;
-  Readable& operator=(const Readable&) = delete;
-  HWY_INLINE V x(std::ptrdiff_t at) const { return load(run_.x + at); }
-  HWY_INLINE V y(std::ptrdiff_t at) const { return load(run_.y + at); }
-  HWY_INLINE V z(std::ptrdiff_t at) const { return load(run_.z + at); }
-
- private:
-  Run run_;
-  float copy_[3][lanes];
+/// Where a run is copied to if it has fewer vertices than lanes.
+struct Copy {
+  float x[lanes], y[lanes], z[lanes];
 };
+
+/// A run in front of which for_blocks() may read: the run itself, or its copy, led by repetitions of the first vertex.
+HWY_INLINE Run readable(const Run& run, Copy& copy) {
+  if (HWY_LIKELY(run.size >= lanes)) return run;
+  const Index skip = lanes - run.size;
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index v = lane < skip ? 0 : lane - skip;
+    copy.x[lane] = run.x[v];
+    copy.y[lane] = run.y[v];
+    copy.z[lane] = run.z[v];
+  }
+  return {copy.x + skip, copy.y + skip, copy.z + skip, run.size};
+}
 
 HWY_INLINE V squared_length(V x, V y, V z) {  // as squared_distance()
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
@@ -83,21 +79,24 @@ bool all_finite(const Run& run) {
 }
 
 Bound BoundOf(const Run& run) {
-  const Readable at(run);
+  Copy copy;
+  const Run at = readable(run, copy);
   V lx = all(run.x[0]), ly = all(run.y[0]), lz = all(run.z[0]), hx = lx, hy = ly, hz = lz;
   for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
-    const V x = at.x(i), y = at.y(i), z = at.z(i);
+    const V x = load(at.x + i), y = load(at.y + i), z = load(at.z + i);
     lx = hn::Min(lx, x), ly = hn::Min(ly, y), lz = hn::Min(lz, z);
     hx = hn::Max(hx, x), hy = hn::Max(hy, y), hz = hn::Max(hz, z);
   });
   Bound bound;
   bound.box = {{least(lx), least(ly), least(lz)}, {most(hx), most(hy), most(hz)}};
   bound.centre = bound.box.lo * 0.5f + bound.box.hi * 0.5f;
+  bound.largest =
+      std::max({-bound.box.lo.x, -bound.box.lo.y, -bound.box.lo.z, bound.box.hi.x, bound.box.hi.y, bound.box.hi.z});
 
   const V cx = all(bound.centre.x), cy = all(bound.centre.y), cz = all(bound.centre.z);
   V farthest = hn::Zero(Floats()), total = farthest;
   for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
-    const V d2 = squared_length(hn::Sub(at.x(i), cx), hn::Sub(at.y(i), cy), hn::Sub(at.z(i), cz));
+    const V d2 = squared_length(hn::Sub(load(at.x + i), cx), hn::Sub(load(at.y + i), cy), hn::Sub(load(at.z + i), cz));
     farthest = hn::Max(farthest, d2);
     total = hn::Add(total, d2);
   });
@@ -108,27 +107,28 @@ Bound BoundOf(const Run& run) {
   return bound;
 }
 
-/// One bit a vertex: bits come in by the block, in order.
+/// One bit a vertex: bits come in by the block, in order. The words must have room for whole blocks.
 class BitWriter {
  public:
-  explicit BitWriter(std::uint64_t* words) : words_(words) {}
+  explicit BitWriter(std::uint64_t* words) : at_(reinterpret_cast<std::uint8_t*>(words)) {}
   HWY_INLINE void add(std::uint64_t bits) {
-    word_ |= bits << used_;
-    used_ += lanes;
-    if (used_ == 64) flush();
+    if constexpr (lanes == 16) {
+      const auto half = static_cast<std::uint16_t>(bits);
+      std::memcpy(at_, &half, 2);
+      at_ += 2;
+    } else if constexpr (lanes == 8) {
+      *at_++ = static_cast<std::uint8_t>(bits);
+    } else {
+      *at_ = static_cast<std::uint8_t>(used_ == 0 ? bits : *at_ | bits << used_);
+      used_ = (used_ + lanes) % 8;
+      at_ += used_ == 0;
+    }
   }
-  HWY_INLINE void end() {
-    if (used_ > 0) flush();
-  }
+  /// Fills the last word up.
+  HWY_INLINE void end() { std::memset(at_ + (used_ > 0), 0, 8); }
 
  private:
-  HWY_INLINE void flush() {
-    *words_++ = word_;
-    word_ = 0;
-    used_ = 0;
-  }
-  std::uint64_t* words_;
-  std::uint64_t word_ = 0;
+  std::uint8_t* at_;
   Index used_ = 0;
 };
 
@@ -136,33 +136,88 @@ template <class Visit>
 HWY_INLINE void for_bits(const std::uint64_t* words, Index bits, const Visit& visit) {
   for (Index first = 0; first < bits; first += 64) {
     for (std::uint64_t word = *words++; word != 0; word &= word - 1) {
-      visit(first + static_cast<Index>(__builtin_ctzll(word)));
+      visit(first + static_cast<Index>(std::countr_zero(word)));
     }
   }
 }
 
-/// Picks the vertices whose bits are set.
-HWY_INLINE void pick(const Run& run, Index first, const std::uint64_t* words, Picked& picked) {
-  picked.size = 0;
-  for_bits(words, run.size, [&](Index v) HWY_ATTR { picked.add(run.x[v], run.y[v], run.z[v], first + v); });
-  picked.end();
+/// The numbers of the set bits, ascending. Eight at a time whether they are there or not, for how many there are is
+/// what a processor cannot foresee; then eight zeros. Returns how many.
+HWY_INLINE Index list_bits(const std::uint64_t* words, Index bits, Index* list) {
+  Index size = 0;
+  for (Index first = 0; first < bits; first += 64) {
+    std::uint64_t word = *words++;
+    const auto count = static_cast<Index>(std::popcount(word));
+    Index* to = list + size;
+    for (Index done = 0; done < count || done == 0; done += 8) {
+      for (Index k = 0; k < 8; ++k) {
+        *to++ = first + static_cast<Index>(std::countr_zero(word));
+        word &= word - 1;
+      }
+    }
+    size += count;
+  }
+  std::fill_n(list + size, 8, 0);
+  return size;
 }
 
-bool Facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
-            Picked& near_a, Picked& near_b) {
-  const V nx = all(slab.normal.x), ny = all(slab.normal.y), nz = all(slab.normal.z);
-  const auto along = [&](const Readable& at, std::ptrdiff_t i) HWY_ATTR {
-    return hn::Add(hn::Add(hn::Mul(nx, at.x(i)), hn::Mul(ny, at.y(i))), hn::Mul(nz, at.z(i)));
-  };
-  const std::size_t needed = std::size_t{std::max(a.size, b.size)} + lanes;
-  if (scratch.along_a.size() < needed) {
-    scratch.along_a.resize(needed);
-    scratch.words.resize(needed / 64 + 1);
+/// Picks the vertices of a list by list_bits().
+HWY_INLINE void pick(const Run& run, Index first, const Index* list, Index size, Picked& picked) {
+  float *const x = picked.x.data(), *const y = picked.y.data(), *const z = picked.z.data();
+  Index* const vertex = picked.vertex.data();
+  for (Index k = 0; k < size; k += 8) {
+    for (Index step = 0; step < 8; ++step) {
+      const Index v = list[k + step];
+      x[k + step] = run.x[v];
+      y[k + step] = run.y[v];
+      z[k + step] = run.z[v];
+      vertex[k + step] = first + v;
+    }
   }
+  const V nothing = all(std::numeric_limits<float>::quiet_NaN());
+  for (float* end : {x + size, y + size, z + size}) hn::StoreU(nothing, Floats(), end);
+  picked.size = size;
+}
+
+/// Appends the contacts of some vertices of a run, by their numbers, with picked ones of another body.
+HWY_INLINE void find_contacts(const Run& a, Index first_a, const Index* list_a, Index size_a, const Picked& b,
+                              float tolerance2, std::vector<std::uint64_t>& words, std::vector<Contact>& contacts) {
+  Index shift = 4;  // each vertex of a takes 2^shift bits
+  while (Index{1} << shift < b.size) ++shift;
+  const Index row = Index{1} << shift;
+  const std::size_t needed = (std::size_t{size_a} * row) / 64 + 2;
+  if (HWY_UNLIKELY(words.size() < needed)) words.resize(needed);
+
+  const float *const bx = b.x.data(), *const by = b.y.data(), *const bz = b.z.data();
+  const V limit = all(tolerance2);
+  BitWriter bits(words.data());
+  for (Index i = 0; i < size_a; ++i) {
+    const V x = all(a.x[list_a[i]]), y = all(a.y[list_a[i]]), z = all(a.z[list_a[i]]);
+    for (Index j = 0; j < row; j += lanes) {
+      if (HWY_UNLIKELY(j >= b.size)) {
+        bits.add(0);
+        continue;
+      }
+      const V d2 = squared_length(hn::Sub(x, load(bx + j)), hn::Sub(y, load(by + j)), hn::Sub(z, load(bz + j)));
+      bits.add(bits_of(hn::Lt(d2, limit)));
+    }
+  }
+  bits.end();
+  for_bits(words.data(), size_a << shift, [&](Index bit) HWY_ATTR {
+    contacts.push_back({first_a + list_a[bit >> shift], b.vertex[bit & (row - 1)]});
+  });
+}
+
+Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
+            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts) {
+  const V nx = all(slab.normal.x), ny = all(slab.normal.y), nz = all(slab.normal.z);
+  const auto along = [nx, ny, nz](const Run& at, std::ptrdiff_t i) HWY_ATTR {
+    return hn::Add(hn::Add(hn::Mul(nx, load(at.x + i)), hn::Mul(ny, load(at.y + i))), hn::Mul(nz, load(at.z + i)));
+  };
   float* const along_a = scratch.along_a.data() + lanes;
   std::uint64_t* const words = scratch.words.data();
-
-  const Readable at_a(a), at_b(b);
+  Copy copy_a, copy_b;
+  const Run at_a = readable(a, copy_a), at_b = readable(b, copy_b);
   V front = all(-std::numeric_limits<float>::infinity());
   for_blocks(a.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
     const V p = along(at_a, i);
@@ -179,42 +234,23 @@ bool Facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   });
   bits_b.end();
   const float back_b = least(back);
-  if (!(back_b <= hn::GetLane(limit_b))) return false;
-  pick(b, first_b, words, near_b);
+  if (!(back_b <= hn::GetLane(limit_b))) return {};
+  Index* const list = scratch.list.data();
+  pick(b, first_b, list, list_bits(words, b.size, list), scratch.near_b);
 
   const V limit_a = all(back_b - slab.reach);
   BitWriter bits_a(words);
   for_blocks(a.size, [&](std::ptrdiff_t i, Index skip)
                          HWY_ATTR { bits_a.add(bits_of(hn::Ge(load(along_a + i), limit_a)) >> skip); });
   bits_a.end();
-  pick(a, first_a, words, near_a);
-  return true;
-}
-
-void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts) {
-  Index shift = 4;  // each row of a takes 2^shift bits
-  while (Index{1} << shift < b.size) ++shift;
-  const Index row = Index{1} << shift;
-  const std::size_t needed = (std::size_t{a.size} * row) / 64 + 1;
-  if (words.size() < needed) words.resize(needed);
-
-  BitWriter bits(words.data());
-  const V limit = all(tolerance2);
-  for (Index i = 0; i < a.size; ++i) {
-    const V ax = all(a.x[i]), ay = all(a.y[i]), az = all(a.z[i]);
-    for (Index j = 0; j < row; j += lanes) {
-      if (j >= b.size) {
-        bits.add(0);
-        continue;
-      }
-      const V d2 = squared_length(hn::Sub(ax, load(&b.x[j])), hn::Sub(ay, load(&b.y[j])), hn::Sub(az, load(&b.z[j])));
-      bits.add(bits_of(hn::Lt(d2, limit)));
-    }
+  const Index size_a = list_bits(words, a.size, list);
+  const std::uint64_t tests = std::uint64_t{size_a} * scratch.near_b.size;
+  if (tests > most_tests) {
+    pick(a, first_a, list, size_a, scratch.near_a);
+    return {tests, false};
   }
-  bits.end();
-  for_bits(words.data(), a.size << shift, [&](Index bit) HWY_ATTR {
-    contacts.push_back({a.vertex[bit >> shift], b.vertex[bit & (row - 1)]});
-  });
+  find_contacts(a, first_a, list, size_a, scratch.near_b, tolerance2, scratch.words, contacts);
+  return {tests, true};
 }
 
 /// Bits of the vertices of a set, from the block of `begin` on, that are close to one point.
@@ -230,8 +266,16 @@ HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Inde
   bits.end();
 }
 
+void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
+  for (Index i = 0; i < a.size; ++i) {
+    close_bits(a.x[i], a.y[i], a.z[i], b, 0, tolerance2, words.data());
+    for_bits(words.data(), b.size, [&](Index bit) HWY_ATTR { contacts.push_back({a.vertex[i], b.vertex[bit]}); });
+  }
+}
+
 void ContactsWithin(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts) {
-  if (words.size() < set.size / 64 + 1) words.resize(set.size / 64 + 1);
+  if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
   for (Index i = 0; i + 1 < set.size; ++i) {
     const Index begin = (i + 1) / lanes * lanes;
     close_bits(set.x[i], set.y[i], set.z[i], set, begin, tolerance2, words.data());
@@ -243,7 +287,7 @@ void ContactsWithin(const Picked& set, float tolerance2, Words& words, std::vect
 }
 
 void ContactsOf(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
-  if (words.size() < set.size / 64 + 1) words.resize(set.size / 64 + 1);
+  if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
   close_bits(set.x[i], set.y[i], set.z[i], set, 0, tolerance2, words.data());
   words[i / 64] &= ~(std::uint64_t{1} << i % 64);
   for_bits(words.data(), set.size, [&](Index bit) HWY_ATTR { contacts.push_back({set.vertex[i], set.vertex[bit]}); });
@@ -251,15 +295,15 @@ void ContactsOf(const Picked& set, Index i, float tolerance2, Words& words, std:
 
 AffineFit FitAffine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                     const glm::vec3& centre, float* residual2) {
-  const Readable x(body), X(reference);
   const V cx = all(centre.x), cy = all(centre.y), cz = all(centre.z), zero = hn::Zero(Floats());
   V xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
   V mx = zero, my = zero, mz = zero;
   for_blocks(body.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
     const M fresh = hn::Not(hn::FirstN(Floats(), skip));
-    const V bx = hn::IfThenElseZero(fresh, hn::Sub(x.x(i), cx)), by = hn::IfThenElseZero(fresh, hn::Sub(x.y(i), cy)),
-            bz = hn::IfThenElseZero(fresh, hn::Sub(x.z(i), cz));
-    const V rx = X.x(i), ry = X.y(i), rz = X.z(i);
+    const V bx = hn::IfThenElseZero(fresh, hn::Sub(load(body.x + i), cx)),
+            by = hn::IfThenElseZero(fresh, hn::Sub(load(body.y + i), cy)),
+            bz = hn::IfThenElseZero(fresh, hn::Sub(load(body.z + i), cz));
+    const V rx = load(reference.x + i), ry = load(reference.y + i), rz = load(reference.z + i);
     xx = hn::Add(xx, hn::Mul(bx, rx)), xy = hn::Add(xy, hn::Mul(bx, ry)), xz = hn::Add(xz, hn::Mul(bx, rz));
     yx = hn::Add(yx, hn::Mul(by, rx)), yy = hn::Add(yy, hn::Mul(by, ry)), yz = hn::Add(yz, hn::Mul(by, rz));
     zx = hn::Add(zx, hn::Mul(bz, rx)), zy = hn::Add(zy, hn::Mul(bz, ry)), zz = hn::Add(zz, hn::Mul(bz, rz));
@@ -285,9 +329,9 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
     return hn::Sub(hn::Sub(hn::Sub(b, c), all(fit.offset[row])), mapped);
   };
   for_blocks(body.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
-    const V rx = X.x(i), ry = X.y(i), rz = X.z(i);
-    const V e2 = squared_length(error(0, x.x(i), cx, rx, ry, rz), error(1, x.y(i), cy, rx, ry, rz),
-                                error(2, x.z(i), cz, rx, ry, rz));
+    const V rx = load(reference.x + i), ry = load(reference.y + i), rz = load(reference.z + i);
+    const V e2 = squared_length(error(0, load(body.x + i), cx, rx, ry, rz), error(1, load(body.y + i), cy, rx, ry, rz),
+                                error(2, load(body.z + i), cz, rx, ry, rz));
     farthest = hn::Max(farthest, e2);
     hn::StoreU(e2, Floats(), residual2 + i);
   });
@@ -319,7 +363,7 @@ Index SweepRow(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>
       const V most2 = hn::Add(hn::Mul(hn::Mul(reached, reached), all(1 + 0x1p-18f)), all(1e-37f));
       near_boxes += static_cast<Index>(hn::CountTrue(Floats(), near));
       for (std::uint64_t bits = bits_of(hn::And(near, hn::Not(hn::Gt(d2, most2)))); bits != 0; bits &= bits - 1) {
-        found.push_back(j + static_cast<Index>(__builtin_ctzll(bits)));
+        found.push_back(j + static_cast<Index>(std::countr_zero(bits)));
       }
     }
     if (!hn::AllTrue(Floats(), within)) return near_boxes;
@@ -335,7 +379,7 @@ HWY_AFTER_NAMESPACE();
 namespace collide {
 
 HWY_EXPORT(BoundOf);
-HWY_EXPORT(Facing);
+HWY_EXPORT(Face);
 HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsWithin);
 HWY_EXPORT(ContactsOf);
@@ -344,11 +388,20 @@ HWY_EXPORT(SweepRow);
 
 Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
 
-bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
-            Picked& near_a, Picked& near_b) {
-  near_a.reserve(a.size);
-  near_b.reserve(b.size);
-  return HWY_DYNAMIC_DISPATCH(Facing)(a, first_a, b, first_b, slab, scratch, near_a, near_b);
+Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
+            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts) {
+  scratch.reserve(a.size, b.size);
+  return HWY_DYNAMIC_DISPATCH(Face)(a, first_a, b, first_b, slab, tolerance2, most_tests, scratch, contacts);
+}
+
+void FacingScratch::reserve(Index size_a, Index size_b) {
+  const std::size_t size = std::max(size_a, size_b);
+  if (along_a.size() >= size + Picked::padding) return;
+  along_a.resize(size + Picked::padding);
+  words.resize(size / 64 + 2);
+  list.resize(size + 2 * Picked::padding);
+  near_a.reserve(static_cast<Index>(list.size()));
+  near_b.reserve(static_cast<Index>(list.size()));
 }
 
 void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words& words,

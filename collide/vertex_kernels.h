@@ -20,7 +20,8 @@ struct Bound {
   Aabb box;
   glm::vec3 centre;
   float radius;
-  bool finite;  // if not, the rest means nothing
+  float largest;  // the greatest coordinate, whatever its sign
+  bool finite;    // if not, the rest means nothing
 };
 Bound bound_of(const Run& run);
 
@@ -50,19 +51,29 @@ struct Slab {
   float reach;
 };
 
-/// Memory of facing().
-struct FacingScratch {
-  std::vector<float> along_a, along_b;
-  std::vector<std::uint64_t> words;
-};
-
-/// Picks the vertices of each body that the slab cannot part from all of the other body's. Both stay in order. False,
-/// and nothing picked, if there are none: a plane parts the two.
-bool facing(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, FacingScratch& scratch,
-            Picked& near_a, Picked& near_b);
-
 /// Bits that say which vertices are close: memory of the functions below.
 using Words = std::vector<std::uint64_t>;
+
+/// Memory of face(), and what it has picked if that was too much for it.
+struct FacingScratch {
+  Picked near_a, near_b;
+  std::vector<float> along_a;
+  std::vector<Index> list;
+  Words words;
+
+  void reserve(Index size_a, Index size_b);
+};
+
+/// What face() has come to.
+struct Facing {
+  std::uint64_t tests = 0;  // pairs that face each other; 0: a plane parts the two bodies
+  bool done = true;         // if not, near_a and near_b of the scratch hold the vertices to test
+};
+
+/// Of two bodies, takes the vertices that the slab cannot part from all of the other body's, both in order, and appends
+/// their contacts, ascending; or leaves them in the scratch if that takes more than most_tests.
+Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
+            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts);
 
 /// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are.
 void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts);
