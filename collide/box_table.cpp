@@ -1,6 +1,7 @@
 #include "collide/box_table.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace collide {
 
@@ -18,6 +19,7 @@ void BoxTable::add(std::span<const std::uint32_t> buckets_of_box) {
 }
 
 void BoxTable::build(std::uint32_t buckets) {
+  if (bucket_.size() > ~std::uint32_t{0}) throw std::length_error("too many boxes for one table: use fewer levels");
   table_.build(bucket_, buckets);
   place_.resize(bucket_.size());
   word_.resize(bucket_.size());

@@ -1,6 +1,7 @@
 #pragma once
 // Last stage of every method: tests runs of vertices against each other, leaves out what can never be a contact, and
-// brings what is left into its one order. Keeps its memory from frame to frame.
+// brings what is left into its one order. Keeps its memory from frame to frame: at most max_contacts contacts and, for
+// each thread, 2^20 hits or as many as a run has vertices.
 
 #include <atomic>
 

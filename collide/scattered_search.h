@@ -1,6 +1,6 @@
 #pragma once
 // One run of slots against many short runs. To test a handful of vertices costs little more than one vertex, so short
-// runs are first copied side by side and then tested as a single one.
+// runs are first copied side by side and then tested as a single one. Memory: 1024 vertices a thread.
 
 #include "collide/contact_search.h"
 

@@ -1,5 +1,7 @@
 #pragma once
 // Vertices hashed one by one into a grid (§2.2 without boxes): what both methods with a grid hash have in common.
+// Memory: 36 bytes a vertex and 4 a bucket; a thread lists no more cells at a time than a 32nd of the vertices, or 64,
+// however small the cells are.
 
 #include "collide/body_boxes.h"
 #include "collide/bucket_table.h"
