@@ -8,6 +8,7 @@
 #include "app/detect.h"
 #include "app/list.h"
 #include "app/options.h"
+#include "app/report.h"
 #include "app/simulate.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/demo.h"
@@ -25,6 +26,9 @@ int run(const app::Options& options) {
       return 0;
     case app::Command::detect:
       app::detect(options);
+      return 0;
+    case app::Command::report:
+      app::report(options);
       return 0;
     case app::Command::demo:
       break;

@@ -91,6 +91,19 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
   return detect;
 }
 
+CLI::App* add_report(CLI::App& cli, Options& options) {
+  ReportOptions& r = options.report;
+  CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
+  report->add_option("what", r.name, "detection")->required();
+  report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
+  report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
+  report->add_option("--threads", r.threads, "threads of the detectors that are timed (default 1)")
+      ->type_name("N")
+      ->check(CLI::Range(1, 256));
+  report->add_option("--out", options.out, "folder for the report")->type_name("DIR")->required();
+  return report;
+}
+
 /// CLI11 takes an empty value for none at all: `--tolerance ""` would go unnoticed.
 void refuse_empty_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
@@ -130,6 +143,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
+  const CLI::App* report = add_report(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods or integrators")
       ->required()
@@ -144,7 +158,11 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     throw UsageError(one_line(error.what()) + "; see sbcollide --help");
   }
   refuse_empty_values(cli);
-  options.command = *simulate ? Command::simulate : *detect ? Command::detect : *list ? Command::list : Command::demo;
+  options.command = *simulate ? Command::simulate
+                    : *detect ? Command::detect
+                    : *report ? Command::report
+                    : *list   ? Command::list
+                              : Command::demo;
   if (!size.empty()) parse_size(size, options);
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);

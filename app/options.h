@@ -16,7 +16,7 @@ struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-enum class Command { demo, simulate, detect, list };
+enum class Command { demo, simulate, detect, report, list };
 
 /// What only `detect` has.
 struct DetectOptions {
@@ -28,11 +28,20 @@ struct DetectOptions {
   bool reuse = true;  // a detector may use what it learnt from earlier frames
 };
 
+/// What only `report` has.
+struct ReportOptions {
+  std::string name;                  // which report
+  std::optional<std::string> scene;  // only this one
+  bool quick = false;                // within a minute: less of everything
+  int threads = 1;                   // of the detectors that are timed
+};
+
 struct Options {
   Command command = Command::demo;
   std::string scene = "drop";
   DetectionOptions detection;
   DetectOptions detect;
+  ReportOptions report;
   std::string integrator;
   int threads = 1;
   double frame_time = 1.0 / 60.0;  // s

@@ -60,16 +60,18 @@ struct SweepLimits {
   std::uint32_t seed = 1;                // of the order
 };
 
-/// Runs configurations on one frame, run by run: first each with a fresh detector, which checks what it finds and
-/// takes; then rounds of timed runs, in a new shuffled order each, so that a drift of the machine's speed favours none.
-/// One detector a method takes all of its timed runs, and forgets before each: from scratch, with its memory at hand.
+/// Runs configurations on one frame: first each with a fresh detector, which checks what it finds and takes; then
+/// rounds of timed runs, in a new shuffled order each, so that a drift of the machine's speed favours none. One
+/// detector a method takes all of its timed runs. It forgets before each: found from scratch, but after a run that is
+/// not timed, which puts scratch memory and caches where they are while frames follow each other.
 class Sweep {
  public:
   /// The frame and the workers must outlive the sweep.
   Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
         collide::Workers& workers);
 
-  /// One run of one method; the first call finds the true contacts. False once nothing is left to do.
+  /// One configuration, checked or timed once; the first call finds the true contacts. False once nothing is left to
+  /// do.
   bool step();
   /// Of all that is to be done, from 0 to 1.
   double progress() const;

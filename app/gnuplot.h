@@ -1,0 +1,14 @@
+#pragma once
+// Pictures drawn by gnuplot, a program of its own (package gnuplot-nox) that is there or not.
+
+#include <string>
+
+namespace app {
+
+enum class Picture { svg, png };
+
+/// Draws a gnuplot script, which sets neither terminal nor output, and returns the bytes of the picture. Throws
+/// std::runtime_error, which says what to do, if gnuplot is not installed or cannot draw the script.
+std::string draw(const std::string& script, Picture kind);
+
+}  // namespace app

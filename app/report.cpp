@@ -1,0 +1,40 @@
+#include "app/report.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+
+#include "app/report_detection.h"
+
+namespace app {
+namespace {
+
+struct Report {
+  std::string_view name;
+  void (*make)(const Options& options);
+};
+
+/// All there are.
+constexpr std::array reports{Report{"detection", report_detection}};
+
+const Report& find_report(const std::string& name) {
+  const auto found = std::ranges::find(reports, name, &Report::name);
+  if (found != reports.end()) return *found;
+  std::string names;
+  for (const Report& r : reports) names.append(names.empty() ? "" : ", ").append(r.name);
+  throw UsageError("report " + name + ": unknown; use one of: " + names);
+}
+
+}  // namespace
+
+void prepare_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK) != 0)
+    throw UsageError("--out " + folder.string() + ": cannot be written to; name a folder of your own");
+}
+
+void report(const Options& options) { find_report(options.report.name).make(options); }
+
+}  // namespace app

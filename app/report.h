@@ -1,0 +1,15 @@
+#pragma once
+// `report`: measurements that take minutes and leave files behind.
+
+#include "app/options.h"
+
+namespace app {
+
+/// Makes the report that the options name, in the folder options.out. Throws UsageError before anything runs if there
+/// is no such report or the folder cannot be written to; and SceneError.
+void report(const Options& options);
+
+/// Makes the folder if it is not there. Throws UsageError if nothing can be written to it.
+void prepare_folder(const std::filesystem::path& folder);
+
+}  // namespace app

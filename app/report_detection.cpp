@@ -1,0 +1,143 @@
+#include "app/report_detection.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+
+#include "app/gnuplot.h"
+#include "app/output_file.h"
+#include "app/report.h"
+#include "app/report_csv.h"
+#include "app/report_markdown.h"
+#include "app/report_plots.h"
+#include "app/report_recording.h"
+
+namespace app {
+namespace {
+
+constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
+
+/// A terminal's last line says what is going on.
+void say(const std::string& what, double progress) {
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
+}
+
+softbody::Scene scene_named(const std::string& name) { return softbody::find_scene(name, scene_folder()); }
+
+/// The scenes to report on, those with the fewest bodies first.
+std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
+  if (options.scene) return {scene_named(*options.scene)};
+  std::vector<softbody::Scene> scenes;
+  for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));
+  std::ranges::stable_sort(scenes, {}, [](const softbody::Scene& s) { return s.bodies.size(); });
+  return scenes;
+}
+
+SweepLimits limits_of(const ReportOptions& options) {
+  if (options.quick) return {.repetitions = 3, .repeat_ms = 50};
+  return {};
+}
+
+StateResult sweep_state(const RecordedState& state, const std::vector<Configuration>& configurations,
+                        const DetectionResults& results, collide::Workers& workers, const std::string& what) {
+  Sweep sweep(state.view(), configurations, results.limits, workers);
+  while (sweep.step()) say(what, sweep.progress());
+  return {state.frame, state.bodies.count(), state.bodies.vertex_count(), sweep.report()};
+}
+
+SceneResult sweep_scene(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
+  SceneResult scene{recording.scene, recording.name, recording.buckets, {}};
+  for (const RecordedState& state : recording.states) {
+    const std::string what = recording.scene + ", frame " + std::to_string(state.frame);
+    scene.states.push_back(sweep_state(state, recording.configurations, results, workers, what));
+  }
+  return scene;
+}
+
+/// The paper's level and the automatic cell, with its 1001 buckets and with as many as the largest scene asks for.
+std::vector<Configuration> growth_configurations(std::vector<Configuration> all) {
+  std::erase_if(all, [](const Configuration& c) {
+    const collide::Method& method = method_of(c);
+    const bool level = !method.uses_levels || c.settings.levels == paper_level;
+    const bool hash = !method.uses_hash ||
+                      (c.cell == 1 && (c.settings.buckets == 1001 || c.settings.buckets == sweep_buckets.back()));
+    return !(level && hash);
+  });
+  return all;
+}
+
+SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
+  SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
+  const RecordedState& last = recording.states.back();
+  const auto configurations = growth_configurations(recording.configurations);
+  const auto add = [&](const RecordedState& state) {
+    const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
+    growth.states.push_back(sweep_state(state, configurations, results, workers, what));
+  };
+  for (const collide::Index count : growth_bodies) {
+    if (count < last.bodies.count()) add(middle_bodies(last, count));
+  }
+  if (!growth.states.empty()) add(last);
+  return growth;
+}
+
+DetectionResults measure(const Options& options, const std::vector<softbody::Scene>& scenes) {
+  const ReportOptions& o = options.report;
+  DetectionResults results;
+  results.quick = o.quick;
+  results.threads = o.threads;
+  results.limits = limits_of(o);
+  results.command = std::string("sbcollide report detection") + (o.scene ? " --scene " + *o.scene : "") +
+                    (o.quick ? " --quick" : "") + (o.threads > 1 ? " --threads " + std::to_string(o.threads) : "") +
+                    " --out DIR";
+  collide::Workers workers(o.threads);
+  for (const softbody::Scene& scene : scenes) {
+    const bool largest = &scene == &scenes.back();
+    const bool swept = !o.quick || o.scene || std::ranges::count(paper_scenes, scene.key) > 0;
+    if (!swept && !largest) continue;
+    say(scene.key + ": simulating", 0);
+    const Recording recording = record(scene, plan_recording(vertex_count(scene), o.quick), options.threads);
+    if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
+    if (largest) results.growth = sweep_growth(recording, results, workers);
+  }
+  return results;
+}
+
+void write(const std::filesystem::path& file, std::string_view bytes) {
+  OutputFile out(file);
+  out.write(bytes);
+  out.commit();
+}
+
+/// File names and contents; empty if they cannot be drawn, which is said: the figures are worth having without them.
+std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
+  std::vector<std::pair<std::string, std::string>> pictures;
+  try {
+    for (const Plot& plot : plots) {
+      pictures.emplace_back(plot.name + ".svg", draw(plot.script, Picture::svg));
+      pictures.emplace_back(plot.name + ".png", draw(plot.script, Picture::png));
+    }
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
+    pictures.clear();
+  }
+  return pictures;
+}
+
+}  // namespace
+
+void report_detection(const Options& options) {
+  const std::vector<softbody::Scene> scenes = chosen_scenes(options.report);
+  prepare_folder(options.out);
+  const DetectionResults results = measure(options, scenes);
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%60s\r", "");
+  std::vector<Plot> plots = detection_plots(results);
+  const auto pictures = draw_all(plots);
+  if (pictures.empty()) plots.clear();
+  write(options.out / "detection.csv", detection_csv(results));
+  for (const auto& [name, bytes] : pictures) write(options.out / name, bytes);
+  write(options.out / "report.md", detection_markdown(results, plots));
+}
+
+}  // namespace app
