@@ -1,6 +1,7 @@
 #pragma once
 // The subdivided bounding boxes of §2.1: every body's box cut at midpoints into 2^levels regions.
-// Memory: empty regions are not kept, so a vertex costs 100 bytes at most whatever the level, and a thread 4 * 2^levels.
+// Memory: empty regions are not kept, so a vertex costs 100 bytes at most whatever the level, and a thread 4 *
+// 2^levels.
 
 #include "collide/body_boxes.h"
 #include "collide/cuts.h"
