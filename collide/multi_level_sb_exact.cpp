@@ -21,6 +21,7 @@ namespace collide {
 namespace {
 
 constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
+constexpr std::size_t contacts_between_counts = 1u << 16;   // of one thread
 
 /// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the reach by 3u of
 /// it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
@@ -83,6 +84,7 @@ class MultiLevelSbExact final : public Detector {
     Words words;
     Picked whole;                   // of one body
     std::vector<Contact> contacts;  // in their final order
+    std::size_t counted = 0;        // of them, in found_
     std::vector<Contact> group, sorted;
     std::vector<Index> count;
     std::uint64_t self_contacts = 0, pair_tests = 0, parted = 0, unfolded = 0;
@@ -115,6 +117,7 @@ class MultiLevelSbExact final : public Detector {
     Thread& own = threads_[static_cast<std::size_t>(thread)];
     own.tree.begin(settings_.levels, reach_, tolerance2_);
     own.contacts.clear();
+    own.counted = 0;
     own.self_contacts = own.pair_tests = own.parted = own.unfolded = 0;
     const std::size_t work = near_.pairs() + live_.size();
     const Part part = part_of(work, thread, threads);
@@ -139,7 +142,13 @@ class MultiLevelSbExact final : public Detector {
     }
     if (runs > 1 || !ordered) order(own, a, ordered);
     own.contacts.insert(own.contacts.end(), own.group.begin(), own.group.end());
-    if (found_.fetch_add(own.group.size(), std::memory_order_relaxed) + own.group.size() > max_contacts) {
+    if (own.contacts.size() - own.counted >= contacts_between_counts) count_contacts(own);
+  }
+
+  void count_contacts(Thread& own) {
+    const std::size_t added = own.contacts.size() - own.counted;
+    own.counted = own.contacts.size();
+    if (found_.fetch_add(added, std::memory_order_relaxed) + added > max_contacts) {
       throw std::length_error("more than 134217728 contacts in one frame: lower the tolerance");
     }
   }

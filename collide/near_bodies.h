@@ -1,5 +1,5 @@
 #pragma once
-// The broad phase of bodies: sort and sweep over their boxes, and a test of the spheres around them.
+// The broad phase of bodies: strips of boxes, each swept along its length, and a test of the spheres around them.
 
 #include "collide/vertex_kernels.h"
 #include "collide/workers.h"
@@ -27,14 +27,28 @@ class NearBodies {
 
  private:
   struct alignas(64) Thread {
-    std::vector<Index> found, count;  // of each row: how many, and which places of the sweep
+    std::vector<Index> found, count;  // of each row: how many, and their places in the order
     std::uint64_t near_boxes;
   };
-  void sort(std::span<const Bound> bounds, std::span<const Index> live);
+  /// Strips have the width of the widest box and reach, so that a box meets its own strip and some of the next.
+  struct Strip {
+    Index begin, end;  // places
+    float widest;      // of its boxes, along
+  };
+  void sort(std::span<const Bound> bounds, std::span<const Index> live, float reach);
+  std::size_t strip_of(double value) const;
+  void find_row(Thread& own, Index place, float reach) const;
   void group(std::size_t bodies);
 
-  SweepBoxes boxes_;
-  std::vector<std::uint64_t> order_;  // by place in the sweep: a key that sorts like lo, and the body
+  StripBoxes boxes_;
+  int across_ = 0;  // the axis that the strips divide
+  double first_edge_ = 0, width_ = 1;
+  std::vector<Strip> strips_;
+  struct Place {
+    std::uint64_t key;  // sorts by strip, then as lo[along] does
+    Index body;
+  };
+  std::vector<Place> order_;
   std::vector<Thread> threads_;
   std::vector<std::uint32_t> first_;  // bodies + 1 offsets into other_
   std::vector<Index> other_;

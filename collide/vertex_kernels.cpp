@@ -339,22 +339,25 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
   return fit;
 }
 
-Index SweepRow(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found) {
+Index SweepStrip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found) {
   const V limit = all(reach);
-  const auto axis = static_cast<std::size_t>(boxes.axis), side = (axis + 1) % 3, other = (axis + 2) % 3;
-  const V end = all(boxes.hi[axis][i]);
+  const auto along = static_cast<std::size_t>(boxes.along), side = (along + 1) % 3, other = (along + 2) % 3;
+  const V lo0 = all(boxes.lo[along][i]), hi0 = all(boxes.hi[along][i]);
   const V lo1 = all(boxes.lo[side][i]), hi1 = all(boxes.hi[side][i]);
   const V lo2 = all(boxes.lo[other][i]), hi2 = all(boxes.hi[other][i]);
   const V c0 = all(boxes.centre[0][i]), c1 = all(boxes.centre[1][i]), c2 = all(boxes.centre[2][i]);
   const V radius = all(boxes.radius[i] + reach);
   Index near_boxes = 0;
-  for (Index j = i + 1;; j += lanes) {
-    const M within = hn::Le(hn::Sub(load(&boxes.lo[axis][j]), end), limit);  // a prefix of the block
+  for (Index j = begin; j < end; j += lanes) {
+    // Lanes beyond the strip belong to the next one.
+    const M inside = hn::FirstN(Floats(), std::min(lanes, end - j));
+    const M within = hn::And(inside, hn::Le(hn::Sub(load(&boxes.lo[along][j]), hi0), limit));  // a prefix of the block
+    const M near0 = hn::And(within, hn::Le(hn::Sub(lo0, load(&boxes.hi[along][j])), limit));
     const M near1 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[side][j]), hi1), limit),
                             hn::Le(hn::Sub(lo1, load(&boxes.hi[side][j])), limit));
     const M near2 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[other][j]), hi2), limit),
                             hn::Le(hn::Sub(lo2, load(&boxes.hi[other][j])), limit));
-    const M near = hn::And(within, hn::And(near1, near2));
+    const M near = hn::And(near0, hn::And(near1, near2));
     if (!hn::AllFalse(Floats(), near)) {
       const V d2 = squared_length(hn::Sub(load(&boxes.centre[0][j]), c0), hn::Sub(load(&boxes.centre[1][j]), c1),
                                   hn::Sub(load(&boxes.centre[2][j]), c2));
@@ -366,8 +369,9 @@ Index SweepRow(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>
         found.push_back(j + static_cast<Index>(std::countr_zero(bits)));
       }
     }
-    if (!hn::AllTrue(Floats(), within)) return near_boxes;
+    if (!hn::AllTrue(Floats(), within)) break;
   }
+  return near_boxes;
 }
 
 }  // namespace
@@ -384,7 +388,7 @@ HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsWithin);
 HWY_EXPORT(ContactsOf);
 HWY_EXPORT(FitAffine);
-HWY_EXPORT(SweepRow);
+HWY_EXPORT(SweepStrip);
 
 Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
 
@@ -422,8 +426,8 @@ AffineFit fit_affine(const Run& body, const Run& reference, const std::array<flo
   return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
 }
 
-Index sweep_row(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found) {
-  return HWY_DYNAMIC_DISPATCH(SweepRow)(boxes, i, reach, found);
+Index sweep_strip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found) {
+  return HWY_DYNAMIC_DISPATCH(SweepStrip)(boxes, i, begin, end, reach, found);
 }
 
 void Picked::reserve(Index count) {
@@ -445,18 +449,12 @@ void Picked::take(const Run& run, Index first) {
   end();
 }
 
-void SweepBoxes::resize(Index count) {
+void StripBoxes::resize(Index count) {
   size = count;
   for (auto* bounds : {&lo, &hi, &centre}) {
     for (auto& values : *bounds) values.resize(std::size_t{count} + Picked::padding);
   }
   radius.resize(std::size_t{count} + Picked::padding);
-  for (Index k = count; k < count + Picked::padding; ++k) {
-    for (std::size_t a = 0; a < 3; ++a) {
-      lo[a][k] = std::numeric_limits<float>::infinity();
-      hi[a][k] = centre[a][k] = radius[k] = 0;
-    }
-  }
 }
 
 }  // namespace collide

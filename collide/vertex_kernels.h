@@ -92,17 +92,18 @@ struct AffineFit {
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
-/// Boxes in the order of a sweep: of each its bounds and the sphere around its centre; padded so that a sweep ends.
-struct SweepBoxes {
+/// Boxes in strips across one axis, in each strip ordered along another: of each box its bounds on the axes and the
+/// sphere around its centre. Padded, so that blocks can be read at the end.
+struct StripBoxes {
   std::array<std::vector<float>, 3> lo, hi, centre;
   std::vector<float> radius;
-  int axis = 0;  // lo[axis] ascends
+  int along = 0;  // within a strip lo[along] ascends
   Index size = 0;
 
   void resize(Index count);
 };
-/// Appends every box behind box i that is near() it and whose sphere is within reach of its own. Returns how many were
-/// near(), whatever their spheres.
-Index sweep_row(const SweepBoxes& boxes, Index i, float reach, std::vector<Index>& found);
+/// Appends every box from the place `begin` on, and before `end`, that is near() box i and whose sphere is within reach
+/// of its own; stops where lo[along] is out of reach. Returns how many were near(), whatever their spheres.
+Index sweep_strip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found);
 
 }  // namespace collide
