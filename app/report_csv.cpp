@@ -1,6 +1,6 @@
 #include "app/report_csv.h"
 
-#include <cstdio>
+#include "app/report_text.h"
 
 namespace app {
 namespace {
@@ -24,11 +24,7 @@ class Line {
     for (const char c : field) text_.append(c == '"' ? 2 : 1, c);
     text_ += '"';
   }
-  void add(double number) {
-    char text[32];
-    std::snprintf(text, sizeof text, "%.9g", number);
-    add(std::string_view(text));
-  }
+  void add(double number) { add(std::string_view(format("%.9g", number))); }
   void add(std::uint64_t number) { add(std::string_view(std::to_string(number))); }
   /// The number if it means something, else an empty field.
   template <class Number>

@@ -25,12 +25,10 @@ void say(const std::string& what, double progress) {
 
 softbody::Scene scene_named(const std::string& name) { return softbody::find_scene(name, scene_folder()); }
 
-/// The scenes to report on, those with the fewest bodies first.
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
   if (options.scene) return {scene_named(*options.scene)};
   std::vector<softbody::Scene> scenes;
   for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));
-  std::ranges::stable_sort(scenes, {}, [](const softbody::Scene& s) { return s.bodies.size(); });
   return scenes;
 }
 
@@ -55,7 +53,7 @@ SceneResult sweep_scene(const Recording& recording, const DetectionResults& resu
   return scene;
 }
 
-/// The paper's level and the automatic cell, with its 1001 buckets and with as many as the largest scene asks for.
+/// The paper's level and the automatic cell, with its 1001 buckets and with the most of the sweep.
 std::vector<Configuration> growth_configurations(std::vector<Configuration> all) {
   std::erase_if(all, [](const Configuration& c) {
     const collide::Method& method = method_of(c);
@@ -69,16 +67,16 @@ std::vector<Configuration> growth_configurations(std::vector<Configuration> all)
 
 SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
   SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
-  const RecordedState& last = recording.states.back();
+  const RecordedState& all = recording.states.front();  // not piled up yet: the middle is as dense as the rest
   const auto configurations = growth_configurations(recording.configurations);
   const auto add = [&](const RecordedState& state) {
     const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
     growth.states.push_back(sweep_state(state, configurations, results, workers, what));
   };
   for (const collide::Index count : growth_bodies) {
-    if (count < last.bodies.count()) add(middle_bodies(last, count));
+    if (count < all.bodies.count()) add(middle_bodies(all, count));
   }
-  if (!growth.states.empty()) add(last);
+  if (!growth.states.empty()) add(all);
   return growth;
 }
 
@@ -92,8 +90,10 @@ DetectionResults measure(const Options& options, const std::vector<softbody::Sce
                     (o.quick ? " --quick" : "") + (o.threads > 1 ? " --threads " + std::to_string(o.threads) : "") +
                     " --out DIR";
   collide::Workers workers(o.threads);
+  const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
+  const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
-    const bool largest = &scene == &scenes.back();
+    const bool largest = bodies(scene) == most_bodies;
     const bool swept = !o.quick || o.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "app/grouped.h"
 #include "app/report_table.h"
@@ -48,23 +49,39 @@ std::string hash_counts(const DetectionResults& r) {
   return text + "\n";
 }
 
-/// p of cost ~ bodies^p between the last two states that a configuration ran on; empty if there are no two.
-Cells exponents(const SceneResult& growth, std::size_t row) {
+/// p of cost ~ bodies^p between the last two states that a configuration ran on; nothing where a cost is 0, or if there
+/// are no two.
+struct Exponents {
+  std::optional<double> hashes, pair_tests, ms;
+};
+
+Exponents exponents(const SceneResult& growth, std::size_t row) {
   std::vector<const StateResult*> run;
   for (const StateResult& s : growth.states) {
     if (s.sweep.rows[row].not_run.empty()) run.push_back(&s);
   }
-  if (run.size() < 2) return {"", "", ""};
+  if (run.size() < 2) return {};
   const StateResult &before = *run[run.size() - 2], &last = *run.back();
   const SweepRow &a = before.sweep.rows[row], &b = last.sweep.rows[row];
   const double bodies = static_cast<double>(last.bodies) / before.bodies;
-  const auto p = [&](auto from, auto to) {
-    return from > 0 && to > 0
-               ? format("%.2f", std::log(static_cast<double>(to) / static_cast<double>(from)) / std::log(bodies))
-               : "";
+  const auto p = [&](auto from, auto to) -> std::optional<double> {
+    if (!(from > 0 && to > 0)) return std::nullopt;
+    return std::log(static_cast<double>(to) / static_cast<double>(from)) / std::log(bodies);
   };
   return {p(a.counters.hashes, b.counters.hashes), p(a.counters.pair_tests, b.counters.pair_tests),
           p(a.times.median(), b.times.median())};
+}
+
+/// "1.00 to 1.97": of one exponent over all configurations.
+std::string range(const SceneResult& growth, std::optional<double> Exponents::*which) {
+  std::optional<double> least, most;
+  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
+    const std::optional<double> p = exponents(growth, i).*which;
+    if (!p) continue;
+    least = std::min(least.value_or(*p), *p);
+    most = std::max(most.value_or(*p), *p);
+  }
+  return least ? format("%.2f to %.2f", *least, *most) : "not known";
 }
 
 std::string cost(const SweepRow& row, collide::Index vertices) {
@@ -83,7 +100,8 @@ std::string growth_table(const SceneResult& growth) {
     const Configuration& c = rows[i].configuration;
     Cells cells{std::string(method_of(c).name), buckets_of(c)};
     for (const StateResult& s : growth.states) cells.push_back(cost(s.sweep.rows[i], s.vertices));
-    for (const std::string& p : exponents(growth, i)) cells.push_back(p);
+    const Exponents p = exponents(growth, i);
+    for (const auto& value : {p.hashes, p.pair_tests, p.ms}) cells.push_back(value ? format("%.2f", *value) : "");
     text += line(cells);
   }
   return text;
@@ -99,10 +117,15 @@ std::string growth_markdown(const DetectionResults& results, const std::vector<P
       hash_counts(results));
   if (growth.states.empty()) return text;
   text += joined("### Growth with the number of bodies\n\nThe bodies nearest to the middle of `", growth.scene,
-                 format("`, frame %d, level 3, automatic cell size: median ms a frame, in brackets ns a vertex. p: a "
-                        "cost grows as bodies^p between the last two columns that were run; 0 would be O(1), 1 is "
-                        "linear, 2 quadratic.\n\n",
-                        growth.states.back().frame));
+                 "`, frame ", std::to_string(growth.states.back().frame),
+                 ", the first one recorded, where the middle is as dense as the rest; level 3, automatic cell size: "
+                 "median ms a frame, in brackets ns a vertex. p: a cost grows as "
+                 "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 quadratic.\n\n");
+  text += joined(
+      "Every body brings boxes of its own, so that hashing is linear in the number of bodies, whatever the "
+      "level: p of hashes is ",
+      range(growth, &Exponents::hashes), ". Pair tests, p ", range(growth, &Exponents::pair_tests),
+      ", are quadratic by brute force and where the buckets do not grow with the bodies.\n\n");
   return joined(text, growth_table(growth), picture(plots, growth_plot_name));
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "app/grouped.h"
 #include "app/report_text.h"
 
 namespace app {
@@ -25,7 +26,7 @@ constexpr const char* style =
     "set logscale xy\n"
     "set grid xtics ytics linecolor '#dddddd' linewidth 1 linetype 1\n"
     "set border linecolor '#666666'\n"
-    "set key outside top center horizontal reverse Left samplen 2\n"
+    "set key outside top center horizontal maxcols 3 reverse Left samplen 1.5 width -3\n"
     "set xtics format '%g'\n";
 
 /// Where points without any error lie on an axis that has no 0: below all others, a lane a method, so that they do not
@@ -151,10 +152,8 @@ std::vector<Series> growth_series(const SceneResult& growth) {
 
 std::string title(const Configuration& c) {
   const collide::Method& method = method_of(c);
-  std::string text(method.name);
-  if (method.uses_hash)
-    text += c.settings.buckets < 1'000'000 ? format(", %u buckets", c.settings.buckets) : ", 10^6 buckets";
-  return text;
+  return method.uses_hash ? joined(method.name, ", ", grouped(c.settings.buckets), " buckets")
+                          : std::string(method.name);
 }
 
 Plot cost_against_bodies(const SceneResult& growth) {
@@ -164,7 +163,8 @@ Plot cost_against_bodies(const SceneResult& growth) {
       "set ylabel 'detection from scratch, ms a frame'\nset ytics format '%g'\n";
   std::size_t number = 0;
   for (const Series& s : growth_series(growth)) {
-    const bool dashed = method_of(s.configuration).uses_hash && s.configuration.settings.buckets >= 1'000'000;
+    const bool dashed =
+        method_of(s.configuration).uses_hash && s.configuration.settings.buckets == sweep_buckets.back();
     script += format("$s%zu << EOD\n", number) + s.points + "EOD\n";
     plots +=
         format("%s$s%zu with linespoints pointtype 7 pointsize 0.7 linewidth 2 dashtype %d linecolor rgb %s title ",
