@@ -41,8 +41,8 @@ std::string introduction(const DetectionResults& r) {
   text += joined("- Budget: a configuration that is predicted to take more than ", grouped(l.budget),
                  " pair tests, a hash evaluation counted as 32, is not run.\n");
   text +=
-      "- Memory is what a fresh detector and its list of contacts hold after a frame. Detectors keep their scratch "
-      "memory, so that it is their peak from then on.\n"
+      "- Memory is what a fresh detector and its list of contacts hold after a frame, true to some KiB. Detectors "
+      "keep their scratch memory, so that it is their peak from then on.\n"
       "- `detection.csv` has every row of every state.\n";
   if (r.quick) text += "- This is the quick report: fewer scenes, frames, states and repetitions.\n";
   return text + "\n";

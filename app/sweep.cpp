@@ -154,7 +154,7 @@ void Sweep::check(SweepRow& row) {
   const std::size_t before = heap_in_use();
   const auto detector = collide::methods()[c.method].make();
   detector->detect(frame_, c.settings, workers_, result);
-  row.memory = heap_in_use() - before;
+  row.memory = std::max(heap_in_use(), before) - before;
   row.counters = result.counters;
   row.skipped = result.skipped;
   row.coverage = result.coverage;
