@@ -21,5 +21,9 @@ std::span<const Candidate> candidates();
 // The libraries, a file each. They take finite positions only.
 std::unique_ptr<collide::Detector> make_embree_rebuild();
 std::unique_ptr<collide::Detector> make_embree_refit();
+std::unique_ptr<collide::Detector> make_embree_patches();
+std::unique_ptr<collide::Detector> make_nanoflann();
+std::unique_ptr<collide::Detector> make_cgal();
+std::unique_ptr<collide::Detector> make_bullet();
 
 }  // namespace bench

@@ -13,6 +13,10 @@ std::span<const Candidate> candidates() {
       Candidate{"grid-hash", "grid-hash", true, collide::make_grid_hash},
       Candidate{"embree-rebuild", "Embree, built anew", true, make_embree_rebuild},
       Candidate{"embree-refit", "Embree, refitted", false, make_embree_refit},
+      Candidate{"embree-patches", "Embree, refitted, patches of 8", false, make_embree_patches},
+      Candidate{"nanoflann", "nanoflann, built anew", true, make_nanoflann},
+      Candidate{"cgal", "CGAL box intersection, patches of 16", true, make_cgal},
+      Candidate{"bullet", "Bullet btDbvt, refitted, patches of 16", false, make_bullet},
   };
   return table;
 }
