@@ -84,6 +84,7 @@ struct Result {
   std::uint64_t self_contacts = 0;  // how many of them lie inside one body
   Counters counters;
   Skipped skipped{};  // all 0 for a method that leaves nothing out
+  std::uint64_t& skip(Skip kind) { return skipped[static_cast<std::size_t>(kind)]; }
   Coverage coverage = Coverage::exact;
   std::vector<Index> non_finite_bodies;  // bodies with a NaN or infinite coordinate: left out, named here, ascending
 };

@@ -84,7 +84,9 @@ void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
   filter_near(a, bounds_of(b), reach_, own.near_a);
   if (own.near_a.size == 0) return;
   filter_near(b, bounds_of(own.near_a), reach_, own.near_b);
-  const auto [axis, mid] = cut_of(bounds_of(own.near_a));
+  const Cut cut = cut_of(bounds_of(own.near_a));
+  const int axis = cut.axis;
+  const float mid = cut.mid;
   const std::vector<float>&va = along(own.near_a, axis), &vb = along(own.near_b, axis);
   filter(own.near_a, own.low_a, [&](Index k) { return va[k] < mid; });
   filter(own.near_b, own.low_b, [&](Index k) { return vb[k] - mid <= reach_; });
@@ -105,7 +107,9 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
-  const auto [axis, mid] = cut_of(bounds_of(set));
+  const Cut cut = cut_of(bounds_of(set));
+  const int axis = cut.axis;
+  const float mid = cut.mid;
   const std::vector<float>& v = along(set, axis);
   filter(set, own.low, [&](Index k) { return v[k] < mid; });
   filter(set, own.up, [&](Index k) { return v[k] >= mid; });

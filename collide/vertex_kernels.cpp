@@ -339,6 +339,24 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
   return fit;
 }
 
+float FarthestMove(const Run& run, const Run& before) {
+  Copy copy_now, copy_before;
+  const Run at = readable(run, copy_now), was = readable(before, copy_before);
+  V farthest = hn::Zero(Floats()), total = farthest;
+  M moved = hn::FirstN(Floats(), 0);
+  for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
+    const V x = load(at.x + i), y = load(at.y + i), z = load(at.z + i);
+    const V wx = load(was.x + i), wy = load(was.y + i), wz = load(was.z + i);
+    const V d2 = squared_length(hn::Sub(x, wx), hn::Sub(y, wy), hn::Sub(z, wz));
+    farthest = hn::Max(farthest, d2);
+    total = hn::Add(total, d2);
+    moved = hn::Or(moved, hn::Or(hn::Ne(x, wx), hn::Or(hn::Ne(y, wy), hn::Ne(z, wz))));
+  });
+  if (!std::isfinite(sum(total))) return std::numeric_limits<float>::infinity();
+  if (hn::AllFalse(Floats(), moved)) return 0;
+  return static_cast<float>(std::sqrt(double{most(farthest)} + 0x1p-147) * (1 + 0x1p-21));  // as the radius of a Bound
+}
+
 Index SweepStrip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found) {
   const V limit = all(reach);
   const auto along = static_cast<std::size_t>(boxes.along), side = (along + 1) % 3, other = (along + 2) % 3;
@@ -388,6 +406,7 @@ HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsWithin);
 HWY_EXPORT(ContactsOf);
 HWY_EXPORT(FitAffine);
+HWY_EXPORT(FarthestMove);
 HWY_EXPORT(SweepStrip);
 
 Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
@@ -426,12 +445,14 @@ AffineFit fit_affine(const Run& body, const Run& reference, const std::array<flo
   return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
 }
 
+float farthest_move(const Run& run, const Run& before) { return HWY_DYNAMIC_DISPATCH(FarthestMove)(run, before); }
+
 Index sweep_strip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found) {
   return HWY_DYNAMIC_DISPATCH(SweepStrip)(boxes, i, begin, end, reach, found);
 }
 
 void Picked::reserve(Index count) {
-  if (vertex.size() >= count) return;
+  if (x.size() >= std::size_t{count} + padding) return;
   for (auto* coordinate : {&x, &y, &z}) coordinate->resize(std::size_t{count} + padding);
   vertex.resize(count);
 }

@@ -92,6 +92,10 @@ struct AffineFit {
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
+/// How far any vertex is from where it was, in m, rounded up: 0 if none has moved at all, infinity if some coordinate
+/// is not finite now or was not.
+float farthest_move(const Run& run, const Run& before);
+
 /// Boxes in strips across one axis, in each strip ordered along another: of each box its bounds on the axes and the
 /// sphere around its centre. Padded, so that blocks can be read at the end.
 struct StripBoxes {

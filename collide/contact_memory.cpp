@@ -1,0 +1,290 @@
+#include "collide/contact_memory.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "collide/reach.h"
+
+namespace collide {
+
+namespace {
+
+constexpr int pause_frames = 8;        // after bodies were too fast to remember anything
+constexpr int frames_to_last = 12;     // that candidates should, at the speed of nine tenths of the bodies, both ways
+constexpr float least_margin = 0.25f;  // of the tolerance
+constexpr float most_margin = 3.0f;    // of the tolerance: beyond it there are too many candidates
+constexpr std::uint8_t settled = 8;    // frames with the same move: noted down anew, it is none at all
+constexpr double most_stale = 0.3;     // of the bodies, for listing some groups anew rather than all
+constexpr std::size_t candidates_a_vertex = 8;  // at most
+
+Run run_of(const Frame& frame, Index body) {
+  const Index first = frame.bodies->first[body];
+  return {frame.x.data() + first, frame.y.data() + first, frame.z.data() + first, frame.bodies->size(body)};
+}
+
+}  // namespace
+
+bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers,
+                           Result& result) {
+  if (state_ == State::blank || state_ == State::seen) return false;
+  if (!same_bodies(frame, settings)) {
+    forget();
+    return false;
+  }
+  measure_moves(frame, workers);
+  ++age_;
+  if (!refresh(frame, search, workers, result)) {
+    forget();
+    pause_ = pause_frames;
+    return false;
+  }
+  test(frame, workers, result);
+  return true;
+}
+
+void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers& workers) {
+  if (pause_ > 0) {
+    --pause_;
+    return;
+  }
+  if (state_ == State::blank) {
+    state_ = State::seen;
+    return;
+  }
+  state_ = State::noted;
+  age_ = 0;
+  settings_ = settings;
+  first_ = frame.bodies->first;
+  shape_ = frame.bodies->shape;
+  for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
+  move_.assign(shape_.size(), 0);
+  workers.run([&](int thread) {
+    const Part part = part_of(shape_.size(), thread, workers.threads());
+    for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
+  });
+}
+
+bool ContactMemory::same_bodies(const Frame& frame, const Settings& settings) const {
+  return settings.tolerance == settings_.tolerance && settings.self_collision == settings_.self_collision &&
+         settings.levels == settings_.levels && frame.bodies->first == first_ && frame.bodies->shape == shape_;
+}
+
+void ContactMemory::note(const Frame& frame, Index body) {
+  const Run now = run_of(frame, body);
+  const Index first = first_[body];
+  std::copy_n(now.x, now.size, x_.begin() + first);
+  std::copy_n(now.y, now.size, y_.begin() + first);
+  std::copy_n(now.z, now.size, z_.begin() + first);
+}
+
+void ContactMemory::measure_moves(const Frame& frame, Workers& workers) {
+  still_.resize(shape_.size());
+  same_.resize(shape_.size());
+  workers.run([&](int thread) {
+    const Part part = part_of(shape_.size(), thread, workers.threads());
+    for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
+      const Run now = run_of(frame, body);
+      if (now.size == 0) continue;
+      const Index first = first_[body];
+      const float move = farthest_move(now, {&x_[first], &y_[first], &z_[first], now.size});
+      const auto next = [](std::uint8_t count) { return static_cast<std::uint8_t>(std::min(count + 1, 255)); };
+      same_[body] = move == move_[body] ? next(same_[body]) : std::uint8_t{0};
+      still_[body] = move == 0 ? next(still_[body]) : std::uint8_t{0};
+      move_[body] = move;
+    }
+  });
+}
+
+/// Brings the groups up to date; false if the bodies are too fast.
+bool ContactMemory::refresh(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
+  result.non_finite_bodies.clear();
+  try {
+    if (state_ == State::noted) {
+      if (!choose_margin(frame, settings_.tolerance)) return false;
+      list_all(frame, search, workers, result);
+      return true;
+    }
+    find_stale();
+    if (stale_.empty()) return true;
+    if (static_cast<double>(stale_.size()) <= most_stale * static_cast<double>(shape_.size())) {
+      list_stale(frame, search, workers, result);
+      return true;
+    }
+    if (age_ < 3 || !choose_margin(frame, settings_.tolerance)) return false;
+    list_all(frame, search, workers, result);
+    return true;
+  } catch (const std::length_error&) {  // too many candidates; there may be few contacts
+    return false;
+  }
+}
+
+/// From how fast nine tenths of the bodies have been since they were noted down.
+bool ContactMemory::choose_margin(const Frame& frame, float tolerance) {
+  std::vector<float> moves;
+  for (Index body = 0; body < shape_.size(); ++body) {
+    if (frame.bodies->size(body) > 0) moves.push_back(move_[body]);
+  }
+  if (moves.empty()) return false;
+  const auto ninth = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() * 9 / 10);
+  std::nth_element(moves.begin(), ninth, moves.end());
+  const float speed = *ninth / static_cast<float>(age_);
+  margin_ = std::clamp(frames_to_last * speed, least_margin * tolerance, most_margin * tolerance);
+  return speed * 4 < margin_;  // also where it is not finite
+}
+
+void ContactMemory::find_stale() {
+  const float limit = margin_ * (level_ ? 0.5f : 0.25f) * (1 - 0x1p-20f);
+  stale_.clear();
+  for (Index body = 0; body < shape_.size(); ++body) {
+    if (first_[body + 1] == first_[body]) continue;
+    if (!(move_[body] <= limit) || (move_[body] > 0 && same_[body] >= settled)) stale_.push_back(body);
+  }
+}
+
+GroupSearch::Query ContactMemory::query(const Frame& frame) const {
+  const double distance = double{contact_reach(settings_.tolerance)} + margin_;
+  return {.distance = round_up(distance * (1 + 0x1p-20)),
+          .tolerance = settings_.tolerance,
+          .self = settings_.self_collision,
+          .levels = settings_.levels,
+          .most_pairs = std::max<std::size_t>(1u << 20, candidates_a_vertex * frame.x.size())};
+}
+
+void ContactMemory::list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
+  search.bound(frame, workers, result.non_finite_bodies);
+  search.find(frame, query(frame), workers);
+  search.count(result);
+  result.self_contacts = 0;  // those were of candidates
+  search.concatenate(workers, candidates_);
+  groups_.assign(shape_.size(), {});
+  partners_.clear();
+  std::size_t end = 0;
+  for (const Index body : search.live()) {
+    const std::span<const Index> partners = search.partners(body);
+    const std::size_t begin = end, first_partner = partners_.size();
+    end += search.group(body).size();
+    partners_.insert(partners_.end(), partners.begin(), partners.end());
+    groups_[body] = {begin, end, first_partner, partners_.size()};
+  }
+  workers.run([&](int thread) {
+    const Part part = part_of(shape_.size(), thread, workers.threads());
+    for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
+  });
+  std::fill(move_.begin(), move_.end(), 0.0f);
+  std::fill(still_.begin(), still_.end(), std::uint8_t{0});
+  std::fill(same_.begin(), same_.end(), std::uint8_t{0});
+  level_ = true;
+  age_ = 0;
+  slices_hold_ = false;
+  state_ = State::listing;
+}
+
+/// The others may have moved by up to margin / 4: those that have moved farther are stale, too, from now on.
+void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
+  if (level_) {
+    level_ = false;
+    find_stale();
+  }
+  search.bound(frame, workers, result.non_finite_bodies);
+  std::vector<bool> fresh(shape_.size(), false), wanted(shape_.size(), false);
+  for (const Index body : stale_) fresh[body] = true;
+  const GroupSearch::Query what = query(frame);
+  search.find_near(what.distance, workers);
+  for (const Index body : search.live()) {
+    const std::span<const Index> behind = search.near().behind(body);
+    wanted[body] = fresh[body] || std::any_of(behind.begin(), behind.end(), [&](Index b) { return fresh[b]; });
+  }
+  search.find_groups(frame, what, workers, [&](Index body) { return wanted[body]; });
+  search.count(result);
+  result.self_contacts = 0;
+
+  std::vector<Contact> candidates;
+  std::vector<Index> partners;
+  std::vector<Group> groups(shape_.size());
+  for (const Index body : search.live()) {
+    const Group& old = groups_[body];
+    const auto pairs = wanted[body] ? search.group(body)
+                                    : std::span<const Contact>(candidates_).subspan(old.begin, old.end - old.begin);
+    const auto others = wanted[body] ? search.partners(body)
+                                     : std::span<const Index>(partners_).subspan(old.first_partner,
+                                                                                 old.last_partner - old.first_partner);
+    groups[body] = {candidates.size(), candidates.size() + pairs.size(), partners.size(),
+                    partners.size() + others.size()};
+    candidates.insert(candidates.end(), pairs.begin(), pairs.end());
+    partners.insert(partners.end(), others.begin(), others.end());
+  }
+  if (candidates.size() > what.most_pairs) throw std::length_error("too many candidates");
+  groups_.swap(groups);
+  candidates_.swap(candidates);
+  partners_.swap(partners);
+  for (const Index body : stale_) {
+    note(frame, body);
+    move_[body] = 0;
+    still_[body] = same_[body] = 0;
+  }
+  slices_hold_ = false;
+}
+
+void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
+  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  slice_begin_.resize(shape_.size());
+  slice_end_.resize(shape_.size());
+  workers.run([&](int thread) {
+    Thread& own = threads_[static_cast<std::size_t>(thread)];
+    own.contacts.swap(own.last_contacts);
+    own.contacts.clear();
+    own.self_contacts = own.tests = own.remembered = own.kept = 0;
+    const Part part = part_of(candidates_.size() + shape_.size(), thread, workers.threads());
+    for (Index body = 0; body < shape_.size(); ++body) {
+      const std::size_t place = groups_[body].begin + body;
+      if (groups_[body].begin == groups_[body].end) continue;
+      if (place >= part.begin && place < part.end) test_group(own, frame, body);
+    }
+  });
+  std::size_t total = 0;
+  for (const Thread& thread : threads_) {
+    result.self_contacts += thread.self_contacts;
+    result.counters.pair_tests += thread.tests;
+    result.skip(Skip::remembered_pairs) += thread.remembered;
+    result.skip(Skip::kept_pairs) += thread.kept;
+    total += thread.contacts.size();
+  }
+  result.contacts.resize(total);
+  auto to = result.contacts.begin();
+  for (const Thread& thread : threads_) to = std::copy(thread.contacts.begin(), thread.contacts.end(), to);
+  slices_hold_ = true;
+}
+
+void ContactMemory::test_group(Thread& own, const Frame& frame, Index body) {
+  const Group& group = groups_[body];
+  const std::size_t before = own.contacts.size(), partners = group.last_partner - group.first_partner;
+  const bool kept = slices_hold_ && still(body) &&
+                    std::all_of(partners_.begin() + static_cast<std::ptrdiff_t>(group.first_partner),
+                                partners_.begin() + static_cast<std::ptrdiff_t>(group.last_partner),
+                                [&](Index other) { return still(other); });
+  if (kept) {
+    own.kept += partners;
+    own.contacts.insert(own.contacts.end(), own.last_contacts.begin() + static_cast<std::ptrdiff_t>(slice_begin_[body]),
+                        own.last_contacts.begin() + static_cast<std::ptrdiff_t>(slice_end_[body]));
+  } else {
+    own.remembered += partners;
+    own.tests += group.end - group.begin;
+    own.contacts.resize(before + group.end - group.begin);
+    const float tolerance2 = settings_.tolerance * settings_.tolerance;
+    Contact* to = own.contacts.data() + before;
+    for (std::size_t k = group.begin; k < group.end; ++k) {
+      const Contact pair = candidates_[k];
+      *to = pair;  // whether it counts is what a processor cannot foresee
+      to += squared_distance(frame.x[pair.a], frame.y[pair.a], frame.z[pair.a], frame.x[pair.b], frame.y[pair.b],
+                             frame.z[pair.b]) < tolerance2;
+    }
+    own.contacts.resize(static_cast<std::size_t>(to - own.contacts.data()));
+  }
+  const Index end = first_[body + 1];
+  for (std::size_t k = before; k < own.contacts.size(); ++k) own.self_contacts += own.contacts[k].b < end;
+  slice_begin_[body] = before;
+  slice_end_[body] = own.contacts.size();
+}
+
+}  // namespace collide

@@ -1,0 +1,78 @@
+#pragma once
+// What an exact detector keeps from frame to frame: candidates, the pairs of vertices a little farther apart than the
+// tolerance. As long as bodies move little, only these have to be looked at.
+//
+// Why that stays exact. Let m be the margin, and let D(b) bound how far any vertex of body b is from where it was when
+// the body was last noted down. Candidates of a group are all pairs closer than reach + m when the group was listed.
+//   All bodies noted down as the groups were listed: a pair not listed was at least reach + m apart, and still is at
+//   least reach apart while D <= m / 2 for both its bodies, so it is no contact (see contact_reach).
+//   Otherwise a body may have moved by D <= m / 4 between being noted down and the listing, and by D <= m / 4 from
+//   where it was noted down until now: each of the two by m / 2 at most since the listing, so again no contact.
+// A body that has moved farther is stale: it is noted down anew, and every group that it is near is listed anew. Pairs
+// of which neither body has moved at all since the last frame have the contacts that they had.
+
+#include "collide/group_search.h"
+
+namespace collide {
+
+class ContactMemory {
+ public:
+  /// The contacts of the frame, if they follow from what is remembered; else false, with nothing but the result's old
+  /// contacts lost. Uses `search` for the groups that have to be listed anew.
+  bool recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers, Result& result);
+
+  /// To be called after a frame that was not recalled.
+  void watch(const Frame& frame, const Settings& settings, Workers& workers);
+
+  void forget() { *this = {}; }
+
+ private:
+  enum class State {
+    blank,    // nothing is known
+    seen,     // a frame has gone by: the next one that is not recalled is noted down, unless the bodies were too fast
+    noted,    // all bodies are noted down, so that the next frame tells how fast they are
+    listing,  // there are candidates
+  };
+  struct Group {
+    std::size_t begin = 0, end = 0;                   // of the candidates
+    std::size_t first_partner = 0, last_partner = 0;  // of the bodies in them, itself left out
+  };
+  struct alignas(64) Thread {
+    std::vector<Contact> contacts, last_contacts;
+    std::uint64_t self_contacts = 0, tests = 0, remembered = 0, kept = 0;
+  };
+
+  bool same_bodies(const Frame& frame, const Settings& settings) const;
+  void measure_moves(const Frame& frame, Workers& workers);
+  void note(const Frame& frame, Index body);
+  bool choose_margin(const Frame& frame, float tolerance);
+  void find_stale();
+  bool refresh(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
+  GroupSearch::Query query(const Frame& frame) const;
+  void list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
+  void list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
+  void test(const Frame& frame, Workers& workers, Result& result);
+  void test_group(Thread& own, const Frame& frame, Index body);
+  bool still(Index body) const { return still_[body] >= 2; }
+
+  State state_ = State::blank;
+  int pause_ = 0;  // frames not to be watched
+  Settings settings_;
+  std::vector<Index> first_;
+  std::vector<std::shared_ptr<const Shape>> shape_;
+  std::vector<float> x_, y_, z_;            // where bodies were noted down
+  std::vector<float> move_;                 // of each body: D
+  std::vector<std::uint8_t> still_, same_;  // frames in a row with no move at all, or with the same D; at most 255
+  std::vector<Index> stale_;
+  float margin_ = 0;
+  bool level_ = false;  // all bodies were noted down as the groups were listed
+  int age_ = 0;         // frames since then
+  std::vector<Group> groups_;
+  std::vector<Contact> candidates_;
+  std::vector<Index> partners_;
+  std::vector<std::size_t> slice_begin_, slice_end_;  // of each body's contacts in its thread's last ones
+  bool slices_hold_ = false;
+  std::vector<Thread> threads_;
+};
+
+}  // namespace collide
