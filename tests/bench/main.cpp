@@ -20,11 +20,17 @@ struct Options {
   bool json = false;
 };
 
+[[noreturn]] void fail_for_bodies(const Options& options) {
+  throw app::UsageError("--bodies " + std::to_string(options.bodies) + ": no state has so many; leave it out for all");
+}
+
 void record(const Options& options) {
   std::error_code error;
   std::filesystem::create_directories(options.folder, error);  // what is wrong with it shows when a state is saved
+  bool any = false;
   for (const bench::Pile& pile : bench::piles()) {
     if (options.bodies > 0 && pile.bodies != options.bodies) continue;
+    any = true;
     bench::State state = pile.make(options.threads);
     state.key = pile.key;
     bench::save(state, options.folder);
@@ -32,6 +38,7 @@ void record(const Options& options) {
                 state.frames.size(), bench::mean_displacement(state) / bench::mean_edge);
     std::fflush(stdout);
   }
+  if (!any) fail_for_bodies(options);
 }
 
 /// The first candidate, which the others are divided by, and those asked for.
@@ -58,6 +65,7 @@ void run(const Options& options) {
       if (!options.json) bench::print_table(all.back());
     }
   }
+  if (all.empty()) fail_for_bodies(options);
   if (options.json) bench::print_json(all);
 }
 
