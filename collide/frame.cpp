@@ -28,8 +28,8 @@ Topology::Topology(Index vertex_count, std::span<const std::array<Index, 2>> edg
 }
 
 bool Topology::joined(Index i, Index j) const {
-  const auto begin = neighbour_.begin() + first_[i], end = neighbour_.begin() + first_[i + std::size_t{1}];
-  return std::binary_search(begin, end, j);
+  const std::span<const Index> ascending = neighbours(i);
+  return std::binary_search(ascending.begin(), ascending.end(), j);
 }
 
 Shape::Shape(std::shared_ptr<const Topology> topology, std::vector<glm::vec3> rest)

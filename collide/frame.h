@@ -22,6 +22,10 @@ class Topology {
 
   Index vertex_count() const { return static_cast<Index>(first_.size() - 1); }
   bool joined(Index i, Index j) const;
+  /// The vertices joined to one by an edge; ascending.
+  std::span<const Index> neighbours(Index i) const {
+    return std::span(neighbour_).subspan(first_[i], first_[i + std::size_t{1}] - first_[i]);
+  }
   bool operator==(const Topology&) const = default;
 
  private:

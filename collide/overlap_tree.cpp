@@ -99,7 +99,7 @@ void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
 void OverlapTree::cut_within(const Picked& set, int depth) {
   const std::uint64_t tests = std::uint64_t{set.size} * (std::max<Index>(set.size, 1) - 1) / 2;
   // All pairs of one set cost less than a cut and the pairs across it, up to more of them than between two sets.
-  if (tests <= 8 * leaf_tests || depth == levels_) {
+  if (tests <= 4 * leaf_tests || depth == levels_) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});

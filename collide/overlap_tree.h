@@ -9,8 +9,8 @@ namespace collide {
 /// One thread's search for the contacts of picked vertices. Keeps its memory.
 class OverlapTree {
  public:
-  /// A cut reads both sides some three times; that pays where it saves more tests than these.
-  static constexpr std::uint64_t leaf_tests = 2048;
+  /// A cut reads both sides several times, vertex by vertex; that pays only where it saves more tests than these.
+  static constexpr std::uint64_t leaf_tests = 16384;
 
   /// levels: of cuts, at most. Clears the counts and the leaves.
   void begin(int levels, float reach, float tolerance2);

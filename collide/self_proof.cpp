@@ -33,16 +33,23 @@ SelfReference::SelfReference(const Run& positions, const Topology& topology, flo
   const Index size = positions.size;
   if (size < fewest || size > most) return;
   glm::dvec3 centre(0);
-  for (Index v = 0; v < size; ++v) centre += glm::dvec3(positions.x[v], positions.y[v], positions.z[v]);
-  centre /= size;
+  Index sampled = 0;
+  for_samples(size, [&](Index v) {
+    centre += glm::dvec3(positions.x[v], positions.y[v], positions.z[v]);
+    ++sampled;
+  });
+  centre /= sampled;
   glm::dmat3 moment(0);
+  for_samples(size, [&](Index v) {
+    const glm::dvec3 p = glm::dvec3(positions.x[v], positions.y[v], positions.z[v]) - centre;
+    moment += glm::outerProduct(p, p);
+  });
   double farthest = 0;
   for (Index v = 0; v < size; ++v) {
     const glm::dvec3 p = glm::dvec3(positions.x[v], positions.y[v], positions.z[v]) - centre;
     x_.push_back(static_cast<float>(p.x));
     y_.push_back(static_cast<float>(p.y));
     z_.push_back(static_cast<float>(p.z));
-    moment += glm::outerProduct(p, p);
     farthest = std::max(farthest, glm::dot(p, p));
   }
   radius_ = static_cast<float>(std::sqrt(farthest) * (1 + 1e-6));
@@ -60,22 +67,28 @@ SelfReference::SelfReference(const Run& positions, const Topology& topology, flo
 void SelfReference::list_pairs(const Topology& topology) {
   Picked all;
   all.take({x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, 0);
-  covered_ = 2 * reach_ + 0.3f * radius_;
+  covered_ = reach_ + 0.3f * radius_;
   Words words;
   std::vector<Contact> close;
   contacts_within(all, covered_ * covered_, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
-  for (const Contact& pair : close) {
-    if (topology.joined(pair.a, pair.b)) continue;
+  std::span<const Index> joined;  // to the first of the pair, and greater than the second of the last one
+  for (std::size_t k = 0; k < close.size(); ++k) {
+    const Contact pair = close[k];
+    if (k == 0 || close[k - 1].a != pair.a) joined = topology.neighbours(pair.a);
+    while (!joined.empty() && joined.front() < pair.b) joined = joined.subspan(1);
+    if (!joined.empty() && joined.front() == pair.b) continue;
     const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
     listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
   }
-  std::sort(listed.begin(), listed.end());
   const std::size_t most_pairs = x_.size() * x_.size() / 128;  // to test them takes a third of a self pass
   if (listed.size() > most_pairs) {
-    covered_ = listed[most_pairs].first;
+    const auto first_left_out = listed.begin() + static_cast<std::ptrdiff_t>(most_pairs);
+    std::nth_element(listed.begin(), first_left_out, listed.end());
+    covered_ = first_left_out->first;
     listed.resize(most_pairs);
   }
+  std::sort(listed.begin(), listed.end());
   covered_ *= 1 - 1e-6f;  // for the rounding of the distances
   for (const auto& [distance, pair] : listed) {
     distance_.push_back(distance);

@@ -298,17 +298,19 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
   const V cx = all(centre.x), cy = all(centre.y), cz = all(centre.z), zero = hn::Zero(Floats());
   V xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
   V mx = zero, my = zero, mz = zero;
-  for_blocks(body.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
-    const M fresh = hn::Not(hn::FirstN(Floats(), skip));
-    const V bx = hn::IfThenElseZero(fresh, hn::Sub(load(body.x + i), cx)),
-            by = hn::IfThenElseZero(fresh, hn::Sub(load(body.y + i), cy)),
-            bz = hn::IfThenElseZero(fresh, hn::Sub(load(body.z + i), cz));
+  const auto add_block = [&](Index i) HWY_ATTR {
+    const V bx = hn::Sub(load(body.x + i), cx), by = hn::Sub(load(body.y + i), cy), bz = hn::Sub(load(body.z + i), cz);
     const V rx = load(reference.x + i), ry = load(reference.y + i), rz = load(reference.z + i);
     xx = hn::Add(xx, hn::Mul(bx, rx)), xy = hn::Add(xy, hn::Mul(bx, ry)), xz = hn::Add(xz, hn::Mul(bx, rz));
     yx = hn::Add(yx, hn::Mul(by, rx)), yy = hn::Add(yy, hn::Mul(by, ry)), yz = hn::Add(yz, hn::Mul(by, rz));
     zx = hn::Add(zx, hn::Mul(bz, rx)), zy = hn::Add(zy, hn::Mul(bz, ry)), zz = hn::Add(zz, hn::Mul(bz, rz));
     mx = hn::Add(mx, bx), my = hn::Add(my, by), mz = hn::Add(mz, bz);
-  });
+  };
+  Index sampled = 0;
+  for (Index first = 0; first + sample_run <= body.size; first += sample_stride(body.size)) {
+    for (Index i = first; i < first + sample_run; i += lanes) add_block(i);
+    sampled += sample_run;
+  }
 
   AffineFit fit;
   const std::array<float, 9> moment{sum(xx), sum(xy), sum(xz), sum(yx), sum(yy), sum(yz), sum(zx), sum(zy), sum(zz)};
@@ -319,7 +321,7 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
                                      moment[3 * row + 2] * inverse_moment[6 + column];
     }
   }
-  const float share = 1.0f / static_cast<float>(body.size);
+  const float share = 1.0f / static_cast<float>(sampled);
   fit.offset = {sum(mx) * share, sum(my) * share, sum(mz) * share};
 
   V farthest = zero;

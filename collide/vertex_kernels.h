@@ -81,14 +81,25 @@ void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words&
 void contacts_within(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts);
 void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
 
-/// The affine map of reference positions (centred on the origin) that fits a body: x = matrix * X + offset + centre.
+/// The vertices that an affine map is fitted to: some of them, spread over the body, are enough. Calls visit(v).
+inline constexpr Index sample_run = Picked::padding;
+constexpr Index sample_stride(Index size) { return size < 8 * sample_run ? sample_run : 4 * sample_run; }
+template <class Visit>
+void for_samples(Index size, const Visit& visit) {
+  for (Index first = 0; first + sample_run <= size; first += sample_stride(size)) {
+    for (Index v = first; v < first + sample_run; ++v) visit(v);
+  }
+}
+
+/// An affine map of reference positions that is fitted to a body: x = matrix * X + offset + centre. The mean of the
+/// reference's samples is the origin.
 struct AffineFit {
   std::array<float, 9> matrix;  // by row
   std::array<float, 3> offset;
   float residual;  // m, the root of the greatest residual2
 };
-/// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T. Sizes are equal, at least Picked::padding.
-/// residual2: the squared distance of each vertex from where the map takes its reference, as computed.
+/// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T over the samples. Sizes are equal, at least
+/// sample_run. residual2: the squared distance of each vertex from where the map takes its reference, as computed.
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
