@@ -1,5 +1,6 @@
 #include "app/capture.h"
 
+#include "app/output_file.h"
 #include "app/scene_view.h"
 #include "engine/gl.h"
 #include "engine/headless.h"
@@ -24,7 +25,9 @@ void Capture::write(const softbody::World& world, const std::filesystem::path& f
   const glm::ivec2 size = studio_->target.size();
   studio_->target.bind();
   studio_->view.draw(world, {}, studio_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
-  engine::save_png(studio_->target.read(), file);
+  OutputFile png(file);
+  png.write(engine::encode_png(studio_->target.read()));
+  png.commit();
 }
 
 }  // namespace app

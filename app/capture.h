@@ -14,7 +14,7 @@ class Capture {
   Capture(int width, int height);
   ~Capture();
 
-  /// Writes what the scene's own camera sees as a PNG of exactly the size asked for. Throws engine::ImageError.
+  /// Writes what the scene's own camera sees as a PNG of exactly the size asked for. Throws UsageError.
   void write(const softbody::World& world, const std::filesystem::path& file);
 
  private:

@@ -10,6 +10,19 @@ constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the de
 
 double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
+/// Too little memory for a comparison must not end the demo: its report says so instead.
+CompareReport compare(Comparison& comparison, const Snapshot& snapshot, const std::stop_token& stop) {
+  try {
+    return comparison.run(snapshot, stop);
+  } catch (const std::exception& error) {
+    CompareReport report;
+    report.id = snapshot.id;
+    report.stands_in = std::string("the comparison failed: ") + error.what();
+    report.rows.resize(collide::methods().size());
+    return report;
+  }
+}
+
 }  // namespace
 
 CompareWorker::CompareWorker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
@@ -42,7 +55,7 @@ void CompareWorker::work(const std::stop_token& stop) {
     busy_ = true;
     lock.unlock();
     const double start = now();
-    CompareReport report = comparison.run(snapshot, stop);
+    CompareReport report = compare(comparison, snapshot, stop);
     const double end = now();
     lock.lock();
     done_ = std::move(report);

@@ -123,8 +123,8 @@ std::vector<Row> run(const Options& options, const collide::Method& method, cons
   return rows;
 }
 
-void print_json(const Options& options, const collide::Method& method, const collide::Bodies& bodies,
-                const std::vector<Row>& rows) {
+void print_json(const Options& options, const collide::Method& method, const collide::Settings& settings,
+                const collide::Bodies& bodies, const std::vector<Row>& rows) {
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
   for (const Row& r : rows) {
@@ -142,7 +142,8 @@ void print_json(const Options& options, const collide::Method& method, const col
   }
   const Json document{
       {"method", method.key},     {"tolerance", *options.detection.tolerance}, {"threads", options.threads},
-      {"bodies", bodies.count()}, {"vertices", bodies.vertex_count()},         {"frames", frames}};
+      {"bodies", bodies.count()}, {"vertices", bodies.vertex_count()},         {"warnings", warnings(method, settings)},
+      {"frames", frames}};
   std::cout << document.dump() << '\n';
 }
 
@@ -150,8 +151,7 @@ void print_table(const Options& options, const collide::Method& method, const co
                  const collide::Bodies& bodies, const std::vector<Row>& rows) {
   std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
               *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
-  if (const std::string warning = collide::hash_warning(settings); method.uses_hash && !warning.empty())
-    std::printf("note: %s\n", warning.c_str());
+  for (const std::string& warning : warnings(method, settings)) std::printf("note: %s\n", warning.c_str());
   std::printf("%7s %10s %10s %10s %10s %14s %12s %10s\n", "frame", "ms min", "ms median", "contacts", "self",
               "pair tests", "hashes", "boxes");
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
@@ -175,7 +175,7 @@ void detect(const Options& options) {
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
   const std::vector<Row> rows = run(options, method, settings, sequence);
   if (options.json)
-    print_json(options, method, sequence.bodies, rows);
+    print_json(options, method, settings, sequence.bodies, rows);
   else
     print_table(options, method, settings, sequence.bodies, rows);
 }

@@ -1,10 +1,31 @@
 #include "app/detection_options.h"
 
+#include <limits>
+
 #include <CLI/CLI.hpp>
 
+#include "app/number_text.h"
 #include "app/options.h"
 
 namespace app {
+namespace {
+
+std::array<std::uint32_t, 3> read_primes(const std::string& text) {
+  const auto parts = split(text, ',');
+  std::array<std::uint32_t, 3> primes{};
+  bool good = parts.size() == primes.size();
+  for (std::size_t axis = 0; good && axis < primes.size(); ++axis) {
+    const auto number = whole_number(parts[axis]);
+    good = number && *number >= 1 && *number <= std::numeric_limits<std::uint32_t>::max();
+    if (good) primes[axis] = static_cast<std::uint32_t>(*number);
+  }
+  if (!good)
+    throw UsageError("--primes " + text +
+                     ": must be three whole numbers from 1 to 4294967295, e.g. 73856093,19349669,83492791");
+  return primes;
+}
+
+}  // namespace
 
 void add_detection_options(CLI::App& command, DetectionOptions& options) {
   command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
@@ -12,6 +33,10 @@ void add_detection_options(CLI::App& command, DetectionOptions& options) {
       ->type_name("N");
   command.add_option("--buckets", options.buckets, "number of buckets of the hash table")->type_name("N");
   command.add_option("--cell-size", options.cell_size, "side of a grid cell in metres")->type_name("S");
+  command
+      .add_option("--primes", options.primes,
+                  "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)")
+      ->type_name("A,B,C");
   command.add_option("--tolerance", options.tolerance, "collision tolerance in metres")->type_name("H");
 }
 
@@ -38,6 +63,13 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
   check("--tolerance");
   if (options.cell_size) settings.cell_size = glm::vec3(static_cast<float>(*options.cell_size));
   check("--cell-size");
+  if (options.primes) settings.primes = read_primes(*options.primes);
+}
+
+std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings) {
+  std::string hash = method.uses_hash ? collide::hash_warning(settings) : "";
+  if (hash.empty()) return {};
+  return {std::move(hash)};
 }
 
 }  // namespace app

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "collide/methods.h"
 
@@ -19,6 +20,7 @@ struct DetectionOptions {
   std::optional<int> levels;
   std::optional<std::int64_t> buckets;
   std::optional<double> cell_size, tolerance;  // m
+  std::optional<std::string> primes;           // "A,B,C", as typed
 };
 
 /// Offers them on the command line.
@@ -29,5 +31,8 @@ const collide::Method& chosen_method(const DetectionOptions& options, std::strin
 
 /// Puts all the others into `settings`, which must be usable. Throws UsageError that names the option at fault.
 void apply(const DetectionOptions& options, collide::Settings& settings);
+
+/// A line for each setting that is allowed but spoils something of this method: now those of the hash, if it has one.
+std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings);
 
 }  // namespace app

@@ -6,16 +6,32 @@
 #include "softbody/integrators.h"
 
 namespace app {
+namespace {
+
+void row(std::string_view key, std::string_view name) { std::cout << key << '\t' << name << '\n'; }
+
+/// A file that is not in order hides no other.
+void list_scenes(const std::filesystem::path& folder) {
+  std::optional<softbody::SceneError> first_error;
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    try {
+      row(key, softbody::find_scene(key, folder).name);
+    } catch (const softbody::SceneError& error) {
+      if (!first_error) first_error = error;
+    }
+  }
+  if (first_error) throw *first_error;
+}
+
+}  // namespace
 
 void list(const std::string& what) {
-  const auto row = [](std::string_view key, std::string_view name) { std::cout << key << '\t' << name << '\n'; };
   if (what == "methods") {
     for (const collide::Method& m : collide::methods()) row(m.key, m.name);
   } else if (what == "integrators") {
     for (const softbody::Integrator& i : softbody::integrators()) row(i.key, i.name);
   } else {
-    const auto folder = scene_folder();
-    for (const std::string& key : softbody::scene_keys(folder)) row(key, softbody::find_scene(key, folder).name);
+    list_scenes(scene_folder());
   }
 }
 

@@ -5,7 +5,8 @@
 
 namespace app {
 
-/// Prints key, tab, name, a line each. what: "scenes", "methods" or "integrators".
+/// Prints key, tab, name, a line each. what: "scenes", "methods" or "integrators". Throws SceneError if a scene is not
+/// in order, once all others are printed.
 void list(const std::string& what);
 
 }  // namespace app

@@ -1,12 +1,11 @@
 #include "app/options.h"
 
 #include <algorithm>
-#include <charconv>
-#include <sstream>
 #include <thread>
 
 #include <CLI/CLI.hpp>
 
+#include "app/number_text.h"
 #include "engine/resources.h"
 #include "softbody/integrators.h"
 
@@ -21,28 +20,27 @@ std::string one_line(std::string text) {
 
 /// "1280x720" to width and height.
 void parse_size(const std::string& text, Options& options) {
-  std::istringstream in(text);
-  char x = 0;
-  constexpr int limit = 16384;
-  const bool ok = (in >> options.width >> x >> options.height) && x == 'x' && in.peek() == EOF;
-  if (!ok || options.width < 1 || options.height < 1 || options.width > limit || options.height > limit)
-    throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
+  const auto parts = split(text, 'x');
+  const auto side = [&](std::size_t which) {
+    const auto pixels = parts.size() == 2 ? whole_number(parts[which]) : std::nullopt;
+    if (!pixels || *pixels < 1 || *pixels > 16384)
+      throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
+    return static_cast<int>(*pixels);
+  };
+  options.width = side(0);
+  options.height = side(1);
 }
 
 void parse_captures(const std::string& text, Options& options) {
-  std::istringstream in(text);
-  std::string item;
-  while (std::getline(in, item, ',')) {
-    int frame = 0;
-    const auto [end, error] = std::from_chars(item.data(), item.data() + item.size(), frame);
-    if (error != std::errc() || end != item.data() + item.size() || frame < 1)
-      throw UsageError("--capture " + text + ": '" + item + "' is no frame number; write e.g. 100,400,600,800");
-    if (frame > options.frames)
-      throw UsageError("--capture " + text + ": frame " + item + " lies beyond --frames " +
-                       std::to_string(options.frames));
-    options.captures.push_back(frame);
+  const auto refuse = [&](std::string_view item, const std::string& why) {
+    throw UsageError("--capture " + text + ": '" + std::string(item) + "' " + why);
+  };
+  for (const std::string_view item : split(text, ',')) {
+    const auto frame = whole_number(item);
+    if (!frame || *frame < 1) refuse(item, "is no frame number; write e.g. 100,400,600,800");
+    if (*frame > options.frames) refuse(item, "lies beyond --frames " + std::to_string(options.frames));
+    options.captures.push_back(static_cast<int>(*frame));
   }
-  if (options.captures.empty()) throw UsageError("--capture: names no frame; write e.g. 100,400,600,800");
   std::sort(options.captures.begin(), options.captures.end());
 }
 

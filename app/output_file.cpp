@@ -20,12 +20,18 @@ OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   std::string name = path_.string() + ".XXXXXX";
   const int descriptor = ::mkstemp(name.data());
   if (descriptor < 0) fail(std::strerror(errno));
-  temporary_ = std::move(name);
   // mkstemp makes it private; the result gets the rights of any other new file.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   ::fchmod(descriptor, 0666 & ~mask);
   file_.reset(::fdopen(descriptor, "wb"));
+  if (!file_) {
+    const std::string why = std::strerror(errno);
+    ::close(descriptor);
+    std::remove(name.c_str());
+    fail(why);
+  }
+  temporary_ = std::move(name);
 }
 
 OutputFile::~OutputFile() {

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdio>
+#include <limits>
 
 #include "app/panel.h"
 
@@ -42,19 +43,23 @@ bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   return changed;
 }
 
+/// The label of a row on which the hash depends: with a mark, and the reason as its tooltip, if bucket count and primes
+/// do not go together.
+void hash_row(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
+  const std::string warning = used ? collide::hash_warning(settings) : "";
+  if (warning.empty()) return w.row(label.c_str(), column);
+  ImGui::PushStyleColor(ImGuiCol_TextDisabled, {0.85f, 0.5f, 0.0f, 1.0f});
+  w.row((label + "!").c_str(), column);
+  ImGui::PopStyleColor();
+  w.done((label + " warning").c_str(), warning.c_str());
+}
+
 bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
   static constexpr const char* tooltip =
       "The number of buckets of the hash table: the paper's bucket size (§2.2; it uses 101 and 1001). "
       "With few buckets different cells share one (aliasing). 1 to 16,777,216.";
   ImGui::BeginDisabled(!used);
-  w.row("Buckets", w.px(label_column));
-  const std::string warning = collide::hash_warning(settings);
-  if (used && !warning.empty()) {
-    ImGui::SameLine(w.px(label_column - 18));
-    ImGui::TextColored({0.85f, 0.5f, 0.0f, 1.0f}, "!");
-    w.done("Hash warning", warning.c_str());
-    ImGui::SameLine(w.px(label_column));
-  }
+  hash_row(w, "Buckets", w.px(label_column), settings, used);
   const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   const float typed = w.px(84);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - typed - 2 * gap);
@@ -72,6 +77,32 @@ bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
     }
     ImGui::EndCombo();
   }
+  ImGui::EndDisabled();
+  return changed;
+}
+
+bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
+  static constexpr const char* tooltip =
+      "What the hash function multiplies a cell's x, y and z by, before it takes the sum modulo the buckets (§2.2: "
+      "xprime, yprime, zprime). If one is 0 modulo the buckets its axis is lost; if two are equal their axes are "
+      "mixed.";
+  static constexpr std::array labels{"x prime", "y prime", "z prime"};
+  ImGui::BeginDisabled(!used);
+  hash_row(w, "Primes", w.px(62), settings, used);  // three numbers need more room than one
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(3), ImGui::GetStyle().FramePadding.y});
+  const float reset = ImGui::GetFrameHeight(), gap = w.px(3);
+  const float field = (ImGui::GetContentRegionAvail().x - reset - 3 * gap) / 3;
+  bool changed = false;
+  for (std::size_t axis = 0; axis < labels.size(); ++axis) {
+    ImGui::SetNextItemWidth(field);
+    changed |= w.number(labels[axis], settings.primes[axis], 1, std::numeric_limits<std::uint32_t>::max(), tooltip);
+    ImGui::SameLine(0, gap);
+  }
+  if (w.button("x###Default primes", "Back to the default: 73856093, 19349669, 83492791.", reset)) {
+    settings.primes = collide::default_primes;
+    changed = true;
+  }
+  ImGui::PopStyleVar();
   ImGui::EndDisabled();
   return changed;
 }
@@ -108,6 +139,7 @@ void draw_detection(Widgets& w, Session& session) {
   bool automatic = session.world().uses_default_cell_size();
   bool changed = draw_levels(w, settings, method.uses_levels);
   changed |= draw_buckets(w, settings, method.uses_hash);
+  changed |= draw_primes(w, settings, method.uses_hash);
   changed |= draw_cell_size(w, settings, automatic, method.uses_hash);
   w.row("Tolerance", w.px(label_column));
   changed |= w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",

@@ -69,9 +69,16 @@ void print_json(const softbody::World& world, const std::vector<Row>& rows) {
   const Json document{{"scene", world.scene().key},
                       {"method", world.method().key},
                       {"plan", to_json(world.plan())},
+                      {"warnings", warnings(world.method(), world.collision())},
                       {"frames", frames},
                       {"state_hash", hex(world.state_hash())}};
   std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+std::string ratio_text(const softbody::Measures& measures, double ratio) {
+  char text[32] = "-";
+  if (measures.has_volume) std::snprintf(text, sizeof text, "%.3f", ratio);
+  return text;
 }
 
 /// About twenty lines, however many frames.
@@ -79,6 +86,8 @@ void print_table(const softbody::World& world, const std::vector<Row>& rows) {
   std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
               world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
               world.bodies().vertex_count());
+  for (const std::string& warning : warnings(world.method(), world.collision()))
+    std::printf("note: %s\n", warning.c_str());
   std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "between",
               "inside", "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
   const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
@@ -86,10 +95,11 @@ void print_table(const softbody::World& world, const std::vector<Row>& rows) {
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
     const Row& r = rows[i];
     const softbody::Measures& m = r.measures;
-    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7.3f %7.3f %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
+    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
                 r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
-                static_cast<unsigned long long>(r.solid), m.energy, m.volume_ratio_min, m.volume_ratio_max,
-                m.deepest_penetration, m.max_speed, m.finite ? "" : "  NOT FINITE");
+                static_cast<unsigned long long>(r.solid), m.energy, ratio_text(m, m.volume_ratio_min).c_str(),
+                ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
+                m.finite ? "" : "  NOT FINITE");
   }
   std::printf("stages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
   for (const softbody::LeftOut& l : world.plan().left_out)
@@ -103,11 +113,11 @@ class Pictures {
   explicit Pictures(const Options& options) : options_(options) {
     if (options.captures.empty()) return;
 #if SBCOLLIDE_GRAPHICS
+    capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (error || access(options.out.c_str(), W_OK) != 0)
       throw UsageError("--out " + options.out.string() + ": cannot be written to; name a folder of your own");
-    capture_ = std::make_unique<Capture>(options.width, options.height);
 #else
     throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
 #endif

@@ -1,10 +1,11 @@
 #pragma once
-// Pictures in memory and as PNG files. No OpenGL.
+// Pictures in memory and as PNG. No OpenGL.
 
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 namespace engine {
@@ -21,15 +22,14 @@ struct Image {
   }
 };
 
-/// A picture could not be written or read. what() names the path and the reason.
+/// A picture could not be encoded or read. what() is the reason, after the path if there is one.
 class ImageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Writes 8-bit RGB (alpha is dropped). The file appears whole or not at all: it is written under a temporary name in
-/// the same folder, then renamed. The folder must exist. Throws ImageError.
-void save_png(const Image& image, const std::filesystem::path& path);
+/// The bytes of a PNG file of 8-bit RGB; alpha is dropped. Throws ImageError.
+std::string encode_png(const Image& image);
 
 /// Reads any PNG as RGBA. Throws ImageError.
 Image load_png(const std::filesystem::path& path);

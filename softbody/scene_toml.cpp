@@ -75,6 +75,12 @@ class Table {
     return result;
   }
 
+  glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi) {
+    const glm::dvec3 result = vector(key, fallback, lo, hi);
+    if (result != glm::floor(result)) fail(key, "must be three whole numbers");
+    return result;
+  }
+
   bool has(const std::string& key) const { return table_.contains(key); }
 
   /// The table below `key`, or an empty one.
@@ -211,6 +217,9 @@ void read_collision(Table table, Scene& scene) {
       static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
   scene.default_cell_size = !table.has("cell_size");
   c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), tiny, 1e6));
+  const glm::dvec3 primes = table.whole_vector("primes", {c.primes[0], c.primes[1], c.primes[2]}, 1,
+                                               std::numeric_limits<std::uint32_t>::max());
+  for (int axis = 0; axis < 3; ++axis) c.primes[std::size_t(axis)] = static_cast<std::uint32_t>(primes[axis]);
   table.close();
 }
 
@@ -235,9 +244,8 @@ void read_solids(Table& root, Scene& scene) {
 /// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
 void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
                  std::uint64_t& particles) {
-  const glm::dvec3 size = table.vector("size", glm::dvec3(1.0), 1, 1000);
+  const glm::dvec3 size = table.whole_vector("size", glm::dvec3(1.0), 1, 1000);
   const glm::dvec3 spacing = table.vector("spacing", glm::dvec3(1.1), 0, 1e6);
-  if (size != glm::floor(size)) table.fail("size", "must be three whole numbers");
   const double jitter = table.number("jitter", 0, 0, 1e6);
   const int nx = int(size.x), ny = int(size.y), nz = int(size.z);
   const int number = table.integer("number", nx * ny * nz, 1, nx * ny * nz);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <sstream>
 
 #include <glm/geometric.hpp>
 #include <glm/vec2.hpp>
@@ -52,6 +53,8 @@ struct World::State {
   void gather();
   void detect();
   void wake_all();
+  double substeps(const Prototype& p, float thickness) const;
+  void check_stability(const Prototype& p) const;
   double clear_height(const Prototype& p, const glm::dvec3& position) const;
 
   Scene scene;
@@ -94,23 +97,37 @@ World::State::State(Scene s, const Options& o)
       settings(scene.collision),
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
-  for (const auto& p : prototypes.all()) {
-    const double k = stiffness_per_mass(*p, measure_surface(p->start, p->mesh.triangles)) +
-                     Shield::stiffness_bound(float(p->material.contact_stiffness)) / p->particle_mass;
-    const double c = p->spring_damping_bound + Shield::damping_bound(float(p->material.contact_stiffness), shield);
-    const double steps = options.frame_time / stable_step(k, c / p->particle_mass);
-    if (!(steps <= max_substeps))
-      throw SceneError("scene '" + scene.key + "', material '" + p->material.name +
-                       "': so stiff for its mass that a frame would take " +
-                       std::to_string(std::llround(std::min(steps, 1e15))) + " substeps (at most " +
-                       std::to_string(max_substeps) + "); lower the stiffness or raise the mass");
-  }
+  for (const auto& p : prototypes.all()) check_stability(*p);
   dynamics.set_plan(plan);
   dynamics.set_integrator(options.integrator);
   if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
   arrive();
   gather();
   detect();
+}
+
+/// Those that a frame of a moving body needs if the shield is so thick (m).
+double World::State::substeps(const Prototype& p, float thickness) const {
+  const float contact = float(p.material.contact_stiffness);
+  const double k = stiffness_per_mass(p, measure_surface(p.start, p.mesh.triangles)) +
+                   Shield::stiffness_bound(contact) / p.particle_mass;
+  const double c = p.spring_damping_bound + Shield::damping_bound(contact, thickness);
+  return options.frame_time / stable_step(k, c / p.particle_mass);
+}
+
+void World::State::check_stability(const Prototype& p) const {
+  const double steps = substeps(p, shield);
+  if (steps <= max_substeps) return;
+  const bool wide = substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
+  std::ostringstream text;
+  text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
+  if (wide)
+    text << "a tolerance of " << shield << " m damps contacts so strongly";
+  else
+    text << "so stiff for its mass";
+  text << " that a frame would take " << std::llround(std::min(steps, 1e15)) << " substeps (at most " << max_substeps
+       << "); lower the " << (wide ? "tolerance" : "stiffness or raise the mass");
+  throw SceneError(text.str());
 }
 
 void World::State::add(const BodySource& source, const glm::dvec3& position) {

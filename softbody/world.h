@@ -29,7 +29,8 @@ class World {
   };
   static constexpr int max_substeps = 4000;  // a frame
 
-  /// Throws SceneError if a material is too stiff for its mass: if it would need more than max_substeps.
+  /// Throws SceneError if a material is too stiff for its mass, or the tolerance too wide: if a frame would take more
+  /// than max_substeps.
   World(Scene scene, const Options& options);
   ~World();
   World(World&&) noexcept;

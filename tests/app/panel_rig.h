@@ -58,6 +58,12 @@ class PanelRig {
     const auto [name, min, max, enabled] = widget(label);
     click_at(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
   }
+  /// Clicks into a field, which selects all that is in it, and types.
+  void type(std::string_view label, std::string_view text) {
+    click(label);
+    for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
+    frames(static_cast<int>(text.size()) + 2);  // newer versions of ImGui take one key a frame
+  }
   /// Presses in the middle of a slider and drags far beyond its end.
   void drag(std::string_view label, float by) {
     const auto [name, min, max, enabled] = widget(label);

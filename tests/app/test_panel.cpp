@@ -41,6 +41,8 @@ TEST(Panel, EnablesOnlyWhatTheMethodUses) {
     EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
     EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
     EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
+    for (const char* label : {"x prime", "y prime", "z prime", "Default primes"})
+      EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
     EXPECT_TRUE(rig.widget("Tolerance").enabled);
   }
 }
@@ -135,6 +137,28 @@ TEST(Panel, OffersThePapersBucketSizes) {
     std::erase(digits, ',');
     EXPECT_EQ(std::to_string(rig.session.world().collision().buckets), digits);
   }
+}
+
+TEST(Panel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
+  PanelRig rig;
+  const auto& primes = [&]() -> const auto& { return rig.session.world().collision().primes; };
+  ASSERT_FALSE(rig.recorder.find("Primes warning"));
+  rig.type("x prime", "7");
+  rig.type("y prime", "1001");  // as many as there are buckets
+  rig.type("z prime", "4294967295");
+  EXPECT_EQ(primes(), (std::array<std::uint32_t, 3>{7, 1001, 4294967295}));
+  EXPECT_TRUE(rig.recorder.find("Primes warning"));
+  EXPECT_TRUE(rig.recorder.find("Buckets warning"));
+  rig.session.set_method("bounding-box");
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "it hashes nothing";
+  rig.session.set_method("grid-hash");
+  rig.frames(2);
+  rig.type("y prime", "0");
+  EXPECT_EQ(primes()[1], 1u) << "the least there is";
+  rig.click("Default primes");
+  EXPECT_EQ(primes(), collide::default_primes);
+  EXPECT_FALSE(rig.recorder.find("Primes warning"));
 }
 
 TEST(Panel, AClickOnABucketSelectsItAndAnotherReleasesIt) {

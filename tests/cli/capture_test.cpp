@@ -2,8 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <set>
-
 #include "tests/cli/process.h"
 
 #if SBCOLLIDE_GRAPHICS
@@ -29,12 +27,6 @@ Png png(const std::filesystem::path& file) {
   return {whole, number(16), number(20), static_cast<unsigned char>(bytes[24]), static_cast<unsigned char>(bytes[25])};
 }
 
-std::set<std::string> files(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
-
 void expect_picture(const std::filesystem::path& file, unsigned width, unsigned height) {
   const Png p = png(file);
   EXPECT_TRUE(p.whole) << file;
@@ -50,7 +42,7 @@ TEST(Capture, WritesEachFrameUnderItsNameAndLeavesNothingElse) {
   const auto document =
       simulate({"--scene", "drop", "--frames", "101", "--capture", "100,7", "--size", "203x117", "--out", out});
   EXPECT_EQ(document["frames"].size(), 101u);
-  EXPECT_EQ(files(out), (std::set<std::string>{"frame_0007.png", "frame_0100.png"}));
+  EXPECT_EQ(file_names(out), (std::set<std::string>{"frame_0007.png", "frame_0100.png"}));
   for (const char* name : {"frame_0007.png", "frame_0100.png"}) expect_picture(out / name, 203, 117);
   EXPECT_NE(read_file(out / "frame_0007.png"), read_file(out / "frame_0100.png"));
 }
@@ -70,7 +62,7 @@ TEST(Capture, GoesToTheWorkingDirectoryAndReplacesOldPictures) {
       run({"simulate", "--scene", "drop", "--frames", "2", "--capture", "2", "--size", "33x44"}, folder.path());
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  EXPECT_EQ(files(folder.path()), std::set<std::string>{"frame_0002.png"});
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"frame_0002.png"});
   expect_picture(folder.path() / "frame_0002.png", 33, 44);
 }
 

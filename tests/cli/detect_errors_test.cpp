@@ -126,6 +126,7 @@ TEST_F(DetectErrors, OptionsAreNamed) {
     refuse(with({"--buckets", value}), {"--buckets"});
   for (const char* value : {"0", "-1", "nan", "inf", "1e300", "x", ""})
     refuse(with({"--cell-size", value}), {"--cell-size"});
+  for (const char* value : {"0,1,2", "1,2", "1,2,-3", "1,2,x", ""}) refuse(with({"--primes", value}), {"--primes"});
   for (const char* value : {"0", "-1", "257", "x", ""}) refuse(with({"--threads", value}), {"--threads"});
   for (const char* value : {"0", "-1", "2.5", "x", ""}) refuse(with({"--repeat", value}), {"--repeat"});
   for (const char* option : {"--rest", "--contacts", "--method"}) {

@@ -146,30 +146,4 @@ std::vector<Row> read_contacts(const std::filesystem::path& file) {
   return rows;
 }
 
-nlohmann::json detect(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "detect");
-  arguments.emplace_back("--json");
-  const Outcome o = run(arguments);
-  EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(o.err, "");
-  const nlohmann::json document = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error too
-  EXPECT_FALSE(document.is_discarded()) << o.out.substr(0, 200);
-  return document;
-}
-
-void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words) {
-  const Outcome o = run(arguments);
-  EXPECT_EQ(o.status, 2);
-  EXPECT_EQ(o.out, "");
-  EXPECT_TRUE(o.err.ends_with('\n'));
-  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
-  for (const std::string& word : words) EXPECT_NE(o.err.find(word), std::string::npos) << word << " in: " << o.err;
-}
-
-std::set<std::string> file_names(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
-
 }  // namespace cli::test

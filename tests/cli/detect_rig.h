@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <random>
-#include <set>
 #include <string>
 #include <vector>
 
@@ -48,13 +47,5 @@ State moved(const State& state, float most, unsigned seed);
 
 /// Reads a contacts file; fails the test where it is not of the contract's form.
 std::vector<Row> read_contacts(const std::filesystem::path& file);
-
-/// Runs `detect arguments... --json`; fails the test unless it succeeds silently with one document.
-nlohmann::json detect(std::vector<std::string> arguments);
-
-/// Fails the test unless the program refuses in one line with these words in it, and prints nothing else.
-void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words);
-
-std::set<std::string> file_names(const std::filesystem::path& folder);
 
 }  // namespace cli::test

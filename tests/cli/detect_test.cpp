@@ -76,6 +76,7 @@ TEST_F(Detect, SettingsOfTheHashDoNotChangeWhatExactMethodsFind) {
                                                  {"--levels", "15"},
                                                  {"--buckets", "1"},
                                                  {"--buckets", "16777216"},
+                                                 {"--primes", "1001,1,1"},
                                                  {"--cell-size", "0.011"},
                                                  {"--cell-size", "1000"}}) {
       std::vector<std::string> arguments{obj, "--tolerance", "0.06", "--method", method};
@@ -150,7 +151,7 @@ TEST_F(Detect, JsonHasTheContractsForm) {
     return names;
   };
   using Keys = std::vector<std::string>;
-  EXPECT_EQ(keys(d), (Keys{"bodies", "frames", "method", "threads", "tolerance", "vertices"}));
+  EXPECT_EQ(keys(d), (Keys{"bodies", "frames", "method", "threads", "tolerance", "vertices", "warnings"}));
   EXPECT_EQ(d["method"], "multi-level-sb-exact");
   EXPECT_EQ(d["tolerance"], 0.0375);
   EXPECT_EQ(d["threads"], 2);
@@ -172,6 +173,20 @@ TEST_F(Detect, JsonHasTheContractsForm) {
     EXPECT_GT(frame["ms"]["min"], 0.0);
     EXPECT_LE(frame["ms"]["min"], frame["ms"]["median"]);
   }
+}
+
+TEST_F(Detect, WarningsNamePrimesThatSpoilTheHashOfMethodsThatHaveOne) {
+  const std::string obj = file("state.obj", random_state(14));
+  const std::vector<std::string> base{obj, "--tolerance", "0.05", "--primes", "2002,5,1006"};
+  const json spoilt = detect(base)["warnings"];
+  ASSERT_EQ(spoilt.size(), 1u);
+  EXPECT_NE(spoilt[0].get<std::string>().find("prime 2002 is 0 modulo 1001"), std::string::npos) << spoilt;
+  EXPECT_NE(spoilt[0].get<std::string>().find("primes 5 and 1006 are equal"), std::string::npos) << spoilt;
+  auto no_hash = base, other_count = base;
+  no_hash.insert(no_hash.end(), {"--method", "bounding-box"});
+  other_count.insert(other_count.end(), {"--buckets", "997"});
+  EXPECT_EQ(detect(no_hash)["warnings"], json::array());
+  EXPECT_EQ(detect(other_count)["warnings"], json::array());
 }
 
 TEST_F(Detect, BruteForceTestsEveryPair) {

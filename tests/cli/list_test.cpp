@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <map>
 #include <sstream>
 
@@ -39,6 +40,20 @@ TEST(List, ScenesNamesEachFileOfTheFolder) {
     ++files;
   }
   EXPECT_EQ(scenes.size(), files);
+}
+
+TEST(List, ABrokenSceneFileIsNamedAndTheOthersAreListed) {
+  const TemporaryFolder folder;
+  const auto scenes = folder.path() / "assets" / "scenes";
+  std::filesystem::create_directories(scenes);
+  for (const char* name : {"assets/scenes/a.toml", "assets/scenes/c.toml"})
+    folder.write(name, "name = \"A scene\"\n[[body]]\n");
+  const auto broken = folder.write("assets/scenes/b.toml", "[[body]\n");
+  const Outcome o = run({"list", "scenes"}, "/", {"SBCOLLIDE_DATA=" + folder.path().string()});
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.out, "a\tA scene\nc\tA scene\n");
+  EXPECT_EQ(o.err.find("sbcollide: " + broken.string() + ":1: "), 0u) << o.err;
+  EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;
 }
 
 TEST(List, MethodsHasTheKeysOfTheContract) {

@@ -7,12 +7,36 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <fstream>
 #include <sstream>
 
 namespace cli::test {
+namespace {
 
-Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where) {
+/// The test's own environment with `changes` in it.
+std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
+  std::vector<std::string> all = changes;
+  for (char** entry = environ; *entry; ++entry) {
+    const std::string line = *entry, name = line.substr(0, line.find('=') + 1);
+    if (std::ranges::none_of(changes, [&](const std::string& change) { return change.starts_with(name); }))
+      all.push_back(line);
+  }
+  return all;
+}
+
+/// As C wants a list of strings, which must outlive it.
+std::vector<char*> pointers(std::vector<std::string>& strings) {
+  std::vector<char*> list;
+  for (std::string& string : strings) list.push_back(string.data());
+  list.push_back(nullptr);
+  return list;
+}
+
+}  // namespace
+
+Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where,
+            const std::vector<std::string>& environment) {
   const TemporaryFolder folder;
   const std::string out = folder.path() / "out", err = folder.path() / "err";
   posix_spawn_file_actions_t actions;
@@ -23,11 +47,10 @@ Outcome run(const std::vector<std::string>& arguments, const std::filesystem::pa
   posix_spawn_file_actions_addchdir_np(&actions, where.c_str());
   std::vector<std::string> words{SBCOLLIDE_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
+  std::vector<std::string> variables = environment_with(environment);
   pid_t process = 0;
-  const int error = posix_spawn(&process, SBCOLLIDE_PROGRAM, &actions, nullptr, argv.data(), environ);
+  const int error =
+      posix_spawn(&process, SBCOLLIDE_PROGRAM, &actions, nullptr, pointers(words).data(), pointers(variables).data());
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " SBCOLLIDE_PROGRAM);
   int status = 0;
@@ -35,37 +58,37 @@ Outcome run(const std::vector<std::string>& arguments, const std::filesystem::pa
   return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
 }
 
-nlohmann::json simulate(std::vector<std::string> arguments) {
-  arguments.insert(arguments.begin(), "simulate");
+nlohmann::json document(const std::string& command, std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), command);
   arguments.emplace_back("--json");
   const Outcome o = run(arguments);
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  const nlohmann::json document = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error too
-  EXPECT_FALSE(document.is_discarded()) << o.out.substr(0, 200);
-  return document;
+  nlohmann::json parsed = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error too
+  EXPECT_FALSE(parsed.is_discarded()) << o.out.substr(0, 200);
+  return parsed;
 }
 
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "sbcollide-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
+void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
+                    const std::vector<std::string>& environment) {
+  const Outcome o = run(arguments, "/", environment);
+  EXPECT_EQ(o.status, 2);
+  EXPECT_EQ(o.out, "");
+  EXPECT_TRUE(o.err.ends_with('\n'));
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+  for (const std::string& word : words) EXPECT_NE(o.err.find(word), std::string::npos) << word << " in: " << o.err;
 }
 
 std::string read_file(const std::filesystem::path& file) {
   std::ostringstream text;
   text << std::ifstream(file, std::ios::binary).rdbuf();
   return text.str();
+}
+
+std::set<std::string> file_names(const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
+  return names;
 }
 
 }  // namespace cli::test

@@ -3,8 +3,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 #include <vector>
+
+#include "tests/temporary_folder.h"
 
 namespace cli::test {
 
@@ -13,26 +16,23 @@ struct Outcome {
   std::string out, err;
 };
 
-/// Runs `sbcollide arguments...` in a working directory; neither output is a terminal.
-Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/");
+/// Runs `sbcollide arguments...` in a working directory; neither output is a terminal. environment: "NAME=value" of
+/// what differs from the test's own.
+Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
+            const std::vector<std::string>& environment = {});
 
-/// What `simulate --json` prints; fails the test unless it is one document, standard error empty and the status 0.
-nlohmann::json simulate(std::vector<std::string> arguments);
+/// What `command arguments... --json` prints; fails the test unless it is one document, standard error empty and the
+/// status 0.
+nlohmann::json document(const std::string& command, std::vector<std::string> arguments);
+inline nlohmann::json simulate(const std::vector<std::string>& arguments) { return document("simulate", arguments); }
+inline nlohmann::json detect(const std::vector<std::string>& arguments) { return document("detect", arguments); }
 
-/// A folder of its own that vanishes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-  const std::filesystem::path& path() const { return path_; }
+/// Fails the test unless the program refuses in one line with these words in it, and prints nothing else.
+void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
+                    const std::vector<std::string>& environment = {});
 
- private:
-  std::filesystem::path path_;
-};
-
+using tests::TemporaryFolder;
 std::string read_file(const std::filesystem::path& file);
+std::set<std::string> file_names(const std::filesystem::path& folder);
 
 }  // namespace cli::test

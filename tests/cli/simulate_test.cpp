@@ -38,7 +38,7 @@ position = [0.1, 1.7, 0]
 
 TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   const json d = simulate({"--scene", "drop", "--frames", "5"});
-  EXPECT_EQ(keys(d), (Keys{"scene", "method", "plan", "frames", "state_hash"}));
+  EXPECT_EQ(keys(d), (Keys{"scene", "method", "plan", "warnings", "frames", "state_hash"}));
   EXPECT_EQ(d["scene"], "drop");
   EXPECT_EQ(d["method"], "multi-level-sb-exact");
   EXPECT_TRUE(std::regex_match(d["state_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
@@ -102,6 +102,8 @@ TEST(Simulate, OpenMeshesHaveNoVolumeRatio) {
   const auto scene = folder.write("sheet.toml", "[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
   const json ratio = simulate({"--scene", scene, "--frames", "1"})["frames"][0]["volume_ratio"];
   EXPECT_TRUE(ratio["min"].is_null() && ratio["max"].is_null());
+  const std::string table = run({"simulate", "--scene", scene, "--frames", "1"}).out;
+  EXPECT_TRUE(std::regex_search(table, std::regex("\n +1 .* - +- .*\n"))) << table;
 }
 
 TEST(Simulate, TheStateHashIsTheSameOverRunsThreadsAndExactMethods) {
@@ -153,6 +155,19 @@ TEST(Simulate, LevelsBucketsAndCellSizeReachTheLiteralMethod) {
   EXPECT_LT(with({"--cell-size", "0.21", "--levels", "0", "--buckets", "16000057"}),
             with({"--cell-size", "0.21", "--levels", "9", "--buckets", "16000057"}))
       << "finer boxes fit the cells";
+}
+
+TEST(Simulate, PrimesReachTheHashAndPoorOnesAreNamed) {
+  const std::vector<std::string> poor{"--scene", "drop", "--frames", "1", "--primes", "1001,5,7"};
+  const json warnings = simulate(poor)["warnings"];
+  ASSERT_EQ(warnings.size(), 1u);
+  EXPECT_NE(warnings[0].get<std::string>().find("prime 1001 is 0 modulo 1001"), std::string::npos) << warnings;
+  auto table = poor, no_hash = poor;
+  table.insert(table.begin(), "simulate");
+  EXPECT_NE(run(table).out.find("note: " + warnings[0].get<std::string>()), std::string::npos);
+  no_hash.insert(no_hash.end(), {"--method", "brute-force"});
+  EXPECT_EQ(simulate(no_hash)["warnings"], json::array());
+  EXPECT_EQ(simulate({"--scene", "drop", "--frames", "1"})["warnings"], json::array());
 }
 
 TEST(Simulate, WithoutJsonPrintsAShortTable) {

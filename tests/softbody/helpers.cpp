@@ -1,8 +1,5 @@
 #include "tests/softbody/helpers.h"
 
-#include <stdlib.h>
-
-#include <fstream>
 #include <glm/geometric.hpp>
 
 namespace softbody::test {
@@ -116,22 +113,6 @@ std::vector<Isa> isas() {
 
 // Not the library's distributions: those differ between standard libraries.
 double uniform(std::mt19937& random, double lo, double hi) { return lo + (hi - lo) * double(random()) / 4294967296.0; }
-
-TemporaryFolder::TemporaryFolder() {
-  std::string name = (std::filesystem::temp_directory_path() / "sbcollide-XXXXXX").string();
-  if (!mkdtemp(name.data())) throw std::runtime_error("no temporary folder");
-  path_ = name;
-}
-
-TemporaryFolder::~TemporaryFolder() {
-  std::error_code ignored;
-  std::filesystem::remove_all(path_, ignored);
-}
-
-std::filesystem::path TemporaryFolder::write(const std::string& name, const std::string& text) const {
-  std::ofstream(path_ / name, std::ios::binary) << text;
-  return path_ / name;
-}
 
 void LaneField::randomise(std::mt19937& random, double size) {
   for (auto* component : {&x, &y, &z})

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "softbody/measures.h"
+#include "tests/temporary_folder.h"
 
 namespace softbody::test {
 
@@ -38,19 +39,7 @@ std::vector<Isa> isas();
 
 double uniform(std::mt19937& random, double lo, double hi);
 
-/// A folder of its own that vanishes with the object.
-class TemporaryFolder {
- public:
-  TemporaryFolder();
-  ~TemporaryFolder();
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  std::filesystem::path write(const std::string& name, const std::string& text) const;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using tests::TemporaryFolder;
 
 /// Three components over `particles` particles, one value a lane.
 struct LaneField {

@@ -25,6 +25,7 @@ TEST(SceneFile, OneBodyIsEnoughAndTheRestHasDefaults) {
   EXPECT_EQ(s.collision.tolerance, plain.collision.tolerance);
   EXPECT_EQ(s.collision.levels, 3);
   EXPECT_EQ(s.collision.buckets, 1001u);
+  EXPECT_EQ(s.collision.primes, collide::default_primes);
   EXPECT_TRUE(s.collision.self_collision);
   EXPECT_TRUE(s.default_cell_size);
   EXPECT_FALSE(s.ground);
@@ -51,6 +52,7 @@ self_collision = false
 levels = 6
 buckets = 997
 cell_size = [0.5, 0.6, 0.7]
+primes = [1, 4_294_967_295, 83492791]
 
 [[material]]
 name = "first"
@@ -131,6 +133,7 @@ TEST(SceneFile, EveryKeyArrivesWhereItBelongs) {
   EXPECT_EQ(s.collision.buckets, 997u);
   EXPECT_FALSE(s.default_cell_size);
   EXPECT_EQ(s.collision.cell_size, glm::vec3(0.5f, 0.6f, 0.7f));
+  EXPECT_EQ(s.collision.primes, (std::array<std::uint32_t, 3>{1, 4294967295, 83492791}));
   EXPECT_EQ(s.sleep.speed, 0.04);
   EXPECT_EQ(s.sleep.frames, 45);
   EXPECT_EQ(s.view.target, glm::dvec3(1.0));

@@ -1,0 +1,17 @@
+#pragma once
+// Numbers as the command line writes them, taken strictly: no space, no plus sign, nothing before or after.
+
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace app {
+
+/// The parts between separators: "1,,2," has four, two of them empty.
+std::vector<std::string_view> split(std::string_view text, char separator);
+
+/// Nothing if the text is no whole number, or one that does not fit.
+std::optional<std::int64_t> whole_number(std::string_view text);
+
+}  // namespace app

@@ -1,0 +1,74 @@
+// Files that are written whole or not at all.
+
+#include "app/output_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "app/options.h"
+#include "tests/cli/process.h"
+
+namespace cli::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Why a file cannot be written there; fails the test if it can.
+std::string refusal(const fs::path& path) {
+  try {
+    app::OutputFile file(path);
+    file.write("new");
+    file.commit();
+  } catch (const app::UsageError& error) {
+    return error.what();
+  }
+  ADD_FAILURE() << path << " was written";
+  return "";
+}
+
+TEST(OutputFile, IsWholeOnceCommittedAndReplacesWhatWasThere) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("file", "old");
+  {
+    app::OutputFile file(path);
+    file.write("ne");
+    file.write("w");
+    EXPECT_EQ(read_file(path), "old");
+    file.commit();
+  }
+  EXPECT_EQ(read_file(path), "new");
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
+}
+
+TEST(OutputFile, LeavesNothingAndChangesNothingWithoutACommit) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.write("file", "old");
+  for (const fs::path& each : {path, folder.path() / "other"}) app::OutputFile(each).write("new");
+  EXPECT_EQ(read_file(path), "old");
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
+}
+
+TEST(OutputFile, HasTheRightsOfAnOrdinaryFile) {
+  const TemporaryFolder folder;
+  const fs::path path = folder.path() / "file", ordinary = folder.write("ordinary", "x");
+  app::OutputFile(path).commit();
+  EXPECT_EQ(fs::status(path).permissions(), fs::status(ordinary).permissions());
+}
+
+TEST(OutputFile, RefusalsNameThePathAndLeaveNothing) {
+  const TemporaryFolder folder;
+  const fs::path file = folder.write("file", "old");  // no folder; permissions would not stop root
+  const auto before = file_names(folder.path());
+  for (const auto& [path, why] :
+       {std::pair(folder.path() / "none" / "file", "No such file"), std::pair(file / "below", "Not a directory"),
+        std::pair(folder.path(), "not a regular file"), std::pair(fs::path("/dev/null"), "not a regular file")}) {
+    const std::string message = refusal(path);
+    EXPECT_EQ(message.find(path.string() + ": cannot be written: "), 0u) << message;
+    EXPECT_NE(message.find(why), std::string::npos) << message;
+  }
+  EXPECT_EQ(file_names(folder.path()), before);
+}
+
+}  // namespace
+}  // namespace cli::test
