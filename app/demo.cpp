@@ -139,7 +139,7 @@ class Demo {
   PictureKey picture_key() const {
     const Overlays& shown = session_.overlays;
     const bool whole_steps =
-        shown.boxes || shown.cells || session_.selected_bucket();  // those are of the present state
+        shown.boxes || shown.cells || shown.areas || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
             .comparison = shown.missed ? session_.comparisons() : 0,
             .misses_of = session_.misses_of(),
@@ -156,6 +156,7 @@ class Demo {
     request.selected_bucket = session_.selected_bucket();
     const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
     if (needs_debug) request.debug = &session_.debug();
+    if (request.shown.areas) request.areas = session_.areas();
     request.missed = session_.missed();
     return request;
   }

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+
+#include <glm/common.hpp>
 
 #include "app/grouped.h"
 #include "collide/reach.h"
@@ -50,18 +53,28 @@ void Forecast::begin(const collide::Frame& frame, const collide::Settings& setti
 
   collide::Result unused;
   boxes_.build(frame, unused);
-  in_near_bodies_ = 0;
+  glm::dvec3 least(1e300), most(-1e300);
+  for (const collide::Index b : boxes_.live) {
+    least = glm::min(least, glm::dvec3(boxes_.box[b].lo));
+    most = glm::max(most, glm::dvec3(boxes_.box[b].hi));
+  }
+  extent_ = boxes_.live.empty() ? glm::dvec3(0) : most - least;
+  in_near_bodies_ = passes_ = 0;
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_reach(settings.tolerance))) {
     in_near_bodies_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
+    passes_ += std::uint64_t{bodies.size(a)} + bodies.size(b);
   }
   if (!settings.self_collision) return;
-  for (const collide::Index b : boxes_.live) in_near_bodies_ += pairs_of(bodies.size(b));
+  for (const collide::Index b : boxes_.live) {
+    in_near_bodies_ += pairs_of(bodies.size(b));
+    passes_ += bodies.size(b);
+  }
 }
 
 Work Forecast::of(std::size_t method) const {
   const Learnt& learnt = learnt_[method];
   const collide::Method& row = collide::methods()[method];
-  if (!row.uses_hash || learnt.vertices == 0) return estimate(row);
+  if (learnt.vertices == 0 || (!row.uses_hash && !row.uses_levels)) return estimate(row);
   const double growth = vertices_ / learnt.vertices;  // by bodies dropped since: pairs grow with its square
   return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),
           whole(static_cast<double>(learnt.work.hashes) * growth)};
@@ -71,8 +84,22 @@ void Forecast::learn(std::size_t method, const collide::Counters& counters) {
   learnt_[method] = {{counters.pair_tests, counters.hashes}, vertices_};
 }
 
+/// Poor primes leave buckets empty for good: the sum is a multiple of what they and the bucket count have in common,
+/// and no greater than the cells of the frame make it.
+double Forecast::reachable_buckets() const {
+  std::uint64_t common = settings_.buckets;
+  double greatest = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint64_t prime = settings_.primes[static_cast<std::size_t>(axis)] % settings_.buckets;
+    common = std::gcd(common, prime);
+    greatest += static_cast<double>(prime) * (extent_[axis] / static_cast<double>(settings_.cell_size[axis]) + 1);
+  }
+  return std::min(static_cast<double>(settings_.buckets / common), greatest);
+}
+
 Work Forecast::estimate(const collide::Method& method) const {
-  if (!method.uses_hash) return {method.key == collide::reference_method ? all_ : in_near_bodies_, 0};
+  if (method.key == collide::reference_method) return {all_, 0};
+  if (!method.uses_hash) return {method.uses_levels ? std::min(16 * passes_, in_near_bodies_) : in_near_bodies_, 0};
   double chances = 64;  // box meets box: eight corners, or about as many cells, of each
   double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   if (!method.uses_levels) {
@@ -80,7 +107,7 @@ Work Forecast::estimate(const collide::Method& method) const {
     if (chances > std::max(64.0, vertices_ / 32)) return {all_, 0};  // VertexGrid::visit_cells: too many cells
     hashes = vertices_ * (1 + chances);
   }
-  const double aliased = static_cast<double>(all_) * chances / settings_.buckets;
+  const double aliased = static_cast<double>(all_) * chances / reachable_buckets();
   return {std::min(all_, in_near_bodies_ + whole(aliased)), whole(hashes)};
 }
 

@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "collide/body_boxes.h"
 #include "collide/methods.h"
 
@@ -24,7 +26,8 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 
 /// Predicts the work of every method of collide::methods(), by its index. Exact for the methods without a hash table;
 /// for the others what they did last with the same settings in the same world, and before that an estimate: all
-/// vertices of bodies whose boxes overlap, and aliasing as if the entries were spread evenly over the buckets.
+/// vertices of bodies whose boxes overlap, and aliasing as if the entries were spread evenly over the buckets. A method
+/// with levels and no table is taken to test some sixteen others for each vertex that it reads.
 class Forecast {
  public:
   /// Another frame. `world` tells worlds apart: what was learnt in another one is forgotten.
@@ -39,12 +42,15 @@ class Forecast {
     double vertices = 0;  // 0: nothing learnt
   };
   Work estimate(const collide::Method& method) const;
+  double reachable_buckets() const;
 
   collide::Settings settings_;
   std::uint64_t world_ = 0;
   std::vector<Learnt> learnt_;
   double vertices_ = 0, bodies_ = 0;
-  std::uint64_t all_ = 0, in_near_bodies_ = 0;  // pair tests
+  glm::dvec3 extent_{0};  // m, of all bodies
+  // Pair tests: all, all between near bodies, and how many vertices a pass over each pair of near bodies reads.
+  std::uint64_t all_ = 0, in_near_bodies_ = 0, passes_ = 0;
   collide::BodyBoxes boxes_;
   collide::BodyPairs pairs_;
 };

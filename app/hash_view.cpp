@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/palette.h"
+#include "app/status.h"
 
 namespace app {
 namespace {
@@ -101,8 +102,10 @@ void HashView::draw_summary(const Session& session) const {
   ImGui::TextDisabled("%s %s", grouped(grid_.buckets).c_str(), grid_.buckets == 1 ? "bucket" : "buckets");
   std::string note = " ";  // the line stays, so that the window does not change its height
   if (grid_.per_square > 1) note = "each square: the fullest of " + grouped(grid_.per_square);
-  if (session.world().detection().counters.buckets_used == 0) note = "none used at this cell size";
+  if (std::ranges::all_of(squares_, [](const Square& square) { return square.load == 0; }))
+    note = "none used at this cell size";
   ImGui::TextDisabled("%s", note.c_str());
+  ImGui::TextDisabled("%s", whose_structure(session).c_str());
 }
 
 void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
@@ -116,7 +119,8 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
   const float room = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.debug().bucket_load.empty()) {
     ImGui::Dummy({room, 0.4f * height});
-    ImGui::TextWrapped("%s builds no hash table.", std::string(session.world().method().name).c_str());
+    ImGui::TextWrapped("%s would take too long here to show its table beside the driving method.",
+                       std::string(session.shown_method().name).c_str());
     ImGui::Dummy({room, 0.4f * height});
   } else {
     refresh(session, room, height, std::floor(w.px(least_square)));

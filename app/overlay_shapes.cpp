@@ -34,10 +34,8 @@ bool is_in_bucket(const collide::DebugGeometry& debug, std::size_t box, std::uin
   return std::find(first, last, bucket) != last;
 }
 
-/// The bucket that gives a box its colour: that of its minimum corner. Boxes in no bucket (method without a table)
-/// take their body's colour instead.
+/// The bucket that gives a box its colour is that of its minimum corner.
 glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
-  if (debug.box_first[box] == debug.box_first[box + 1]) return body_colour(debug.boxes[box].body) * 0.8f;
   return bucket_colour(debug.box_bucket[debug.box_first[box]]);
 }
 
@@ -59,6 +57,17 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   }
   frame.boxes.push_back(std::move(plain));
   frame.boxes.push_back(std::move(selected));
+}
+
+void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
+  engine::BoxSet set;
+  set.width = 1.5f;
+  set.hidden = 0.6f;
+  set.fill = 0.12f;
+  for (const auto& [lo, hi, body] : areas) {
+    if (set.boxes.size() < SceneView::most_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
+  }
+  frame.boxes.push_back(std::move(set));
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
@@ -153,6 +162,7 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, P
     add_cells(request, world.collision().cell_size, frame);
   }
   if (request.debug && (shown.boxes || request.selected_bucket)) add_boxes(request, frame);
+  if (shown.areas) add_areas(request.areas, frame);
   if (shown.contacts) add_contacts(world, positions, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
 }

@@ -13,9 +13,10 @@ struct Overlays {
   bool contacts = false;
   bool springs = false;
   bool missed = false;
+  bool areas = false;
 
   bool operator==(const Overlays&) const = default;
-  bool any() const { return body_boxes || boxes || cells || contacts || springs || missed; }
+  bool any() const { return body_boxes || boxes || cells || contacts || springs || missed || areas; }
 };
 
 struct OverlayRow {
@@ -26,7 +27,7 @@ struct OverlayRow {
   bool Overlays::*shown;
 };
 
-inline constexpr std::array<OverlayRow, 6> overlay_table{{
+inline constexpr std::array<OverlayRow, 7> overlay_table{{
     {"body-boxes", "Body boxes", '1', "The axis-aligned bounding box of each body, in the body's colour (§2.1).",
      &Overlays::body_boxes},
     {"boxes", "Subdivided boxes", '2',
@@ -42,6 +43,9 @@ inline constexpr std::array<OverlayRow, 6> overlay_table{{
     {"missed", "Missed contacts", '6',
      "Contacts that brute force finds and the driving method does not. Only the literal method can miss any.",
      &Overlays::missed},
+    {"areas", "Areas searched", '7',
+     "Where two bodies can touch, and how these areas are cut: the exact method looks nowhere else (§2.1, §5).",
+     &Overlays::areas},
 }};
 
 }  // namespace app

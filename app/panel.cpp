@@ -88,6 +88,8 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
   place(1);
   w.checkbox("Compare methods", session.compare.on,
              "All methods on the same frozen frame: what each costs, and what it misses (V).");
+  w.checkbox("Error against run time", ui.sweep,
+             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {
@@ -120,7 +122,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   draw_transport(w, session);
   draw_progress(w, session);
   ImGui::Spacing();
-  if (w.section("Detection", true)) draw_detection(w, session);
+  if (w.section("Detection", true)) draw_detection(w, session, ui.table);
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());

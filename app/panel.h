@@ -17,7 +17,7 @@ inline constexpr float least_cell = 0.02f, most_cell = 5.0f;             // m
 void draw_panel(Widgets& widgets, Session& session, UiState& ui);
 
 // Its sections, each for a window already begun.
-void draw_detection(Widgets& widgets, Session& session);
+void draw_detection(Widgets& widgets, Session& session, bool table_shown);
 void draw_numbers(Widgets& widgets, const Session& session);
 
 }  // namespace app

@@ -132,15 +132,19 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
 
 }  // namespace
 
-void draw_detection(Widgets& w, Session& session) {
+void draw_detection(Widgets& w, Session& session, bool table_shown) {
   draw_method(w, session);
   const collide::Method& method = session.world().method();
   collide::Settings settings = session.world().collision();
   bool automatic = session.world().uses_default_cell_size();
-  bool changed = draw_levels(w, settings, method.uses_levels);
-  changed |= draw_buckets(w, settings, method.uses_hash);
-  changed |= draw_primes(w, settings, method.uses_hash);
-  changed |= draw_cell_size(w, settings, automatic, method.uses_hash);
+  // Settings are offered where something has use for them: the driving method, what is shown of §2, or a comparison.
+  const Overlays& shown = session.overlays;
+  const bool others = table_shown || shown.boxes || shown.cells || session.selected_bucket() || session.compare.on;
+  const bool hash = method.uses_hash || others;
+  bool changed = draw_levels(w, settings, method.uses_levels || others);
+  changed |= draw_buckets(w, settings, hash);
+  changed |= draw_primes(w, settings, hash);
+  changed |= draw_cell_size(w, settings, automatic, hash);
   w.row("Tolerance", w.px(label_column));
   changed |= w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",
                       "Vertices closer than this are in contact, and push each other apart (§2.3).", true);

@@ -13,6 +13,13 @@ namespace app {
 namespace {
 
 constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
+constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
+    "Pairs of bodies whose boxes are out of reach of each other (§2.1).",
+    "Pairs of bodies with near boxes that a plane across the line of centres, or the spheres around them, keeps apart.",
+    "Bodies that no other body is near: there is no pair to look at.",
+    "Bodies that are so little deformed that they cannot touch themselves (§2.4): no self pass.",
+    "Pairs of bodies that have moved little: only vertices that were near each other before are tested.",
+    "Pairs of bodies at rest: their contacts are kept, not found again."};
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
 
 void draw_curve(Widgets& w, const char* label, const std::string& value, const Ring& ring, float top,
@@ -55,6 +62,18 @@ void draw_counter(Widgets& w, const char* label, const std::string& value, const
   w.done(label, tooltip);
 }
 
+/// What the exact method has left out, each kind on a line of its own whether there is any or not: nothing jumps.
+void draw_skipped(Widgets& w, const Session& session) {
+  const collide::Method& method = session.world().method();
+  if (method.key != collide::default_method) return;
+  ImGui::TextDisabled("Skipped in this frame");
+  w.done("Skipped", "Work that this frame did not need. Each kind is left out on a proof: the contacts are the same.");
+  for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
+    const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
+    draw_counter(w, label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
+  }
+}
+
 }  // namespace
 
 void draw_numbers(Widgets& w, const Session& session) {
@@ -73,6 +92,7 @@ void draw_numbers(Widgets& w, const Session& session) {
   draw_counter(w, "Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
   draw_counter(w, "Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
   draw_counter(w, "Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");
+  draw_skipped(w, session);
 }
 
 }  // namespace app

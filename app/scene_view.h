@@ -16,6 +16,7 @@ struct OverlayRequest {
   Overlays shown;
   const collide::DebugGeometry* debug = nullptr;          // for boxes, cells and the selected bucket
   std::optional<std::uint32_t> selected_bucket;           // its boxes and cells stand out, and show in any case
+  std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
 };
 

@@ -6,6 +6,8 @@
 namespace app {
 namespace {
 
+constexpr std::uint64_t most_work = 1'000'000'000;  // pair tests of a frame in the window's thread: about half a second
+
 std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
   std::vector<SceneChoice> list;
   for (const std::string& key : softbody::scene_keys(folder)) {
@@ -22,7 +24,11 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
 }  // namespace
 
 Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads)
-    : scene_folder_(std::move(scene_folder)), scenes_(list_scenes(scene_folder_)), threads_(threads) {
+    : scene_folder_(std::move(scene_folder)),
+      scenes_(list_scenes(scene_folder_)),
+      threads_(threads),
+      paper_(collide::find_method(collide::paper_method)->make()),
+      exact_(collide::find_method(collide::default_method)->make()) {
   start(scene);
   scene_ = std::move(scene);
 }
@@ -134,13 +140,16 @@ void Session::reset() {
   }
 }
 
-/// False, with a notice(), if the method would hold the window up: it runs where the bodies are moved and drawn.
-bool Session::affordable(const collide::Method& method, const collide::Settings& settings) {
-  constexpr std::uint64_t most = 1'000'000'000;  // pair tests: about half a second
+Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
   Forecast forecast;
   forecast.begin(world_->positions(), settings, 0);
-  const Work work = forecast.of(static_cast<std::size_t>(&method - collide::methods().data()));
-  if (work.cost() <= most) return true;
+  return forecast.of(static_cast<std::size_t>(&method - collide::methods().data()));
+}
+
+/// False, with a notice(), if the method would hold the window up: it runs where the bodies are moved and drawn.
+bool Session::affordable(const collide::Method& method, const collide::Settings& settings) {
+  const Work work = work_of(method, settings);
+  if (work.cost() <= most_work) return true;
   notice_ = std::string(method.name);
   notice_.append(" would take ").append(work.in_words()).append(" a frame here: too long to drive the bodies with");
   return false;
@@ -202,17 +211,37 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
 }
 
 void Session::select_bucket(std::optional<std::uint32_t> bucket) {
-  const bool exists = bucket && world_->method().uses_hash && *bucket < world_->collision().buckets;
+  const bool exists = bucket && *bucket < world_->collision().buckets;
   selected_bucket_ = exists ? bucket : std::nullopt;
 }
 
-const collide::DebugGeometry& Session::debug() const {
-  if (debug_revision_ != revision_) {
-    debug_ = world_->detector().debug();
-    debug_revision_ = revision_;
-  }
-  return debug_;
+const collide::Method& Session::shown_method() const {
+  return world_->method().uses_hash ? world_->method() : *collide::find_method(collide::paper_method);
 }
+
+const collide::DebugGeometry& Session::debug() const {
+  if (debug_revision_ == revision_) return debug_;
+  debug_revision_ = revision_;
+  if (world_->method().uses_hash) return debug_ = world_->detector().debug();
+  constexpr std::uint64_t most = most_work / 30;  // this is for each picture, and drives nothing
+  const bool short_work = work_of(shown_method(), world_->collision()).cost() <= most;
+  return debug_ = short_work ? picture_of(*paper_) : collide::DebugGeometry{};
+}
+
+/// Of a detector of our own. Empty if it runs out of memory, or finds more contacts than it may report.
+collide::DebugGeometry Session::picture_of(collide::Detector& detector) const {
+  try {
+    collide::Workers alone(1);
+    collide::Result unused;
+    detector.forget();
+    detector.detect(world_->positions(), world_->collision(), alone, unused);
+    return detector.debug();
+  } catch (const std::exception&) {
+    return {};
+  }
+}
+
+std::vector<collide::DebugGeometry::Box> Session::areas() const { return picture_of(*exact_).boxes; }
 
 const CompareRow* Session::driver_row() const {
   if (comparison_.rows.empty()) return nullptr;

@@ -77,8 +77,14 @@ class Session {
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
   void select_bucket(std::optional<std::uint32_t> bucket);
-  /// The method's boxes, cells and loads on the current positions, computed once a state when first asked for.
+  /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
+  const collide::Method& shown_method() const;
+  /// They themselves on the current positions, computed once a state when first asked for. Empty where the shown method
+  /// would have to do too much, or fails.
   const collide::DebugGeometry& debug() const;
+
+  /// Where the exact method looks for contacts on the current positions, if nothing is known from earlier frames.
+  std::vector<collide::DebugGeometry::Box> areas() const;
 
   // Comparison, by a worker of its own: a few frames old, and its vertices still exist.
   CompareChoice compare;
@@ -107,6 +113,8 @@ class Session {
   template <class Change>
   bool succeeds(Change&& change);
   bool affordable(const collide::Method& method, const collide::Settings& settings);
+  collide::DebugGeometry picture_of(collide::Detector& detector) const;
+  Work work_of(const collide::Method& method, const collide::Settings& settings) const;
   void exchange_comparison();
   void keep(CompareReport report);
   Snapshot snapshot() const;
@@ -126,6 +134,8 @@ class Session {
   std::uint64_t worlds_ = 0, comparisons_ = 0;
   std::optional<std::uint32_t> selected_bucket_;
   mutable collide::DebugGeometry debug_;
+  std::unique_ptr<collide::Detector> paper_;  // shows its structure where the driving method has none
+  std::unique_ptr<collide::Detector> exact_;  // shows its areas
   mutable std::uint64_t debug_revision_ = 0;
   History history_;
   CompareReport comparison_;

@@ -43,6 +43,12 @@ Light light_of(collide::Coverage coverage) {
   }
 }
 
+std::string whose_structure(const Session& session) {
+  const collide::Method& shown = session.shown_method();
+  if (shown.key == session.world().method().key) return "of the driving method";
+  return "of " + std::string(shown.name) + ", for comparison";
+}
+
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
 
 std::string reference_sentence(const CompareReport& report) {
@@ -110,12 +116,10 @@ void table_legend(const Session& session) {
   const collide::DebugGeometry& debug = session.debug();
   const Overlays& shown = session.overlays;
   if (shown.boxes) {
-    ImGui::TextUnformatted(debug.boxes.empty()        ? "This method builds no boxes"
-                           : debug.box_bucket.empty() ? "Boxes in their body's colour"
-                                                      : "Boxes: one colour, one bucket");
+    ImGui::TextUnformatted(debug.boxes.empty() ? "This method builds no boxes" : "Boxes: one colour, one bucket");
   }
-  if (shown.cells)
-    ImGui::TextUnformatted(debug.cells.empty() ? "This method hashes no cells" : "Occupied cells in grey");
+  if (shown.cells) ImGui::TextUnformatted("Occupied cells in dark blue");
+  ImGui::TextDisabled("%s", whose_structure(session).c_str());
   if (session.selected_bucket()) {
     ImGui::Text("Bucket %s: its boxes and cells", grouped(*session.selected_bucket()).c_str());
   }
@@ -126,7 +130,7 @@ void table_legend(const Session& session) {
 void draw_legends(Widgets& w, const Session& session, const SceneArea& area, float top) {
   const Overlays& shown = session.overlays;
   const bool table = shown.boxes || shown.cells || session.selected_bucket();
-  if (!table && !shown.contacts && !shown.springs && !shown.missed) return;
+  if (!table && !shown.contacts && !shown.springs && !shown.missed && !shown.areas) return;
   ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
   ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   if (table) table_legend(session);
@@ -136,6 +140,7 @@ void draw_legends(Widgets& w, const Session& session, const SceneArea& area, flo
     legend_line(w, contact_solid_colour, "contact with a solid");
   }
   if (shown.missed) legend_line(w, contact_missed_colour, "missed contact");
+  if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");
     strain_scale(w);

@@ -19,6 +19,9 @@ struct Light {
 };
 Light light_of(collide::Coverage coverage);
 
+/// "of the driving method", or whose boxes and buckets are shown instead because the driving method has no table.
+std::string whose_structure(const Session& session);
+
 /// To four digits: one missed contact of a million is not a recall of 1.
 double rounded_down(double share);
 /// "Measured against ...", with the reason if that is not brute force.

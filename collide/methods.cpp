@@ -28,8 +28,8 @@ constexpr std::array table{
            "The paper's: eight corner hashes a subdivided box (§2); may miss contacts.", rgb(86, 180, 233), false, true,
            true, make_multi_level_sb},
     Method{"multi-level-sb-exact", "Multi-Level SB, exact",
-           "Subdivided boxes, padded, in every cell that they overlap (§2); misses nothing.", rgb(0, 158, 115), true,
-           true, true, make_multi_level_sb_exact},
+           "Only what faces another body, subdivided where that pays, without a hash (§2.1, §5); misses nothing.",
+           rgb(0, 158, 115), true, true, false, make_multi_level_sb_exact},
 };
 
 }  // namespace

@@ -26,6 +26,8 @@ const Method* find_method(std::string_view key);
 std::string method_keys();
 
 inline constexpr std::string_view default_method = "multi-level-sb-exact";
+/// The method as the paper has it.
+inline constexpr std::string_view paper_method = "multi-level-sb";
 /// The method whose contacts are the true ones by definition.
 inline constexpr std::string_view reference_method = "brute-force";
 

@@ -35,6 +35,7 @@ TEST(Panel, ChoosesEveryMethodWhileRunning) {
 
 TEST(Panel, EnablesOnlyWhatTheMethodUses) {
   PanelRig rig;
+  rig.ui.table = false;
   for (const collide::Method& method : collide::methods()) {
     rig.session.set_method(method.key);
     rig.frames(2);
@@ -45,6 +46,33 @@ TEST(Panel, EnablesOnlyWhatTheMethodUses) {
       EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
     EXPECT_TRUE(rig.widget("Tolerance").enabled);
   }
+}
+
+TEST(Panel, EnablesWhatIsShownOrComparedThoughTheMethodHasNoUseForIt) {
+  PanelRig rig;
+  rig.ui.table = false;
+  ASSERT_FALSE(rig.session.world().method().uses_hash);
+  const auto enabled = [&] {
+    rig.frames(2);
+    return rig.widget("Buckets").enabled;
+  };
+  EXPECT_FALSE(enabled());
+  for (bool* shown :
+       {&rig.ui.table, &rig.session.overlays.boxes, &rig.session.overlays.cells, &rig.session.compare.on}) {
+    *shown = true;
+    EXPECT_TRUE(enabled());
+    *shown = false;
+    EXPECT_FALSE(enabled());
+  }
+}
+
+TEST(Panel, ShowsWhatTheExactMethodSkips) {
+  PanelRig rig;
+  for (const collide::SkipKind& kind : collide::skip_kinds)
+    EXPECT_TRUE(rig.recorder.find("  " + std::string(kind.text))) << kind.key;
+  rig.session.set_method("grid-hash");
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("  " + std::string(collide::skip_kinds[0].text)));
 }
 
 TEST(Panel, DrivesTime) {
@@ -150,6 +178,7 @@ TEST(Panel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
   EXPECT_TRUE(rig.recorder.find("Primes warning"));
   EXPECT_TRUE(rig.recorder.find("Buckets warning"));
   rig.session.set_method("bounding-box");
+  rig.ui.table = false;
   rig.frames(2);
   EXPECT_FALSE(rig.recorder.find("Primes warning")) << "it hashes nothing";
   rig.session.set_method("grid-hash");

@@ -164,17 +164,41 @@ TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
   settings.buckets = 101;
   session.set_collision(settings, true);
   EXPECT_FALSE(session.selected_bucket());
-  session.select_bucket(7);
-  session.set_method("brute-force");
-  EXPECT_FALSE(session.selected_bucket());
 }
 
-TEST(Session, HandsOutTheMethodsInnerPictureOfThePresentState) {
+TEST(Session, HandsOutTheInnerPictureOfTheDrivingMethodOrElseThePapers) {
   Session session = make_session();
-  EXPECT_EQ(session.debug().bucket_load.size(), 1001u);
-  EXPECT_FALSE(session.debug().boxes.empty());
-  session.set_method("brute-force");
-  EXPECT_TRUE(session.debug().bucket_load.empty());
+  for (const collide::Method& method : collide::methods()) {
+    session.set_method(method.key);
+    session.advance(tick);
+    const std::string_view shown = method.uses_hash ? method.key : collide::paper_method;
+    EXPECT_EQ(session.shown_method().key, shown);
+    const auto detector = session.shown_method().make();
+    collide::Workers workers(1);
+    collide::Result result;
+    detector->detect(session.world().positions(), session.world().collision(), workers, result);
+    EXPECT_EQ(session.debug().bucket_load, detector->debug().bucket_load) << method.key;
+    EXPECT_EQ(session.debug().box_bucket, detector->debug().box_bucket) << method.key;
+  }
+}
+
+TEST(Session, TheAreasSearchedHoldEveryContactBetweenBodies) {
+  Session session = make_session();
+  session.advance(tick);
+  const auto areas = session.areas();
+  const collide::Frame frame = session.world().positions();
+  const auto body = session.world().vertex_body();
+  std::size_t between = 0;
+  for (const collide::Contact& contact : session.world().detection().contacts) {
+    if (body[contact.a] == body[contact.b]) continue;
+    ++between;
+    const collide::Index v = contact.a;
+    EXPECT_TRUE(std::ranges::any_of(areas, [&](const auto& area) {
+      return area.lo.x <= frame.x[v] && frame.x[v] <= area.hi.x && area.lo.y <= frame.y[v] && frame.y[v] <= area.hi.y &&
+             area.lo.z <= frame.z[v] && frame.z[v] <= area.hi.z;
+    }));
+  }
+  EXPECT_GT(between, 0u);
 }
 
 TEST(Session, SaysTheCaptionOfTheMoment) {
