@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 namespace collide {
 
@@ -62,13 +64,16 @@ void BodyBoxes::build(const Frame& frame, Result& result) {
   }
 }
 
-const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float reach) {
+const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float reach, std::size_t most_pairs) {
   pairs_.clear();
   order_ = bodies.live;
   sweep(
       order_, reach, [&](Index body) -> const Aabb& { return bodies.box[body]; },
       [&](Index a, Index b) {
         pairs_.push_back({std::min(a, b), std::max(a, b)});
+        if (pairs_.size() > most_pairs) {
+          throw std::length_error("more than " + std::to_string(most_pairs) + " pairs of near bodies");
+        }
       });
   return pairs_;
 }

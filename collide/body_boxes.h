@@ -21,7 +21,10 @@ struct BodyPair {
 /// Every two live bodies whose boxes are within reach of each other (see contact_reach).
 class BodyPairs {
  public:
-  const std::vector<BodyPair>& find(const BodyBoxes& bodies, float reach);
+  static constexpr std::size_t max_pairs = std::size_t{1} << 27;  // 1 GiB of them
+
+  /// Throws std::length_error at more than most_pairs.
+  const std::vector<BodyPair>& find(const BodyBoxes& bodies, float reach, std::size_t most_pairs = max_pairs);
 
  private:
   std::vector<Index> order_;

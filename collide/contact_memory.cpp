@@ -32,13 +32,21 @@ bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSe
     forget();
     return false;
   }
+  try {
+    if (follow(frame, search, workers, result)) return true;
+  } catch (...) {  // half done
+    forget();
+    throw;
+  }
+  forget();
+  pause_ = pause_frames;
+  return false;
+}
+
+bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
   measure_moves(frame, workers);
   ++age_;
-  if (!refresh(frame, search, workers, result)) {
-    forget();
-    pause_ = pause_frames;
-    return false;
-  }
+  if (!refresh(frame, search, workers, result)) return false;
   test(frame, workers, result);
   return true;
 }
@@ -130,7 +138,8 @@ bool ContactMemory::choose_margin(const Frame& frame, float tolerance) {
   std::nth_element(moves.begin(), ninth, moves.end());
   const float speed = *ninth / static_cast<float>(age_);
   margin_ = std::clamp(frames_to_last * speed, least_margin * tolerance, most_margin * tolerance);
-  return speed * 4 < margin_;  // also where it is not finite
+  const float distance = query(frame).distance;
+  return speed * 4 < margin_ && std::isfinite(distance * distance);  // speed may not be finite either
 }
 
 void ContactMemory::find_stale() {
@@ -143,8 +152,9 @@ void ContactMemory::find_stale() {
 }
 
 GroupSearch::Query ContactMemory::query(const Frame& frame) const {
+  // A pair that is not found is farther apart than this, whatever rounding and underflow do to its squared distance.
   const double distance = double{contact_reach(settings_.tolerance)} + margin_;
-  return {.distance = round_up(distance * (1 + 0x1p-20)),
+  return {.distance = round_up(std::sqrt(distance * distance + 0x1p-146) * (1 + 0x1p-20)),
           .tolerance = settings_.tolerance,
           .self = settings_.self_collision,
           .levels = settings_.levels,
@@ -193,7 +203,12 @@ void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers&
   search.find_near(what.distance, workers);
   for (const Index body : search.live()) {
     const std::span<const Index> behind = search.near().behind(body);
-    wanted[body] = fresh[body] || std::any_of(behind.begin(), behind.end(), [&](Index b) { return fresh[b]; });
+    const std::span<const Index> before = std::span(partners_).subspan(
+        groups_[body].first_partner, groups_[body].last_partner - groups_[body].first_partner);
+    const auto is_fresh = [&](Index b) { return fresh[b]; };
+    // Those that are near no more have to leave the group, since they may not even be finite.
+    wanted[body] = fresh[body] || std::any_of(behind.begin(), behind.end(), is_fresh) ||
+                   std::any_of(before.begin(), before.end(), is_fresh);
   }
   search.find_groups(frame, what, workers, [&](Index body) { return wanted[body]; });
   search.count(result);
@@ -227,7 +242,9 @@ void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers&
 }
 
 void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  const auto threads = static_cast<std::size_t>(workers.threads());
+  if (threads_.size() != threads) slices_hold_ = false;  // bodies fall to other threads now
+  threads_.resize(threads);
   slice_begin_.resize(shape_.size());
   slice_end_.resize(shape_.size());
   workers.run([&](int thread) {

@@ -18,7 +18,7 @@ namespace collide {
 class ContactMemory {
  public:
   /// The contacts of the frame, if they follow from what is remembered; else false, with nothing but the result's old
-  /// contacts lost. Uses `search` for the groups that have to be listed anew.
+  /// contacts lost. Uses `search` for the groups that have to be listed anew. What it throws leaves nothing remembered.
   bool recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers, Result& result);
 
   /// To be called after a frame that was not recalled.
@@ -54,6 +54,8 @@ class ContactMemory {
   void test(const Frame& frame, Workers& workers, Result& result);
   void test_group(Thread& own, const Frame& frame, Index body);
   bool still(Index body) const { return still_[body] >= 2; }
+
+  bool follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
 
   State state_ = State::blank;
   int pause_ = 0;  // frames not to be watched

@@ -7,11 +7,16 @@
 //   cell_hash.h       grid cells, and the hash function of a cell
 //   bucket_table.h    things sorted into buckets
 //   box_table.h       boxes in buckets, and the pairs of boxes that share one
-//   box_sweep.h       pairs of boxes by sort and sweep, for boxes that no grid suits
 //   vertex_grid.h     vertices in buckets, and all contacts among them
 //   points.h          vertices in the order in which a method tests them
 //   contact_search.h  tests runs of vertices, filters and orders the contacts
 //   reach.h           how far apart two vertices in contact can be, rounding included
+//   near_bodies.h     bodies near each other, by strips and spheres: for many bodies, on all threads
+//   vertex_kernels.h  the loops over vertices in the processor's widest instructions
+//   self_proof.h      proves for a frame that a body cannot touch itself
+//   overlap_tree.h    the area where two bodies overlap, cut level by level
+//   group_search.h    all contacts from these four, body by body
+//   contact_memory.h  what earlier frames say about where contacts can be
 
 #include <memory>
 

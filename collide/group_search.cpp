@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <stdexcept>
-#include <string>
 #include <utility>
 
 #include <glm/common.hpp>
@@ -74,7 +72,7 @@ void GroupSearch::begin(const Frame& frame, const Query& query, Workers& workers
 }
 
 void GroupSearch::begin(Thread& own) const {
-  own.tree.begin(query_.levels, reach_, distance2_);
+  own.tree.begin(query_.levels, reach_, distance2_, query_.most_pairs);
   own.pairs.clear();
   own.partners.clear();
   own.counted = 0;
@@ -108,8 +106,7 @@ void GroupSearch::count_pairs(Thread& own) {
   const std::size_t added = own.pairs.size() - own.counted;
   own.counted = own.pairs.size();
   if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.most_pairs) {
-    throw std::length_error("more than " + std::to_string(query_.most_pairs) +
-                            " contacts in one frame: lower the tolerance");
+    throw_too_many_contacts(query_.most_pairs);
   }
 }
 

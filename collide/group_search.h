@@ -24,7 +24,8 @@ class GroupSearch {
   void bound(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies);
 
   /// Finds the bodies near each other, then all groups; or those that `wanted` says, given the near ones. After bound()
-  /// of the same frame. Throws std::length_error at more than query.most_pairs pairs.
+  /// of the same frame. Throws std::length_error at more than query.most_pairs pairs, and where one body alone has so
+  /// many before those that Shape::excludes() are taken out.
   void find(const Frame& frame, const Query& query, Workers& workers);
   void find_near(float distance, Workers& workers);
   template <class Wanted>
@@ -95,6 +96,7 @@ template <class Wanted>
 void GroupSearch::find_groups(const Frame& frame, const Query& query, Workers& workers, const Wanted& wanted) {
   begin(frame, query, workers);
   workers.run([&](int thread) { find_part(thread, workers.threads(), wanted); });
+  for (Thread& thread : threads_) count_pairs(thread);  // the rest, so that no more pass on many threads than on one
 }
 
 template <class Wanted>

@@ -42,6 +42,7 @@ class MultiLevelSbExact final : public Detector {
     memory_.forget();
   }
 
+  /// Where the last search looked: while candidates are remembered, that was when some were listed.
   DebugGeometry debug() const override {
     DebugGeometry geometry;
     geometry.boxes = search_.boxes();

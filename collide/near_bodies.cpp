@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <stdexcept>
+#include <string>
 
 #include <glm/common.hpp>
 
@@ -20,9 +21,16 @@ std::uint32_t ordered(float value) {
 
 constexpr std::size_t most_strips = 4096;
 
+[[noreturn]] void throw_too_many_pairs(std::size_t most) {
+  throw std::length_error("more than " + std::to_string(most) + " pairs of near bodies");
+}
+
 }  // namespace
 
-void NearBodies::find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers) {
+void NearBodies::find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers,
+                      std::size_t most_pairs) {
+  first_.assign(bounds.size() + 1, 0);  // no pairs, should this fail
+  other_.clear();
   sort(bounds, live, reach);
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   workers.run([&](int thread) {
@@ -34,10 +42,10 @@ void NearBodies::find(std::span<const Bound> bounds, std::span<const Index> live
       const std::size_t before = own.found.size();
       find_row(own, i, reach);
       own.count.push_back(static_cast<Index>(own.found.size() - before));
-      if (own.found.size() > max_pairs) throw std::length_error("more than 134217728 pairs of near bodies");
+      if (own.found.size() > most_pairs) throw_too_many_pairs(most_pairs);
     }
   });
-  group(bounds.size());
+  group(bounds.size(), most_pairs);
 }
 
 /// Those behind it in its own strip, and those of the strips that it reaches into.
@@ -108,8 +116,7 @@ void NearBodies::sort(std::span<const Bound> bounds, std::span<const Index> live
 }
 
 /// By the smaller number of each pair: counting sort, then each group by itself.
-void NearBodies::group(std::size_t bodies) {
-  first_.assign(bodies + 1, 0);
+void NearBodies::group(std::size_t bodies, std::size_t most_pairs) {
   in_pair_.assign(bodies, false);
   near_boxes_ = 0;
   std::size_t pairs = 0;
@@ -130,7 +137,10 @@ void NearBodies::group(std::size_t bodies) {
     in_pair_[a] = in_pair_[b] = true;
     ++pairs;
   });
-  if (pairs > max_pairs) throw std::length_error("more than 134217728 pairs of near bodies");
+  if (pairs > most_pairs) {
+    first_.assign(bodies + 1, 0);
+    throw_too_many_pairs(most_pairs);
+  }
   alone_ = 0;
   for (const Place& place : order_) alone_ += !in_pair_[place.body];
   for (const Thread& thread : threads_) near_boxes_ += thread.near_boxes;

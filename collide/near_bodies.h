@@ -9,8 +9,9 @@ namespace collide {
 class NearBodies {
  public:
   /// Finds every two of the `live` bodies whose boxes are near() and whose spheres are within reach of each other.
-  /// bounds: of all bodies. Throws std::length_error at more than max_pairs of them.
-  void find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers);
+  /// bounds: of all bodies. Throws std::length_error at more than most_pairs of them.
+  void find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers,
+            std::size_t most_pairs = max_pairs);
 
   /// Those near a body that have a greater number than it; ascending.
   std::span<const Index> behind(Index body) const {
@@ -38,7 +39,7 @@ class NearBodies {
   void sort(std::span<const Bound> bounds, std::span<const Index> live, float reach);
   std::size_t strip_of(double value) const;
   void find_row(Thread& own, Index place, float reach) const;
-  void group(std::size_t bodies);
+  void group(std::size_t bodies, std::size_t most_pairs);
 
   StripBoxes boxes_;
   int across_ = 0;  // the axis that the strips divide

@@ -50,7 +50,8 @@ Cut cut_of(const Aabb& box) {
 
 }  // namespace
 
-void OverlapTree::begin(int levels, float reach, float tolerance2) {
+void OverlapTree::begin(int levels, float reach, float tolerance2, std::size_t most_contacts) {
+  most_contacts_ = most_contacts;
   levels_ = levels;
   reach_ = reach;
   tolerance2_ = tolerance2;
@@ -77,7 +78,7 @@ void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
     if (tests == 0) return;
     pair_tests_ += tests;
     if (depth > 0) leaves_.push_back({bounds_of(a).lo, bounds_of(a).hi, body_});
-    contacts_between(a, b, tolerance2_, words_, *contacts_);
+    contacts_between(a, b, tolerance2_, most_contacts_, words_, *contacts_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
@@ -103,7 +104,7 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});
-    contacts_within(set, tolerance2_, words_, *contacts_);
+    contacts_within(set, tolerance2_, most_contacts_, words_, *contacts_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];

@@ -13,10 +13,11 @@ class OverlapTree {
   static constexpr std::uint64_t leaf_tests = 16384;
 
   /// levels: of cuts, at most. Clears the counts and the leaves.
-  void begin(int levels, float reach, float tolerance2);
+  void begin(int levels, float reach, float tolerance2, std::size_t most_contacts);
 
   /// Appends the contacts between two sets of vertices, or within one; each pair once. If there was more than one leaf
-  /// they are in no order. body: whose leaves they are.
+  /// they are in no order. body: whose leaves they are. Throws std::length_error once `contacts` has more than
+  /// most_contacts.
   void between(const Picked& a, const Picked& b, Index body, std::vector<Contact>& contacts);
   void within(const Picked& set, Index body, std::vector<Contact>& contacts);
 
@@ -35,6 +36,7 @@ class OverlapTree {
 
   int levels_ = 0;
   float reach_ = 0, tolerance2_ = 0;
+  std::size_t most_contacts_ = 0;
   Index body_ = 0;
   std::vector<Contact>* contacts_ = nullptr;
   std::vector<Level> level_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
@@ -11,6 +12,10 @@
 namespace collide {
 
 namespace {
+
+/// m: more than a length can lose where squares of floats underflow, twice over: sqrt(3) 2^-75 + 2^-75.
+constexpr double lost_below = 0x1p-73;
+constexpr float largest_radius = 1e18f;  // m: of a reference whose squared distances are finite
 
 /// A lower bound of the smallest singular value of a 3 x 3 matrix: the eigenvalues of M^T M lie within sqrt(2) standard
 /// deviations of their mean (Samuelson's inequality for three values).
@@ -24,7 +29,9 @@ double least_singular_value(const std::array<float, 9>& m) {
   const double off = g[3] * g[3] + g[4] * g[4] + g[5] * g[5];
   const double spread = (g[0] - mean) * (g[0] - mean) + (g[1] - mean) * (g[1] - mean) + (g[2] - mean) * (g[2] - mean);
   const double variance = (spread + 2 * off) / 3;
-  return std::sqrt(std::max(0.0, mean - std::sqrt(2 * variance))) * (1 - 1e-9);
+  const double rounding =
+      1e-13 * mean;  // of the products, many times over: the difference may be far smaller than they
+  return std::sqrt(std::max(0.0, mean - std::sqrt(2 * variance) - rounding)) * (1 - 1e-9);
 }
 
 }  // namespace
@@ -32,6 +39,8 @@ double least_singular_value(const std::array<float, 9>& m) {
 SelfReference::SelfReference(const Run& positions, const Topology& topology, float reach) : reach_(reach) {
   const Index size = positions.size;
   if (size < fewest || size > most) return;
+  const Bound bound = bound_of(positions);
+  if (!(bound.finite && bound.radius < largest_radius)) return;
   glm::dvec3 centre(0);
   Index sampled = 0;
   for_samples(size, [&](Index v) {
@@ -54,7 +63,7 @@ SelfReference::SelfReference(const Run& positions, const Topology& topology, flo
   }
   radius_ = static_cast<float>(std::sqrt(farthest) * (1 + 1e-6));
   const double scale = (moment[0][0] + moment[1][1] + moment[2][2]) / 3;
-  if (!(glm::determinant(moment) > 1e-4 * scale * scale * scale)) return;  // flat, or not finite
+  if (!(glm::determinant(moment) > 1e-4 * scale * scale * scale)) return;  // flat
   const glm::dmat3 inverse = glm::inverse(moment);
   for (std::size_t k = 0; k < 9; ++k) {
     inverse_moment_[k] = static_cast<float>(inverse[static_cast<int>(k / 3)][static_cast<int>(k % 3)]);
@@ -70,7 +79,7 @@ void SelfReference::list_pairs(const Topology& topology) {
   covered_ = reach_ + 0.3f * radius_;
   Words words;
   std::vector<Contact> close;
-  contacts_within(all, covered_ * covered_, words, close);
+  contacts_within(all, covered_ * covered_, std::size_t{most} * most, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
   std::span<const Index> joined;  // to the first of the pair, and greater than the second of the last one
   for (std::size_t k = 0; k < close.size(); ++k) {
@@ -89,7 +98,7 @@ void SelfReference::list_pairs(const Topology& topology) {
     listed.resize(most_pairs);
   }
   std::sort(listed.begin(), listed.end());
-  covered_ *= 1 - 1e-6f;  // for the rounding of the distances
+  covered_ = covered_ * (1 - 1e-6f) - static_cast<float>(lost_below);  // for the rounding of the distances
   for (const auto& [distance, pair] : listed) {
     distance_.push_back(distance);
     pairs_.push_back(pair);
@@ -105,17 +114,18 @@ SelfRisk SelfReference::at_risk(const Run& body, const Bound& bound, Scratch& sc
   double size = bound.radius;
   for (const float m : fit.matrix) size += std::abs(double{m}) * radius_;
   for (const float t : fit.offset) size += std::abs(double{t});
-  const double rounding = 2 * 8 * 0x1p-24 * size;
+  const double rounding = 2 * 8 * 0x1p-24 * size + lost_below;
   const double stretch = least_singular_value(fit.matrix);
   const double allowed = (stretch * covered_ - reach_) * (0.5 - 1e-6) - rounding;  // of a residual
   if (!(allowed > 0)) return {};                                                   // also where it is no number
   if (fit.residual <= allowed) {
-    const double needed = (reach_ + 2 * (fit.residual + rounding)) / stretch * (1 + 1e-6);
+    const double needed = (reach_ + 2 * (fit.residual + rounding)) / stretch * (1 + 1e-6) + lost_below;
     const auto end = std::upper_bound(distance_.begin(), distance_.end(), round_up(needed));
     return {true, std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin())), {}};
   }
   scratch.odd.clear();
-  const float allowed2 = static_cast<float>(allowed * allowed * (1 - 1e-6));
+  constexpr double largest = std::numeric_limits<float>::max();  // an infinite residual is never allowed
+  const auto allowed2 = static_cast<float>(std::min(allowed * allowed * (1 - 1e-6), largest));
   for (Index v = 0; v < body.size; ++v) {
     if (!(scratch.residual2[v] <= allowed2)) scratch.odd.push_back(v);
   }

@@ -24,7 +24,7 @@ struct SelfRisk {
 /// is neither flattened nor folded, both are few. The bodies' positions decide how much is left, never what is found.
 class SelfReference {
  public:
-  /// Positions of one body. usable() if it has neither too few nor too many vertices and is not flat.
+  /// Positions of one body. usable() if it has neither too few nor too many vertices and is finite and not flat.
   SelfReference(const Run& positions, const Topology& topology, float reach);
 
   bool usable() const { return usable_; }

@@ -75,10 +75,16 @@ struct Facing {
 Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
             std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts);
 
-/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are.
-void contacts_between(const Picked& a, const Picked& b, float tolerance2, Words& words, std::vector<Contact>& contacts);
+/// Throws the std::length_error of a frame with more contacts than that.
+[[noreturn]] void throw_too_many_contacts(std::size_t most);
+
+/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are. Throws
+/// std::length_error once there are more than `most` pairs.
+void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
+                      std::vector<Contact>& contacts);
 /// The same for all pairs of one set, i before j; and for all pairs of its vertex i with another.
-void contacts_within(const Picked& set, float tolerance2, Words& words, std::vector<Contact>& contacts);
+void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
+                     std::vector<Contact>& contacts);
 void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
 
 /// The vertices that an affine map is fitted to: some of them, spread over the body, are enough. Calls visit(v).
