@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <iterator>
+#include <utility>
+
+#include "app/score.h"
 
 namespace app {
 namespace {
@@ -11,19 +13,15 @@ double now_ms() {
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-double share(std::size_t part, std::size_t whole) {
-  return whole == 0 ? 1.0 : static_cast<double>(part) / static_cast<double>(whole);
-}
-
 CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, CompareRow row) {
   row.scored = true;
   row.counters = found.counters;
   row.coverage = found.coverage;
   row.contacts = found.contacts.size();
-  std::ranges::set_difference(truth, found.contacts, std::back_inserter(row.missed));
-  const std::size_t hits = truth.size() - row.missed.size();
-  row.recall = share(hits, truth.size());
-  row.precision = share(hits, row.contacts);
+  Score against = score(found.contacts, truth);
+  row.missed = std::move(against.missed);
+  row.recall = against.recall;
+  row.precision = against.precision;
   return row;
 }
 
@@ -79,6 +77,7 @@ void Comparison::detect(std::size_t method, const Snapshot& snapshot) {
   Entry& entry = entries_[method];
   entry.error.clear();
   try {
+    entry.detector->forget();  // from scratch, as the others
     const double start = now_ms();
     entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result);
     entry.ms = now_ms() - start;

@@ -9,6 +9,7 @@
 
 #include "app/contacts_csv.h"
 #include "app/obj.h"
+#include "app/times.h"
 
 namespace app {
 namespace {
@@ -38,14 +39,17 @@ void require_match(const ObjBodies& bodies, const std::string& file, const ObjBo
   }
 }
 
-/// `rest`: nullptr, or what matches `mesh`.
+/// `rest`: nullptr, or what matches `mesh`. Copies of one mesh, one after another, share their topology.
 collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
   collide::Bodies bodies;
+  std::shared_ptr<const collide::Topology> topology;
   for (std::size_t b = 0; b < mesh.count(); ++b) {
+    if (b == 0 || mesh.size(b) != mesh.size(b - 1) || mesh.edges[b] != mesh.edges[b - 1])
+      topology = std::make_shared<collide::Topology>(mesh.size(b), mesh.edges[b]);
     std::vector<glm::vec3> positions;
     for (Index v = mesh.first[b]; rest && v < mesh.first[b + 1]; ++v)
       positions.emplace_back(rest->x[v], rest->y[v], rest->z[v]);
-    bodies.add(std::make_shared<collide::Shape>(mesh.size(b), mesh.edges[b], std::move(positions)));
+    bodies.add(std::make_shared<collide::Shape>(topology, std::move(positions)));
   }
   return bodies;
 }
@@ -76,14 +80,7 @@ struct Row {
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
   collide::Skipped skipped{};
-  std::vector<double> ms;  // of each repetition
-
-  double least() const { return *std::min_element(ms.begin(), ms.end()); }
-  double median() const {
-    std::vector<double> sorted = ms;
-    std::sort(sorted.begin(), sorted.end());
-    return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;
-  }
+  Times times;  // of each repetition
 };
 
 /// From positions in memory to the finished list.
@@ -110,7 +107,7 @@ std::vector<Row> run(const Options& options, const collide::Method& method, cons
     for (std::size_t f = 0; f < rows.size(); ++f) {
       if (!options.detect.reuse) detector->forget();
       const collide::Frame frame = sequence.frame(f);
-      rows[f].ms.push_back(timed_detect(*detector, frame, settings, workers, result, options.detect.files[f]));
+      rows[f].times.ms.push_back(timed_detect(*detector, frame, settings, workers, result, options.detect.files[f]));
       if (repetition > 0) continue;
       rows[f].contacts = result.contacts.size();
       rows[f].self_contacts = result.self_contacts;
@@ -134,7 +131,7 @@ void print_json(const Options& options, const collide::Method& method, const col
     frames.push_back({{"frame", frames.size()},
                       {"contacts", r.contacts},
                       {"self_contacts", r.self_contacts},
-                      {"ms", {{"min", r.least()}, {"median", r.median()}}},
+                      {"ms", {{"min", r.times.least()}, {"median", r.times.median()}}},
                       {"pair_tests", r.counters.pair_tests},
                       {"hashes", r.counters.hashes},
                       {"boxes", r.counters.boxes},
@@ -157,8 +154,8 @@ void print_table(const Options& options, const collide::Method& method, const co
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   for (std::size_t f = 0; f < rows.size(); ++f) {
     const Row& r = rows[f];
-    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.least(), r.median(), r.contacts,
-                number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
+    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.least(), r.times.median(),
+                r.contacts, number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
                 number(r.counters.boxes));
   }
 }

@@ -13,6 +13,13 @@
 namespace app {
 namespace fs = std::filesystem;
 
+void prepare_folder(const std::filesystem::path& folder) {
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error || access(folder.c_str(), W_OK) != 0)
+    throw UsageError("--out " + folder.string() + ": cannot be written to; name a folder of your own");
+}
+
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
   std::error_code ignored;
   const fs::file_status status = fs::status(path_, ignored);

@@ -9,6 +9,9 @@
 
 namespace app {
 
+/// Makes the folder of --out if it is not there. Throws UsageError if nothing can be written to it.
+void prepare_folder(const std::filesystem::path& folder);
+
 class OutputFile {
  public:
   /// Opens a temporary file beside `path`. Throws UsageError, as all of this class does, if the file could not be put

@@ -1,7 +1,5 @@
 #include "app/report.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 
@@ -27,13 +25,6 @@ const Report& find_report(const std::string& name) {
 }
 
 }  // namespace
-
-void prepare_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error || access(folder.c_str(), W_OK) != 0)
-    throw UsageError("--out " + folder.string() + ": cannot be written to; name a folder of your own");
-}
 
 void report(const Options& options) { find_report(options.report.name).make(options); }
 

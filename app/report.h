@@ -9,7 +9,4 @@ namespace app {
 /// is no such report or the folder cannot be written to; and SceneError.
 void report(const Options& options);
 
-/// Makes the folder if it is not there. Throws UsageError if nothing can be written to it.
-void prepare_folder(const std::filesystem::path& folder);
-
 }  // namespace app

@@ -9,7 +9,7 @@ build release sbcollide -DBUILD_TESTING=OFF
 program=$root/build/release/bin/sbcollide
 
 case "${1:-}" in
-  simulate | detect | list | -h | --help | --version) exec "$program" "$@" ;;
+  simulate | detect | report | list | -h | --help | --version) exec "$program" "$@" ;;
 esac
 if [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ]; then
   exec "$program" "$@"

@@ -8,6 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/output_file.h"
 #include "softbody/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/capture.h"
@@ -114,10 +115,7 @@ class Pictures {
     if (options.captures.empty()) return;
 #if SBCOLLIDE_GRAPHICS
     capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
-    std::error_code error;
-    std::filesystem::create_directories(options.out, error);
-    if (error || access(options.out.c_str(), W_OK) != 0)
-      throw UsageError("--out " + options.out.string() + ": cannot be written to; name a folder of your own");
+    prepare_folder(options.out);
 #else
     throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
 #endif

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "collide/reach.h"
-
 namespace collide {
 
 void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
   frame_ = &frame;
   points_ = &points;
   tolerance2_ = settings.tolerance * settings.tolerance;
-  reach_ = contact_reach(settings.tolerance);
   self_collision_ = settings.self_collision;
   found_ = 0;
   threads_.resize(static_cast<std::size_t>(threads));
@@ -22,30 +19,18 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
   }
 }
 
-template <class Search>
-void ContactSearch::search_rows(Thread& own, const Points& points, Range a, Range b, const Search& search) {
-  constexpr Index most_tests = 1u << 20;  // between two looks at the number of contacts
-  const Index most_rows = std::max<Index>(1, most_tests / std::max<Index>(1, b.size()));
-  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
-    rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
-    search(rows);
-    if (!own.hits.empty()) keep_contacts(own, points);
-  }
-}
-
 void ContactSearch::test(int thread, const Points& points, Range a, Range b) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
-  search_rows(own, points, a, b, [&](Range rows) { near_pairs(points, rows, b, tolerance2_, own.hits); });
   const std::uint64_t na = a.size(), nb = b.size();
+  constexpr std::uint64_t most_tests = 1u << 20;  // between two looks at the number of contacts
+  const Index most_rows =
+      na * nb <= most_tests ? a.size() : static_cast<Index>(std::max(most_tests / nb, std::uint64_t{1}));
+  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
+    rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
+    near_pairs(points, rows, b, tolerance2_, own.hits);
+    if (!own.hits.empty()) keep_contacts(own, points);
+  }
   own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
-}
-
-void ContactSearch::test_near(int thread, Range a, Range b, const Aabb& region) {
-  Thread& own = threads_[static_cast<std::size_t>(thread)];
-  search_rows(own, *points_, a, b, [&](Range rows) {
-    const std::uint64_t tested = near_pairs(*points_, rows, b, region, reach_, tolerance2_, own.hits);
-    own.pair_tests += tested * b.size();
-  });
 }
 
 void ContactSearch::keep_contacts(Thread& own, const Points& points) {

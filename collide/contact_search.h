@@ -23,10 +23,6 @@ class ContactSearch {
   /// The same for slots of other points, such as copies of some of those that the search has begun with.
   void test(int thread, const Points& points, Range a, Range b);
 
-  /// The same for different runs, where all of b lies inside the region: vertices of a out of reach of it are not
-  /// tested.
-  void test_near(int thread, Range a, Range b, const Aabb& region);
-
   /// Adds the contacts, the self contacts and the pair tests to a result that BodyBoxes::build() has started.
   void finish(Result& result);
 
@@ -38,14 +34,11 @@ class ContactSearch {
     std::vector<Contact> contacts;
     std::uint64_t self_contacts, pair_tests;
   };
-  /// Calls search(rows) for a few rows of a at a time, and keeps the contacts among the hits.
-  template <class Search>
-  void search_rows(Thread& own, const Points& points, Range a, Range b, const Search& search);
   void keep_contacts(Thread& own, const Points& points);
 
   const Frame* frame_ = nullptr;
   const Points* points_ = nullptr;
-  float tolerance2_ = 0, reach_ = 0;
+  float tolerance2_ = 0;
   bool self_collision_ = true;
   std::vector<Thread> threads_;
   std::atomic<std::size_t> found_ = 0;
