@@ -29,14 +29,16 @@ void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui,
                                 double seconds) {
   SceneArea above = area;
   above.max.y = draw_compare(widgets, session, area);
-  const bool table_fits = area.max.x - area.min.x >= widgets.px(HashView::width + least_scene_width) &&
+  const float beside_table = ui.sweep ? SweepView::least_width : least_scene_width;
+  const bool table_fits = area.max.x - area.min.x >= widgets.px(HashView::width + margin + beside_table) &&
                           above.max.y >= widgets.px(least_height_for_table);
   const bool table = ui.table && table_fits;
   SceneArea left_of_table = above;
-  if (table) left_of_table.max.x -= widgets.px(HashView::width);
+  if (table) left_of_table.max.x -= widgets.px(HashView::width + margin);
   draw_caption(widgets, session, left_of_table, seconds);
   draw_legends(widgets, session, above, draw_status(widgets, session, above));
   if (table) hash_view_.draw(widgets, session, above, ui.table);
+  if (ui.sweep) sweep_view_.draw(widgets, session, left_of_table, ui.sweep);
 }
 
 }  // namespace app

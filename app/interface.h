@@ -3,6 +3,7 @@
 
 #include "app/hash_view.h"
 #include "app/session.h"
+#include "app/sweep_view.h"
 #include "app/ui_state.h"
 #include "app/widgets.h"
 
@@ -19,14 +20,16 @@ class Interface {
   void draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder = nullptr);
 
   const HashView& hash_view() const { return hash_view_; }
+  const SweepView& sweep_view() const { return sweep_view_; }
 
  private:
-  static constexpr float least_height_for_table = 400;  // design pixels
+  static constexpr float least_height_for_table = 400, margin = 12;  // design pixels; margin: beside the table
 
   static bool panel_covers_scene(const UiState& ui, float scale);
   void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area, double seconds);
 
   HashView hash_view_;
+  SweepView sweep_view_;
   Hover hover_;
 };
 

@@ -24,6 +24,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes", [](Session& s, UiState&) { change_levels(s, -1); }, true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes", [](Session& s, UiState&) { change_levels(s, 1); }, true},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods", [](Session& s, UiState&) { s.compare.on = !s.compare.on; }},
+    Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.table = !ui.table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
