@@ -242,21 +242,19 @@ void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers&
 }
 
 void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
-  const auto threads = static_cast<std::size_t>(workers.threads());
-  if (threads_.size() != threads) slices_hold_ = false;  // bodies fall to other threads now
-  threads_.resize(threads);
-  slice_begin_.resize(shape_.size());
-  slice_end_.resize(shape_.size());
-  workers.run([&](int thread) {
-    Thread& own = threads_[static_cast<std::size_t>(thread)];
+  threads_.resize(std::max(threads_.size(), static_cast<std::size_t>(workers.threads())));
+  slices_.resize(shape_.size());
+  for (Thread& own : threads_) {
     own.contacts.swap(own.last_contacts);
     own.contacts.clear();
     own.self_contacts = own.tests = own.remembered = own.kept = 0;
+  }
+  workers.run([&](int thread) {
     const Part part = part_of(candidates_.size() + shape_.size(), thread, workers.threads());
     for (Index body = 0; body < shape_.size(); ++body) {
       const std::size_t place = groups_[body].begin + body;
       if (groups_[body].begin == groups_[body].end) continue;
-      if (place >= part.begin && place < part.end) test_group(own, frame, body);
+      if (place >= part.begin && place < part.end) test_group(static_cast<std::size_t>(thread), frame, body);
     }
   });
   std::size_t total = 0;
@@ -273,7 +271,8 @@ void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
   slices_hold_ = true;
 }
 
-void ContactMemory::test_group(Thread& own, const Frame& frame, Index body) {
+void ContactMemory::test_group(std::size_t thread, const Frame& frame, Index body) {
+  Thread& own = threads_[thread];
   const Group& group = groups_[body];
   const std::size_t before = own.contacts.size(), partners = group.last_partner - group.first_partner;
   const bool kept = slices_hold_ && still(body) &&
@@ -282,8 +281,9 @@ void ContactMemory::test_group(Thread& own, const Frame& frame, Index body) {
                                 [&](Index other) { return still(other); });
   if (kept) {
     own.kept += partners;
-    own.contacts.insert(own.contacts.end(), own.last_contacts.begin() + static_cast<std::ptrdiff_t>(slice_begin_[body]),
-                        own.last_contacts.begin() + static_cast<std::ptrdiff_t>(slice_end_[body]));
+    const auto last = threads_[slices_[body].thread].last_contacts.begin();
+    own.contacts.insert(own.contacts.end(), last + static_cast<std::ptrdiff_t>(slices_[body].begin),
+                        last + static_cast<std::ptrdiff_t>(slices_[body].end));
   } else {
     own.remembered += partners;
     own.tests += group.end - group.begin;
@@ -300,8 +300,7 @@ void ContactMemory::test_group(Thread& own, const Frame& frame, Index body) {
   }
   const Index end = first_[body + 1];
   for (std::size_t k = before; k < own.contacts.size(); ++k) own.self_contacts += own.contacts[k].b < end;
-  slice_begin_[body] = before;
-  slice_end_[body] = own.contacts.size();
+  slices_[body] = {thread, before, own.contacts.size()};
 }
 
 }  // namespace collide

@@ -37,8 +37,11 @@ class ContactMemory {
     std::size_t begin = 0, end = 0;                   // of the candidates
     std::size_t first_partner = 0, last_partner = 0;  // of the bodies in them, itself left out
   };
+  struct Slice {
+    std::size_t thread, begin, end;
+  };
   struct alignas(64) Thread {
-    std::vector<Contact> contacts, last_contacts;
+    std::vector<Contact> contacts, last_contacts;  // of this frame and of the last one
     std::uint64_t self_contacts = 0, tests = 0, remembered = 0, kept = 0;
   };
 
@@ -52,7 +55,7 @@ class ContactMemory {
   void list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void test(const Frame& frame, Workers& workers, Result& result);
-  void test_group(Thread& own, const Frame& frame, Index body);
+  void test_group(std::size_t thread, const Frame& frame, Index body);
   bool still(Index body) const { return still_[body] >= 2; }
 
   bool follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
@@ -72,9 +75,9 @@ class ContactMemory {
   std::vector<Group> groups_;
   std::vector<Contact> candidates_;
   std::vector<Index> partners_;
-  std::vector<std::size_t> slice_begin_, slice_end_;  // of each body's contacts in its thread's last ones
+  std::vector<Slice> slices_;  // of each body: its contacts in the last frame
   bool slices_hold_ = false;
-  std::vector<Thread> threads_;
+  std::vector<Thread> threads_;  // as many as there ever were
 };
 
 }  // namespace collide

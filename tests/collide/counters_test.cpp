@@ -66,18 +66,17 @@ TEST(Counters, OfTheLiteralMethodIncludeABoxWithItself) {
   EXPECT_EQ(counters.pair_tests, 28u);
 }
 
-TEST(Counters, OfTheExactMethodAreOneHashACell) {
-  Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
-  EXPECT_EQ(counters.boxes, 8u);
-  EXPECT_EQ(counters.hashes, 8u);
-  EXPECT_EQ(counters.pair_tests, 0u);  // boxes touch, but every vertex is 1 m from all boxes but its own
-  Settings settings = cells_of(1.0f, 65537);
-  settings.levels = 0;
-  settings.tolerance = 0.2f;
-  counters = detect("multi-level-sb-exact", cube(0.5f), settings).counters;  // 0.4 .. 2.6: cells 0, 1, 2
+TEST(Counters, OfTheExactMethodHaveNoHashes) {
+  const Counters counters = detect("multi-level-sb-exact", cube(1), cells_of(10)).counters;
+  EXPECT_EQ(counters.hashes, 0u);
+  EXPECT_EQ(counters.buckets_used, 0u);
+  EXPECT_EQ(counters.longest_bucket, 0u);
+  EXPECT_EQ(counters.boxes, 2u);  // the body's, and the area that it can touch itself in, uncut
   EXPECT_EQ(counters.pair_tests, 28u);
-  EXPECT_EQ(counters.hashes, 27u);
-  EXPECT_EQ(counters.buckets_used, 27u);
+  Settings settings;
+  settings.self_collision = false;
+  EXPECT_EQ(detect("multi-level-sb-exact", cube(1), settings).counters.boxes, 1u);
+  EXPECT_EQ(detect("multi-level-sb-exact", cube(1), settings).counters.pair_tests, 0u);
 }
 
 TEST(Counters, OfGridHashAreVerticesAndVisitedCells) {

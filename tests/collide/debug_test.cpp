@@ -77,19 +77,45 @@ TEST(Debug, OfTheLiteralMethodShowsCornersMinimumFirst) {
   }
 }
 
-TEST(Debug, OfTheExactMethodShowsPaddedBoxesAndAllTheirCells) {
+TEST(Debug, OfTheExactMethodShowsWhereBodiesOverlap) {
   State state;
-  state.add({glm::vec3(0.2f), glm::vec3(1.2f, 0.8f, 0.8f)});
+  state.add({glm::vec3(0), glm::vec3(1)});
+  state.add({glm::vec3(0.5f, 0.25f, 0.75f), glm::vec3(2)});
   state.tolerance = 0.2f;
   Settings settings = settings_of(state, 1);
-  settings.levels = 0;
+  settings.self_collision = false;
   const DebugGeometry geometry = picture("multi-level-sb-exact", state, settings);
   ASSERT_EQ(geometry.boxes.size(), 1u);
-  EXPECT_NEAR(geometry.boxes[0].lo.x, 0.1, 1e-5);
-  EXPECT_NEAR(geometry.boxes[0].hi.x, 1.3, 1e-5);
-  ASSERT_EQ(geometry.cells.size(), 2u);
-  EXPECT_EQ(geometry.cells[0].index, (CellHash::Cell{0, 0, 0}));
-  EXPECT_EQ(geometry.cells[1].index, (CellHash::Cell{1, 0, 0}));
+  EXPECT_EQ(geometry.boxes[0].body, 0u);
+  const glm::vec3 lo(0.4f, 0.15f, 0.65f);  // half a tolerance more than both have in common
+  for (int axis = 0; axis < 3; ++axis) {
+    EXPECT_NEAR(geometry.boxes[0].lo[axis], lo[axis], 1e-5);
+    EXPECT_NEAR(geometry.boxes[0].hi[axis], 1.1, 1e-5);
+  }
+  EXPECT_TRUE(geometry.cells.empty() && geometry.bucket_load.empty() && geometry.box_bucket.empty());
+  EXPECT_EQ(geometry.box_first, (std::vector<std::uint32_t>{0, 0}));
+}
+
+/// Leaves of the cuts lie in the area that two bodies have in common, give or take the tolerance.
+TEST(Debug, OfTheExactMethodShowsTheLeavesOfItsCuts) {
+  State state;
+  std::mt19937 random(31);
+  for (int body = 0; body < 2; ++body) state.add(random_points(random, 400, 0, 1));
+  state.tolerance = 0.05f;
+  Settings settings = settings_of(state, 1);
+  settings.self_collision = false;
+  settings.levels = 0;
+  EXPECT_EQ(picture("multi-level-sb-exact", state, settings).boxes.size(), 1u);
+  settings.levels = 6;
+  const DebugGeometry geometry = picture("multi-level-sb-exact", state, settings);
+  ASSERT_GT(geometry.boxes.size(), 4u);
+  for (const DebugGeometry::Box& box : geometry.boxes) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_LE(box.lo[axis], box.hi[axis]);
+      EXPECT_GE(box.lo[axis], -0.1f);
+      EXPECT_LE(box.hi[axis], 1.1f);
+    }
+  }
 }
 
 TEST(Debug, KeepsTheFirstCellsWhereThereAreTooMany) {

@@ -4,6 +4,7 @@
 
 #include <stdexcept>
 
+#include "collide/body_boxes.h"
 #include "states.h"
 
 namespace collide::test {
@@ -21,10 +22,28 @@ TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
   for (const char* method : {"multi-level-sb", "multi-level-sb-exact"}) {
     const auto detector = find_method(method)->make();
     Result result;
+    const auto see_settled = [&] {
+      for (int frame = 0; frame < 6; ++frame) {  // enough to be remembered
+        detector->detect(settled.frame(), settings, workers, result);
+        EXPECT_EQ(result.contacts, detect(method, settled, settings).contacts) << method;
+      }
+    };
+    see_settled();
     EXPECT_THROW(detector->detect(crowd.frame(), settings, workers, result), std::length_error) << method;
-    detector->detect(settled.frame(), settings, workers, result);
-    EXPECT_EQ(result.contacts, detect(method, settled, settings).contacts) << method;
+    detector->debug();
+    see_settled();
   }
+}
+
+TEST(Limits, PairsOfNearBodies) {
+  State crowd;
+  for (int body = 0; body < 20; ++body) crowd.add({glm::vec3(0)});
+  Result result;
+  BodyBoxes boxes;
+  boxes.build(crowd.frame(), result);
+  BodyPairs pairs;
+  EXPECT_EQ(pairs.find(boxes, 0.1f, 190).size(), 190u);
+  EXPECT_THROW(pairs.find(boxes, 0.1f, 189), std::length_error);
 }
 
 }  // namespace

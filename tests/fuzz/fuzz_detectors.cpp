@@ -10,7 +10,7 @@
 namespace fuzz {
 namespace {
 
-constexpr int most_frames = 6;
+constexpr int most_frames = 12;  // memory takes three frames to begin
 
 void require(bool holds, const char* what, std::string_view method, int frame) {
   if (holds) return;

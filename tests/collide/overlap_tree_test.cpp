@@ -1,0 +1,132 @@
+// The tree against all pairs, at every level.
+
+#include "collide/overlap_tree.h"
+
+#include <gtest/gtest.h>
+
+#include <stdexcept>
+
+#include "collide/reach.h"
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+constexpr std::size_t no_limit = std::size_t{1} << 22;
+
+Picked picked(const std::vector<glm::vec3>& points, Index first) {
+  Picked set;
+  set.reserve(static_cast<Index>(points.size()));
+  for (const glm::vec3& p : points) set.add(p.x, p.y, p.z, first++);
+  set.end();
+  return set;
+}
+
+std::vector<Contact> sorted(std::vector<Contact> contacts) {
+  std::sort(contacts.begin(), contacts.end());
+  return contacts;
+}
+
+std::vector<Contact> between(const Picked& a, const Picked& b, float tolerance2) {
+  std::vector<Contact> contacts;
+  for (Index i = 0; i < a.size; ++i) {
+    for (Index j = 0; j < b.size; ++j) {
+      if (squared_distance(a.x[i], a.y[i], a.z[i], b.x[j], b.y[j], b.z[j]) < tolerance2) {
+        contacts.push_back({a.vertex[i], b.vertex[j]});
+      }
+    }
+  }
+  return contacts;
+}
+
+/// Pairs of sets: mixed, side by side, far apart, on a lattice where distances equal the tolerance, all in one place.
+struct Sets {
+  std::vector<glm::vec3> a, b;
+  float tolerance;
+};
+std::vector<Sets> examples() {
+  std::mt19937 random(71);
+  std::vector<Sets> sets;
+  sets.push_back({random_points(random, 300, 0, 1), random_points(random, 250, 0, 1), 0.05f});
+  sets.push_back(
+      {random_points(random, 300, 0, 1), moved(random_points(random, 250, 0, 1), glm::vec3(0.9f, 0, 0.3f)), 0.1f});
+  sets.push_back({random_points(random, 200, 0, 1), moved(random_points(random, 200, 0, 1), glm::vec3(9)), 0.1f});
+  sets.push_back({std::vector<glm::vec3>(200, glm::vec3(1)), std::vector<glm::vec3>(150, glm::vec3(1)), 0.1f});
+  std::vector<glm::vec3> lattice;
+  for (int i = 0; i < 512; ++i) lattice.push_back(glm::vec3(i % 8, i / 8 % 8, i / 64));
+  sets.push_back({lattice, moved(lattice, glm::vec3(0, 4, 0)), 1.0f});
+  sets.push_back({lattice, moved(lattice, glm::vec3(8, 0, 0)), std::nextafter(1.0f, 2.0f)});
+  return sets;
+}
+
+TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
+  for (const Sets& sets : examples()) {
+    const Picked a = picked(sets.a, 5), b = picked(sets.b, 9000);
+    const float tolerance2 = sets.tolerance * sets.tolerance;
+    const std::vector<Contact> expected = between(a, b, tolerance2);
+    std::uint64_t uncut = 0;
+    for (int levels = 0; levels <= max_levels; ++levels) {
+      OverlapTree tree;
+      tree.begin(levels, contact_reach(sets.tolerance), tolerance2, no_limit);
+      std::vector<Contact> contacts;
+      tree.between(a, b, 3, contacts);
+      if (tree.leaves() == 0) {
+        EXPECT_TRUE(std::is_sorted(contacts.begin(), contacts.end()));
+      }
+      ASSERT_EQ(sorted(contacts), expected) << levels;
+      if (levels == 0) {
+        uncut = tree.pair_tests();
+        EXPECT_EQ(uncut, std::uint64_t{a.size} * b.size);
+      }
+      EXPECT_LE(tree.pair_tests(), uncut);
+      for (const auto& leaf : tree.leaves_list()) EXPECT_EQ(leaf.body, 3u);
+    }
+  }
+}
+
+TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
+  for (const Sets& sets : examples()) {
+    std::vector<glm::vec3> both = sets.a;
+    both.insert(both.end(), sets.b.begin(), sets.b.end());
+    const Picked set = picked(both, 5);
+    const float tolerance2 = sets.tolerance * sets.tolerance;
+    std::vector<Contact> expected = between(set, set, tolerance2);
+    std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
+    OverlapTree tree;
+    for (int levels = max_levels; levels >= 0; --levels) {  // one tree, so that it has more memory than it needs
+      tree.begin(levels, contact_reach(sets.tolerance), tolerance2, no_limit);
+      std::vector<Contact> contacts;
+      tree.within(set, 3, contacts);
+      for (Contact& pair : contacts) pair = {std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
+      ASSERT_EQ(sorted(contacts), expected) << levels;
+      EXPECT_GT(tree.leaves(), 0u);
+    }
+    EXPECT_EQ(tree.pair_tests(), std::uint64_t{set.size} * (set.size - 1) / 2);
+  }
+}
+
+TEST(OverlapTree, SavesTests) {
+  const Sets sets = examples().front();
+  const Picked a = picked(sets.a, 0), b = picked(sets.b, 500);
+  OverlapTree tree;
+  std::vector<Contact> contacts;
+  tree.begin(6, contact_reach(sets.tolerance), sets.tolerance * sets.tolerance, no_limit);
+  tree.between(a, b, 0, contacts);
+  EXPECT_LT(tree.pair_tests(), std::uint64_t{a.size} * b.size / 2);
+}
+
+TEST(OverlapTree, StopsAtTheMost) {
+  const Picked a = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 0),
+               b = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 200);
+  for (const int levels : {0, 4}) {
+    OverlapTree tree;
+    std::vector<Contact> contacts;
+    tree.begin(levels, 0.1f, 0.01f, 40'000);
+    tree.between(a, b, 0, contacts);
+    EXPECT_EQ(contacts.size(), 40'000u);
+    EXPECT_THROW(tree.within(a, 0, contacts), std::length_error);
+  }
+}
+
+}  // namespace
+}  // namespace collide::test
