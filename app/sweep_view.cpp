@@ -95,8 +95,9 @@ std::string footing(const SweepState& state) {
   std::string text = joined(state.scene, ", frame ", std::to_string(state.frame), ". ");
   const SweepReport& report = state.report;
   if (report.reference) {
-    text += joined(grouped(report.true_contacts), " true contacts by ",
-                   collide::methods()[report.reference->method].name, report.stands_in.empty() ? "." : "*.");
+    text +=
+        joined(grouped(report.true_contacts), " true contacts by ", collide::methods()[report.reference->method].name,
+               report.stands_in.empty() ? "." : ", which stands in for brute force.");
   } else if (!report.stands_in.empty()) {
     text += joined("No true contacts: ", report.stands_in, ".");
   }
@@ -121,8 +122,14 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
             width)) {
       worker_.start(session.world());
     }
-  } else if (w.button("Cancel###Sweep", "Ends the sweep; what it knows by now stays.", width)) {
-    worker_.cancel();
+  } else {
+    const bool cancelling = worker_.cancelling();
+    ImGui::BeginDisabled(cancelling);
+    if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep",
+                 "Ends the sweep after the run under way; what it knows by now stays.", width)) {
+      worker_.cancel();
+    }
+    ImGui::EndDisabled();
   }
   ImGui::SameLine();
   const float right = w.px(190);

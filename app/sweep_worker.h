@@ -21,8 +21,8 @@ struct SweepState {
 
 class SweepWorker {
  public:
-  /// Steps of at most some tenths of a second, so that a cancelled sweep ends soon and the window closes without a
-  /// wait.
+  /// Steps predicted to take some tenths of a second at most, so that a cancelled sweep ends soon and the window closes
+  /// without a long wait. In the largest scene some take a few seconds all the same.
   static constexpr SweepLimits live_limits{.budget = 200'000'000, .repeat_ms = 250};
 
   explicit SweepWorker(const SweepLimits& limits = live_limits) : limits_(limits) {}
@@ -33,6 +33,8 @@ class SweepWorker {
   void start(const softbody::World& world);
   /// The sweep ends after the step under way; what it knows by then stays.
   void cancel() { thread_.request_stop(); }
+  /// Cancelled, and that step still goes on.
+  bool cancelling() const { return running_ && thread_.get_stop_token().stop_requested(); }
   /// The state, if it has changed since the last call.
   std::optional<SweepState> take();
 

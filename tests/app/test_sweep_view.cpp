@@ -82,9 +82,13 @@ TEST(SweepWorker, KeepsWhatItKnowsWhenCancelledAndCanBeginAnew) {
     worker.start(world);
     for (bool timed = false; !timed;) {
       if (const auto state = worker.take()) timed = state->progress > 2e-6;  // two rounds
+      std::this_thread::sleep_for(1ms);
     }
+    EXPECT_FALSE(worker.cancelling());
     worker.cancel();
+    EXPECT_TRUE(worker.cancelling());
     const SweepState state = end_of(worker);
+    EXPECT_FALSE(worker.cancelling());
     EXPECT_EQ(state.broken_off, "cancelled");
     EXPECT_LT(state.progress, 1);
     for (const SweepRow& row : state.report.rows) EXPECT_TRUE(row.checked);
