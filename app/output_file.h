@@ -9,7 +9,7 @@
 
 namespace app {
 
-/// Makes the folder of --out if it is not there. Throws UsageError if nothing can be written to it.
+/// Makes the folder that results go to if it is not there. Throws UsageError if nothing can be written to it.
 void prepare_folder(const std::filesystem::path& folder);
 
 class OutputFile {

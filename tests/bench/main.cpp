@@ -7,6 +7,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/options.h"
+#include "app/output_file.h"
 #include "tests/bench/piles.h"
 #include "tests/bench/report.h"
 
@@ -25,8 +26,7 @@ struct Options {
 }
 
 void record(const Options& options) {
-  std::error_code error;
-  std::filesystem::create_directories(options.folder, error);  // what is wrong with it shows when a state is saved
+  app::prepare_folder(options.folder);
   bool any = false;
   for (const bench::Pile& pile : bench::piles()) {
     if (options.bodies > 0 && pile.bodies != options.bodies) continue;
