@@ -80,7 +80,7 @@ has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|H
 
 start
 xdotool windowfocus "$window" 2>/dev/null
-for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v F1 Escape h h c r; do press $key; done
+for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c r; do press $key; done
 click 30 369 1            # a switch of the panel
 click 700 400 1           # the scene
 xdotool mousemove 700 400 mousedown 1 mousemove_relative 120 40; sleep 0.3; xdotool mouseup 1
