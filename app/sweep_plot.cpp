@@ -9,9 +9,16 @@
 namespace app {
 namespace {
 
-constexpr float mark_radius = 4, lane_height = 6, reach = 9, label_gap = 6;  // design pixels
+constexpr float mark_radius = 4, lane_height = 6, reach = 9, label_gap = 6, axis_overhang = 6;  // design pixels
 constexpr glm::vec3 ink(0.15f), in_use(0.8f, 0.0f, 0.4f);
 constexpr glm::vec3 line_of_decade(0.84f), line_between(0.94f), band(0.92f, 0.96f, 0.92f);
+
+/// `place`: how much of the text's width lies left of the point.
+void pale_text(ImVec2 at, float place, const char* text) {
+  const float left = at.x - place * ImGui::CalcTextSize(text).x;
+  ImGui::GetWindowDrawList()->AddText({std::floor(left), std::floor(at.y)}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
+                                      text);
+}
 
 /// "0.01", "1", "100".
 std::string power_of_ten(int exponent) {
@@ -75,10 +82,10 @@ void SweepPlot::lay_out(const Widgets& w, ImVec2 min, ImVec2 max) {
     slowest = std::max(slowest, exponent_below(point.value.ms) + 1);
     if (point.value.error > 0) least = std::min(least, exponent_below(point.value.error));
   }
-  const float left = min.x + ImGui::CalcTextSize(power_of_ten(least).c_str()).x + w.px(label_gap);
+  const float label_width = ImGui::CalcTextSize(power_of_ten(std::min(least, -4)).c_str()).x;
   floor_ = max.y - 2 * line - w.px(label_gap);
   const float lanes = w.px(lane_height) * static_cast<float>(collide::methods().size() + 2);
-  time_ = {fastest, slowest, left, max.x - w.px(12)};
+  time_ = {fastest, slowest, min.x + label_width + w.px(label_gap), max.x - w.px(12)};
   error_ = {0, least, min.y + line + w.px(10), floor_ - lanes};
   for (Point& point : points_) {
     // A lane a method, so that points on the floor do not hide each other.
@@ -89,34 +96,41 @@ void SweepPlot::lay_out(const Widgets& w, ImVec2 min, ImVec2 max) {
 
 void SweepPlot::draw_axes(const Widgets& w) const {
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  const ImU32 pale = ImGui::GetColorU32(ImGuiCol_TextDisabled);
-  const float line = ImGui::GetTextLineHeight(), top = error_.start - w.px(6);
-  const auto vertical = [&](float x, const glm::vec3& c) { draw->AddLine({x, top}, {x, floor_}, to_imgui(c)); };
-  const auto label_left = [&](const char* text, float y) {
-    const float width = ImGui::CalcTextSize(text).x;
-    draw->AddText({std::floor(time_.start - w.px(label_gap) - width), std::floor(y - 0.5f * line)}, pale, text);
-  };
+  const float top = error_.start - w.px(axis_overhang);
   draw->AddRectFilled({time_.start, top}, {time_.end, floor_}, to_imgui(glm::vec3(1.0f)));
   draw->AddRectFilled({time_.start, error_.end}, {time_.end, floor_}, to_imgui(band));
+  draw_time_axis(w, top);
+  draw_error_axis(w);
+  draw->AddRect({time_.start, top}, {time_.end, floor_}, ImGui::GetColorU32(ImGuiCol_Border));
+  pale_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
+            "1 - recall: missed share of the true contacts");
+}
+
+void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
+  const auto line = [&](float x, const glm::vec3& colour) {
+    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, floor_}, to_imgui(colour));
+  };
   for (int e = time_.first; e <= time_.last; ++e) {
-    for (int digit = 2; digit < 10 && e < time_.last; ++digit)
-      vertical(time_.at(digit * std::pow(10, e)), line_between);
-    vertical(time_.decade(e), line_of_decade);
-    const std::string text = power_of_ten(e);
-    const float width = ImGui::CalcTextSize(text.c_str()).x;
-    draw->AddText({std::floor(time_.decade(e) - 0.5f * width), floor_ + w.px(3)}, pale, text.c_str());
+    for (int digit = 2; digit < 10 && e < time_.last; ++digit) line(time_.at(digit * std::pow(10, e)), line_between);
+    line(time_.decade(e), line_of_decade);
+    pale_text({time_.decade(e), floor_ + w.px(3)}, 0.5f, power_of_ten(e).c_str());
   }
-  const int every = std::max(1, static_cast<int>(std::ceil(line / (error_.decade(-1) - error_.decade(0)))));
+  pale_text({time_.end, floor_ + ImGui::GetTextLineHeight() + w.px(4)}, 1, "ms a frame, from scratch, on one core");
+}
+
+void SweepPlot::draw_error_axis(const Widgets& w) const {
+  const float line = ImGui::GetTextLineHeight();
+  const auto label = [&](float y, const char* text) {
+    pale_text({time_.start - w.px(label_gap), y - 0.5f * line}, 1, text);
+  };
+  const float decade = error_.decade(-1) - error_.decade(0);
+  const int every = std::max(1, static_cast<int>(std::ceil(line / decade)));  // labels must not overlap
   for (int e = error_.first; e >= error_.last; --e) {
     const float y = error_.decade(e);
-    draw->AddLine({time_.start, y}, {time_.end, y}, to_imgui(line_of_decade));
-    if (e % every == 0) label_left(power_of_ten(e).c_str(), y);
+    ImGui::GetWindowDrawList()->AddLine({time_.start, y}, {time_.end, y}, to_imgui(line_of_decade));
+    if (e % every == 0) label(y, power_of_ten(e).c_str());
   }
-  label_left("0", 0.5f * (error_.end + floor_));
-  draw->AddRect({time_.start, top}, {time_.end, floor_}, ImGui::GetColorU32(ImGuiCol_Border));
-  draw->AddText({time_.start, top - line - w.px(3)}, pale, "1 - recall: missed share of the true contacts");
-  const char* unit = "ms a frame, from scratch, on one core";
-  draw->AddText({std::floor(time_.end - ImGui::CalcTextSize(unit).x), floor_ + line + w.px(4)}, pale, unit);
+  label(0.5f * (error_.end + floor_), "0");
 }
 
 /// Nothing lies both left of and below the stepped line.

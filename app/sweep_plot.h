@@ -43,6 +43,8 @@ class SweepPlot {
 
   void lay_out(const Widgets& widgets, ImVec2 min, ImVec2 max);
   void draw_axes(const Widgets& widgets) const;
+  void draw_time_axis(const Widgets& widgets, float top) const;
+  void draw_error_axis(const Widgets& widgets) const;
   void draw_front(const Widgets& widgets) const;
 
   std::vector<Point> points_;

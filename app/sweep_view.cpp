@@ -104,44 +104,58 @@ std::string footing(const SweepState& state) {
   return text;
 }
 
-/// Sets items side by side, and in a new line where there is no room left.
-void next_in_flow(float width, float gap) {
+/// A sample and what it stands for, beside the entry before, or in a new line where there is no room left.
+template <class Draw>
+void legend_entry(Widgets& w, const std::string& text, const char* tip, bool first, const Draw& draw_sample) {
+  const float line = ImGui::GetTextLineHeight(), gap = w.px(14), inner = w.px(5);
+  const float width = line + inner + ImGui::CalcTextSize(text.c_str()).x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
-  if (ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0, gap);
+  if (!first && ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0, gap);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({width, line});
+  w.done(joined("Legend ", text).c_str(), tip);
+  draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
+  ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
+void draw_progress(Widgets& w, const SweepState& state, float width) {
+  const std::string text = state.broken_off.empty() ? format("%.0f %%", 100 * state.progress) : state.broken_off;
+  ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
+  colour.w = 0.35f;  // pale: the text stands on it
+  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
+  ImGui::ProgressBar(static_cast<float>(state.progress), {width, 0}, text.c_str());
+  ImGui::PopStyleColor();
+  w.done("Sweep progress", state.broken_off.empty()
+                               ? "First each setting is checked against the true contacts, then all are timed, up to "
+                                 "five times, in shuffled order."
+                               : state.broken_off.c_str());
 }
 
 }  // namespace
 
-void SweepView::draw_controls(Widgets& w, const Session& session) {
+void SweepView::draw_button(Widgets& w, const Session& session) {
+  constexpr const char* sweep_tooltip =
+      "Runs every method with all its levels, four bucket counts and five cell sizes on a copy of the present frame, "
+      "on "
+      "one core beside the demo. Pause (Space) for the steadiest times.";
   const float width = w.px(130);
   if (!state_.running) {
-    if (w.button(
-            "Sweep this frame###Sweep",
-            "Runs every method with all its levels, four bucket counts and five cell sizes on a copy of the present "
-            "frame, on one core beside the demo. Pause (Space) for the steadiest times.",
-            width)) {
-      worker_.start(session.world());
-    }
-  } else {
-    const bool cancelling = worker_.cancelling();
-    ImGui::BeginDisabled(cancelling);
-    if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep",
-                 "Ends the sweep after the run under way; what it knows by now stays.", width)) {
-      worker_.cancel();
-    }
-    ImGui::EndDisabled();
+    if (w.button("Sweep this frame###Sweep", sweep_tooltip, width)) worker_.start(session.world());
+    return;
   }
+  const bool cancelling = worker_.cancelling();
+  ImGui::BeginDisabled(cancelling);
+  if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep",
+               "Ends the sweep after the run under way; what it knows by now stays.", width)) {
+    worker_.cancel();
+  }
+  ImGui::EndDisabled();
+}
+
+void SweepView::draw_controls(Widgets& w, const Session& session) {
+  draw_button(w, session);
   ImGui::SameLine();
-  const float right = w.px(190);
-  const std::string text = state_.broken_off.empty() ? format("%.0f %%", 100 * state_.progress) : state_.broken_off;
-  ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
-  colour.w = 0.35f;  // pale: the text stands on it
-  ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
-  ImGui::ProgressBar(static_cast<float>(state_.progress), {ImGui::GetContentRegionAvail().x - right, 0}, text.c_str());
-  ImGui::PopStyleColor();
-  w.done("Sweep progress",
-         "First each setting is checked against the true contacts, then all are timed, up to five times, in shuffled "
-         "order.");
+  draw_progress(w, state_, ImGui::GetContentRegionAvail().x - w.px(190));
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.line(counts(state_));
@@ -149,31 +163,20 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
 }
 
 void SweepView::draw_legend(Widgets& w) {
-  const float line = ImGui::GetTextLineHeight(), gap = w.px(14), inner = w.px(5);
   looked_at_.reset();
-  bool first = true;
-  const auto entry = [&](const std::string& text, const char* tip, const auto& draw_sample) {
-    const float width = line + inner + ImGui::CalcTextSize(text.c_str()).x;
-    if (!first) next_in_flow(width, gap);
-    first = false;
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    ImGui::Dummy({width, line});
-    w.done(joined("Legend ", text).c_str(), tip);
-    draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
-    ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-  };
   for (std::size_t m = 0; m < collide::methods().size(); ++m) {
     const collide::Method& method = collide::methods()[m];
-    entry(std::string(method.name), "Its points alone.",
-          [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
+    legend_entry(w, std::string(method.name), "Its points alone.", m == 0,
+                 [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
     if (ImGui::IsItemHovered()) looked_at_ = m;
   }
   for (std::size_t level = 0; level < sweep_levels.size(); ++level) {
-    entry(format("level %d", sweep_levels[level]), "Of the methods that cut boxes (§2.1).",
-          [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
+    legend_entry(
+        w, format("level %d", sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
+        [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
   }
-  entry("Pareto front", "No other point is both faster and better.", [&](ImVec2 at) {
-    const float half = 0.45f * line;
+  legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {
+    const float half = w.px(7);
     ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
                                         w.px(1.5f));
   });

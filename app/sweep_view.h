@@ -21,6 +21,7 @@ class SweepView {
   const SweepState& state() const { return state_; }
 
  private:
+  void draw_button(Widgets& widgets, const Session& session);
   void draw_controls(Widgets& widgets, const Session& session);
   void draw_legend(Widgets& widgets);
   void draw_plot(Widgets& widgets, Session& session, float height);
