@@ -286,6 +286,27 @@ TEST_P(Memory, MissesNoneThatComeTogether) {
   EXPECT_GT(kept_, 0u);
 }
 
+/// One backs off within the margin, another comes near it and is listed; then both close in on each other. What counts
+/// is how far the first has come since the listing, not since it was noted down.
+TEST_P(Memory, MissesNoneThatBackedOffBeforeTheOtherWasListed) {
+  constexpr float margin = 0.25f * tolerance;  // the least, since nearly all are at rest
+  State state;
+  state.tolerance = tolerance;
+  for (int k = 0; k < 20; ++k) state.add({glm::vec3(static_cast<float>(k), 5, 0)});
+  state.add({glm::vec3(0)});
+  state.add({glm::vec3(2 * tolerance, 0, 0)});
+  float &a = state.x[20], &b = state.x[21];
+  for (int frame = 0; frame < 5; ++frame) see(state);
+  a = -0.45f * margin;
+  b = a + 1.002f * (tolerance + margin);
+  see(state);
+  EXPECT_TRUE(result_.contacts.empty());
+  a += 0.9f * margin;
+  b -= 0.45f * margin;
+  see(state);
+  EXPECT_EQ(result_.contacts, (std::vector<Contact>{{20, 21}}));
+}
+
 /// Where squares underflow or overflow, more is accepted than the true distance would say.
 TEST_P(Memory, HoldsAtTheEndsOfTheRange) {
   for (const float size : {1e-22f, 1e-21f, 1e-19f, 1e-17f, 1e15f, 1.2e19f, 1.5e19f}) {
