@@ -164,8 +164,8 @@ TEST(SelfProof, HoldsWhereSquaresUnderflowOrOverflow) {
   }
 }
 
-/// A body far larger than its reference, one vertex of which is torn off: squares of residuals overflow.
-TEST(SelfProof, CallsAnInfiniteResidualOdd) {
+/// One vertex of it is torn off, and squares are near the end of the range.
+TEST(SelfProof, HoldsForABodyFarLargerThanItsReference) {
   const Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
   const Body rest(ball.vertices);
