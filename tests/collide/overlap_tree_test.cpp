@@ -56,6 +56,9 @@ std::vector<Sets> examples() {
   for (int i = 0; i < 512; ++i) lattice.push_back(glm::vec3(i % 8, i / 8 % 8, i / 64));
   sets.push_back({lattice, moved(lattice, glm::vec3(0, 4, 0)), 1.0f});
   sets.push_back({lattice, moved(lattice, glm::vec3(8, 0, 0)), std::nextafter(1.0f, 2.0f)});
+  std::vector<glm::vec3> odd;  // the midpoint of all of it is one of its planes
+  for (int i = 0; i < 729; ++i) odd.push_back(glm::vec3(i % 9, i / 9 % 9, i / 81));
+  sets.push_back({{odd.begin(), odd.begin() + 400}, {odd.begin() + 400, odd.end()}, std::nextafter(1.0f, 2.0f)});
   return sets;
 }
 
