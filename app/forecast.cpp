@@ -59,15 +59,19 @@ void Forecast::begin(const collide::Frame& frame, const collide::Settings& setti
     most = glm::max(most, glm::dvec3(boxes_.box[b].hi));
   }
   extent_ = boxes_.live.empty() ? glm::dvec3(0) : most - least;
-  in_near_bodies_ = passes_ = 0;
+  // The exact method: some sixteen tests a vertex, but no fewer than its cuts leave of all.
+  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
+    return std::max(16 * vertices, tests >> settings.levels);
+  };
+  in_near_bodies_ = exact_tests_ = 0;
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_reach(settings.tolerance))) {
     in_near_bodies_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
-    passes_ += std::uint64_t{bodies.size(a)} + bodies.size(b);
+    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
   }
   if (!settings.self_collision) return;
   for (const collide::Index b : boxes_.live) {
     in_near_bodies_ += pairs_of(bodies.size(b));
-    passes_ += bodies.size(b);
+    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
   }
 }
 
@@ -99,7 +103,7 @@ double Forecast::reachable_buckets() const {
 
 Work Forecast::estimate(const collide::Method& method) const {
   if (method.key == collide::reference_method) return {all_, 0};
-  if (!method.uses_hash) return {method.uses_levels ? std::min(16 * passes_, in_near_bodies_) : in_near_bodies_, 0};
+  if (!method.uses_hash) return {method.uses_levels ? std::min(exact_tests_, in_near_bodies_) : in_near_bodies_, 0};
   double chances = 64;  // box meets box: eight corners, or about as many cells, of each
   double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   if (!method.uses_levels) {

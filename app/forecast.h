@@ -24,7 +24,7 @@ struct Work {
 /// Distances that brute force evaluates on these bodies.
 std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision);
 
-/// Predicts the work of every method of collide::methods(), by its index. Exact for the methods without a hash table;
+/// Predicts the work of every method of collide::methods(), by its index. Exact for brute force and Bounding Box;
 /// for the others what they did last with the same settings in the same world, and before that an estimate: all
 /// vertices of bodies whose boxes overlap, and aliasing as if the entries were spread evenly over the buckets. A method
 /// with levels and no table is taken to test some sixteen others for each vertex that it reads.
@@ -49,8 +49,8 @@ class Forecast {
   std::vector<Learnt> learnt_;
   double vertices_ = 0, bodies_ = 0;
   glm::dvec3 extent_{0};  // m, of all bodies
-  // Pair tests: all, all between near bodies, and how many vertices a pass over each pair of near bodies reads.
-  std::uint64_t all_ = 0, in_near_bodies_ = 0, passes_ = 0;
+  // Pair tests: all, all between near bodies, and those of near bodies that the exact method's cuts leave.
+  std::uint64_t all_ = 0, in_near_bodies_ = 0, exact_tests_ = 0;
   collide::BodyBoxes boxes_;
   collide::BodyPairs pairs_;
 };

@@ -26,8 +26,8 @@ std::string introduction(const DetectionResults& r) {
       "# Collision detection: what every method costs, and what it misses\n\n"
       "`",
       r.command,
-      "` makes this report. Its times are of the machine that it ran on: compare them with one another. Its counts are "
-      "the same on every machine.\n\n");
+      "` makes this report. Its times are of the machine that it ran on: compare them with one another. Contacts, "
+      "hashes and boxes are the same on every machine, as are pair tests, but those of the exact method.\n\n");
   text +=
       "- Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell "
       "sizes, as far as it has use for them. A cell size is given in units of the automatic one: the largest box of "

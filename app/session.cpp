@@ -158,6 +158,7 @@ bool Session::affordable(const collide::Method& method, const collide::Settings&
 void Session::restore_settings() {
   set_method(scene_.method);
   set_collision(scene_.collision, scene_.default_cell_size);
+  set_method(scene_.method);  // again: it may have been too slow with the settings before
 }
 
 void Session::drop() {
@@ -241,7 +242,11 @@ collide::DebugGeometry Session::picture_of(collide::Detector& detector) const {
   }
 }
 
-std::vector<collide::DebugGeometry::Box> Session::areas() const { return picture_of(*exact_).boxes; }
+std::vector<collide::DebugGeometry::Box> Session::areas() const {
+  const collide::Method& exact = *collide::find_method(collide::default_method);
+  if (work_of(exact, world_->collision()).cost() > most_work) return {};
+  return picture_of(*exact_).boxes;
+}
 
 const CompareRow* Session::driver_row() const {
   if (comparison_.rows.empty()) return nullptr;

@@ -60,7 +60,6 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers&
     state_ = State::seen;
     return;
   }
-  state_ = State::noted;
   age_ = 0;
   settings_ = settings;
   first_ = frame.bodies->first;
@@ -71,6 +70,7 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers&
     const Part part = part_of(shape_.size(), thread, workers.threads());
     for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
   });
+  state_ = State::noted;  // last: whatever throws before leaves nothing half noted
 }
 
 bool ContactMemory::same_bodies(const Frame& frame, const Settings& settings) const {

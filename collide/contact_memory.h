@@ -17,8 +17,9 @@ namespace collide {
 
 class ContactMemory {
  public:
-  /// The contacts of the frame, if they follow from what is remembered; else false, with nothing but the result's old
-  /// contacts lost. Uses `search` for the groups that have to be listed anew. What it throws leaves nothing remembered.
+  /// The contacts of the frame, if they follow from what is remembered; else false, and then the result means nothing:
+  /// start it afresh. Uses `search` for the groups that have to be listed anew. What it throws leaves nothing
+  /// remembered.
   bool recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers, Result& result);
 
   /// To be called after a frame that was not recalled.

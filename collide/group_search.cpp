@@ -90,6 +90,7 @@ void GroupSearch::find_group(int thread, Index a) {
   for (const Index b : near_.behind(a)) {
     const std::size_t before = own.group.size(), leaves = own.tree.leaves();
     find_between(own, a, b);
+    if (own.group.size() > query_.most_pairs) throw_too_many_contacts(query_.most_pairs);
     if (own.group.size() == before) continue;
     own.partners.push_back(b);
     ++runs;

@@ -11,7 +11,7 @@ namespace collide {
 /// What is left to test of a body's own pairs, if not all of them.
 struct SelfRisk {
   bool proven;                                  // if not, all pairs are
-  std::span<const std::array<Index, 2>> pairs;  // these, of vertices that are not in `odd`,
+  std::span<const std::array<Index, 2>> pairs;  // these (some of odd vertices, too),
   std::span<const Index> odd;                   // and each of these vertices with every other; ascending
 };
 
