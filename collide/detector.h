@@ -57,7 +57,7 @@ enum class Skip {
   separated_pairs,   // pairs of bodies with near boxes, but a plane or two spheres part them
   lone_bodies,       // bodies that no other body is near: no pair pass at all
   unfolded_bodies,   // bodies that cannot touch themselves: no self pass
-  remembered_pairs,  // pairs of bodies of which only candidates remembered from an earlier frame were tested
+  remembered_pairs,  // pairs of bodies tested by a list of candidates only, lists made in this very frame included
   kept_pairs,        // pairs of bodies of which neither has moved: their contacts are kept, not found again
 };
 struct SkipKind {
