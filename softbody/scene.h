@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include <glm/mat3x3.hpp>
 #include <glm/vec3.hpp>
 
 #include "collide/methods.h"
@@ -64,15 +65,46 @@ struct BodySource {
   int release = 0;               // ... held in place until this one
 };
 
+// Solids do not move. friction: Coulomb's coefficient. restitution (0 to 1): the share of its normal speed with which a
+// particle that hits the solid is thrown back (Newton), above impact_speed; none below, so that resting contacts rest.
+inline constexpr double impact_speed = 0.5;  // m/s
+
 struct SolidSphere {
   glm::dvec3 centre{0.0};  // m
   double radius = 1;       // m
-  double friction = 0.5;   // Coulomb
+  double friction = 0.5;
+  double restitution = 0;
 };
 
+/// Everything below an unbounded plane.
+struct SolidPlane {
+  glm::dvec3 point{0.0};       // m, anywhere on it
+  glm::dvec3 normal{0, 1, 0};  // unit, out of the solid
+  double friction = 0.5;
+  double restitution = 0;
+};
+
+struct SolidBox {
+  glm::dvec3 centre{0.0};     // m
+  glm::dvec3 half_size{0.5};  // m, along its own axes
+  glm::dmat3 axes{1.0};       // columns: those axes in the world, orthonormal
+  double friction = 0.5;
+  double restitution = 0;
+};
+
+/// All points within a radius of a line segment.
+struct SolidCapsule {
+  glm::dvec3 from{-0.5, 0, 0}, to{0.5, 0, 0};  // m, ends of the segment
+  double radius = 0.25;                        // m
+  double friction = 0.5;
+  double restitution = 0;
+};
+
+/// The plane y = height.
 struct Ground {
-  double height = 0;      // m, the plane y = height
-  double friction = 0.6;  // Coulomb
+  double height = 0;  // m
+  double friction = 0.6;
+  double restitution = 0;
 };
 
 /// Where "drop another body" puts it: a body source and the radius of the disc around its position.
@@ -109,6 +141,9 @@ struct Scene {
   std::vector<Material> materials;
   std::vector<BodySource> bodies;
   std::vector<SolidSphere> spheres;
+  std::vector<SolidPlane> planes;
+  std::vector<SolidBox> boxes;
+  std::vector<SolidCapsule> capsules;
   std::optional<Ground> ground;
   std::optional<Dropper> dropper;
   SleepRule sleep;

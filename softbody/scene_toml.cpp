@@ -11,6 +11,8 @@
 #include <toml++/toml.h>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
 
 #include "softbody/scene.h"
 
@@ -223,21 +225,83 @@ void read_collision(Table table, Scene& scene) {
   table.close();
 }
 
-void read_solids(Table& root, Scene& scene) {
-  for (Table& t : root.children("solid_sphere")) {
-    SolidSphere s;
-    s.centre = t.vector("centre", s.centre, -1e6, 1e6);
-    s.radius = t.number("radius", s.radius, tiny, 1e6);
-    s.friction = t.number("friction", s.friction, 0, 10);
-    t.close();
-    scene.spheres.push_back(s);
+constexpr double far = 1e6;  // m, for places
+
+/// What all solids have in common.
+template <class Solid>
+void read_surface(Table& table, Solid& solid) {
+  solid.friction = table.number("friction", solid.friction, 0, 10);
+  solid.restitution = table.number("restitution", solid.restitution, 0, 1);
+  table.close();
+}
+
+/// A direction of any length but zero.
+glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
+  const glm::dvec3 v = table.vector(key, fallback, -far, far);
+  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
+  return glm::normalize(v);
+}
+
+/// The columns of the matrix that turns by `degrees` about `axis`, counter-clockwise seen from its tip (Rodrigues).
+/// Sine and cosine are rounded: quarter turns are exact, and the last digits, in which processors differ, do not show.
+glm::dmat3 read_rotation(Table table) {
+  const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
+  const double angle = glm::radians(table.number("degrees", 0, -360, 360));
+  table.close();
+  constexpr double digits = 1e12;
+  const double s = std::round(std::sin(angle) * digits) / digits, c = std::round(std::cos(angle) * digits) / digits;
+  glm::dmat3 columns;
+  for (int k = 0; k < 3; ++k) {
+    glm::dvec3 e(0.0);
+    e[k] = 1;
+    columns[k] = c * e + s * glm::cross(axis, e) + (1 - c) * glm::dot(axis, e) * axis;
   }
+  return columns;
+}
+
+void read_sphere(Table& t, SolidSphere& s) {
+  s.centre = t.vector("centre", s.centre, -far, far);
+  s.radius = t.number("radius", s.radius, tiny, far);
+}
+
+void read_plane(Table& t, SolidPlane& p) {
+  p.point = t.vector("point", p.point, -far, far);
+  p.normal = read_direction(t, "normal", p.normal);
+}
+
+void read_box(Table& t, SolidBox& b) {
+  b.centre = t.vector("centre", b.centre, -far, far);
+  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, far);
+  b.axes = read_rotation(t.child("rotation"));
+}
+
+void read_capsule(Table& t, SolidCapsule& c) {
+  c.from = t.vector("from", c.from, -far, far);
+  c.to = t.vector("to", c.to, -far, far);
+  c.radius = t.number("radius", c.radius, tiny, far);
+}
+
+/// The solids of [[key]].
+template <class Solid>
+std::vector<Solid> read_list(Table& root, const std::string& key, void (*read)(Table&, Solid&)) {
+  std::vector<Solid> list;
+  for (Table& t : root.children(key)) {
+    read(t, list.emplace_back());
+    read_surface(t, list.back());
+  }
+  return list;
+}
+
+void read_solids(Table& root, Scene& scene) {
+  scene.spheres = read_list(root, "solid_sphere", read_sphere);
+  scene.planes = read_list(root, "solid_plane", read_plane);
+  scene.boxes = read_list(root, "solid_box", read_box);
+  scene.capsules = read_list(root, "solid_capsule", read_capsule);
   if (!root.has("ground")) return;
   Table t = root.child("ground");
-  scene.ground.emplace();
-  scene.ground->height = t.number("height", 0, -1e6, 1e6);
-  scene.ground->friction = t.number("friction", scene.ground->friction, 0, 10);
-  t.close();
+  Ground& ground = scene.ground.emplace();
+  ground.height = t.number("height", ground.height, -far, far);
+  read_surface(t, ground);
 }
 
 /// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body

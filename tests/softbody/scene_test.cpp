@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "tests/softbody/helpers.h"
 
@@ -78,11 +80,34 @@ centre = [1, 2, 3]
 radius = 0.75
 friction = 0.45
 
+restitution = 0.5
+
 [[solid_sphere]]
+
+[[solid_plane]]
+point = [0, -1, 0]
+normal = [3, 4, 0]
+friction = 0.15
+restitution = 0.25
+
+[[solid_box]]
+centre = [5, 6, 7]
+size = [2, 4, 6]
+rotation = {axis = [0, 0, 2], degrees = 90}
+friction = 0.16
+restitution = 0.75
+
+[[solid_capsule]]
+from = [0, 1, 0]
+to = [0, 2, 0]
+radius = 0.125
+friction = 0.17
+restitution = 1
 
 [ground]
 height = -0.5
 friction = 0.65
+restitution = 0.125
 
 [[body]]
 material = "second"
@@ -167,10 +192,43 @@ TEST(SceneFile, MaterialsAndSolids) {
   EXPECT_EQ(s.spheres[0].centre, glm::dvec3(1, 2, 3));
   EXPECT_EQ(s.spheres[0].radius, 0.75);
   EXPECT_EQ(s.spheres[0].friction, 0.45);
+  EXPECT_EQ(s.spheres[0].restitution, 0.5);
   EXPECT_EQ(s.spheres[1].radius, SolidSphere().radius);
+  EXPECT_EQ(s.spheres[1].restitution, 0);
   ASSERT_TRUE(s.ground);
   EXPECT_EQ(s.ground->height, -0.5);
   EXPECT_EQ(s.ground->friction, 0.65);
+  EXPECT_EQ(s.ground->restitution, 0.125);
+}
+
+TEST(SceneFile, PlanesBoxesAndCapsules) {
+  const Scene s = read(everything);
+  ASSERT_EQ(s.planes.size(), 1u);
+  EXPECT_EQ(s.planes[0].point, glm::dvec3(0, -1, 0));
+  EXPECT_LT(glm::distance(s.planes[0].normal, glm::dvec3(0.6, 0.8, 0)), 1e-15) << "of length 1";
+  EXPECT_EQ(std::pair(s.planes[0].friction, s.planes[0].restitution), std::pair(0.15, 0.25));
+  ASSERT_EQ(s.boxes.size(), 1u);
+  EXPECT_EQ(s.boxes[0].centre, glm::dvec3(5, 6, 7));
+  EXPECT_EQ(s.boxes[0].half_size, glm::dvec3(1, 2, 3));
+  EXPECT_EQ(s.boxes[0].axes, glm::dmat3(glm::dvec3(0, 1, 0), glm::dvec3(-1, 0, 0), glm::dvec3(0, 0, 1)))
+      << "a quarter turn is exact";
+  EXPECT_EQ(std::pair(s.boxes[0].friction, s.boxes[0].restitution), std::pair(0.16, 0.75));
+  ASSERT_EQ(s.capsules.size(), 1u);
+  EXPECT_EQ(s.capsules[0].from, glm::dvec3(0, 1, 0));
+  EXPECT_EQ(s.capsules[0].to, glm::dvec3(0, 2, 0));
+  EXPECT_EQ(s.capsules[0].radius, 0.125);
+  EXPECT_EQ(std::pair(s.capsules[0].friction, s.capsules[0].restitution), std::pair(0.17, 1.0));
+}
+
+TEST(SceneFile, ABoxTurnsAboutItsAxisAndStaysOrthonormal) {
+  const Scene s = read("[[body]]\n[[solid_box]]\nrotation = {axis = [1, 2, -2], degrees = -73.5}\n");
+  const glm::dmat3& axes = s.boxes[0].axes;
+  const glm::dvec3 axis = glm::dvec3(1, 2, -2) / 3.0;
+  EXPECT_LT(glm::distance(axes * axis, axis), 1e-12) << "the axis stays";
+  EXPECT_NEAR(axes[0][0] + axes[1][1] + axes[2][2], 1 + 2 * std::cos(-73.5 / 180 * std::acos(-1.0)), 1e-11);
+  EXPECT_NEAR(glm::determinant(axes), 1, 1e-11);
+  for (int k = 0; k < 3; ++k) EXPECT_NEAR(glm::length(axes[k]), 1, 1e-11);
+  EXPECT_LT(glm::dot(glm::cross(glm::dvec3(0, 1, 0), axes[1]), axis), 0) << "the sense of the turn";
 }
 
 TEST(SceneFile, BodiesAndTheDropper) {
