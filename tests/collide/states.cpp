@@ -205,6 +205,7 @@ Ball icosphere(int subdivisions, float radius) {
     faces = finer;
   }
   for (const auto& [a, b, c] : faces) ball.edges.insert(ball.edges.end(), {{a, b}, {b, c}, {c, a}});
+  ball.faces = std::move(faces);
   return ball;
 }
 

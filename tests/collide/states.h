@@ -21,10 +21,11 @@ struct State {
   void add(const std::vector<glm::vec3>& positions);
 };
 
-/// An icosphere: 12, 42, 162, ... vertices on a sphere of the radius, and its edges.
+/// An icosphere: 12, 42, 162, ... vertices on a sphere of the radius, and its edges and faces.
 struct Ball {
   std::vector<glm::vec3> vertices;
   std::vector<std::array<Index, 2>> edges;
+  std::vector<std::array<Index, 3>> faces;  // counter-clockwise seen from outside
 };
 Ball icosphere(int subdivisions, float radius);
 std::vector<glm::vec3> moved(std::vector<glm::vec3> vertices, const glm::vec3& by);
