@@ -12,7 +12,9 @@
 //   contact_search.h  tests runs of vertices, filters and orders the contacts
 //   reach.h           how far apart two vertices in contact can be, rounding included
 //   near_bodies.h     bodies near each other, by strips and spheres: for many bodies, on all threads
-//   vertex_kernels.h  the loops over vertices in the processor's widest instructions
+//   strip_boxes.h     boxes in strips, and the sweep along one
+//   vertex_kernels.h  the loops over the vertices of one body, in the processor's widest instructions
+//   pair_kernels.h    the loops over pairs of vertices, in the same
 //   self_proof.h      proves for a frame that a body cannot touch itself
 //   overlap_tree.h    the area where two bodies overlap, cut level by level
 //   group_search.h    all contacts from these four, body by body

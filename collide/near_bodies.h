@@ -1,6 +1,7 @@
 #pragma once
 // The broad phase of bodies: strips of boxes, each swept along its length, and a test of the spheres around them.
 
+#include "collide/strip_boxes.h"
 #include "collide/vertex_kernels.h"
 #include "collide/workers.h"
 

@@ -2,7 +2,8 @@
 // The tree over the area where two bodies, or a body and itself, can touch: what the paper's §5 names as future work.
 // The area is cut at midpoints as in §2.1, level by level, but only where enough vertices of both sides are left.
 
-#include "collide/vertex_kernels.h"
+#include "collide/aabb.h"
+#include "collide/pair_kernels.h"
 
 namespace collide {
 

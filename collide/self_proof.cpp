@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "collide/pair_kernels.h"
 #include "collide/reach.h"
 
 namespace collide {

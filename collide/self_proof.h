@@ -39,7 +39,7 @@ class SelfReference {
  private:
   void list_pairs(const Topology& topology);
 
-  static constexpr Index fewest = Picked::padding, most = 2048;  // vertices
+  static constexpr Index fewest = sample_run, most = 2048;  // vertices
   bool usable_ = false;
   float reach_ = 0;
   std::vector<float> x_, y_, z_;             // centred

@@ -1,0 +1,84 @@
+// Highway's vectors of floats, and what the loops over vertices share. Compiled once for each of its targets: include
+// it after <hwy/foreach_target.h>, and with no include guard but this one.
+#if defined(COLLIDE_SIMD_LANES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef COLLIDE_SIMD_LANES_H
+#undef COLLIDE_SIMD_LANES_H
+#else
+#define COLLIDE_SIMD_LANES_H
+#endif
+
+#include <cmath>
+
+#include <hwy/highway.h>
+
+#include "collide/vertex_run.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace collide {
+namespace HWY_NAMESPACE {
+namespace {
+
+namespace hn = hwy::HWY_NAMESPACE;
+using Floats = hn::ScalableTag<float>;
+using V = hn::Vec<Floats>;
+using M = hn::Mask<Floats>;
+constexpr Index lanes = static_cast<Index>(hn::MaxLanes(Floats()));
+static_assert(lanes <= most_lanes && 64 % lanes == 0);
+
+HWY_INLINE V load(const float* at) { return hn::LoadU(Floats(), at); }
+HWY_INLINE V all(float value) { return hn::Set(Floats(), value); }
+
+HWY_INLINE std::uint64_t bits_of(M mask) {
+  std::uint64_t bits = 0;
+  hn::StoreMaskBits(Floats(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+  return bits;
+}
+
+/// Calls block(first, skip) for blocks that cover 0 .. size - 1. The last one is moved back to end with the last
+/// vertex: its first `skip` lanes come up for the second time. `first` is negative if there are fewer vertices than
+/// lanes.
+template <class Block>
+HWY_INLINE void for_blocks(Index size, const Block& block) {
+  Index i = 0;
+  for (; i + lanes <= size; i += lanes) block(static_cast<std::ptrdiff_t>(i), 0u);
+  if (i < size) block(static_cast<std::ptrdiff_t>(size) - static_cast<std::ptrdiff_t>(lanes), lanes - (size - i));
+}
+
+/// Where a run is copied to if it has fewer vertices than lanes.
+struct Copy {
+  float x[lanes], y[lanes], z[lanes];
+};
+
+/// A run in front of which for_blocks() may read: the run itself, or its copy, led by repetitions of the first vertex.
+HWY_INLINE Run readable(const Run& run, Copy& copy) {
+  if (HWY_LIKELY(run.size >= lanes)) return run;
+  const Index skip = lanes - run.size;
+  for (Index lane = 0; lane < lanes; ++lane) {
+    const Index v = lane < skip ? 0 : lane - skip;
+    copy.x[lane] = run.x[v];
+    copy.y[lane] = run.y[v];
+    copy.z[lane] = run.z[v];
+  }
+  return {copy.x + skip, copy.y + skip, copy.z + skip, run.size};
+}
+
+HWY_INLINE V squared_length(V x, V y, V z) {  // as squared_distance()
+  return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
+}
+
+HWY_INLINE float least(V v) { return hn::GetLane(hn::MinOfLanes(Floats(), v)); }
+HWY_INLINE float most(V v) { return hn::GetLane(hn::MaxOfLanes(Floats(), v)); }
+HWY_INLINE float sum(V v) { return hn::GetLane(hn::SumOfLanes(Floats(), v)); }
+
+/// Not below the root of a squared length that was computed as above: four units of rounding, and what products lose by
+/// underflow.
+HWY_INLINE float root_above(float squared) {
+  return static_cast<float>(std::sqrt(double{squared} + 0x1p-147) * (1 + 0x1p-21));
+}
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace collide
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

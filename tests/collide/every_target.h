@@ -1,0 +1,44 @@
+#pragma once
+// What the tests of the vector loops share: every target that this machine has, and points as runs.
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <cmath>
+#include <limits>
+
+#include "collide/vertex_run.h"
+#include "states.h"
+
+namespace collide::test {
+
+inline constexpr float nan = std::numeric_limits<float>::quiet_NaN();
+inline constexpr float infinity = std::numeric_limits<float>::infinity();
+inline constexpr std::array<Index, 12> sizes{1, 2, 3, 4, 5, 7, 8, 15, 16, 17, 64, 101};
+
+struct Points3 {
+  std::vector<float> x, y, z;
+  explicit Points3(const std::vector<glm::vec3>& points) {
+    for (const glm::vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
+  }
+  Run run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
+};
+
+/// A test for each target, whose instructions it uses.
+class OnEveryTarget : public testing::TestWithParam<std::int64_t> {
+ protected:
+  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
+  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
+  std::mt19937 random_{41};
+};
+
+inline std::vector<std::int64_t> targets() {
+  std::vector<std::int64_t> targets;
+  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) targets.push_back(left & -left);
+  return targets;
+}
+inline std::string target_name(const testing::TestParamInfo<std::int64_t>& target) {
+  return hwy::TargetName(target.param);
+}
+
+}  // namespace collide::test
