@@ -23,13 +23,14 @@ void Dynamics::finish_frame(double seconds) {
 /// internal damping relaxes the particles' velocities towards it, at the material's rate, and changes neither linear
 /// nor angular momentum (Mueller et al. 2007, section 3.5); rolling resistance takes up to coefficient * radius *
 /// normal impulse of the angular momentum; rebound damping is Hunt and Crossley's (1975): a contact force N that acts
-/// on a body which moves along it at u becomes N (1 - u / rebound_speed).
+/// on a body which moves along it at u becomes N (1 - u / rebound_speed), see undue_speed() for what restitution keeps.
 void Dynamics::resist(BodyId id, double seconds) {
   const Prototype& p = prototype(id);
   const Material& m = p.material;
   const double rate = resistance_.internal ? m.internal_damping * seconds : 0, share = rate / (1 + rate);
   const glm::dvec3 impulse = solid_impulse(id);
   const double normal = glm::length(impulse);
+  if (normal <= 0) bodies_[id].impact = 0;
   if (share <= 0 && normal <= 0) return;
   const Body& body = bodies_[id];
   const auto count = static_cast<Index>(p.mesh.vertices.size());
@@ -57,7 +58,8 @@ void Dynamics::resist(BodyId id, double seconds) {
     lost_spin = spin * std::min(1.0, m.rolling_resistance * p.radius * normal / size);
   if (resistance_.rebound && m.rebound_speed > 0 && normal > 0) {
     const glm::dvec3 n = impulse / normal;
-    lost_velocity = n * glm::dot(velocity, n) * std::min(1.0, normal / (m.mass * m.rebound_speed));
+    lost_velocity =
+        n * undue_speed(id, glm::dot(velocity, n), normal) * std::min(1.0, normal / (m.mass * m.rebound_speed));
   }
   for (Index i = 0; i < count; ++i) {
     const glm::dvec3 r = read(x_, i) - centre, v = read(v_, i);
@@ -65,6 +67,19 @@ void Dynamics::resist(BodyId id, double seconds) {
         v + share * (velocity + glm::cross(spin, r) - v) - lost_velocity - glm::cross(lost_spin, r);
     for (int k = 0; k < 3; ++k) v_[std::size_t(k)][slot(body, i)] = float(damped[k]);
   }
+}
+
+/// The part of `out`, a body's speed away from the solids that gave it `impulse` in this frame, that rebound damping
+/// acts on: all of it without restitution; else what is beyond the restitution times the speed of the impact.
+double Dynamics::undue_speed(BodyId id, double out, double impulse) {
+  Body& body = bodies_[id];
+  const double in = impulse / prototype(id).material.mass - out;  // before the impulse, towards the solids
+  const double restitution = std::min(1.0, double(batches_[body.batch].returned[std::size_t(body.lane)]) / impulse);
+  if (in > impact_speed)
+    body.impact = std::max(body.impact, in);
+  else if (out < impact_speed)
+    body.impact = 0;  // it is over
+  return out < 0 ? (1 - restitution) * out : std::max(0.0, out - restitution * body.impact);
 }
 
 /// Moves the body's origin when its first particle has gone further than four radii from it, by a multiple of 1/64 m

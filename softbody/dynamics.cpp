@@ -15,25 +15,20 @@ void Dynamics::set_plan(const Plan& plan) {
       {Stage::shear_springs, &Dynamics::shear_springs},           {Stage::gas_pressure, &Dynamics::gas_pressure},
       {Stage::contact_response, &Dynamics::shield_forces},
   };
-  static constexpr std::pair<Stage, SolidStage> solids[] = {
-      {Stage::solid_spheres, &Dynamics::solid_spheres},
-      {Stage::ground, &Dynamics::ground},
-  };
   force_stages_.clear();
-  solid_stages_.clear();
   for (const auto& [stage, run] : forces)
     if (plan.has(stage)) force_stages_.push_back(run);
-  for (const auto& [stage, run] : solids)
-    if (plan.has(stage)) solid_stages_.push_back(run);
   resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
                  plan.has(Stage::rolling_resistance)};
   has_gravity_ = plan.has(Stage::gravity);
+  has_restitution_ = plan.has(Stage::restitution);
 }
 
 void Dynamics::set_integrator(std::string_view key) { integrate_ = find_integrator(key)->advance; }
 
 int Dynamics::substeps(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
+  double fewest = 1;                  // that keep up with the fastest body near a solid
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const Prototype& p = *b.prototype;
@@ -51,11 +46,12 @@ int Dynamics::substeps(double seconds) const {
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
       damper += Shield::damping_bound(k, shield_.thickness);
     }
+    if (!b.near_solids.empty()) fewest = std::max(fewest, fastest(b) * seconds / (0.1 * p.radius));
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
   constexpr double most = 1e6;  // a state that asks for more is lost; a count must come out all the same
-  return std::max(1, int(std::min(most, std::ceil(seconds / stable_step(stiffness, damping)))));
+  return int(std::min(most, std::ceil(std::max(fewest, seconds / stable_step(stiffness, damping)))));
 }
 
 bool Dynamics::moves(const Batch& b) {
@@ -64,8 +60,10 @@ bool Dynamics::moves(const Batch& b) {
 
 int Dynamics::advance(double seconds) {
   moving_.clear();
+  if (has_restitution_) before_ = v_;
   for (Batch& b : batches_) {
     b.impulse = {};
+    b.returned = {};
     if (!moves(b)) continue;
     moving_.push_back(&b);
     prepare_solids(b, seconds);
@@ -83,16 +81,19 @@ int Dynamics::advance(double seconds) {
   return total;
 }
 
+double Dynamics::fastest(const Batch& b) const {
+  Extent e;
+  kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
+  return std::sqrt(double(*std::max_element(std::begin(e.speed2), std::end(e.speed2))));
+}
+
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
 /// body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
 int Dynamics::substeps_within_bound(double h) const {
   constexpr double most = 16;
   double trusted = most;
   for (const Batch* b : moving_) {
-    Extent e;
-    kernels_.extent(b->particles(), at(x_, *b), at(v_, *b), e);
-    const double speed2 = *std::max_element(std::begin(e.speed2), std::end(e.speed2));
-    trusted = std::min(trusted, 0.2 * b->prototype->radius / (std::sqrt(speed2) * h));
+    trusted = std::min(trusted, 0.2 * b->prototype->radius / (fastest(*b) * h));
   }
   return std::max(1, static_cast<int>(trusted));
 }
@@ -151,78 +152,15 @@ void Dynamics::shield_forces(Batch& b) {
 }
 
 void Dynamics::kick(Batch& b, float h) {
+  if (has_restitution_)
+    for (std::size_t k = 0; k < 3; ++k)
+      std::copy_n(v_[k].begin() + std::ptrdiff_t(b.base), b.particles() * lanes,
+                  before_[k].begin() + std::ptrdiff_t(b.base));
   const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
   kernels_.kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
                 at(v_, b));
 }
 
-void Dynamics::solids(Batch& b, float h) {
-  for (const SolidStage stage : solid_stages_) (this->*stage)(b, h);
-}
-
 void Dynamics::drift(Batch& b, float h) { kernels_.drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
-
-SolidArguments Dynamics::solid_arguments(Batch& b, float h, double friction) const {
-  return {b.particles(),
-          h,
-          float(b.prototype->particle_mass),
-          float(friction),
-          0.0f,
-          {},
-          b.moves.data(),
-          {b.impulse.x, b.impulse.y, b.impulse.z}};
-}
-
-void Dynamics::solid_spheres(Batch& b, float h) {
-  for (const SolidSphere* sphere : b.near_spheres) {
-    SolidArguments s = solid_arguments(b, h, sphere->friction);
-    s.radius = static_cast<float>(sphere->radius + b.prototype->material.thickness);
-    for (int l = 0; l < b.used; ++l) {
-      const glm::dvec3 c = sphere->centre - bodies_[b.body[std::size_t(l)]].origin;
-      s.centre.x[l] = float(c.x), s.centre.y[l] = float(c.y), s.centre.z[l] = float(c.z);
-    }
-    kernels_.sphere(s, at(x_, b), at(v_, b));
-  }
-}
-
-void Dynamics::ground(Batch& b, float h) {
-  if (!b.near_ground) return;
-  SolidArguments s = solid_arguments(b, h, scene_.ground->friction);
-  for (int l = 0; l < b.used; ++l)
-    s.centre.y[l] =
-        float(scene_.ground->height + b.prototype->material.thickness - bodies_[b.body[std::size_t(l)]].origin.y);
-  kernels_.ground(s, at(x_, b), at(v_, b));
-}
-
-/// Which solids the bodies of a batch may touch in the coming frame, by their boxes and how far they may move: a
-/// particle may go twice as far as its body's fastest goes now, and a tenth of the body's size.
-void Dynamics::prepare_solids(Batch& b, double seconds) {
-  Extent e;
-  kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
-  b.near_ground = false;
-  b.near_spheres.clear();
-  const auto near = [&](int l, const SolidSphere& sphere) {
-    const glm::dvec3 c = sphere.centre - bodies_[b.body[std::size_t(l)]].origin;
-    const glm::dvec3 inside =
-        glm::clamp(c, glm::dvec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::dvec3(e.hi.x[l], e.hi.y[l], e.hi.z[l]));
-    return glm::distance(c, inside) <= sphere.radius + reach(b, e, l, seconds);
-  };
-  for (int l = 0; l < b.used; ++l)
-    if (scene_.ground &&
-        bodies_[b.body[std::size_t(l)]].origin.y + e.lo.y[l] <= scene_.ground->height + reach(b, e, l, seconds))
-      b.near_ground = true;
-  for (const SolidSphere& sphere : scene_.spheres)
-    for (int l = 0; l < b.used; ++l)
-      if (near(l, sphere)) {
-        b.near_spheres.push_back(&sphere);
-        break;
-      }
-}
-
-double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
-  const double fall = glm::length(scene_.gravity) * seconds;
-  return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius +
-         b.prototype->material.thickness;
-}
 
 }  // namespace softbody

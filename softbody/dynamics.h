@@ -22,10 +22,10 @@ struct Batch {
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
-  alignas(32) std::array<float, lanes> moves{};  // 1: integrated; 0: asleep, held or an empty lane
-  LaneVector impulse{};                          // N s, of solids along their normals, in the last advance()
-  bool near_ground = false;                      // for the frame at hand
-  std::vector<const SolidSphere*> near_spheres;
+  alignas(32) std::array<float, lanes> moves{};     // 1: integrated; 0: asleep, held or an empty lane
+  LaneVector impulse{};                             // N s, of solids along their normals, in the last advance()
+  alignas(32) std::array<float, lanes> returned{};  // N s, the part of these impulses that restitution gives back
+  std::vector<SolidArguments> near_solids;          // for the frame at hand
 
   std::size_t particles() const { return prototype->mesh.vertices.size(); }
 };
@@ -38,6 +38,7 @@ struct Body {
   bool held = false;
   bool asleep = false;
   int calm_frames = 0;  // for how long it has been slow enough to sleep
+  double impact = 0;    // m/s, speed with which it came upon the solids that it touches
   bool moves() const { return !held && !asleep; }
 };
 
@@ -93,7 +94,6 @@ class Dynamics {
 
  private:
   using BatchStage = void (Dynamics::*)(Batch&);
-  using SolidStage = void (Dynamics::*)(Batch&, float h);
   using Components = std::array<LaneArray<float>, 3>;
 
   std::size_t slot(const Body& body, Index vertex) const {
@@ -111,17 +111,18 @@ class Dynamics {
   void shear_springs(Batch& batch);
   void gas_pressure(Batch& batch);
   void shield_forces(Batch& batch);
-  void solid_spheres(Batch& batch, float h);
-  void ground(Batch& batch, float h);
-  SolidArguments solid_arguments(Batch& batch, float h, double friction) const;
   static bool moves(const Batch& batch);
+  double fastest(const Batch& batch) const;  // m/s, of its particles
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
   void prepare_solids(Batch& batch, double seconds);
+  template <class Solid>
+  void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
   int substeps_within_bound(double h) const;
   void run(int substeps, float h);
   void resist(BodyId id, double seconds);
+  double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);
   void update_moves(const Body& body);
 
@@ -130,14 +131,14 @@ class Dynamics {
   const Kernels& kernels_;
   void (*integrate_)(Dynamics&, int, float) = nullptr;
   std::vector<BatchStage> force_stages_;
-  std::vector<SolidStage> solid_stages_;
   struct {
     bool internal, rebound, rolling;
   } resistance_{};
-  bool has_gravity_ = false;
+  bool has_gravity_ = false, has_restitution_ = false;
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
   Components x_, v_, f_;
+  Components before_;  // velocities at the start of the substep, if the scene has restitution
   Shield shield_;
   std::vector<ShieldPair> pairs_before_;    // of the frame before
   std::vector<std::uint32_t> contacts_of_;  // a vertex, in the frame at hand

@@ -7,8 +7,6 @@
 
 #include "softbody/kernels.h"
 
-#define SB_INLINE [[gnu::always_inline]] inline
-
 namespace softbody::body {
 
 template <class Real>
@@ -21,42 +19,6 @@ SB_INLINE Lane<Real> load(const Real* p) {
 template <class Real>
 SB_INLINE void store(Real* p, Lane<Real> v) {
   std::memcpy(p, &v, sizeof v);
-}
-
-template <class V>
-SB_INLINE V square_root(V v) {
-  V r;
-  for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(v[l]);
-  return r;
-}
-
-template <class V>
-SB_INLINE V larger(V a, V b) {
-  return a > b ? a : b;
-}
-
-template <class V>
-SB_INLINE V smaller(V a, V b) {
-  return a < b ? a : b;
-}
-
-/// Three components for all lanes.
-template <class V>
-struct Vec {
-  V x, y, z;
-  SB_INLINE friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  SB_INLINE friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  SB_INLINE friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
-};
-
-template <class V>
-SB_INLINE V dot(Vec<V> a, Vec<V> b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
-}
-
-template <class V>
-SB_INLINE Vec<V> cross(Vec<V> a, Vec<V> b) {
-  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
 template <class Real>
@@ -75,6 +37,8 @@ SB_INLINE void store(Field<Real> f, std::size_t at, Vec<Lane<Real>> v) {
   store(f.y + at, v.y);
   store(f.z + at, v.z);
 }
+
+SB_INLINE Vec<Lane<float>> load(const LaneVector& v) { return {load(v.x), load(v.y), load(v.z)}; }
 
 /// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j.
 /// A spring of length zero has no direction and pulls nowhere.
@@ -155,49 +119,60 @@ SB_INLINE void drift(std::size_t particles, float h, const float* moves, Field<c
 
 /// The contact of one particle with a solid, on its velocity: after the step it is not below the surface, the change
 /// of normal velocity acts as an impulse, and Coulomb friction takes at most `friction` times it from the tangential
-/// velocity. A particle that is inside already comes out at a tenth of its depth a step, at most 1 m/s.
-SB_INLINE void solid(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> n, Vec<Lane<float>>& v,
-                     Vec<Lane<float>>& impulse) {
+/// velocity. What hits faster than impact_speed leaves with `restitution` times its speed before the step's forces:
+/// these alone may be large on a particle at rest. A particle that is inside already comes out at a tenth of its depth
+/// a step, at most 1 m/s. Returns the change of normal velocity.
+SB_INLINE Lane<float> respond(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> n, Vec<Lane<float>> before,
+                              Vec<Lane<float>>& v) {
   using V = Lane<float>;
   const V zero{}, moves = load(s.moves);
   const float inverse_h = 1.0f / s.h;
-  const V target = gap > zero ? -gap * inverse_h : smaller(-0.1f * inverse_h * gap, zero + 1.0f);
+  V target = gap > zero ? -gap * inverse_h : smaller(-0.1f * inverse_h * gap, zero + 1.0f);
   const V normal_speed = dot(v, n);
-  const V change = moves * larger(target - normal_speed, zero);
+  if (s.restitution > 0) {
+    const V approach = -dot(before, n);
+    const V thrown_back = approach > zero + impact_speed ? larger(s.restitution * approach, target) : target;
+    target = normal_speed < target ? thrown_back : target;
+  }
+  const V wanted = target - normal_speed;
+  const V change = moves * (wanted > s.slack ? wanted : zero);
   const Vec<V> tangential = v - normal_speed * n;
   const V slip = square_root(dot(tangential, tangential));
   const V lost = smaller(s.friction * change, slip) / larger(slip, zero + std::numeric_limits<float>::min());
   v = v + change * n - lost * tangential;
-  impulse = impulse + (s.mass * change) * n;
+  return change;
 }
 
-SB_INLINE void sphere(const SolidArguments& s, Field<const float> x, Field<float> v) {
+/// Returns the lanes in which the solid acted, as bits.
+template <class Shape>
+SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<const float> x, Field<float> v) {
   using V = Lane<float>;
-  const V zero{}, tiny = zero + 1e-12f;  // m
-  const Vec<V> centre{load(s.centre.x), load(s.centre.y), load(s.centre.z)};
+  const V zero{};
+  const Vec<V> place = load(s.place);
   Vec<V> impulse = load(s.impulse, 0);
+  V most{}, returned = load(s.returned);
   for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
-    const Vec<V> d = load(x, at) - centre;
-    const V distance = square_root(dot(d, d));
-    Vec<V> n = (1.0f / larger(distance, tiny)) * d;
-    n.y = distance > tiny ? n.y : zero + 1.0f;  // the very centre: out is up
+    const SurfaceAt<V> surface = surface_at(shape, load(x, at) - place);
     Vec<V> velocity = load(v, at);
-    solid(s, distance - s.radius, n, velocity, impulse);
+    const Vec<V> before = s.restitution > 0 ? load(s.before, at) : Vec<V>{};
+    const V change = respond(s, surface.distance, surface.normal, before, velocity);
+    impulse = impulse + (s.mass * change) * surface.normal;
+    returned += s.restitution * s.mass * change;
+    most = larger(change, most);
     store(v, at, velocity);
   }
   store(s.impulse, 0, impulse);
+  store(s.returned, returned);
+  unsigned acted = 0;
+  for (int l = 0; l < lanes; ++l) acted |= unsigned(most[l] > zero[l]) << l;
+  return acted;
 }
 
-SB_INLINE void ground(const SolidArguments& s, Field<const float> x, Field<float> v) {
-  using V = Lane<float>;
-  const V zero{}, height = load(s.centre.y);
-  Vec<V> impulse = load(s.impulse, 0);
-  for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
-    Vec<V> velocity = load(v, at);
-    solid(s, load(x.y + at) - height, {zero, zero + 1.0f, zero}, velocity, impulse);
-    store(v, at, velocity);
-  }
-  store(s.impulse, 0, impulse);
+SB_INLINE unsigned solid(const SolidArguments& s, Field<const float> x, Field<float> v) {
+  if (const auto* sphere = std::get_if<SphereShape<float>>(&s.shape)) return solid(s, *sphere, x, v);
+  if (const auto* plane = std::get_if<PlaneShape<float>>(&s.shape)) return solid(s, *plane, x, v);
+  if (const auto* box = std::get_if<BoxShape<float>>(&s.shape)) return solid(s, *box, x, v);
+  return solid(s, std::get<CapsuleShape<float>>(s.shape), x, v);
 }
 
 SB_INLINE void extent(std::size_t particles, Field<const float> x, Field<const float> v, Extent& e) {

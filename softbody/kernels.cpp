@@ -28,13 +28,14 @@ using Triangles = std::span<const KernelTriangle>;
       body::pressure<float>(t, x, p, f);                                                                          \
     }                                                                                                             \
     target static void kick(const KickArguments& k, ConstField f, Field<float> v) { body::kick(k, f, v); }        \
-    target static void sphere(const SolidArguments& s, ConstField x, Field<float> v) { body::sphere(s, x, v); }   \
-    target static void ground(const SolidArguments& s, ConstField x, Field<float> v) { body::ground(s, x, v); }   \
+    target static unsigned solid(const SolidArguments& s, ConstField x, Field<float> v) {                         \
+      return body::solid(s, x, v);                                                                                \
+    }                                                                                                             \
     target static void drift(std::size_t n, float h, const float* moves, ConstField v, Field<float> x) {          \
       body::drift(n, h, moves, v, x);                                                                             \
     }                                                                                                             \
     target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); } \
-    static constexpr Kernels table{springs, volume, surface, pressure, kick, sphere, ground, drift, extent};      \
+    static constexpr Kernels table{springs, volume, surface, pressure, kick, solid, drift, extent};               \
   };
 
 SB_KERNEL_TABLE(Baseline, )

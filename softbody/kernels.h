@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "softbody/lanes.h"
+#include "softbody/solid_shapes.h"
 
 namespace softbody {
 
@@ -36,16 +37,22 @@ struct KickArguments {
   const float* moves;  // lanes values, 0 or 1
 };
 
+/// A particle that meets a solid more slowly is not thrown back, so that resting contacts rest.
+inline constexpr float impact_speed = 0.5f;  // m/s
+
 /// A solid seen from each body's own origin.
 struct SolidArguments {
   std::size_t particles;
-  float h;            // s
-  float mass;         // kg, of one particle
-  float friction;     // Coulomb
-  float radius;       // m, spheres only
-  LaneVector centre;  // m; for the ground only y, its height
+  float mass;  // kg, of one particle
+  float friction, restitution;
+  SolidShape<float> shape;  // grown by the thickness that particles keep from it
+  LaneVector place;         // m, see the shape
   const float* moves;
-  Field<float> impulse;  // N s, lanes values each: the normal impulses are added here
+  Field<float> impulse;         // N s, lanes values each: the normal impulses are added here ...
+  float* returned;              // ... and here their sizes times the restitution
+  float h = 0;                  // s
+  float slack = 0;              // m/s: a smaller change of normal velocity is left undone
+  Field<const float> before{};  // velocities at the start of the step; read only if there is restitution
 };
 
 struct Extent {
@@ -59,8 +66,7 @@ struct Kernels {
   void (*surface)(std::span<const KernelTriangle>, Field<const float> x, float* cross_square_sum, float* perimeter);
   void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
   void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
-  void (*sphere)(const SolidArguments&, Field<const float> x, Field<float> v);
-  void (*ground)(const SolidArguments&, Field<const float> x, Field<float> v);
+  unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
   void (*extent)(std::size_t particles, Field<const float> x, Field<const float> v, Extent&);
 };

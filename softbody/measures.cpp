@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/solids.h"
+
 namespace softbody {
 namespace {
 
@@ -55,13 +57,10 @@ void add_body(const World& world, BodyId id, Measures& m) {
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
-  if (scene.ground) deepest.depth = scene.ground->height - point.y;
-  for (const SolidSphere& s : scene.spheres) {
-    const double distance = glm::distance(point, s.centre);
-    if (s.radius - distance <= deepest.depth) continue;
-    deepest.depth = s.radius - distance;
-    deepest.normal = distance > 0 ? glm::vec3((point - s.centre) / distance) : glm::vec3(0, 1, 0);
-  }
+  for_each_solid(scene, [&](const auto& solid) {
+    const SolidSurface s = surface_at(solid, point);
+    if (-s.distance > deepest.depth) deepest = {glm::vec3(s.normal), -s.distance};
+  });
   return deepest;
 }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 
+#include "softbody/solids.h"
+
 namespace softbody {
 namespace {
 
@@ -43,6 +45,18 @@ const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) 
 
 const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
 
+const char* planes(const Facts& f) { return f.scene.planes.empty() ? "the scene has no solid plane" : nullptr; }
+
+const char* boxes(const Facts& f) { return f.scene.boxes.empty() ? "the scene has no solid box" : nullptr; }
+
+const char* capsules(const Facts& f) { return f.scene.capsules.empty() ? "the scene has no solid capsule" : nullptr; }
+
+const char* restitution(const Facts& f) {
+  bool any = false;
+  for_each_solid(f.scene, [&any](const auto& solid) { any = any || solid.restitution > 0; });
+  return any ? nullptr : "no solid has restitution";
+}
+
 const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
 const char* damping(const Facts& f) {
@@ -51,13 +65,13 @@ const char* damping(const Facts& f) {
 }
 
 const char* rebound(const Facts& f) {
-  if (!f.scene.ground && f.scene.spheres.empty()) return "no solid to rebound from";
+  if (!has_solids(f.scene)) return "no solid to rebound from";
   return f.any([](const Prototype& p) { return p.material.rebound_speed > 0; }) ? nullptr
                                                                                 : "no material has a rebound speed";
 }
 
 const char* rolling(const Facts& f) {
-  if (!f.scene.ground && f.scene.spheres.empty()) return "no solid to roll on";
+  if (!has_solids(f.scene)) return "no solid to roll on";
   return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
@@ -80,8 +94,12 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::gas_pressure, "gas-pressure", gas},
     {Stage::gravity, "gravity", gravity},
     {Stage::integrate, "integrate", needed},
+    {Stage::restitution, "restitution", restitution},
     {Stage::solid_spheres, "solid-spheres", spheres},
     {Stage::ground, "ground", ground},
+    {Stage::solid_planes, "solid-planes", planes},
+    {Stage::solid_boxes, "solid-boxes", boxes},
+    {Stage::solid_capsules, "solid-capsules", capsules},
     {Stage::internal_damping, "internal-damping", damping},
     {Stage::rebound_damping, "rebound-damping", rebound},
     {Stage::rolling_resistance, "rolling-resistance", rolling},

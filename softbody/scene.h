@@ -66,9 +66,7 @@ struct BodySource {
 };
 
 // Solids do not move. friction: Coulomb's coefficient. restitution (0 to 1): the share of its normal speed with which a
-// particle that hits the solid is thrown back (Newton), above impact_speed; none below, so that resting contacts rest.
-inline constexpr double impact_speed = 0.5;  // m/s
-
+// particle that hits the solid is thrown back (Newton); slow ones are not, see impact_speed in kernels.h.
 struct SolidSphere {
   glm::dvec3 centre{0.0};  // m
   double radius = 1;       // m

@@ -66,15 +66,28 @@ TEST(Friction, TurnsASlidingBallIntoARollingOne) {
   EXPECT_NEAR(m.velocity.x, 0.6 * 3, 0.35);
 }
 
+constexpr SphereShape<float> unit_sphere{1};
+
 /// The kernels on their own: one particle a lane.
 class SolidKernels : public testing::TestWithParam<Isa> {
  protected:
-  SolidArguments arguments(double friction) {
-    return {1, 0.01f, 0.25f, float(friction), 1.0f, {}, moves, {impulse.x, impulse.y, impulse.z}};
+  SolidArguments arguments(double friction, const SolidShape<float>& shape = PlaneShape<float>{{0, 1, 0}}) {
+    SolidArguments s{.particles = 1,
+                     .mass = 0.25f,
+                     .friction = float(friction),
+                     .restitution = 0,
+                     .shape = shape,
+                     .place = {},
+                     .moves = moves,
+                     .impulse = {impulse.x, impulse.y, impulse.z},
+                     .returned = returned};
+    s.h = 0.01f;
+    return s;
   }
   const Kernels& k = kernels(GetParam());
   alignas(32) float moves[lanes]{1, 1, 1, 1, 1, 1, 1, 1};
   LaneVector impulse{};
+  alignas(32) float returned[lanes]{};
   LaneField x{1}, v{1};
 };
 
@@ -83,7 +96,7 @@ TEST_P(SolidKernels, LeaveParticlesThatDoNotReachTheSurfaceAlone) {
     x.set(0, l, {0, 0.05, 0});
     v.set(0, l, {1, -0.6 * l, 0});  // reaches -0.05 m from l = 9 on
   }
-  k.ground(arguments(1), std::as_const(x).field(), v.field());
+  k.solid(arguments(1), std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) {
     EXPECT_EQ(v.at(0, l).x, 1);
     EXPECT_EQ(impulse.y[l], 0);
@@ -96,7 +109,7 @@ TEST_P(SolidKernels, StopAParticleAtTheSurfaceAndTakeFrictionTimesTheImpulse) {
     x.set(0, l, {0, gap, 0});
     v.set(0, l, {3, -3.0 - l, 4});  // 2 m/s is as fast as it may go
   }
-  k.ground(arguments(0.5), std::as_const(x).field(), v.field());
+  k.solid(arguments(0.5), std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) {
     const double change = 3.0 + l - gap / h, kept = std::max(0.0, 1 - 0.5 * change / 5);
     EXPECT_NEAR(v.at(0, l).y, -gap / h, 1e-5);
@@ -111,7 +124,7 @@ TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
     x.set(0, l, {0, 0, 0});
     v.set(0, l, l < 4 ? glm::dvec3(1, 2, 0) : glm::dvec3(0.1, -5, 0));
   }
-  k.ground(arguments(10), std::as_const(x).field(), v.field());
+  k.solid(arguments(10), std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) {
     if (l < 4) {
       EXPECT_EQ(v.at(0, l), glm::dvec3(1, 2, 0));
@@ -123,17 +136,17 @@ TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
 
 TEST_P(SolidKernels, BringAParticleOutByATenthOfItsDepthAStepAtMost1MetreASecond) {
   for (int l = 0; l < lanes; ++l) x.set(0, l, {0, -0.04 * l, 0});
-  k.ground(arguments(0), std::as_const(x).field(), v.field());
+  k.solid(arguments(0), std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) EXPECT_NEAR(v.at(0, l).y, std::min(0.1 * 0.04 * l / 0.01, 1.0), 1e-5);
 }
 
 TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
-  SolidArguments s = arguments(0.25);
+  SolidArguments s = arguments(0.25, unit_sphere);
   std::mt19937 random(9);
   std::vector<glm::dvec3> normal, before;
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 c(l, -l, 0.5 * l);
-    s.centre.x[l] = float(c.x), s.centre.y[l] = float(c.y), s.centre.z[l] = float(c.z);
+    s.place.x[l] = float(c.x), s.place.y[l] = float(c.y), s.place.z[l] = float(c.z);
     normal.push_back(
         glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1))));
     x.set(0, l, c + 1.0 * normal.back());  // on the surface of radius 1, up to rounding
@@ -141,7 +154,7 @@ TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
     before.push_back(-2.0 * normal.back() + 4.0 * across);
     v.set(0, l, before.back());
   }
-  k.sphere(s, std::as_const(x).field(), v.field());
+  k.solid(s, std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 n = normal[std::size_t(l)], tangential = before[std::size_t(l)] + 2.0 * n;
     EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
@@ -151,7 +164,7 @@ TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
 
 TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {
   moves[3] = 0;
-  k.sphere(arguments(1), std::as_const(x).field(), v.field());
+  k.solid(arguments(1, unit_sphere), std::as_const(x).field(), v.field());
   for (int l = 0; l < lanes; ++l) EXPECT_EQ(v.at(0, l), glm::dvec3(0, l == 3 ? 0 : 1, 0));
 }
 

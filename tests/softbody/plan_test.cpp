@@ -54,6 +54,10 @@ TEST(Plan, OfABallAloneInEmptySpace) {
   const Plan& plan = world.plan();
   EXPECT_EQ(why(plan, Stage::gravity), "the scene has none");
   EXPECT_EQ(why(plan, Stage::ground), "the scene has no ground");
+  EXPECT_EQ(why(plan, Stage::solid_planes), "the scene has no solid plane");
+  EXPECT_EQ(why(plan, Stage::solid_boxes), "the scene has no solid box");
+  EXPECT_EQ(why(plan, Stage::solid_capsules), "the scene has no solid capsule");
+  EXPECT_EQ(why(plan, Stage::restitution), "no solid has restitution");
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
   EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
   EXPECT_EQ(why(plan, Stage::internal_damping), "no material has internal damping");
@@ -73,10 +77,12 @@ TEST(Plan, ADropperCanAlwaysAddAnother) {
                   .has(Stage::detect));
 }
 
-TEST(Plan, OfTheDropSceneLeavesOutShearSpringsOnly) {
+TEST(Plan, OfTheDropSceneHasAllButShearSpringsAndFurtherSolids) {
   const World world(drop_scene(), {});
-  ASSERT_EQ(world.plan().left_out.size(), 1u);
-  EXPECT_EQ(world.plan().left_out[0].stage, Stage::shear_springs);
+  std::vector<Stage> left_out;
+  for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
+  EXPECT_EQ(left_out, (std::vector{Stage::shear_springs, Stage::restitution, Stage::solid_planes, Stage::solid_boxes,
+                                   Stage::solid_capsules}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.
@@ -123,6 +129,22 @@ const Idle idle_stages[]{
        s.spheres = {{.centre = {3000, 0, 0}}};
      }},
     {"ground", Stage::ground, [](Scene& s) { s.ground.reset(); }, [](Scene& s) { s.ground->height = -3000; }},
+    {"planes", Stage::solid_planes, nothing,
+     [](Scene& s) {
+       s.planes = {{.point = {0, -3000, 0}, .normal = {0, 0.8, 0.6}}};
+     }},
+    {"boxes", Stage::solid_boxes, nothing,
+     [](Scene& s) {
+       s.boxes = {{.centre = {3000, 0, 0}}};
+     }},
+    {"capsules", Stage::solid_capsules, nothing,
+     [](Scene& s) {
+       s.capsules = {{.from = {3000, 0, 0}, .to = {3000, 1, 0}}};
+     }},
+    {"restitution", Stage::restitution, nothing,
+     [](Scene& s) {
+       s.spheres.push_back({.centre = {3000, 0, 0}, .restitution = 1});
+     }},
     {"detect", Stage::detect, nothing,
      [](Scene& s) {
        s.collision.self_collision = true;
