@@ -25,6 +25,11 @@ using Weight = Polynomial<T, 4>;
 
 /// A vertex p against a face abc, by a - p, b - p, c - p.
 struct VertexFace {
+  /// From every point of the one feature to every point that spans the other.
+  template <class T>
+  static const Motion<T>& between(const Motion<T>& v) {
+    return v;
+  }
   template <class T>
   static Polynomial<T, 3> side(const Motion<T>& v) {
     return dot(v[0], cross(v[2], v[1]));
@@ -40,6 +45,10 @@ struct VertexFace {
 
 /// An edge pq against an edge uv, by q - p, v - u, u - p.
 struct EdgeEdge {
+  template <class T>
+  static std::array<Vector<T, 1>, 4> between(const Motion<T>& v) {
+    return {v[2], v[2] - v[0], v[2] + v[1], v[2] + v[1] - v[0]};
+  }
   template <class T>
   static Polynomial<T, 3> side(const Motion<T>& v) {
     return dot(v[2], cross(v[0], v[1]));
@@ -101,6 +110,19 @@ double root_of(const Polynomial<T, 3>& cubic) {
   return (lo + hi) / 2;
 }
 
+/// True if the boxes around the two features never meet.
+template <class Kind, class T>
+bool apart(const Motion<T>& motion) {
+  const auto& between = Kind::between(motion);
+  const auto on_one_side = [&](auto component) {
+    const auto first = sign_of((between[0].*component).c[0]);
+    return first && *first != 0 && std::all_of(between.begin(), between.end(), [&](const Vector<T, 1>& v) {
+             return sign_of((v.*component).c[0]) == first && sign_of((v.*component).c[1]) == first;
+           });
+  };
+  return on_one_side(&Vector<T, 1>::x) || on_one_side(&Vector<T, 1>::y) || on_one_side(&Vector<T, 1>::z);
+}
+
 enum class Answer { none, passage, unsure };
 struct Found {
   Answer answer;
@@ -121,6 +143,7 @@ Motion<T> half_of(Motion<T> motion, bool second) {
 /// The first passage between the times begin and begin + length.
 template <class Kind, class T>
 Found search(const Motion<T>& motion, double begin, double length, int halvings) {
+  if (apart<Kind>(motion)) return {Answer::none};
   const Polynomial<T, 3> cubic = Kind::side(motion);
   const auto side = signs_of(cubic);
   if (none_negative(side) || all_negative(side)) return {Answer::none};

@@ -1,7 +1,6 @@
 // What passed through what between two frames.
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <tuple>
 
@@ -18,15 +17,12 @@ namespace {
 struct Observer {
   glm::dvec3 drift{0};  // m a step
 
-  /// Around all that a vertex passes. Only the end is rounded, and one unit in the last place is more than that.
+  /// Around all that a vertex passes. Only the end is rounded, by less than it is widened.
   void add(Box& box, const MovingPoint& point) const {
-    const double infinity = std::numeric_limits<double>::infinity();
+    const glm::dvec3 end = glm::dvec3(point.to) - drift, margin = glm::abs(end) * 0x1p-52;
     box.add(glm::dvec3(point.from));
-    const glm::dvec3 end = glm::dvec3(point.to) - drift;
-    for (int axis = 0; axis < 3; ++axis) {
-      box.lo[axis] = std::min(box.lo[axis], std::nextafter(end[axis], -infinity));
-      box.hi[axis] = std::max(box.hi[axis], std::nextafter(end[axis], infinity));
-    }
+    box.add(end - margin);
+    box.add(end + margin);
   }
 };
 

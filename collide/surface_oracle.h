@@ -67,8 +67,9 @@ struct Crossing {
 
 /// What passed through what between the frames, which hold the same bodies. Never misses a passage. A vertex in a
 /// face's plane counts as outside it, so that a passage over several frames is counted once, in the frame in which the
-/// vertex leaves the plane inwards or reaches it outwards; motion within a plane passes through nothing. Passages
-/// through a face's very rim are counted, and so are those that miss it, or only touch, by less than 2^-32 of the step.
+/// vertex leaves the plane inwards or reaches it outwards; motion within a plane passes through nothing. On the safe
+/// side: a passage through a face's very rim is counted, and so is one that misses by less than moves in 2^-32 of the
+/// step, or at whose time the face, or one of the edges, shrinks to nothing.
 std::vector<Crossing> find_crossings(const Frame& before, const Frame& after, const Surfaces& surfaces,
                                      Workers& workers);
 

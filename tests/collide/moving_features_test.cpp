@@ -1,0 +1,179 @@
+#include "collide/moving_features.h"
+
+#include <cmath>
+
+#include <gtest/gtest.h>
+#include <glm/geometric.hpp>
+
+#include "states.h"
+
+namespace collide::test {
+namespace {
+
+MovingPoint still(const glm::vec3& p) { return {p, p}; }
+MovingPoint moving(const glm::vec3& p, const glm::vec3& by) { return {p, p + by}; }
+glm::dvec3 at(const MovingPoint& p, double t) { return glm::dvec3(p.from) * (1 - t) + glm::dvec3(p.to) * t; }
+
+struct Four {
+  std::array<MovingPoint, 4> v;
+  auto vertex_face() const { return vertex_through_face(v[0], v[1], v[2], v[3]); }
+  auto edge_edge() const { return edge_through_edge(v[0], v[1], v[2], v[3]); }
+};
+const std::array<MovingPoint, 3> floor_face{still({0, 0, 0}), still({0, 0, 4}), still({4, 0, 0})};  // facing up
+Four over_floor(const MovingPoint& p) { return {{p, floor_face[0], floor_face[1], floor_face[2]}}; }
+
+TEST(VertexThroughFace, FallsThroughAtTheExpectedTime) {
+  const auto down = over_floor(moving({1, 3, 1}, {0, -4, 0})).vertex_face();
+  ASSERT_TRUE(down);
+  EXPECT_NEAR(down->time, 0.75, 1e-9);
+  EXPECT_TRUE(down->inward);
+  const auto up = over_floor(moving({1, -1, 1}, {0, 4, 0})).vertex_face();
+  ASSERT_TRUE(up);
+  EXPECT_NEAR(up->time, 0.25, 1e-9);
+  EXPECT_FALSE(up->inward);
+  EXPECT_FALSE(over_floor(moving({3, 3, 3}, {0, -4, 0})).vertex_face());
+}
+
+TEST(VertexThroughFace, ARimAndACornerAreTheFace) {
+  for (const glm::vec3& p : {glm::vec3(0, 1, 0), glm::vec3(2, 1, 2), glm::vec3(0, 1, 1.3f), glm::vec3(4, 1, 0)}) {
+    EXPECT_TRUE(over_floor(moving(p, {0, -2, 0})).vertex_face()) << p.x << ' ' << p.z;
+  }
+}
+
+TEST(VertexThroughFace, InThePlaneCountsAsOutside) {
+  const glm::vec3 above(1, 1, 1), on(1, 0, 1), below(1, -1, 1);
+  const auto passes = [](const glm::vec3& from, const glm::vec3& to) {
+    return over_floor({from, to}).vertex_face().has_value();
+  };
+  EXPECT_FALSE(passes(above, on));
+  EXPECT_TRUE(passes(on, below));
+  EXPECT_TRUE(passes(below, on));
+  EXPECT_FALSE(passes(on, above));
+  EXPECT_FALSE(passes(on, on + glm::vec3(0.5f, 0, 0)));
+}
+
+TEST(VertexThroughFace, GoesInAndOutInOneStep) {
+  // The face swings up about one side, which the vertex approaches: the face's height there is t (1 - t).
+  for (const float height : {0.1875f, 0.2501f}) {
+    const Four swing{{moving({1, height, 1}, {-1, 0, 0}), floor_face[0], floor_face[1], moving({4, 0, 0}, {0, 4, 0})}};
+    const auto first = swing.vertex_face();
+    ASSERT_EQ(first.has_value(), height < 0.25f);
+    if (!first) continue;
+    EXPECT_NEAR(first->time, 0.25, 1e-9);
+    EXPECT_TRUE(first->inward);
+  }
+}
+
+TEST(EdgeThroughEdge, CrossesAtTheExpectedTime) {
+  const Four cross{
+      {moving({-1, 1, 0}, {0, -4, 0}), moving({1, 1, 0}, {0, -4, 0}), still({0, 0, -1}), still({0, 0, 1})}};
+  const auto passage = cross.edge_edge();
+  ASSERT_TRUE(passage);
+  EXPECT_NEAR(passage->time, 0.25, 1e-9);
+  const Four beside{
+      {moving({1, 1, 0}, {0, -4, 0}), moving({3, 1, 0}, {0, -4, 0}), still({0, 0, -1}), still({0, 0, 1})}};
+  EXPECT_FALSE(beside.edge_edge());
+}
+
+TEST(EdgeThroughEdge, ParallelEdgesInOnePlanePassThroughNothing) {
+  const Four parallel{
+      {moving({-1, 1, 0}, {0, -4, 0}), moving({1, 1, 0}, {0, -4, 0}), still({-2, 0, 0}), still({2, 0, 0})}};
+  EXPECT_FALSE(parallel.edge_edge());
+}
+
+// The slow evaluation: side, and how far within each other the features are, at many times in double.
+
+double vertex_face_margin(const Four& four, double t, double& side) {
+  const glm::dvec3 p = at(four.v[0], t), a = at(four.v[1], t), b = at(four.v[2], t), c = at(four.v[3], t);
+  const glm::dvec3 n = glm::cross(b - a, c - a);
+  side = glm::dot(p - a, n);
+  const double area = glm::dot(n, n);
+  return std::min({glm::dot(n, glm::cross(b - p, c - p)), glm::dot(n, glm::cross(c - p, a - p)),
+                   glm::dot(n, glm::cross(a - p, b - p))}) /
+         area;
+}
+double edge_edge_margin(const Four& four, double t, double& side) {
+  const glm::dvec3 p = at(four.v[0], t), u = at(four.v[2], t), d = at(four.v[1], t) - p, e = at(four.v[3], t) - u;
+  const glm::dvec3 n = glm::cross(d, e);
+  side = glm::dot(u - p, n);
+  const double s = glm::dot(glm::cross(u - p, e), n) / glm::dot(n, n);
+  const double r = glm::dot(glm::cross(u - p, d), n) / glm::dot(n, n);
+  return std::min({s, 1 - s, r, 1 - r});
+}
+
+/// Changes of side from one time to the next at which the features are well within each other at both.
+template <class Margin>
+int changes_well_within(const Four& four, const Margin& margin) {
+  constexpr int samples = 1000;
+  constexpr double clear = 1e-5;  // of a side, in m^3: far more than what is rounded
+  int changes = 0;
+  double side_before = 0, within_before = 0;
+  for (int i = 0; i <= samples; ++i) {
+    double side;
+    const double within = margin(four, static_cast<double>(i) / samples, side);
+    if (std::abs(side) < clear) continue;
+    if (side * side_before < 0 && std::min(within, within_before) > 0.1) ++changes;
+    side_before = side;
+    within_before = within;
+  }
+  return changes;
+}
+
+Four random_four(std::mt19937& random, float speed, const glm::vec3& origin) {
+  Four four;
+  for (MovingPoint& p : four.v) {
+    p.from = origin + random_points(random, 1, -1, 1)[0];
+    p.to = p.from + random_points(random, 1, -speed, speed)[0];
+  }
+  return four;
+}
+
+/// A passage that sampling finds is reported; at a reported time the features touch.
+template <class Find, class Margin>
+void compare_with_samples(const Find& find, const Margin& margin) {
+  std::mt19937 random(23);
+  int reported = 0, sampled = 0;
+  for (const float speed : {0.3f, 2.0f, 30.0f}) {
+    for (const glm::vec3& origin : {glm::vec3(0), glm::vec3(1e5f, -1e5f, 1e5f)}) {
+      for (int i = 0; i < 1500; ++i) {
+        const Four four = random_four(random, speed, origin);
+        const std::optional<Passage> passage = find(four);
+        if (changes_well_within(four, margin) > 0) {
+          ++sampled;
+          ASSERT_TRUE(passage) << speed << ' ' << i;
+        }
+        if (!passage) continue;
+        ++reported;
+        double side;
+        ASSERT_GT(margin(four, passage->time, side), -1e-3);
+        ASSERT_LT(std::abs(side), 1e-5 * (1 + std::pow(speed, 3)));
+      }
+    }
+  }
+  EXPECT_GT(sampled, 200);
+  EXPECT_LT(reported, 2 * sampled);
+}
+
+TEST(VertexThroughFace, AgreesWithSamplesInTime) {
+  compare_with_samples([](const Four& four) { return four.vertex_face(); }, vertex_face_margin);
+}
+TEST(EdgeThroughEdge, AgreesWithSamplesInTime) {
+  compare_with_samples([](const Four& four) { return four.edge_edge(); }, edge_edge_margin);
+}
+
+TEST(VertexThroughFace, PointsOfFewValuesMeetEveryTieAndStillChangeSidesThroughFaces) {
+  std::mt19937 random(24);
+  const auto whole = [&] { return static_cast<float>(random() % 4); };
+  int sampled = 0;
+  for (int i = 0; i < 20000; ++i) {
+    Four four;
+    for (MovingPoint& p : four.v) p = {{whole(), whole(), whole()}, {whole(), whole(), whole()}};
+    if (changes_well_within(four, vertex_face_margin) == 0) continue;
+    ++sampled;
+    ASSERT_TRUE(four.vertex_face()) << i;
+  }
+  EXPECT_GT(sampled, 300);
+}
+
+}  // namespace
+}  // namespace collide::test

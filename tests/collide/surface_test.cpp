@@ -1,0 +1,50 @@
+#include "collide/surface.h"
+
+#include <stdexcept>
+
+#include <gtest/gtest.h>
+
+#include "surface_meshes.h"
+
+namespace collide::test {
+namespace {
+
+Surface surface_of(const SurfaceMesh& mesh) { return {static_cast<Index>(mesh.vertices.size()), mesh.triangles}; }
+
+TEST(Surface, EdgesAndClosedness) {
+  const Surface sphere = surface_of(ball(1));
+  EXPECT_EQ(sphere.edges().size(), 480u);
+  EXPECT_TRUE(sphere.closed());
+  EXPECT_TRUE(surface_of(valley()).closed());
+
+  const Surface cloth = surface_of(sheet(1, 1));
+  EXPECT_EQ(cloth.edges(), (std::vector<Edge>{{0, 1}, {0, 2}, {0, 3}, {1, 3}, {2, 3}}));
+  EXPECT_FALSE(cloth.closed());
+  EXPECT_FALSE(Surface(3, {}).closed());
+}
+
+TEST(Surface, AMeshWithAHoleOrATurnedFaceIsNotClosed) {
+  SurfaceMesh mesh = box(glm::vec3(0), glm::vec3(1));
+  std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
+  EXPECT_FALSE(surface_of(mesh).closed());
+  mesh.triangles.erase(mesh.triangles.begin() + 4);
+  EXPECT_FALSE(surface_of(mesh).closed());
+}
+
+TEST(Surface, TrianglesAroundAVertex) {
+  const Surface cloth = surface_of(sheet(1, 1));
+  const auto around = [&](Index vertex) {
+    return std::vector<Index>(cloth.around(vertex).begin(), cloth.around(vertex).end());
+  };
+  EXPECT_EQ(around(0), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(around(1), (std::vector<Index>{1}));
+  EXPECT_EQ(around(2), (std::vector<Index>{0}));
+}
+
+TEST(Surface, RefusesTrianglesThatAreNone) {
+  EXPECT_THROW(Surface(3, {{0, 1, 3}}), std::invalid_argument);
+  EXPECT_THROW(Surface(3, {{0, 1, 1}}), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace collide::test
