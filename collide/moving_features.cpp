@@ -1,6 +1,8 @@
 #include "collide/moving_features.h"
 
 #include <algorithm>
+#include <cmath>
+#include <type_traits>
 
 #include "collide/exact_arithmetic.h"
 
@@ -64,12 +66,27 @@ struct EdgeEdge {
   }
 };
 
-template <class T, std::size_t N>
+/// Most signs are clear from plain doubles already: their rounding, in all that is computed here, is less than this
+/// part of the largest coordinate difference to the power of the polynomial's degree. (No coefficient sums more than
+/// 432 products of at most four factors, with no more than 160 roundings in each, 128 of them of halvings: 432 * 160 *
+/// 2^-53 is less than 2^-36.)
+constexpr double rounding = 0x1p-35;
+
+template <std::size_t N>
 using Signs = std::array<std::optional<int>, N + 1>;
+/// largest: coordinate difference of the motion, in m; for doubles only.
 template <class T, std::size_t N>
-Signs<T, N> signs_of(const Polynomial<T, N>& polynomial) {
-  Signs<T, N> signs;
-  for (std::size_t k = 0; k <= N; ++k) signs[k] = sign_of(polynomial.c[k]);
+Signs<N> signs_of(const Polynomial<T, N>& polynomial, double largest) {
+  Signs<N> signs;
+  for (std::size_t k = 0; k <= N; ++k) {
+    if constexpr (std::is_same_v<T, double>) {
+      double bound = rounding;
+      for (std::size_t degree = 0; degree < N; ++degree) bound *= largest;
+      if (std::abs(polynomial.c[k]) > bound) signs[k] = polynomial.c[k] > 0 ? 1 : -1;
+    } else {
+      signs[k] = sign_of(polynomial.c[k]);
+    }
+  }
   return signs;
 }
 // Of all coefficients, hence of the polynomial on the whole interval.
@@ -92,6 +109,7 @@ int changes(const S& signs) {
   return count;
 }
 
+double as_double(double x) { return x; }
 double as_double(const Bounded& x) { return x.value; }
 double as_double(const Rational& x) { return x.get_d(); }
 
@@ -112,12 +130,12 @@ double root_of(const Polynomial<T, 3>& cubic) {
 
 /// True if the boxes around the two features never meet.
 template <class Kind, class T>
-bool apart(const Motion<T>& motion) {
+bool apart(const Motion<T>& motion, double largest) {
   const auto& between = Kind::between(motion);
   const auto on_one_side = [&](auto component) {
-    const auto first = sign_of((between[0].*component).c[0]);
-    return first && *first != 0 && std::all_of(between.begin(), between.end(), [&](const Vector<T, 1>& v) {
-             return sign_of((v.*component).c[0]) == first && sign_of((v.*component).c[1]) == first;
+    const std::optional<int> side = signs_of(between[0].*component, largest)[0];
+    return side && *side != 0 && std::all_of(between.begin(), between.end(), [&](const Vector<T, 1>& v) {
+             return signs_of(v.*component, largest) == Signs<1>{side, side};
            });
   };
   return on_one_side(&Vector<T, 1>::x) || on_one_side(&Vector<T, 1>::y) || on_one_side(&Vector<T, 1>::z);
@@ -142,15 +160,15 @@ Motion<T> half_of(Motion<T> motion, bool second) {
 
 /// The first passage between the times begin and begin + length.
 template <class Kind, class T>
-Found search(const Motion<T>& motion, double begin, double length, int halvings) {
-  if (apart<Kind>(motion)) return {Answer::none};
+Found search(const Motion<T>& motion, double largest, double begin, double length, int halvings) {
+  if (apart<Kind>(motion, largest)) return {Answer::none};
   const Polynomial<T, 3> cubic = Kind::side(motion);
-  const auto side = signs_of(cubic);
+  const auto side = signs_of(cubic, largest);
   if (none_negative(side) || all_negative(side)) return {Answer::none};
   bool meet = true;  // throughout
   bool known = all_known(side);
   for (const Weight<T>& weight : Kind::weights(motion)) {
-    const auto signs = signs_of(weight);
+    const auto signs = signs_of(weight, largest);
     if (all_negative(signs)) return {Answer::none};
     meet = meet && none_negative(signs);
     known = known && all_known(signs);
@@ -163,16 +181,29 @@ Found search(const Motion<T>& motion, double begin, double length, int halvings)
     if (!known) return {Answer::unsure};
     return {Answer::passage, {begin + length / 2, *side[0] >= 0}};
   }
-  const Found first = search<Kind>(half_of(motion, false), begin, length / 2, halvings + 1);
+  const Found first = search<Kind>(half_of(motion, false), largest, begin, length / 2, halvings + 1);
   if (first.answer != Answer::none) return first;
-  return search<Kind>(half_of(motion, true), begin + length / 2, length / 2, halvings + 1);
+  return search<Kind>(half_of(motion, true), largest, begin + length / 2, length / 2, halvings + 1);
+}
+
+double largest_of(const Motion<double>& motion) {
+  double largest = 0;
+  for (const Vector<double, 1>& v : motion) {
+    for (const Polynomial<double, 1>* component : {&v.x, &v.y, &v.z}) {
+      for (const double c : component->c) largest = std::max(largest, std::abs(c));
+    }
+  }
+  return largest;
 }
 
 /// motion: a function of a number's type, called with T{}.
 template <class Kind, class Make>
 std::optional<Passage> first_passage(const Make& motion) {
-  Found found = search<Kind>(motion(Bounded{}), 0, 1, 0);
-  if (found.answer == Answer::unsure) found = search<Kind>(motion(Rational{}), 0, 1, 0);
+  const Motion<double> plain = motion(double{});
+  const double largest = largest_of(plain);
+  Found found = search<Kind>(plain, largest, 0, 1, 0);
+  if (found.answer == Answer::unsure) found = search<Kind>(motion(Bounded{}), largest, 0, 1, 0);
+  if (found.answer == Answer::unsure) found = search<Kind>(motion(Rational{}), largest, 0, 1, 0);
   if (found.answer == Answer::none) return std::nullopt;
   return found.passage;
 }

@@ -50,6 +50,7 @@ struct Overlaps {
   std::vector<Piercing> piercings;        // ascending by edge, then body and triangle
 };
 
+/// What overlaps in a frame.
 Overlaps find_overlaps(const Frame& frame, const Surfaces& surfaces, Workers& workers);
 
 /// A vertex that passed through a face, or an edge through an edge, while all vertices moved along straight lines from
