@@ -1,8 +1,8 @@
 #pragma once
 // Passages of moving features through each other while all vertices move along straight lines: the continuous test of
 // Provot (1997), in which the four vertices lie in one plane at the roots of a cubic, with no root ever computed for
-// the decision. Time is halved instead until signs of Bernstein coefficients, exact by collide/exact_arithmetic.h, tell
-// that there is no passage, or just one.
+// the decision. Time is halved instead until the boxes around the features are apart or signs of Bernstein
+// coefficients, exact by collide/exact_arithmetic.h, tell that there is no passage, or just one.
 
 #include <optional>
 
