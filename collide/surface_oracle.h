@@ -6,7 +6,7 @@
 //   const Overlaps now = find_overlaps(frame, surfaces, workers);
 //   const std::vector<Crossing> crossings = find_crossings(before, frame, surfaces, workers);
 //   const SurfaceFigures figures = figures_of(frame, now, crossings);
-//   const Missed missed = missed_by(detection.contacts, frame, now);
+//   const Missed missed = missed_by(detection.contacts, frame, surfaces, now);
 //
 // Touching is not penetrating: a vertex exactly on a surface is not inside; an edge that ends on a face, lies in its
 // plane, or grazes a ridge or a rim does not pass through. Faces without area are never passed through and hold no
