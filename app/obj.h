@@ -1,19 +1,14 @@
 #pragma once
-// Bodies from Wavefront OBJ files, for `detect`: every number rounded correctly, every vertex where the file has it.
+// Bodies from Wavefront OBJ files, for `detect`: no welding, no triangles, every object a body.
 
 #include <array>
-#include <filesystem>
-#include <stdexcept>
-#include <vector>
 
 #include "collide/frame.h"
+#include "softbody/obj_file.h"
 
 namespace app {
 
-/// Bad input. what() is one line: the file, the line where there is one, what is wrong, what to do.
-struct ObjError : std::runtime_error {
-  using std::runtime_error::runtime_error;
-};
+using softbody::ObjError;
 
 /// What a file holds. Vertices as they are written, no welding; indices count from 0 over the file.
 struct ObjBodies {
@@ -26,9 +21,8 @@ struct ObjBodies {
   collide::Index size(std::size_t body) const { return first[body + 1] - first[body]; }
 };
 
-/// Every `o` begins a body, which may stay empty; vertices before the first `o` are a body too. Reads `v`, `o` and `f`
-/// and passes over all other statements. A face may name vertices further down, but of one body only. Takes time in
-/// proportion to the file's size and no more memory than the result and the faces need. Throws ObjError.
+/// Every `o` begins a body, which may stay empty; vertices before the first `o` are a body too. A face may name
+/// vertices of one body only. Throws ObjError, as softbody::read_obj_file() does.
 ObjBodies read_obj(const std::filesystem::path& file);
 
 }  // namespace app

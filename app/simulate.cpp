@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <iostream>
+#include <set>
 
 #include <nlohmann/json.hpp>
 
@@ -136,6 +137,17 @@ class Pictures {
 #endif
 };
 
+/// What was done to the meshes from files, where it may surprise; each once.
+void print_remarks(const softbody::Scene& scene) {
+  std::set<const softbody::ImportedMesh*> told;
+  for (const softbody::BodySource& body : scene.bodies) {
+    const softbody::ImportedMesh* mesh = body.mesh.imported.get();
+    if (!mesh || !told.insert(mesh).second) continue;
+    if (const std::string text = remarks(mesh->findings); !text.empty())
+      std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.string().c_str(), text.c_str());
+  }
+}
+
 }  // namespace
 
 void simulate(const Options& options) {
@@ -143,6 +155,7 @@ void simulate(const Options& options) {
       load_scene(options),
       {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
   Pictures pictures(options);
+  print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
   std::vector<Row> rows;
   rows.reserve(static_cast<std::size_t>(options.frames));

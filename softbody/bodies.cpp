@@ -26,6 +26,7 @@ KernelMesh::KernelMesh(const Prototype& prototype)
       bend(kernel_springs(prototype.bend)),
       shear(kernel_springs(prototype.shear)) {
   for (const auto& [i, j, k] : prototype.mesh.triangles) faces.push_back({i * lanes, j * lanes, k * lanes});
+  for (const glm::dvec3& q : prototype.goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
 }
 
 Batch& Dynamics::batch_with_room(const std::shared_ptr<const Prototype>& prototype) {

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/integrators.h"
+#include "softbody/shape_matching.h"
 
 namespace softbody {
 
@@ -13,7 +14,7 @@ void Dynamics::set_plan(const Plan& plan) {
   static constexpr std::pair<Stage, BatchStage> forces[] = {
       {Stage::structural_springs, &Dynamics::structural_springs}, {Stage::bend_springs, &Dynamics::bend_springs},
       {Stage::shear_springs, &Dynamics::shear_springs},           {Stage::gas_pressure, &Dynamics::gas_pressure},
-      {Stage::contact_response, &Dynamics::shield_forces},
+      {Stage::shape_matching, &Dynamics::shape_matching},         {Stage::contact_response, &Dynamics::shield_forces},
   };
   force_stages_.clear();
   for (const auto& [stage, run] : forces)
@@ -140,6 +141,15 @@ void Dynamics::gas_pressure(Batch& b) {
   kernels_.volume(b.mesh->faces, at(x_, b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.pressure(double(volume[l])) - gas.ambient);
   kernels_.pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
+}
+
+void Dynamics::shape_matching(Batch& b) {
+  if (b.mesh->shape.empty()) return;
+  ShapeMoments<float> moments;
+  ShapePose<float> pose{};
+  kernels_.shape_moments(b.mesh->shape, at(x_, b), moments);
+  fit_shape(moments, b.used, pose);
+  kernels_.shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.prototype)), at(x_, b), at(f_, b));
 }
 
 void Dynamics::shield_forces(Batch& b) {

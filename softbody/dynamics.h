@@ -8,11 +8,12 @@
 
 namespace softbody {
 
-/// A prototype's springs and faces as the kernels want them, shared by all its batches.
+/// A prototype's springs, faces and shape as the kernels want them, shared by all its batches.
 struct KernelMesh {
   explicit KernelMesh(const Prototype& prototype);
   KernelSprings structural, bend, shear;
   std::vector<KernelTriangle> faces;
+  std::vector<ShapePoint<float>> shape;  // empty if it is not kept
 };
 
 /// Up to `lanes` bodies of one prototype. Its values start at `base` in every array of the state.
@@ -110,6 +111,7 @@ class Dynamics {
   void bend_springs(Batch& batch);
   void shear_springs(Batch& batch);
   void gas_pressure(Batch& batch);
+  void shape_matching(Batch& batch);
   void shield_forces(Batch& batch);
   static bool moves(const Batch& batch);
   double fastest(const Batch& batch) const;  // m/s, of its particles

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "softbody/kernel_bodies.h"
+#include "softbody/shape_matching.h"
 
 namespace softbody {
 namespace {
@@ -19,16 +20,26 @@ class Relaxation {
     for (const auto* list : {&p.structural, &p.bend, &p.shear})
       for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, 0.0});
     for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
+    for (const glm::dvec3& q : p.goal) shape_.push_back({q.x, q.y, q.z});
   }
 
   void evaluate() {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
     body::springs<double>(springs_, constant(x_), constant(v_), field(f_));
+    if (!shape_.empty()) keep_shape();
     if (!prototype_.has_gas) return;
     double v[lanes], gauge[lanes]{};
     body::volume<double>(faces_, constant(x_), v);
     gauge[0] = prototype_.gas.pressure(v[0]) - prototype_.gas.ambient;
     body::pressure<double>(faces_, constant(x_), gauge, field(f_));
+  }
+
+  void keep_shape() {
+    ShapeMoments<double> moments;
+    ShapePose<double> pose{};
+    body::shape_moments<double>(shape_, constant(x_), moments);
+    fit_shape(moments, 1, pose);
+    body::shape_pull<double>(shape_, pose, shape_stiffness(prototype_), constant(x_), field(f_));
   }
 
   double largest_force() const {
@@ -75,6 +86,7 @@ class Relaxation {
   Components x_, v_, f_;
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
+  std::vector<ShapePoint<double>> shape_;
   double kinetic_ = 0;
 };
 

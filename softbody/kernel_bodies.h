@@ -104,6 +104,50 @@ SB_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Real>
   }
 }
 
+/// What the fit of the shape needs. Seen from one of the particles and added up in blocks, as volume() is.
+template <class Real>
+SB_INLINE void shape_moments(std::span<const ShapePoint<Real>> shape, Field<const Real> x, ShapeMoments<Real>& m) {
+  using V = Lane<Real>;
+  constexpr std::size_t block = 16;
+  const Vec<V> from = load(x, 0);
+  Vec<V> sum{}, covariance[3]{};
+  for (std::size_t first = 0; first < shape.size(); first += block) {
+    Vec<V> part{}, a{}, b{}, c{};
+    for (std::size_t i = first; i < std::min(first + block, shape.size()); ++i) {
+      const Vec<V> d = load(x, i * lanes) - from;
+      part = part + d;
+      a = a + (V{} + shape[i].x) * d;
+      b = b + (V{} + shape[i].y) * d;
+      c = c + (V{} + shape[i].z) * d;
+    }
+    sum = sum + part;
+    covariance[0] = covariance[0] + a;
+    covariance[1] = covariance[1] + b;
+    covariance[2] = covariance[2] + c;
+  }
+  const V share = V{} + Real(1) / static_cast<Real>(shape.size());
+  store(Field<Real>{m.mean[0], m.mean[1], m.mean[2]}, 0, from + share * sum);
+  for (int k = 0; k < 3; ++k)
+    store(Field<Real>{m.covariance[3 * k], m.covariance[3 * k + 1], m.covariance[3 * k + 2]}, 0, covariance[k]);
+}
+
+/// Draws each particle to its place: f += stiffness (centre + R q - x).
+template <class Real>
+SB_INLINE void shape_pull(std::span<const ShapePoint<Real>> shape, const ShapePose<Real>& pose, Real stiffness,
+                          Field<const Real> x, Field<Real> f) {
+  using V = Lane<Real>;
+  const Vec<V> centre{load(pose.centre[0]), load(pose.centre[1]), load(pose.centre[2])};
+  Vec<V> column[3];
+  for (int k = 0; k < 3; ++k)
+    column[k] = {load(pose.rotation[3 * k]), load(pose.rotation[3 * k + 1]), load(pose.rotation[3 * k + 2])};
+  const V pull = V{} + stiffness;
+  for (std::size_t i = 0; i < shape.size(); ++i) {
+    const Vec<V> goal =
+        centre + (V{} + shape[i].x) * column[0] + (V{} + shape[i].y) * column[1] + (V{} + shape[i].z) * column[2];
+    store(f, i * lanes, load(f, i * lanes) + pull * (goal - load(x, i * lanes)));
+  }
+}
+
 SB_INLINE void kick(const KickArguments& k, Field<const float> f, Field<float> v) {
   using V = Lane<float>;
   const V moves = load(k.moves);

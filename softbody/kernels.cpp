@@ -13,6 +13,7 @@ namespace {
 
 using ConstField = Field<const float>;
 using Springs = std::span<const KernelSpring<float>>;
+using Shape = std::span<const ShapePoint<float>>;
 using Triangles = std::span<const KernelTriangle>;
 
 // One table an instruction set. The bodies are inlined into functions that carry the target attribute; a resolver of
@@ -27,6 +28,12 @@ using Triangles = std::span<const KernelTriangle>;
     target static void pressure(Triangles t, ConstField x, const float* p, Field<float> f) {                      \
       body::pressure<float>(t, x, p, f);                                                                          \
     }                                                                                                             \
+    target static void shape_moments(Shape s, ConstField x, ShapeMoments<float>& m) {                             \
+      body::shape_moments<float>(s, x, m);                                                                        \
+    }                                                                                                             \
+    target static void shape_pull(Shape s, const ShapePose<float>& p, float k, ConstField x, Field<float> f) {    \
+      body::shape_pull<float>(s, p, k, x, f);                                                                     \
+    }                                                                                                             \
     target static void kick(const KickArguments& k, ConstField f, Field<float> v) { body::kick(k, f, v); }        \
     target static unsigned solid(const SolidArguments& s, ConstField x, Field<float> v) {                         \
       return body::solid(s, x, v);                                                                                \
@@ -35,7 +42,8 @@ using Triangles = std::span<const KernelTriangle>;
       body::drift(n, h, moves, v, x);                                                                             \
     }                                                                                                             \
     target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); } \
-    static constexpr Kernels table{springs, volume, surface, pressure, kick, solid, drift, extent};               \
+    static constexpr Kernels table{springs,    volume, surface, pressure, shape_moments,                          \
+                                   shape_pull, kick,   solid,   drift,    extent};                                \
   };
 
 SB_KERNEL_TABLE(Baseline, )

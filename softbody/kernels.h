@@ -26,6 +26,24 @@ using KernelSprings = KernelSpringsOf<float>;
 /// Corners of a face, already times `lanes`.
 using KernelTriangle = std::array<std::uint32_t, 3>;
 
+/// A particle's place in the shape that a body keeps, from the mean of all; see shape_matching.h.
+template <class Real>
+struct ShapePoint {
+  Real x, y, z;
+};
+
+/// Of each lane's body: the mean of x, and the sum of x q^T, q the places of ShapePoint; column c of the matrix at 3 c.
+template <class Real>
+struct ShapeMoments {
+  alignas(64) Real mean[3][lanes], covariance[9][lanes];
+};
+
+/// Where the shape is to go: x = centre + rotation q; column c of the rotation at 3 c.
+template <class Real>
+struct ShapePose {
+  alignas(64) Real centre[3][lanes], rotation[9][lanes];
+};
+
 struct LaneVector {
   alignas(32) float x[lanes], y[lanes], z[lanes];
 };
@@ -65,6 +83,9 @@ struct Kernels {
   void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
   void (*surface)(std::span<const KernelTriangle>, Field<const float> x, float* cross_square_sum, float* perimeter);
   void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
+  void (*shape_moments)(std::span<const ShapePoint<float>>, Field<const float> x, ShapeMoments<float>&);
+  void (*shape_pull)(std::span<const ShapePoint<float>>, const ShapePose<float>&, float stiffness, Field<const float> x,
+                     Field<float> f);
   void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/shape_matching.h"
 #include "softbody/solids.h"
 
 namespace softbody {
@@ -29,6 +30,12 @@ double volume_of(const std::vector<Particle>& particles, const std::vector<Trian
   return six / 6;
 }
 
+std::vector<glm::dvec3> positions(const std::vector<Particle>& particles) {
+  std::vector<glm::dvec3> list;
+  for (const Particle& q : particles) list.push_back(q.position);
+  return list;
+}
+
 /// Adds one body to the totals.
 void add_body(const World& world, BodyId id, Measures& m) {
   const Prototype& p = world.prototype(id);
@@ -44,6 +51,7 @@ void add_body(const World& world, BodyId id, Measures& m) {
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
   for (const auto* springs : {&p.structural, &p.bend, &p.shear}) m.energy += spring_energy(*springs, particles);
+  if (p.shape_rate > 0) m.energy += shape_energy(p, positions(particles));
   if (!p.mesh.closed) return;
   const double volume = volume_of(particles, p.mesh.triangles);
   if (p.has_gas) m.energy += p.gas.energy(volume);

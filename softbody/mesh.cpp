@@ -24,19 +24,6 @@ std::map<Edge, std::vector<Index>> opposite_corners(const std::vector<Triangle>&
   return corners;
 }
 
-/// Edges, bend pairs and closedness of a triangle mesh.
-void connect_triangles(Mesh& mesh) {
-  mesh.closed = !mesh.triangles.empty();
-  for (const auto& [edge, corners] : opposite_corners(mesh.triangles)) {
-    mesh.edges.push_back(edge);
-    if (corners.size() == 2)
-      mesh.bend_pairs.push_back(ordered(corners[0], corners[1]));
-    else
-      mesh.closed = false;
-  }
-  sort_unique(mesh.bend_pairs);
-}
-
 Mesh icosahedron() {
   const double p = (1.0 + std::sqrt(5.0)) / 2.0;
   Mesh mesh;
@@ -64,6 +51,18 @@ void subdivide(Mesh& mesh) {
 }
 
 }  // namespace
+
+void connect_triangles(Mesh& mesh) {
+  mesh.closed = !mesh.triangles.empty();
+  for (const auto& [edge, corners] : opposite_corners(mesh.triangles)) {
+    mesh.edges.push_back(edge);
+    if (corners.size() == 2)
+      mesh.bend_pairs.push_back(ordered(corners[0], corners[1]));
+    else
+      mesh.closed = false;
+  }
+  sort_unique(mesh.bend_pairs);
+}
 
 Mesh icosphere(int subdivisions, double radius) {
   Mesh mesh = icosahedron();

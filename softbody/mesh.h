@@ -30,6 +30,9 @@ Mesh icosphere(int subdivisions, double radius);
 /// one particle along both directions.
 Mesh quad_grid(int columns, int rows, double width, double depth);
 
+/// Fills in edges, bend pairs and closedness from the triangles.
+void connect_triangles(Mesh& mesh);
+
 /// Signed volume of a closed triangle mesh by the divergence theorem, in m^3.
 double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
 

@@ -41,6 +41,10 @@ const char* gas(const Facts& f) {
   return f.any([](const Prototype& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
 }
 
+const char* shape(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
+}
+
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
 const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
@@ -92,6 +96,7 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::bend_springs, "bend-springs", springs<&Prototype::bend>},
     {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},
     {Stage::gas_pressure, "gas-pressure", gas},
+    {Stage::shape_matching, "shape-matching", shape},
     {Stage::gravity, "gravity", gravity},
     {Stage::integrate, "integrate", needed},
     {Stage::restitution, "restitution", restitution},

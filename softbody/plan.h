@@ -18,6 +18,7 @@ enum class Stage {
   bend_springs,
   shear_springs,
   gas_pressure,
+  shape_matching,
   gravity,
   integrate,
   restitution,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -12,13 +13,41 @@ namespace {
 
 constexpr double linear_below = 0.1;  // of V0: the gas law goes on linearly, so that flat and inverted bodies recover
 
+/// A net of equal springs is as stiff as a sheet however fine it is (Young's modulus times thickness = 2 k / sqrt(3)),
+/// so that the stiffness in N/m holds for every mesh. But where more than six springs meet, as in a regular net, they
+/// share what six would have: the middle of a fan asks for no shorter steps than the rest.
 std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pairs, const SpringLaw& law, double mass) {
   std::vector<Spring> springs;
   if (law.stiffness <= 0) return springs;
-  const double damping = 2 * law.damping_ratio * std::sqrt(law.stiffness * mass / 2);  // reduced mass m / 2
-  for (const auto& [i, j] : pairs)
-    springs.push_back({i, j, glm::distance(mesh.vertices[i], mesh.vertices[j]), law.stiffness, damping});
+  std::vector<int> meeting(mesh.vertices.size(), 0);
+  for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];
+  for (const auto& [i, j] : pairs) {
+    const double stiffness = law.stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
+    const double damping = 2 * law.damping_ratio * std::sqrt(stiffness * mass / 2);  // reduced mass m / 2
+    springs.push_back({i, j, glm::distance(mesh.vertices[i], mesh.vertices[j]), stiffness, damping});
+  }
   return springs;
+}
+
+/// What draws the particles to their places in the mesh's own shape.
+void set_shape(Prototype& p, double frequency) {
+  p.shape_rate = 2 * std::numbers::pi * frequency;
+  if (p.shape_rate <= 0) return;
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
+  for (const glm::dvec3& v : p.mesh.vertices) p.goal.push_back(v - mean);
+}
+
+/// The material as it acts on the particles of a mesh from a file. Its contact stiffness is stated for the particles of
+/// the paper's sphere; where more of them share a body, and so a contact, they share the stiffness, too. The springs of
+/// very fine meshes get softer, so that a frame takes no more substeps than one of the finest mesh with full springs.
+Material for_mesh(Material m, const MeshSource& source) {
+  constexpr double stated_for = 162, finest = 2000;  // vertices
+  if (source.kind != "file") return m;
+  const auto count = static_cast<double>(source.vertex_count());
+  m.contact_stiffness *= std::min(1.0, stated_for / count);
+  for (SpringLaw* law : {&m.structural, &m.bend, &m.shear}) law->stiffness *= std::min(1.0, finest / count);
+  return m;
 }
 
 /// The largest sum over one particle's springs of a property.
@@ -67,16 +96,19 @@ double stable_step(double k_m, double c_m) {
 }
 
 double stiffness_per_mass(const Prototype& p, const Surface& surface) {
-  const double springs = p.spring_stiffness_bound / p.particle_mass;
+  // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
+  const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
   // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i = the sum of c_f / 6 over the particle's faces, c_f twice the face's
   // area vector. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2 <= -dP/dV degree / 12 * sum |c_f|^2 (Cauchy and
-  // Schwarz), plus (P - P_ambient) d2V/dx2, whose largest row is at most degree * perimeter / 6.
+  // Schwarz; degree: the largest mean over a face's corners), plus (P - P_ambient) d2V/dx2, whose largest row is at
+  // most degree * perimeter / 6.
   const double bend = linear_below * p.gas.rest_volume, held = std::max(surface.volume, bend);
   const double slope = p.gas.amount / (held * held);
   const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
-  const double gas = p.largest_degree * (slope * surface.cross_square_sum / 12 + gauge * surface.perimeter / 6);
-  return springs + gas / (2 * p.particle_mass);  // stable_step() doubles spring sums, which this is not
+  const double gas =
+      slope * p.face_degree * surface.cross_square_sum / 12 + gauge * p.largest_degree * surface.perimeter / 6;
+  return springs + gas / (2 * p.particle_mass);  // nor is this
 }
 
 Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {
@@ -92,18 +124,22 @@ Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vect
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const Material& material) {
   auto p = std::make_shared<Prototype>();
   p->mesh = source.make();
-  p->material = material;
+  p->material = for_mesh(material, source);
   p->radius = bounding_radius(p->mesh);
   p->particle_mass = material.mass / double(p->mesh.vertices.size());
-  p->structural = make_springs(p->mesh, p->mesh.edges, material.structural, p->particle_mass);
-  p->bend = make_springs(p->mesh, p->mesh.bend_pairs, material.bend, p->particle_mass);
-  p->shear = make_springs(p->mesh, p->mesh.shear_pairs, material.shear, p->particle_mass);
+  p->structural = make_springs(p->mesh, p->mesh.edges, p->material.structural, p->particle_mass);
+  p->bend = make_springs(p->mesh, p->mesh.bend_pairs, p->material.bend, p->particle_mass);
+  p->shear = make_springs(p->mesh, p->mesh.shear_pairs, p->material.shear, p->particle_mass);
   p->spring_stiffness_bound = largest_sum(*p, &Spring::stiffness);
   p->spring_damping_bound = largest_sum(*p, &Spring::damping);
+  set_shape(*p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
 
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)
     p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
+  for (const auto& [a, b, c] : p->mesh.triangles)
+    p->face_degree =
+        std::max(p->face_degree, double(p->faces_of(a).size() + p->faces_of(b).size() + p->faces_of(c).size()) / 3);
   if (p->mesh.closed) {
     p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
     p->gas.ambient = material.ambient_pressure;

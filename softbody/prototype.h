@@ -35,6 +35,8 @@ struct Prototype {
   Gas gas;
   std::vector<Index> first_face{0}, face;  // the triangles at each vertex, one list after another
   bool has_gas = false;                    // closed, and some pressure acts on it
+  double shape_rate = 0;                   // 1/s, the w of shape_matching.h; 0: the body does not keep its shape
+  std::vector<glm::dvec3> goal;            // m, the mesh seen from its vertices' mean; empty if shape_rate is 0
   double particle_mass = 0;                // kg
   double radius = 0;                       // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;           // starting shape: the equilibrium, or the mesh itself
@@ -43,6 +45,7 @@ struct Prototype {
   double spring_stiffness_bound = 0;  // N/m: largest sum of the stiffnesses at one particle
   double spring_damping_bound = 0;    // N s/m
   double largest_degree = 0;          // faces at one particle
+  double face_degree = 0;             // the same, as the mean of a face's three corners
 
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
@@ -60,7 +63,8 @@ struct Surface {
 };
 Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
 
-/// Bound of the stiffness over mass that springs and gas act with on one particle of a body of this shape, in 1/s^2.
+/// Bound of the stiffness over mass that springs, gas and shape matching act with on one particle of a body of this
+/// shape, in 1/s^2.
 double stiffness_per_mass(const Prototype& prototype, const Surface& surface);
 
 /// Largest stable step of semi-implicit Euler times 0.8, in s, for stiffness/mass sum k_m (1/s^2) and damping/mass sum

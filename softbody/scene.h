@@ -12,7 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "collide/methods.h"
-#include "softbody/mesh.h"
+#include "softbody/mesh_import.h"
 
 namespace softbody {
 
@@ -42,15 +42,24 @@ struct Material {
   double friction = 0.5;        // Coulomb, against other bodies
   double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
   double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
+  /// Hz with which a lone particle swings about its place in the mesh's own shape (shape_matching.h); 0: springs and
+  /// gas alone. Not given: mesh_file_shape_frequency for meshes from files, 0 for others.
+  std::optional<double> shape_frequency;
   bool start_in_equilibrium = true;  // springs and gas are brought into balance when the scene is loaded
 };
 
+inline constexpr double mesh_file_shape_frequency = 10;  // Hz
+
 struct MeshSource {
   std::string kind = "icosphere";
-  int subdivisions = 2;         // icosphere
-  double radius = 0.5;          // m, icosphere
-  int columns = 32, rows = 32;  // grid
-  double width = 3, depth = 3;  // m, grid
+  int subdivisions = 2;                            // icosphere
+  double radius = 0.5;                             // m, icosphere
+  int columns = 32, rows = 32;                     // grid
+  double width = 3, depth = 3;                     // m, grid
+  MeshFile file{};                                 // file
+  std::shared_ptr<const ImportedMesh> imported{};  // file: what was read, shared by all bodies of it
+  /// Reads the file. Throws ObjError.
+  static MeshSource from_file(const MeshFile& file);
   Mesh make() const;
   std::uint64_t vertex_count() const;  // of the mesh, without making it
   bool operator==(const MeshSource&) const = default;

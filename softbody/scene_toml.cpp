@@ -14,6 +14,7 @@
 #include <glm/geometric.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "softbody/obj_file.h"
 #include "softbody/scene.h"
 
 namespace softbody {
@@ -82,6 +83,9 @@ class Table {
     if (result != glm::floor(result)) fail(key, "must be three whole numbers");
     return result;
   }
+
+  /// Of the scene file.
+  std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
 
   bool has(const std::string& key) const { return table_.contains(key); }
 
@@ -173,12 +177,33 @@ Material read_material(Table& table) {
   m.friction = table.number("friction", m.friction, 0, 10);
   m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
   m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
+  const double shape = table.number("shape_frequency", -1, 0, 1e3);
+  if (shape >= 0) m.shape_frequency = shape;
   m.start_in_equilibrium = table.boolean("start_in_equilibrium", m.start_in_equilibrium);
   table.close();
   return m;
 }
 
-MeshSource read_mesh(Table table) {
+/// The known mesh of the same file and settings, or a new one: each is read once, however many bodies name it.
+MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
+  MeshFile file;
+  file.path = table.folder() / table.text("path", "");
+  file.size = table.number("size", file.size, tiny, 1e6);
+  file.weld = table.number("weld", file.weld, 0, 0.1);
+  file.up = table.vector("up", file.up, -1, 1);
+  if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
+  if (table.text("path", "").empty()) table.fail("path", "must name an OBJ file, relative to this one");
+  for (const MeshSource& m : known)
+    if (m.file == file) return m;
+  try {
+    return known.emplace_back(MeshSource::from_file(file));
+  } catch (const ObjError& error) {
+    table.fail("path", std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// files: the meshes read from files so far.
+MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
   MeshSource m;
   m.kind = table.text("kind", m.kind);
   if (m.kind == "icosphere") {
@@ -189,17 +214,19 @@ MeshSource read_mesh(Table table) {
     m.rows = table.integer("rows", m.rows, 1, 1000);
     m.width = table.number("width", m.width, tiny, 1e6);
     m.depth = table.number("depth", m.depth, tiny, 1e6);
+  } else if (m.kind == "file") {
+    m = read_mesh_file(table, files);
   } else {
-    table.fail("kind", "must be \"icosphere\" or \"grid\"");
+    table.fail("kind", "must be \"icosphere\", \"grid\" or \"file\"");
   }
   table.close();
   return m;
 }
 
 /// What bodies and the dropper have in common.
-BodySource read_body(Table& table, const std::vector<Material>& materials) {
+BodySource read_body(Table& table, const std::vector<Material>& materials, std::vector<MeshSource>& files) {
   BodySource b;
-  b.mesh = read_mesh(table.child("mesh"));
+  b.mesh = read_mesh(table.child("mesh"), files);
   const std::string name = table.text("material", materials.front().name);
   while (std::size_t(b.material) < materials.size() && materials[std::size_t(b.material)].name != name) ++b.material;
   if (std::size_t(b.material) == materials.size()) table.fail("material", "names no [[material]] of this file");
@@ -339,8 +366,9 @@ void read_bodies(Table& root, Scene& scene) {
   if (scene.materials.empty()) scene.materials.emplace_back();
   constexpr int forever = 1'000'000'000;
   std::uint64_t particles = 0;
+  std::vector<MeshSource> files;
   for (Table& t : root.children("body")) {
-    BodySource b = read_body(t, scene.materials);
+    BodySource b = read_body(t, scene.materials, files);
     b.appear = t.integer("appear", 0, 0, forever);
     b.release = t.integer("release", b.appear, 0, forever);
     if (b.release < b.appear) t.fail("release", "must not come before appear");
@@ -350,7 +378,7 @@ void read_bodies(Table& root, Scene& scene) {
   if (!root.has("dropper")) return;
   Table t = root.child("dropper");
   scene.dropper.emplace();
-  scene.dropper->body = read_body(t, scene.materials);
+  scene.dropper->body = read_body(t, scene.materials, files);
   scene.dropper->spread = t.number("spread", scene.dropper->spread, 0, 1e6);
   t.close();
 }

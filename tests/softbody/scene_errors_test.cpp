@@ -110,7 +110,7 @@ const Bad bad_scenes[]{
     {"infinite_in_vector", "gravity = [0, -inf, 0]\n[[body]]\n", 1, "gravity must be three numbers"},
     {"unknown_method", "[collision]\nmethod = \"magic\"\n[[body]]\n", 2, "multi-level-sb-exact"},
     {"unknown_material", "[[material]]\nname = \"a\"\n[[body]]\nmaterial = \"b\"\n", 4, "names no [[material]]"},
-    {"unknown_mesh", "[[body]]\nmesh = {kind = \"teapot\"}\n", 2, "\"icosphere\" or \"grid\""},
+    {"unknown_mesh", "[[body]]\nmesh = {kind = \"teapot\"}\n", 2, "\"icosphere\", \"grid\" or \"file\""},
     {"release_before_appear", "[[body]]\nappear = 9\nrelease = 8\n", 3, "must not come before appear"},
     {"unknown_key_in_lattice", "[[body]]\nlattice = {sise = [1, 1, 1]}\n", 2, "lattice.sise"},
     {"lattice_of_none", "[[body]]\nlattice = {size = [1, 0, 1]}\n", 2, "lattice.size must be"},

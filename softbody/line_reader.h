@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace app {
+namespace softbody {
 
 class LineReader {
  public:
@@ -36,4 +36,4 @@ class LineReader {
   std::uint64_t number_ = 0, lines_read_ = 0;
 };
 
-}  // namespace app
+}  // namespace softbody

@@ -1,4 +1,4 @@
-#include "app/line_reader.h"
+#include "softbody/line_reader.h"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <system_error>
 
-namespace app {
+namespace softbody {
 
 LineReader::LineReader(const std::filesystem::path& file)
     : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(longest_line) {
@@ -69,4 +69,4 @@ bool LineReader::joins_next(std::size_t begin, std::size_t end) {
   return true;
 }
 
-}  // namespace app
+}  // namespace softbody

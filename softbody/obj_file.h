@@ -1,0 +1,44 @@
+#pragma once
+// Wavefront OBJ files as they are written: every number rounded correctly, every vertex where the file has it.
+
+#include <filesystem>
+#include <span>
+#include <stdexcept>
+#include <vector>
+
+#include "softbody/mesh.h"
+
+namespace softbody {
+
+/// Bad input. what() is one line: the file, the line where there is one, what is wrong, what to do.
+struct ObjError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// Indices count from 0 over the file.
+struct ObjFile {
+  struct Face {
+    std::size_t end;     // of its corners in `corners`
+    std::uint64_t line;  // of the file, from 1
+  };
+  std::vector<float> x, y, z;  // finite
+  std::vector<Index> objects;  // the first vertex of each object; vertices before the first `o` are one too
+  std::vector<Index> corners;  // of all faces, one after another
+  std::vector<Face> faces;     // of 3 or more corners
+
+  /// Calls visit(corners, line) for each face in the order of the file.
+  void for_each_face(const auto& visit) const {
+    std::size_t begin = 0;
+    for (const Face& face : faces) {
+      visit(std::span(corners).subspan(begin, face.end - begin), face.line);
+      begin = face.end;
+    }
+  }
+};
+
+/// Reads `v`, `o` and `f` and passes over all other statements. A face may name vertices further down. There is at
+/// least one object. Takes time in proportion to the file's size and no more memory than the result needs. Throws
+/// ObjError.
+ObjFile read_obj_file(const std::filesystem::path& file);
+
+}  // namespace softbody

@@ -1,0 +1,331 @@
+// Meshes from OBJ files: what is welded, dropped, turned, refused, and that a concave one keeps its shape when it
+// falls.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <sstream>
+
+#include "softbody/obj_file.h"
+#include "softbody/shape_matching.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+ImportedMesh read(const std::string& obj, MeshFile file = {}) {
+  const TemporaryFolder folder;
+  file.path = folder.write("a.obj", obj);
+  return import_mesh(file);
+}
+
+std::string error_of(const std::string& obj, const MeshFile& file = {}) {
+  try {
+    read(obj, file);
+  } catch (const ObjError& e) {
+    const std::string line = e.what();
+    EXPECT_EQ(line.find('\n'), std::string::npos) << line;
+    EXPECT_NE(line.find("a.obj"), std::string::npos) << line;
+    return line;
+  }
+  return "was taken";
+}
+
+std::string vertex(const glm::dvec3& p) {
+  std::ostringstream s;
+  s << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
+  return s.str();
+}
+
+std::string face(std::initializer_list<int> corners) {
+  std::ostringstream s;
+  s << 'f';
+  for (const int corner : corners) s << ' ' << corner;
+  s << '\n';
+  return s.str();
+}
+
+const std::string cube_vertices =
+    "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n";  // 1-4 at z = 0, 5-8 above
+const std::string cube_faces = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
+const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
+
+/// Each face with corners of its own, as exporters write meshes with a normal a face; `apart`: between copies of a
+/// corner.
+std::string seamed_cube(double apart) {
+  std::string text;
+  int number = 0;
+  for (const std::array<int, 4>& corners :
+       {std::array{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {1, 3, 7, 5}, {3, 2, 6, 7}, {2, 0, 4, 6}}) {
+    for (const int corner : corners)
+      text += vertex({2 * (corner & 1) + apart * (++number % 3), corner & 2, corner >> 1 & 2});
+    text += face({-4, -3, -2, -1});
+  }
+  return text;
+}
+
+TEST(MeshImport, ACubeOfQuadsIsClosedAndTurnedOutwards) {
+  const auto [mesh, found] = read(cube_vertices + cube_faces);
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(mesh.triangles.size(), 12u);
+  EXPECT_EQ(mesh.edges.size(), 18u);
+  EXPECT_TRUE(mesh.closed && mesh.shear_pairs.empty());
+  EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 8, 1e-12);
+  EXPECT_EQ(found,
+            (ImportFindings{
+                .file_vertices = 8, .file_faces = 6, .components = 1, .closed = true, .file_extent = 2, .extent = 2}));
+  EXPECT_EQ(remarks(found), "");
+  for (const glm::dvec3& v : mesh.vertices) EXPECT_EQ(glm::abs(v), glm::dvec3(1)) << "its middle is the origin";
+}
+
+TEST(MeshImport, SeamsAreWelded) {
+  const auto [mesh, found] = read(seamed_cube(0));
+  EXPECT_EQ(mesh.vertices.size(), 8u);
+  EXPECT_EQ(found.welded_vertices, 16u);
+  EXPECT_TRUE(found.closed);
+  EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 8, 1e-12);
+  EXPECT_EQ(remarks(found), "16 vertices welded");
+}
+
+TEST(MeshImport, WeldIsADistanceRelativeToTheSize) {
+  EXPECT_FALSE(read(seamed_cube(0.01)).mesh.closed) << "0.01 to 0.02 apart, in 2";
+  EXPECT_TRUE(read(seamed_cube(0.01), {.weld = 0.011}).mesh.closed);
+  EXPECT_TRUE(read(seamed_cube(0.01), {.size = 50, .weld = 0.011}).mesh.closed) << "however large it becomes";
+  EXPECT_EQ(read(seamed_cube(0), {.weld = 0}).mesh.vertices.size(), 8u) << "0 welds what is equal";
+}
+
+TEST(MeshImport, FacesAreTurnedOutwards) {
+  const auto inverted = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n");
+  EXPECT_EQ(inverted.findings.turned_faces, 4u);
+  EXPECT_NEAR(volume(inverted.mesh.vertices, inverted.mesh.triangles), 1.0 / 6, 1e-12);
+  const auto mixed = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 4 2\nf 2 3 4\nf 1 4 3\n");
+  EXPECT_EQ(mixed.findings.turned_faces, 1u);
+  EXPECT_NEAR(volume(mixed.mesh.vertices, mixed.mesh.triangles), 1.0 / 6, 1e-12);
+}
+
+TEST(MeshImport, SeveralPiecesAreOneBody) {
+  const auto [mesh, found] =
+      read(tetrahedron + "o second\nv 5 0 0\nv 6 0 0\nv 5 1 0\nv 5 0 1\nf 5 6 7\nf 5 8 6\nf 6 8 7\nf 5 7 8\n");
+  EXPECT_EQ(found.components, 2u);
+  EXPECT_EQ(found.turned_faces, 4u) << "each piece by itself";
+  EXPECT_TRUE(mesh.closed);
+  EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 2.0 / 6, 1e-12);
+  EXPECT_EQ(remarks(found), "4 faces turned, 2 separate pieces, one body");
+}
+
+TEST(MeshImport, OpenMeshesStayOpen) {
+  const auto [mesh, found] = read(cube_vertices + "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
+  EXPECT_FALSE(mesh.closed || found.closed);
+  EXPECT_EQ(mesh.triangles.size(), 10u);
+  EXPECT_EQ(remarks(found), "open, so that it holds no gas");
+}
+
+TEST(MeshImport, WhatNoFaceUsesIsDroppedAndDoesNotCount) {
+  const auto [mesh, found] =
+      read("v 1000 0 0\nv -1e30 0 0\n" + std::string("o t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n") +
+           "f 3 5 4\nf 3 4 6\nf 4 5 6\nf 3 6 5\nf 3 3 4\nf 3 4 4 3\n");
+  EXPECT_EQ(mesh.vertices.size(), 4u);
+  EXPECT_EQ(found.unused_vertices, 2u);
+  EXPECT_EQ(found.degenerate_faces, 2u);
+  EXPECT_EQ(found.extent, 1) << "unused vertices do not make it larger";
+  EXPECT_TRUE(mesh.closed);
+}
+
+TEST(MeshImport, SizeAndUpPlaceIt) {
+  const auto [mesh, found] = read(cube_vertices + cube_faces, {.size = 0.5});
+  EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 0.125, 1e-12);
+  EXPECT_EQ(found.file_extent, 2);
+  EXPECT_NEAR(found.extent, 0.5, 1e-12);
+  for (const glm::dvec3& up : {glm::dvec3(0, 0, 1), glm::dvec3(1, 0, 0), glm::dvec3(0, -2, 0), glm::dvec3(0, 1, 0)}) {
+    // A needle of a tetrahedron whose tip points up.
+    std::string text;
+    const glm::dvec3 n = glm::normalize(up), side(n.y, n.z, n.x), other = glm::cross(n, side);
+    for (const glm::dvec3& p : {side, other, -side - other, 9.0 * n}) text += vertex(p);
+    const Mesh needle = read(text + "f 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n", {.up = up}).mesh;
+    EXPECT_GT(volume(needle.vertices, needle.triangles), 1) << "turned, not mirrored";
+    std::vector<double> heights;
+    for (const glm::dvec3& v : needle.vertices) heights.push_back(v.y);
+    std::sort(heights.begin(), heights.end());
+    EXPECT_NEAR(heights[2], -4.5, 1e-5) << "the other three lie below";
+    EXPECT_NEAR(heights[3], 4.5, 1e-5);
+  }
+}
+
+TEST(MeshImport, RefusesWithTheReason) {
+  EXPECT_NE(error_of("v 0 0 0\nv 1 0 0\nl 1 2\n").find("has no face"), std::string::npos);
+  EXPECT_NE(error_of("").find("no vertex"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\nv nan 0 0\n").find("a.obj:2: 'nan' is not finite"), std::string::npos);
+  EXPECT_NE(error_of(tetrahedron + "f 1 2 5\n").find("a.obj:9: "), std::string::npos);
+  EXPECT_NE(error_of(tetrahedron.substr(0, 38)).find("a.obj:5: "), std::string::npos) << "cut off";
+  EXPECT_NE(error_of("v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n").find("in one point"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n").find("set size"), std::string::npos);
+  EXPECT_NE(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n").find("holds no volume"), std::string::npos);
+  EXPECT_NE(
+      error_of(cube_vertices + cube_faces + "f 1 2 7\n").find("vertices 1 and 2 (counted from 1) has more than two"),
+      std::string::npos);
+  std::string strip;  // Moebius' band of five squares
+  for (int i = 0; i < 5; ++i) {
+    const glm::dvec3 out(std::cos(1.2566 * i), 0, std::sin(1.2566 * i));
+    strip += vertex(out) + vertex(2.0 * out + glm::dvec3(0, 1, 0));
+  }
+  for (int i = 1; i < 8; i += 2) strip += face({i, i + 1, i + 3, i + 2});
+  EXPECT_NE(error_of(strip + "f 9 10 1 2\n").find("only one side"), std::string::npos);
+  EXPECT_EQ(error_of(strip + "f 9 10 2 1\n"), "was taken") << "without the twist";
+  std::string polygon = "f";
+  for (int i = 0; i <= 1000; ++i) {
+    strip += vertex({i, i * i, 0});
+    polygon.append(" -").append(std::to_string(i + 1));
+  }
+  EXPECT_NE(error_of(strip + polygon + "\n").find("1001 corners; at most 1000"), std::string::npos);
+}
+
+/// A strip of triangles of `vertices` vertices.
+std::string long_strip(int vertices) {
+  std::string text;
+  for (int i = 0; i < vertices; ++i) text += vertex({i, i % 2, 0});
+  for (int i = 3; i <= vertices; ++i) text += face({i - 2, i - 1, i});
+  return text;
+}
+
+TEST(MeshImport, TakesAHundredThousandVerticesAndNoMore) {
+  EXPECT_EQ(read(long_strip(100'000)).mesh.vertices.size(), 100'000u);
+  EXPECT_NE(error_of(long_strip(100'001)).find("has 100001 vertices; at most 100000"), std::string::npos);
+}
+
+/// A ring of quads: closed, concave, with a hole.
+std::string torus(int around, int across) {
+  std::string text;
+  constexpr double tau = 6.283185307179586;
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double a = tau * i / around, b = tau * j / across, r = 1 + 0.35 * std::cos(b);
+      text += vertex({r * std::cos(a), 0.35 * std::sin(b), r * std::sin(a)});
+    }
+  const auto at = [&](int i, int j) { return i % around * across + j % across + 1; };
+  for (int i = 0; i < around; ++i)
+    for (int j = 0; j < across; ++j) text += face({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
+  return text;
+}
+
+const std::string falling_ring = R"(
+[collision]
+tolerance = 0.1
+[sleep]
+speed = 0.05
+[[solid_sphere]]
+centre = [0, 1, 0]
+friction = 0.25
+[ground]
+[[material]]
+structural = {stiffness = 20, damping_ratio = 0.1}
+bend = {stiffness = 5, damping_ratio = 0.1}
+gas_pressure = 101_325
+ambient_pressure = 101_325
+internal_damping = 10
+rolling_resistance = 0.3
+rebound_speed = 2
+[[material]]
+name = "limp"
+structural = {stiffness = 20, damping_ratio = 0.1}
+bend = {stiffness = 5, damping_ratio = 0.1}
+gas_pressure = 101_325
+ambient_pressure = 101_325
+internal_damping = 10
+shape_frequency = 0
+[[body]]
+mesh = {kind = "file", path = "meshes/ring.obj", size = 1.3}
+position = [0.9, 2.6, 0.1]
+)";
+
+/// Root mean square distance of the particles from the mesh's own shape, in m.
+double distortion(const World& world) {
+  Material m = world.prototype(0).material;
+  m.shape_frequency = 1;
+  const auto p = make_prototype(world.scene().bodies[0].mesh, m);
+  std::vector<glm::dvec3> x;
+  for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.dynamics().particle(0, i).position);
+  return std::sqrt(2 * shape_energy(*p, x) / (shape_stiffness(*p) * double(x.size())));
+}
+
+TEST(MeshFromFile, AConcaveBodyFallsComesToRestAndKeepsItsShape) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder.path() / "meshes");
+  folder.write("meshes/ring.obj", torus(30, 12));
+  World world(load_scene(folder.write("ring.toml", falling_ring)), {});
+  run(world, 30);
+  const double impact = distortion(world);
+  for (int i = 30; i < 400; ++i) {
+    world.step();
+    const Measures m = measure(world);
+    ASSERT_TRUE(m.finite);
+    ASSERT_NEAR(m.volume_ratio_min, 1, 0.03);
+    ASSERT_NEAR(m.volume_ratio_max, 1, 0.03);
+    ASSERT_LT(m.deepest_penetration, 1e-5);
+  }
+  EXPECT_TRUE(world.all_at_rest());
+  EXPECT_LT(distortion(world), 0.02) << "in 1.3 m";
+  EXPECT_GT(impact, 0.001) << "it is soft";
+
+  Scene limp = load_scene(folder.path() / "ring.toml");
+  limp.bodies[0].material = 1;
+  World other(std::move(limp), {});
+  EXPECT_FALSE(other.plan().has(Stage::shape_matching));
+  run(other, 400);
+  EXPECT_GT(distortion(other), 3 * distortion(world)) << "springs and gas alone do not hold it";
+}
+
+TEST(MeshFromFile, IsReadOnceForAllBodiesAndFoundFromTheSceneFile) {
+  const TemporaryFolder folder;
+  folder.write("a.obj", tetrahedron);
+  const std::string mesh = "mesh = {kind = \"file\", path = \"a.obj\"";
+  const Scene scene = load_scene(folder.write(
+      "s.toml", "[[body]]\n" + mesh + "}\nlattice = {size = [2, 1, 1]}\n[[body]]\n" + mesh + "}\n[[body]]\n" + mesh +
+                    ", size = 2, weld = 0, up = [0, 0, 1]}\n[dropper]\n" + mesh + "}\n"));
+  EXPECT_EQ(scene.bodies[0].mesh.imported, scene.bodies[2].mesh.imported);
+  EXPECT_EQ(scene.bodies[0].mesh, scene.dropper->body.mesh);
+  EXPECT_NE(scene.bodies[0].mesh.imported, scene.bodies[3].mesh.imported);
+  EXPECT_EQ(scene.bodies[3].mesh.imported->findings.extent, 2);
+  EXPECT_EQ(scene.bodies[0].mesh.vertex_count(), 4u);
+}
+
+TEST(MeshFromFile, ErrorsNameSceneAndMesh) {
+  const TemporaryFolder folder;
+  folder.write("bad.obj", "v 0 0 0\nv 0 0 x\n");
+  folder.write("good.obj", tetrahedron);
+  const auto says = [&](const std::string& toml) -> std::string {
+    try {
+      load_scene(folder.write("s.toml", "[[body]]\nmesh = {kind = \"file\"" + toml + "}\n"));
+      return "was taken";
+    } catch (const SceneError& e) {
+      EXPECT_EQ(std::string(e.what()).find((folder.path() / "s.toml").string() + ":2: mesh."), 0u) << e.what();
+      return e.what();
+    }
+  };
+  EXPECT_NE(says("").find("path must name an OBJ file"), std::string::npos);
+  EXPECT_NE(says(", path = \"none.obj\"").find("none.obj: cannot be read"), std::string::npos);
+  EXPECT_NE(says(", path = \".\"").find("cannot be read"), std::string::npos);
+  EXPECT_NE(says(", path = \"bad.obj\"").find("bad.obj:2: 'x' is no number"), std::string::npos);
+  EXPECT_NE(says(", path = \"bad.obj\", size = 0").find("size must be"), std::string::npos);
+  EXPECT_NE(says(", path = \"bad.obj\", up = [0, 0, 0]").find("up must point somewhere"), std::string::npos);
+  EXPECT_NE(says(", path = \"good.obj\", radius = 1").find("radius"), std::string::npos);
+}
+
+/// Where dozens of springs meet, they share what six would have: fans ask for no more substeps than the rest.
+TEST(MeshFromFile, AFanIsNoStifferThanARegularNet) {
+  std::string fan = "v 0 0.3 0\nv 0 -0.3 0\n";
+  constexpr int count = 60;
+  for (int i = 0; i < count; ++i) fan += vertex({std::cos(6.2831853 * i / count), 0, std::sin(6.2831853 * i / count)});
+  for (int i = 0; i < count; ++i) {
+    const int a = 3 + i, b = 3 + (i + 1) % count;
+    fan += face({1, b, a}) + face({2, a, b});
+  }
+  const TemporaryFolder folder;
+  const auto p = make_prototype(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), spring_ball());
+  EXPECT_LE(p->spring_stiffness_bound, 6 * (300 + 75) + 1e-9);
+  EXPECT_EQ(p->largest_degree, count);
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,122 @@
+// Shape matching: the rotation against ones that are known, the force against the gradient of its energy.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
+#include "softbody/shape_matching.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+glm::dvec3 random_vector(std::mt19937& random, double size) {
+  const double x = uniform(random, -size, size), y = uniform(random, -size, size);
+  return {x, y, uniform(random, -size, size)};
+}
+
+/// By Rodrigues' formula.
+glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
+  const glm::dvec3 n = glm::normalize(axis);
+  const glm::dmat3 cross(glm::dvec3(0, n.z, -n.y), glm::dvec3(-n.z, 0, n.x), glm::dvec3(n.y, -n.x, 0));
+  return glm::dmat3(1.0) + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
+}
+
+double distance(const glm::dmat3& a, const glm::dmat3& b) {
+  double sum = 0;
+  for (int c = 0; c < 3; ++c) sum += glm::dot(a[c] - b[c], a[c] - b[c]);
+  return std::sqrt(sum);
+}
+
+TEST(BestRotation, IsThePolarFactorOfAStretchedBody) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 200; ++i) {
+    const glm::dmat3 r = rotation(random_vector(random, 1), uniform(random, -3.14, 3.14));
+    const glm::dmat3 axes = rotation(random_vector(random, 1), uniform(random, -3.14, 3.14));
+    const glm::dvec3 size(uniform(random, 0.5, 3), uniform(random, 0.1, 3), i % 3 ? uniform(random, 0.1, 3) : 0);
+    glm::dmat3 stretch(0.0);  // symmetric; every third one is flat
+    for (int k = 0; k < 3; ++k) stretch += size[k] * glm::outerProduct(axes[k], axes[k]);
+    EXPECT_LT(distance(best_rotation(r * stretch), r), 1e-9) << i;
+  }
+}
+
+TEST(BestRotation, IsNeverAReflectionAndTakesAnything) {
+  const glm::dmat3 mirror(glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, -0.5));
+  for (const glm::dmat3& m :
+       {mirror, glm::dmat3(0.0), glm::dmat3(-1.0), glm::outerProduct(glm::dvec3(1), glm::dvec3(2))}) {
+    const glm::dmat3 r = best_rotation(m);
+    EXPECT_NEAR(glm::determinant(r), 1, 1e-12);
+    EXPECT_LT(distance(glm::transpose(r) * r, glm::dmat3(1.0)), 1e-12);
+  }
+  best_rotation(glm::dmat3(std::nan("")));  // comes back
+}
+
+Material shape_only() {
+  Material m = spring_ball();
+  m.structural.stiffness = m.bend.stiffness = 0;
+  m.shape_frequency = 3;
+  return m;
+}
+
+TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
+  std::mt19937 random(2);
+  const auto p = make_prototype({.subdivisions = 1}, shape_only());
+  std::vector<glm::dvec3> x;
+  const glm::dmat3 r = rotation({1, 2, 3}, 2);
+  for (const glm::dvec3& v : p->mesh.vertices)
+    x.push_back(r * (v * glm::dvec3(1, 1.3, 0.8)) + random_vector(random, 0.05) + glm::dvec3(1, 2, 3));
+
+  // Through the kernels of every instruction set, in float; energy and its differences in double.
+  for (const Isa isa : isas()) {
+    LaneField field(x.size()), force(x.size());
+    std::vector<ShapePoint<float>> shape;
+    for (const glm::dvec3& q : p->goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
+    for (std::size_t i = 0; i < x.size(); ++i) field.set(i, 5, x[i]);
+    ShapeMoments<float> moments;
+    ShapePose<float> pose{};
+    kernels(isa).shape_moments(shape, std::as_const(field).field(), moments);
+    fit_shape(moments, lanes, pose);
+    kernels(isa).shape_pull(shape, pose, float(shape_stiffness(*p)), std::as_const(field).field(), force.field());
+
+    const double scale = shape_stiffness(*p) * 0.5;
+    glm::dvec3 total(0.0), torque(0.0);
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const glm::dvec3 f = force.at(i, 5);
+      total += f;
+      torque += glm::cross(x[i] - x[0], f);
+      for (int k = 0; k < 3; ++k) {
+        constexpr double h = 1e-5;
+        auto ahead = x, behind = x;
+        ahead[i][k] += h, behind[i][k] -= h;
+        EXPECT_NEAR(f[k], -(shape_energy(*p, ahead) - shape_energy(*p, behind)) / (2 * h), 1e-5 * scale);
+      }
+    }
+    EXPECT_LT(glm::length(total), 1e-5 * scale * double(x.size()));
+    EXPECT_LT(glm::length(torque), 1e-5 * scale * double(x.size()));
+  }
+}
+
+TEST(ShapeMatching, ARigidMotionCostsNothing) {
+  const auto p = make_prototype({}, shape_only());
+  std::vector<glm::dvec3> x;
+  for (const glm::dvec3& v : p->mesh.vertices) x.push_back(rotation({3, -1, 2}, 3) * v + glm::dvec3(5, 6, 7));
+  EXPECT_LT(shape_energy(*p, x), 1e-20);
+  EXPECT_GT(shape_energy(*p, std::vector<glm::dvec3>(x.size(), x[0])), 1);
+}
+
+TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
+  const MeshSource source = MeshSource::from_file({.path = file});
+  Material m = spring_ball();
+  EXPECT_EQ(make_prototype({}, m)->shape_rate, 0);
+  EXPECT_NEAR(make_prototype(source, m)->shape_rate, 2 * 3.14159265358979 * mesh_file_shape_frequency, 1e-9);
+  m.shape_frequency = 0;
+  EXPECT_EQ(make_prototype(source, m)->shape_rate, 0);
+  EXPECT_TRUE(make_prototype(source, m)->goal.empty());
+}
+
+}  // namespace
+}  // namespace softbody::test
