@@ -1,5 +1,5 @@
 #pragma once
-// The broad phase of bodies: strips of boxes, each swept along its length, and a test of the spheres around them.
+// The broad phase of bodies: boxes in the cells of strips, and a test of the spheres around them.
 
 #include "collide/strip_boxes.h"
 #include "collide/vertex_kernels.h"
@@ -28,33 +28,35 @@ class NearBodies {
   static constexpr std::size_t max_pairs = std::size_t{1} << 27;  // 512 MiB of them
 
  private:
+  /// An axis cut into parts of one width.
+  struct Parts {
+    double first = 0, width = 1;
+    std::size_t count = 1;
+    /// Never decreases with the value.
+    std::size_t of(double value) const;
+  };
   struct alignas(64) Thread {
-    std::vector<Index> found, count;  // of each row: how many, and their places in the order
+    std::vector<Index> found, count;  // of each row: places, and how many
     std::uint64_t near_boxes;
   };
-  /// Strips have the width of the widest box and reach, so that a box meets its own strip and some of the next.
-  struct Strip {
-    Index begin, end;  // places
-    float widest;      // of its boxes, along
-  };
-  void sort(std::span<const Bound> bounds, std::span<const Index> live, float reach);
-  std::size_t strip_of(double value) const;
+  void divide(std::span<const Bound> bounds, std::span<const Index> live, float reach);
+  void place(std::span<const Bound> bounds, std::span<const Index> live);
   void find_row(Thread& own, Index place, float reach) const;
   void group(std::size_t bodies, std::size_t most_pairs);
 
-  StripBoxes boxes_;
-  int across_ = 0;  // the axis that the strips divide
-  double first_edge_ = 0, width_ = 1;
-  std::vector<Strip> strips_;
-  struct Place {
-    std::uint64_t key;  // sorts by strip, then as lo[along] does
-    Index body;
-  };
-  std::vector<Place> order_;
+  // Boxes lie in the strip and in the cell of their least corner. A strip is as wide as the widest box and reach, so
+  // that a box meets its own strip and some of the next; the cells along a strip are narrow.
+  Parts strips_, cells_;
+  int across_ = 0, along_ = 0;     // the axes that they divide
+  std::vector<double> widest_;     // of each strip: of its boxes, along
+  std::vector<Index> cell_begin_;  // strip by strip: the place where each cell begins, and the end of the last one
+  std::vector<Index> cell_;        // of each live body
+  StripBoxes boxes_;               // by place
+  std::vector<Index> body_;        // by place
   std::vector<Thread> threads_;
   std::vector<std::uint32_t> first_;  // bodies + 1 offsets into other_
   std::vector<Index> other_;
-  std::vector<bool> in_pair_;
+  std::vector<std::uint8_t> in_pair_;
   std::uint64_t near_boxes_ = 0, alone_ = 0;
 };
 

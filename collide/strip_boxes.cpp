@@ -16,23 +16,18 @@ namespace {
 
 Index SweepStrip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found) {
   const V limit = all(reach);
-  const auto along = static_cast<std::size_t>(boxes.along), side = (along + 1) % 3, other = (along + 2) % 3;
-  const V lo0 = all(boxes.lo[along][i]), hi0 = all(boxes.hi[along][i]);
-  const V lo1 = all(boxes.lo[side][i]), hi1 = all(boxes.hi[side][i]);
-  const V lo2 = all(boxes.lo[other][i]), hi2 = all(boxes.hi[other][i]);
+  const V lo0 = all(boxes.lo[0][i]), lo1 = all(boxes.lo[1][i]), lo2 = all(boxes.lo[2][i]);
+  const V hi0 = all(boxes.hi[0][i]), hi1 = all(boxes.hi[1][i]), hi2 = all(boxes.hi[2][i]);
   const V c0 = all(boxes.centre[0][i]), c1 = all(boxes.centre[1][i]), c2 = all(boxes.centre[2][i]);
   const V radius = all(boxes.radius[i] + reach);
   Index near_boxes = 0;
   for (Index j = begin; j < end; j += lanes) {
-    // Lanes beyond the strip belong to the next one.
-    const M inside = hn::FirstN(Floats(), std::min(lanes, end - j));
-    const M within = hn::And(inside, hn::Le(hn::Sub(load(&boxes.lo[along][j]), hi0), limit));  // a prefix of the block
-    const M near0 = hn::And(within, hn::Le(hn::Sub(lo0, load(&boxes.hi[along][j])), limit));
-    const M near1 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[side][j]), hi1), limit),
-                            hn::Le(hn::Sub(lo1, load(&boxes.hi[side][j])), limit));
-    const M near2 = hn::And(hn::Le(hn::Sub(load(&boxes.lo[other][j]), hi2), limit),
-                            hn::Le(hn::Sub(lo2, load(&boxes.hi[other][j])), limit));
-    const M near = hn::And(near0, hn::And(near1, near2));
+    const auto within = [&](V lo, V hi, std::size_t axis) HWY_ATTR {
+      return hn::And(hn::Le(hn::Sub(load(&boxes.lo[axis][j]), hi), limit),
+                     hn::Le(hn::Sub(lo, load(&boxes.hi[axis][j])), limit));
+    };
+    const M inside = hn::FirstN(Floats(), std::min(lanes, end - j));  // lanes beyond the end belong to other boxes
+    const M near = hn::And(hn::And(inside, within(lo0, hi0, 0)), hn::And(within(lo1, hi1, 1), within(lo2, hi2, 2)));
     if (!hn::AllFalse(Floats(), near)) {
       const V d2 = squared_length(hn::Sub(load(&boxes.centre[0][j]), c0), hn::Sub(load(&boxes.centre[1][j]), c1),
                                   hn::Sub(load(&boxes.centre[2][j]), c2));
@@ -44,7 +39,6 @@ Index SweepStrip(const StripBoxes& boxes, Index i, Index begin, Index end, float
         found.push_back(j + static_cast<Index>(std::countr_zero(bits)));
       }
     }
-    if (!hn::AllTrue(Floats(), within)) break;
   }
   return near_boxes;
 }

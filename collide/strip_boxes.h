@@ -8,18 +8,17 @@
 
 namespace collide {
 
-/// Boxes in strips across one axis, in each strip ordered along another: of each box its bounds on the axes and the
-/// sphere around its centre. Padded, so that blocks can be read at the end.
+/// Boxes in an order in which those near each other are close: of each one its bounds on the axes and the sphere around
+/// its centre. Padded, so that blocks can be read at the end.
 struct StripBoxes {
   std::array<std::vector<float>, 3> lo, hi, centre;
   std::vector<float> radius;
-  int along = 0;  // within a strip lo[along] ascends
   Index size = 0;
 
   void resize(Index count);
 };
 /// Appends every box from the place `begin` on, and before `end`, that is near() box i and whose sphere is within reach
-/// of its own; stops where lo[along] is out of reach. Returns how many were near(), whatever their spheres.
+/// of its own. Returns how many were near(), whatever their spheres.
 Index sweep_strip(const StripBoxes& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found);
 
 }  // namespace collide
