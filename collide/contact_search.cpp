@@ -19,7 +19,7 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
   }
 }
 
-void ContactSearch::test(int thread, const Points& points, Range a, Range b) {
+void ContactSearch::test(int thread, Range a, Range b) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   const std::uint64_t na = a.size(), nb = b.size();
   constexpr std::uint64_t most_tests = 1u << 20;  // between two looks at the number of contacts
@@ -27,13 +27,20 @@ void ContactSearch::test(int thread, const Points& points, Range a, Range b) {
       na * nb <= most_tests ? a.size() : static_cast<Index>(std::max(most_tests / nb, std::uint64_t{1}));
   for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
     rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
-    near_pairs(points, rows, b, tolerance2_, own.hits);
-    if (!own.hits.empty()) keep_contacts(own, points);
+    near_pairs(*points_, rows, b, tolerance2_, own.hits);
+    keep_contacts(own);
   }
+  count_tests(own, a, b);
+}
+
+void ContactSearch::count_tests(Thread& own, Range a, Range b) {
+  const std::uint64_t na = a.size(), nb = b.size();
   own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
 }
 
-void ContactSearch::keep_contacts(Thread& own, const Points& points) {
+void ContactSearch::keep_contacts(Thread& own) {
+  if (own.hits.empty()) return;
+  const Points& points = *points_;
   const Bodies& bodies = *frame_->bodies;
   const std::size_t before = own.contacts.size();
   for (const SlotPair& hit : own.hits) {

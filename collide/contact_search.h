@@ -18,10 +18,17 @@ class ContactSearch {
   /// Finds the contacts of all slots i < j, i from a and j from b. Either b begins with all of a, or a ends where b
   /// begins or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts
   /// contacts.
-  void test(int thread, Range a, Range b) { test(thread, *points_, a, b); }
+  void test(int thread, Range a, Range b);
 
-  /// The same for slots of other points, such as copies of some of those that the search has begun with.
-  void test(int thread, const Points& points, Range a, Range b);
+  /// The same for copies of slots, 2^20 pairs of them at most: slot_of(copy) is the slot that a copy is of.
+  template <class SlotOf>
+  void test_copies(int thread, const Places& copies, Range a, Range b, const SlotOf& slot_of) {
+    Thread& own = threads_[static_cast<std::size_t>(thread)];
+    near_pairs(copies, a, b, tolerance2_, own.hits);
+    for (SlotPair& hit : own.hits) hit = {slot_of(hit.a), slot_of(hit.b)};
+    keep_contacts(own);
+    count_tests(own, a, b);
+  }
 
   /// Adds the contacts, the self contacts and the pair tests to a result that BodyBoxes::build() has started.
   void finish(Result& result);
@@ -34,7 +41,8 @@ class ContactSearch {
     std::vector<Contact> contacts;
     std::uint64_t self_contacts, pair_tests;
   };
-  void keep_contacts(Thread& own, const Points& points);
+  static void count_tests(Thread& own, Range a, Range b);
+  void keep_contacts(Thread& own);
 
   const Frame* frame_ = nullptr;
   const Points* points_ = nullptr;

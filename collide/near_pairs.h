@@ -11,6 +11,6 @@ struct SlotPair {
 
 /// Appends every pair of slots i < j, i from a and j from b, with squared_distance < tolerance2. Picks the widest
 /// instructions of the processor; the result is the same on all of them.
-void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits);
+void near_pairs(const Places& places, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits);
 
 }  // namespace collide

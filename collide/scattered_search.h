@@ -1,6 +1,7 @@
 #pragma once
 // One run of slots against many short runs. To test a handful of vertices costs little more than one vertex, so short
-// runs are first copied side by side and then tested as a single one. Memory: 1024 vertices a thread.
+// runs are first copied side by side and then tested as a single one. Memory: 1024 vertices
+// and runs a thread.
 
 #include "collide/contact_search.h"
 
@@ -21,7 +22,7 @@ class ScatteredSearch {
       search_->test(thread, own.rows, run);
     } else {
       if (own.copies.size() + run.size() > most_copies) test_copies(own, thread);
-      own.copies.append(*points_, run);
+      own.append(*points_, run);
     }
   }
   void finish(int thread) { test_copies(threads_[static_cast<std::size_t>(thread)], thread); }
@@ -30,8 +31,15 @@ class ScatteredSearch {
   static constexpr Index short_run = 64, most_copies = 1024;
   struct alignas(64) Thread {
     Range rows;
-    Points copies;  // of the rows, then of runs
-    Index tested;   // the copies before this one need not be tested any more
+    Places copies;                  // of the rows, then of runs
+    Index tested;                   // the copies before this one need not be tested any more
+    std::vector<SlotPair> origins;  // of each run: its first copy, and the slot that it is of; the rows are the first
+
+    void append(const Points& from, Range run) {
+      origins.push_back({copies.size(), run.begin});
+      copies.append(from, run);
+    }
+    Index slot_of(Index copy) const;
   };
   void test_copies(Thread& own, int thread);
 
