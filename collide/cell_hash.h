@@ -38,6 +38,17 @@ class CellHash {
     return static_cast<std::uint32_t>((x_term + y_term + z_term) % buckets_);
   }
 
+  /// A term of the sum modulo the number of buckets, for terms that many corners share; and the bucket of three of
+  /// them.
+  std::uint32_t residue(int axis, std::int64_t index) const {
+    return static_cast<std::uint32_t>(term(axis, index) % buckets_);
+  }
+  std::uint32_t bucket_of_residues(std::uint32_t x, std::uint32_t y, std::uint32_t z) const {
+    const auto count = static_cast<std::uint32_t>(buckets_);
+    const auto once = [count](std::uint32_t sum) { return sum >= count ? sum - count : sum; };
+    return once(once(x + y) + z);
+  }
+
   std::uint32_t bucket(const Cell& cell) const { return bucket(term(0, cell[0]), term(1, cell[1]), term(2, cell[2])); }
 
  private:

@@ -4,6 +4,8 @@
 
 #include <array>
 
+#include "collide/aabb.h"
+
 namespace collide {
 
 /// How many of `levels` cuts fall on the axis: the first is along x, the second along y, the third along z, ...
@@ -33,5 +35,14 @@ struct Cuts {
     return interval;
   }
 };
+
+/// The cuts of a body's box along x, y and z.
+inline std::array<Cuts, 3> cuts_of(const Aabb& box, int levels) {
+  std::array<Cuts, 3> cuts;
+  for (int axis = 0; axis < 3; ++axis) {
+    cuts[static_cast<std::size_t>(axis)].build(box.lo[axis], box.hi[axis], cuts_along(axis, levels));
+  }
+  return cuts;
+}
 
 }  // namespace collide

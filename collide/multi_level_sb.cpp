@@ -25,7 +25,7 @@ void for_each_corner(const Sides<T>& sides, const Visit& visit) {
   }
 }
 
-/// The cells' indices.
+/// The cells' indices of its corners.
 Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
   Sides<std::int64_t> indices;
   for (int axis = 0; axis < 3; ++axis) {
@@ -34,20 +34,35 @@ Sides<std::int64_t> indices_of(const Aabb& box, const CellHash& hash) {
   return indices;
 }
 
-/// §2.2: the buckets of the eight corner points. Corners share coordinates, hence the terms of the sum.
-std::array<std::uint32_t, 8> buckets_of(const Aabb& box, const CellHash& hash) {
-  const Sides<std::int64_t> indices = indices_of(box, hash);
-  Sides<std::uint64_t> terms;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    for (std::size_t side = 0; side < 2; ++side) {
-      terms[axis][side] = hash.term(static_cast<int>(axis), indices[axis][side]);
+/// §2.2: the buckets of the corner points of a body's boxes. Corners lie on the borders of its cuts and share them.
+class CornerHash {
+ public:
+  CornerHash(const Aabb& body, int levels, const CellHash& hash) : hash_(hash) {
+    const std::array<Cuts, 3> cuts = cuts_of(body, levels);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const int a = static_cast<int>(axis);
+      for (std::size_t border = 0; border <= static_cast<std::size_t>(cuts[axis].intervals()); ++border) {
+        residue_[axis][border] = hash.residue(a, hash.index(a, cuts[axis].border[border]));
+      }
     }
   }
-  std::array<std::uint32_t, 8> buckets;
-  std::size_t corner = 0;
-  for_each_corner(terms, [&](auto x, auto y, auto z) { buckets[corner++] = hash.bucket(x, y, z); });
-  return buckets;
-}
+
+  std::array<std::uint32_t, 8> buckets(const Box& box) const {
+    Sides<std::uint32_t> sides;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::size_t low = box.interval[axis];
+      sides[axis] = {residue_[axis][low], residue_[axis][low + 1]};
+    }
+    std::array<std::uint32_t, 8> buckets;
+    std::size_t corner = 0;
+    for_each_corner(sides, [&](auto x, auto y, auto z) { buckets[corner++] = hash_.bucket_of_residues(x, y, z); });
+    return buckets;
+  }
+
+ private:
+  const CellHash& hash_;
+  std::array<std::array<std::uint32_t, (1 << Cuts::max_depth) + 1>, 3> residue_;
+};
 
 bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,10 +104,15 @@ class MultiLevelSb final : public Detector {
     bool exceeded = false;
     table_.clear();
     end_of_body_.resize(bodies_.box.size());
-    for (const Box& box : subdivision_.boxes()) {
-      end_of_body_[box.body] = static_cast<Index>(table_.size() + 1);
-      table_.add(buckets_of(box.region, hash));
-      exceeded = exceeded || exceeds_cell(box.region, settings_.cell_size);
+    const std::vector<Box>& boxes = subdivision_.boxes();
+    for (std::size_t next = 0; next < boxes.size();) {
+      const Index body = boxes[next].body;
+      const CornerHash corners(bodies_.box[body], settings_.levels, hash);
+      for (; next < boxes.size() && boxes[next].body == body; ++next) {
+        table_.add(corners.buckets(boxes[next]));
+        exceeded = exceeded || exceeds_cell(boxes[next].region, settings_.cell_size);
+      }
+      end_of_body_[body] = static_cast<Index>(next);
     }
     table_.build(settings_.buckets);
     table_.buckets().count(result.counters);

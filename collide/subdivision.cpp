@@ -6,15 +6,16 @@ namespace {
 
 constexpr Index none = ~Index{0};
 
-/// The region of a code: one interval of each axis.
-Aabb region(const std::array<Cuts, 3>& cuts, std::uint32_t code) {
-  Aabb box{};
+/// An empty box with the region of a code: one interval of each axis.
+Box box_of(const std::array<Cuts, 3>& cuts, std::uint32_t code, Index body) {
+  Box box{{}, {}, body, {0, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     const Cuts& along = cuts[static_cast<std::size_t>(axis)];
     const std::uint32_t interval = code & ((1u << along.depth) - 1);
     code >>= along.depth;
-    box.lo[axis] = along.border[interval];
-    box.hi[axis] = along.border[interval + 1];
+    box.region.lo[axis] = along.border[interval];
+    box.region.hi[axis] = along.border[interval + 1];
+    box.interval[static_cast<std::size_t>(axis)] = static_cast<std::uint8_t>(interval);
   }
   return box;
 }
@@ -46,9 +47,7 @@ void Subdivision::build(const Frame& frame, const BodyBoxes& bodies, std::span<c
 }
 
 void Subdivision::cut_body(Thread& own, const Frame& frame, const Aabb& box, Index body, Index first_slot) {
-  for (int axis = 0; axis < 3; ++axis) {
-    own.cuts[static_cast<std::size_t>(axis)].build(box.lo[axis], box.hi[axis], cuts_along(axis, levels_));
-  }
+  own.cuts = cuts_of(box, levels_);
   const Index first = frame.bodies->first[body], size = frame.bodies->size(body);
   find_codes(own, frame, first, size);
 
@@ -57,7 +56,7 @@ void Subdivision::cut_body(Thread& own, const Frame& frame, const Aabb& box, Ind
     Index& index = own.box_of_code[code];
     if (index == none) {
       index = static_cast<Index>(own.boxes.size());
-      own.boxes.push_back({region(own.cuts, code), body, {0, 0}});
+      own.boxes.push_back(box_of(own.cuts, code, body));
     }
     ++own.boxes[index].slots.end;  // for now the number of its vertices
   }

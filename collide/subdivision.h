@@ -1,6 +1,6 @@
 #pragma once
 // The subdivided bounding boxes of §2.1: every body's box cut at midpoints into 2^levels regions.
-// Memory: empty regions are not kept, so a vertex costs 100 bytes at most whatever the level, and a thread 4 *
+// Memory: empty regions are not kept, so a vertex costs 104 bytes at most whatever the level, and a thread 4 *
 // 2^levels.
 
 #include "collide/body_boxes.h"
@@ -10,7 +10,8 @@
 namespace collide {
 
 struct Box {
-  Aabb region;  // between the cuts, not refitted to the vertices
+  Aabb region;                             // between the cuts, not refitted to the vertices
+  std::array<std::uint8_t, 3> interval{};  // of the body's Cuts on each axis
   Index body;
   Range slots;  // its vertices
 };
