@@ -30,12 +30,14 @@ void ContactSearch::test(int thread, Range a, Range b) {
     near_pairs(*points_, rows, b, tolerance2_, own.hits);
     keep_contacts(own);
   }
-  count_tests(own, a, b);
+  own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
 }
 
-void ContactSearch::count_tests(Thread& own, Range a, Range b) {
-  const std::uint64_t na = a.size(), nb = b.size();
-  own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
+void ContactSearch::test(int thread, Range a, std::span<const Range> runs) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  near_pairs(*points_, a, runs, tolerance2_, own.hits);
+  keep_contacts(own);
+  for (const Range run : runs) own.pair_tests += std::uint64_t{a.size()} * run.size();
 }
 
 void ContactSearch::keep_contacts(Thread& own) {

@@ -20,15 +20,8 @@ class ContactSearch {
   /// contacts.
   void test(int thread, Range a, Range b);
 
-  /// The same for copies of slots, 2^20 pairs of them at most: slot_of(copy) is the slot that a copy is of.
-  template <class SlotOf>
-  void test_copies(int thread, const Places& copies, Range a, Range b, const SlotOf& slot_of) {
-    Thread& own = threads_[static_cast<std::size_t>(thread)];
-    near_pairs(copies, a, b, tolerance2_, own.hits);
-    for (SlotPair& hit : own.hits) hit = {slot_of(hit.a), slot_of(hit.b)};
-    keep_contacts(own);
-    count_tests(own, a, b);
-  }
+  /// The same for each of many short runs that begin where a ends or later: 2^20 pairs at most.
+  void test(int thread, Range a, std::span<const Range> runs);
 
   /// Adds the contacts, the self contacts and the pair tests to a result that BodyBoxes::build() has started.
   void finish(Result& result);
@@ -41,7 +34,6 @@ class ContactSearch {
     std::vector<Contact> contacts;
     std::uint64_t self_contacts, pair_tests;
   };
-  static void count_tests(Thread& own, Range a, Range b);
   void keep_contacts(Thread& own);
 
   const Frame* frame_ = nullptr;

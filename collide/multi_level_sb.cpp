@@ -79,7 +79,7 @@ class MultiLevelSb final : public Detector {
     subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
     hash_corners(result);                                                        // §2.2
     search_.begin(frame, settings, subdivision_.points(), workers.threads());
-    scattered_.begin(search_, subdivision_.points(), workers.threads());
+    scattered_.begin(search_, workers.threads());
     table_.prepare_meetings(workers.threads());
     workers.run([&](int thread) { test_boxes(thread, workers.threads()); });  // §2.3, §2.4
     search_.finish(result);

@@ -1,60 +1,92 @@
 #include "collide/near_pairs.h"
 
 #include <algorithm>
+#include <bit>
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collide/near_pairs.cpp"
+#include <hwy/foreach_target.h>
+
+#include "collide/simd_lanes.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace collide {
-
+namespace HWY_NAMESPACE {
 namespace {
 
-constexpr Index block = Places::padding;
+/// Vertices in a block. Blocks may run past the end of a run, into slots that are then left out.
+template <class Tag>
+struct Block {
+  hn::Vec<Tag> x, y, z;
+};
 
-/// One vertex against a run. Candidates come in blocks that the compiler vectorises; contacts are rare, so a block
-/// first answers "any hit at all?". The last block may run past b.end, into slots that the second look leaves out.
-[[gnu::always_inline]] inline void search_row(const Places& places, Index i, Range b, float tolerance2,
-                                              std::vector<SlotPair>& hits) {
-  const float px = places.x[i], py = places.y[i], pz = places.z[i];
-  for (Index j = std::max(b.begin, i + 1); j < b.end; j += block) {
-    const float *bx = &places.x[j], *by = &places.y[j], *bz = &places.z[j];
-    std::uint32_t any = 0;
-#pragma GCC unroll 1  // g++ would unroll these turns before it tries to vectorise them, and then cannot
-    for (Index k = 0; k < block; ++k) {
-      any |= squared_distance(px, py, pz, bx[k], by[k], bz[k]) < tolerance2 ? 1u : 0u;
-    }
-    if (any == 0) continue;
-    for (Index k = 0; k < std::min(block, b.end - j); ++k) {
-      if (squared_distance(px, py, pz, bx[k], by[k], bz[k]) < tolerance2) hits.push_back({i, j + k});
+template <class Tag>
+HWY_INLINE Block<Tag> block_at(Tag tag, const Points& points, Index first) {
+  return {hn::LoadU(tag, &points.x[first]), hn::LoadU(tag, &points.y[first]), hn::LoadU(tag, &points.z[first])};
+}
+
+template <class Tag>
+HWY_INLINE hn::Mask<Tag> close(Tag tag, const Points& points, Index i, const Block<Tag>& block, float tolerance2) {
+  const auto dx = hn::Sub(hn::Set(tag, points.x[i]), block.x), dy = hn::Sub(hn::Set(tag, points.y[i]), block.y),
+             dz = hn::Sub(hn::Set(tag, points.z[i]), block.z);
+  return hn::Lt(squared_length(dx, dy, dz), hn::Set(tag, tolerance2));
+}
+
+template <class Tag>
+HWY_INLINE void append(Tag tag, hn::Mask<Tag> mask, Index i, Index first, Index end, std::vector<SlotPair>& hits) {
+  for (std::uint64_t bits = bits_of(tag, mask); bits != 0; bits &= bits - 1) {
+    const Index j = first + static_cast<Index>(std::countr_zero(bits));
+    if (j < end) hits.push_back({i, j});
+  }
+}
+
+void NearPairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
+  const Floats tag;
+  for (Index i = a.begin; i < a.end; ++i) {
+    for (Index j = std::max(b.begin, i + 1); j < b.end; j += lanes) {
+      const M mask = close(tag, points, i, block_at(tag, points, j), tolerance2);
+      if (HWY_UNLIKELY(!hn::AllFalse(tag, mask))) append(tag, mask, i, j, b.end, hits);
     }
   }
 }
 
-[[gnu::always_inline]] inline void search_all(const Places& places, Range a, Range b, float tolerance2,
-                                              std::vector<SlotPair>& hits) {
-  for (Index i = a.begin; i < a.end; ++i) search_row(places, i, b, tolerance2, hits);
+/// Block by block, each against all of a: contacts are rare, so a block first answers "any at all?".
+void NearRuns(const Points& points, Range a, std::span<const Range> runs, float tolerance2,
+              std::vector<SlotPair>& hits) {
+  const hn::CappedTag<float, 8> tag;  // runs are short
+  const auto step = static_cast<Index>(hn::Lanes(tag));
+  for (const Range run : runs) {
+    for (Index j = run.begin; j < run.end; j += step) {
+      const auto block = block_at(tag, points, j);
+      auto any = close(tag, points, a.begin, block, tolerance2);
+      for (Index i = a.begin + 1; i < a.end; ++i) any = hn::Or(any, close(tag, points, i, block, tolerance2));
+      if (HWY_LIKELY(hn::AllFalse(tag, any))) continue;
+      for (Index i = a.begin; i < a.end; ++i) {
+        append(tag, close(tag, points, i, block, tolerance2), i, j, run.end, hits);
+      }
+    }
+  }
 }
-
-using Search = void (*)(const Places&, Range, Range, float, std::vector<SlotPair>&);
-
-void all_baseline(const Places& places, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
-  search_all(places, a, b, tolerance2, hits);
-}
-
-// Not target_clones: its resolvers run before the sanitizers are set up. Without fma, so that results stay equal.
-#if defined(__x86_64__)
-__attribute__((target("avx2"))) void all_avx2(const Places& places, Range a, Range b, float tolerance2,
-                                              std::vector<SlotPair>& hits) {
-  search_all(places, a, b, tolerance2, hits);
-}
-
-Search pick() { return __builtin_cpu_supports("avx2") ? all_avx2 : all_baseline; }
-#else
-Search pick() { return all_baseline; }
-#endif
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace collide
+HWY_AFTER_NAMESPACE();
 
-void near_pairs(const Places& places, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
-  static const Search best = pick();
-  best(places, a, b, tolerance2, hits);
+#if HWY_ONCE
+namespace collide {
+
+HWY_EXPORT(NearPairs);
+HWY_EXPORT(NearRuns);
+
+void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits) {
+  HWY_DYNAMIC_DISPATCH(NearPairs)(points, a, b, tolerance2, hits);
+}
+
+void near_pairs(const Points& points, Range a, std::span<const Range> runs, float tolerance2,
+                std::vector<SlotPair>& hits) {
+  HWY_DYNAMIC_DISPATCH(NearRuns)(points, a, runs, tolerance2, hits);
 }
 
 }  // namespace collide
+#endif  // HWY_ONCE

@@ -1,5 +1,6 @@
 #pragma once
-// The innermost loop of every method: which vertices of two runs are closer than the tolerance (§2.3).
+// The innermost loops of every method but the exact one: which vertices of two runs are closer than the tolerance
+// (§2.3). In the processor's widest instructions; the result is the same on all of them.
 
 #include "collide/points.h"
 
@@ -9,8 +10,11 @@ struct SlotPair {
   Index a, b;
 };
 
-/// Appends every pair of slots i < j, i from a and j from b, with squared_distance < tolerance2. Picks the widest
-/// instructions of the processor; the result is the same on all of them.
-void near_pairs(const Places& places, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits);
+/// Appends every pair of slots i < j, i from a and j from b, with squared_distance < tolerance2.
+void near_pairs(const Points& points, Range a, Range b, float tolerance2, std::vector<SlotPair>& hits);
+
+/// The same for each of many short runs b that begin where a ends or later.
+void near_pairs(const Points& points, Range a, std::span<const Range> runs, float tolerance2,
+                std::vector<SlotPair>& hits);
 
 }  // namespace collide

@@ -110,7 +110,7 @@ HWY_INLINE void find_contacts(const Run& a, Index first_a, const Index* list_a, 
         continue;
       }
       const V d2 = squared_length(hn::Sub(x, load(bx + j)), hn::Sub(y, load(by + j)), hn::Sub(z, load(bz + j)));
-      bits.add(bits_of(hn::Lt(d2, limit)));
+      bits.add(bits_of(Floats(), hn::Lt(d2, limit)));
     }
   }
   bits.end();
@@ -141,7 +141,7 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   for_blocks(b.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
     const V p = along(at_b, i);
     back = hn::Min(back, p);
-    bits_b.add(bits_of(hn::Le(p, limit_b)) >> skip);
+    bits_b.add(bits_of(Floats(), hn::Le(p, limit_b)) >> skip);
   });
   bits_b.end();
   const float back_b = least(back);
@@ -152,7 +152,7 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   const V limit_a = all(back_b - slab.reach);
   BitWriter bits_a(words);
   for_blocks(a.size, [&](std::ptrdiff_t i, Index skip)
-                         HWY_ATTR { bits_a.add(bits_of(hn::Ge(load(along_a + i), limit_a)) >> skip); });
+                         HWY_ATTR { bits_a.add(bits_of(Floats(), hn::Ge(load(along_a + i), limit_a)) >> skip); });
   bits_a.end();
   const Index size_a = list_bits(words, a.size, list);
   const std::uint64_t tests = std::uint64_t{size_a} * scratch.near_b.size;
@@ -172,6 +172,7 @@ HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Inde
   BitWriter bits(words);
   for (Index j = begin; j < set.size; j += lanes) {
     bits.add(bits_of(
+        Floats(),
         hn::Lt(squared_length(hn::Sub(x, load(sx + j)), hn::Sub(y, load(sy + j)), hn::Sub(z, load(sz + j))), limit)));
   }
   bits.end();

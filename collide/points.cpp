@@ -2,14 +2,10 @@
 
 namespace collide {
 
-void Places::resize(Index count) {
+void Points::resize(Index count) {
   size_ = count;
   for (auto* coordinate : {&x, &y, &z}) coordinate->resize(std::size_t{count} + padding);
-}
-
-void Points::resize(Index count) {
-  Places::resize(count);
-  for (auto* owner : {&vertex, &body}) owner->resize(count);
+  for (auto* owner : {&vertex, &body}) owner->resize(std::size_t{count} + padding);
 }
 
 void Points::gather(const Frame& frame, std::span<const Index> which, std::vector<Range>& ranges) {

@@ -28,9 +28,10 @@ static_assert(lanes <= most_lanes && 64 % lanes == 0);
 HWY_INLINE V load(const float* at) { return hn::LoadU(Floats(), at); }
 HWY_INLINE V all(float value) { return hn::Set(Floats(), value); }
 
-HWY_INLINE std::uint64_t bits_of(M mask) {
+template <class Tag>
+HWY_INLINE std::uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
   std::uint64_t bits = 0;
-  hn::StoreMaskBits(Floats(), mask, reinterpret_cast<std::uint8_t*>(&bits));
+  hn::StoreMaskBits(tag, mask, reinterpret_cast<std::uint8_t*>(&bits));
   return bits;
 }
 
@@ -62,7 +63,8 @@ HWY_INLINE Run readable(const Run& run, Copy& copy) {
   return {copy.x + skip, copy.y + skip, copy.z + skip, run.size};
 }
 
-HWY_INLINE V squared_length(V x, V y, V z) {  // as squared_distance()
+template <class Vector>
+HWY_INLINE Vector squared_length(Vector x, Vector y, Vector z) {  // as squared_distance()
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 

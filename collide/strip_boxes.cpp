@@ -35,7 +35,8 @@ Index SweepStrip(const StripBoxes& boxes, Index i, Index begin, Index end, float
       const V reached = hn::Add(radius, load(&boxes.radius[j]));
       const V most2 = hn::Add(hn::Mul(hn::Mul(reached, reached), all(1 + 0x1p-18f)), all(1e-37f));
       near_boxes += static_cast<Index>(hn::CountTrue(Floats(), near));
-      for (std::uint64_t bits = bits_of(hn::And(near, hn::Not(hn::Gt(d2, most2)))); bits != 0; bits &= bits - 1) {
+      for (std::uint64_t bits = bits_of(Floats(), hn::And(near, hn::Not(hn::Gt(d2, most2)))); bits != 0;
+           bits &= bits - 1) {
         found.push_back(j + static_cast<Index>(std::countr_zero(bits)));
       }
     }
