@@ -65,6 +65,25 @@ void SceneView::gather_bodies(const softbody::World& world, bool dimmed) {
   frame_.normals = normals_;
 }
 
+void SceneView::gather_solids(const softbody::Scene& scene) {
+  constexpr glm::vec3 grey(0.62f);
+  for (const softbody::SolidSphere& s : scene.spheres)
+    frame_.spheres.push_back({glm::vec3(s.centre), static_cast<float>(s.radius), grey});
+  for (const softbody::SolidCapsule& c : scene.capsules)
+    frame_.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius), grey});
+  for (const softbody::SolidBox& b : scene.boxes) {
+    const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
+    frame_.blocks.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
+  }
+  if (scene.ground) frame_.ground = static_cast<float>(scene.ground->height);
+  for (const softbody::SolidPlane& p : scene.planes) {
+    if (!frame_.ground && p.normal == glm::dvec3(0, 1, 0))
+      frame_.ground = static_cast<float>(p.point.y);  // a floor
+    else
+      frame_.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
+  }
+}
+
 void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
                      const engine::Viewport& viewport, float pixel_scale, const Blend& blend) {
   frame_ = {};
@@ -76,10 +95,7 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
 
   const softbody::Scene& scene = world.scene();
-  for (const softbody::SolidSphere& sphere : scene.spheres) {
-    frame_.spheres.push_back({glm::vec3(sphere.centre), static_cast<float>(sphere.radius), glm::vec3(0.62f)});
-  }
-  if (scene.ground) frame_.ground = static_cast<float>(scene.ground->height);
+  gather_solids(scene);
   const Bounds around = bounds(scene);
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
@@ -101,7 +117,12 @@ SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
     lo = glm::min(lo, centre - reach);
     hi = glm::max(hi, centre + reach);
   };
-  for (const softbody::SolidSphere& sphere : scene.spheres) include(sphere.centre, sphere.radius);
+  for (const softbody::SolidSphere& s : scene.spheres) include(s.centre, s.radius);
+  for (const softbody::SolidBox& b : scene.boxes) include(b.centre, glm::length(b.half_size));
+  for (const softbody::SolidCapsule& c : scene.capsules) {
+    include(c.from, c.radius);
+    include(c.to, c.radius);
+  }
   for (const softbody::BodySource& body : scene.bodies) include(body.position, radius(body.mesh));
   if (scene.dropper) include(scene.dropper->body.position, radius(scene.dropper->body.mesh));
   return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + 0.5f};

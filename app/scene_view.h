@@ -14,8 +14,8 @@ namespace app {
 /// What to draw over the bodies. Pointers may be null; they must live until draw() returns.
 struct OverlayRequest {
   Overlays shown;
-  const collide::DebugGeometry* debug = nullptr;          // for boxes, cells and the selected bucket
-  std::optional<std::uint32_t> selected_bucket;           // its boxes and cells stand out, and show in any case
+  const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the selected bucket
+  std::optional<std::uint32_t> selected_bucket;   // its boxes and cells stand out, and show in any case
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
 };
@@ -53,6 +53,7 @@ class SceneView {
 
   void gather_positions(const collide::Frame& now, const Blend& blend);
   void gather_bodies(const softbody::World& world, bool dimmed);
+  void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);
   double radius(const softbody::MeshSource& source);

@@ -2,6 +2,7 @@
 // Everything that one picture shows, as plain data. Lengths in metres, widths in pixels, colours sRGB in 0..1.
 
 #include <cstdint>
+#include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -27,6 +28,26 @@ struct Sphere {
   glm::vec3 centre{0.0f};
   float radius = 1.0f;
   glm::vec3 colour{0.62f};
+};
+
+/// All points within `radius` of a line segment.
+struct Capsule {
+  glm::vec3 from{0.0f}, to{0.0f};
+  float radius = 1.0f;
+  glm::vec3 colour{0.62f};
+};
+
+/// A box in any direction.
+struct Block {
+  glm::vec3 centre{0.0f};
+  glm::mat3 half_axes{1.0f};  // columns: from the centre to the middles of three faces, m
+  glm::vec3 colour{0.62f};
+};
+
+/// A square of an unbounded plane round the scene, with the floor's look; from behind one looks through it.
+struct Plane {
+  glm::vec3 point{0.0f};
+  glm::vec3 normal{0.0f, 1.0f, 0.0f};  // of length 1
 };
 
 struct Line {
@@ -70,6 +91,9 @@ struct FrameData {
   std::vector<MeshDraw> meshes;
 
   std::vector<Sphere> spheres;
+  std::vector<Capsule> capsules;
+  std::vector<Block> blocks;
+  std::vector<Plane> planes;
   std::optional<float> ground;  // height of the floor, m; without one there is no floor
 
   std::vector<LineSet> lines;

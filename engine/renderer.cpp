@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "engine/gl.h"
+#include "engine/render/blocks.h"
 #include "engine/render/bodies.h"
 #include "engine/render/frame_block.h"
 #include "engine/render/occlusion.h"
@@ -41,24 +43,37 @@ class SavedTarget {
 
 struct Renderer::Passes {
   explicit Passes(const std::filesystem::path& shaders)
-      : bodies(shaders), spheres(shaders), floor_map(shaders), studio(shaders), overlays(shaders) {}
+      : bodies(shaders), spheres(shaders), blocks(shaders), floor_map(shaders), studio(shaders), overlays(shaders) {}
 
   void update(const Camera& camera, const Viewport& viewport, const FrameData& frame);
   void draw_shadows();
   void draw_scene(const Viewport& viewport, const FrameData& frame);
+  void find_casters(const FrameData& frame);
   FrameBlock describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
 
   glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
   LightView light{};
   Occlusion occlusion;
+  std::vector<glm::vec4> casters;  // spheres round all that casts shadows
   ShadowMap shadow_map;
   Bodies bodies;
   Spheres spheres;
+  Blocks blocks;
   FloorMap floor_map;
   Studio studio;
   Overlays overlays;
   Buffer block;
 };
+
+void Renderer::Passes::find_casters(const FrameData& frame) {
+  casters.assign(occlusion.spheres().begin(), occlusion.spheres().end());
+  for (const Capsule& c : frame.capsules)
+    casters.emplace_back(0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to) + c.radius);
+  for (const Block& b : frame.blocks) {
+    const glm::mat3& a = b.half_axes;  // at right angles
+    casters.emplace_back(b.centre, std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2])));
+  }
+}
 
 FrameBlock Renderer::Passes::describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const {
   const glm::vec3& centre = frame.bounds_centre;
@@ -71,7 +86,7 @@ FrameBlock Renderer::Passes::describe(const Camera& camera, const Viewport& view
   values.viewport = glm::vec4(viewport.origin, viewport.size);
   values.floor_map = glm::vec4(centre.x, centre.z, 0.5f / (floor_map_reach * radius), frame.ground.value_or(0.0f));
   values.scene = glm::vec4(centre.x, centre.z, radius, grid_spacing(radius));
-  values.casters = light.reach_of(occlusion.spheres());
+  values.casters = light.reach_of(casters);
   values.flags.x = frame.ground ? 1.0f : 0.0f;
   return values;
 }
@@ -79,19 +94,22 @@ FrameBlock Renderer::Passes::describe(const Camera& camera, const Viewport& view
 void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
   light = shadow_map.view(to_light, frame.bounds_centre, frame.bounds_radius);
   occlusion.update(frame);
+  find_casters(frame);
   const FrameBlock values = describe(camera, viewport, frame);
   block.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.id());
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
   spheres.update(frame, occlusion);
-  studio.update(frame, occlusion.spheres(), to_light, 8.0f * light.texel);
+  blocks.update(frame);
+  studio.update(frame, casters, to_light, 8.0f * light.texel);
 }
 
 void Renderer::Passes::draw_shadows() {
   shadow_map.begin();
   bodies.draw_shadows(light.clip_from_world);
   spheres.draw_shadows(light.clip_from_world);
+  blocks.draw_shadows(light.clip_from_world);
   shadow_map.end();
 }
 
@@ -104,6 +122,7 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
   bodies.draw();
   spheres.draw();
+  blocks.draw();
   studio.draw(frame.ground.has_value());
   overlays.draw(frame);
 }

@@ -6,6 +6,7 @@ layout(location = 0) in vec3 direction;
 layout(location = 1) in vec4 sphere;  // centre, radius
 layout(location = 2) in uvec2 occluder_range;
 layout(location = 3) in vec3 colour;
+layout(location = 4) in vec3 segment;  // of a capsule; else 0
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 bounce;
@@ -13,7 +14,7 @@ out float seen;
 flat out vec3 albedo;
 
 void main() {
-  world_position = sphere.xyz + sphere.w * direction;
+  world_position = sphere.xyz + sphere.w * direction + step(0.0, dot(direction, segment)) * segment;
   world_normal = direction;
   seen = sky_seen(world_position, direction, occluder_range.x, occluder_range.y);
   bounce = floor_bounce(world_position, sphere.w);

@@ -37,9 +37,9 @@ struct Material {
   double gas_pressure = 0;      // Pa, absolute, of the gas at the mesh's own volume: P = gas_pressure * V0 / V
   double ambient_pressure = 0;  // Pa, absolute, outside
   double internal_damping = 0;  // 1/s, rate at which a body's motion becomes rigid
-  double rebound_speed = 0;     // m/s: solids throw a body back no faster; 0: as fast as its springs and gas do
-  double thickness = 0.005;     // m: particles keep this far from solids, so that the faces between them stay outside
-  double friction = 0.5;        // Coulomb, against other bodies
+  double rebound_speed = 0;  // m/s: solids throw a body back no faster than this or their restitution does; 0: no limit
+  double thickness = 0.005;  // m: particles keep this far from solids, so that the faces between them stay outside
+  double friction = 0.5;     // Coulomb, against other bodies
   double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
   double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
   /// Hz with which a lone particle swings about its place in the mesh's own shape (shape_matching.h); 0: springs and

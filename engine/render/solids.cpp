@@ -51,7 +51,8 @@ Spheres::Spheres(const std::filesystem::path& shaders)
   glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, sphere)));
   glVertexAttribIPointer(2, 2, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, occluders)));
   glVertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, colour)));
-  for (GLuint attribute = 0; attribute < 4; ++attribute) {
+  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, segment)));
+  for (GLuint attribute = 0; attribute < 5; ++attribute) {
     glEnableVertexAttribArray(attribute);
     if (attribute >= 1) glVertexAttribDivisor(attribute, 1);
   }
@@ -63,6 +64,8 @@ void Spheres::update(const FrameData& frame, const Occlusion& occlusion) {
     const std::size_t at = frame.meshes.size() + i;
     instances_.push_back({occlusion.spheres()[at], occlusion.ranges()[at], frame.spheres[i].colour});
   }
+  for (const Capsule& c : frame.capsules)
+    instances_.push_back({glm::vec4(c.from, c.radius), {}, c.colour, c.to - c.from});
   if (!instances_.empty()) instance_buffer_.stream(GL_ARRAY_BUFFER, std::span<const Instance>(instances_));
 }
 

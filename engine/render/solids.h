@@ -1,5 +1,5 @@
 #pragma once
-// Solid spheres, and what they and the bodies keep from the floor.
+// Solid spheres and capsules, and what spheres and bodies keep from the floor.
 
 #include <glm/mat4x4.hpp>
 #include <vector>
@@ -10,6 +10,7 @@
 
 namespace engine {
 
+/// A capsule is drawn as a sphere whose one half is moved along a segment.
 class Spheres {
  public:
   explicit Spheres(const std::filesystem::path& shaders);
@@ -23,6 +24,7 @@ class Spheres {
     glm::vec4 sphere;
     Range occluders;
     glm::vec3 colour;
+    glm::vec3 segment{0.0f};
   };
   void draw_instances() const;
 

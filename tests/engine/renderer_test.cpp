@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <glm/geometric.hpp>
 #include <stdexcept>
 
 #include "engine/gl.h"
@@ -69,6 +70,48 @@ TEST_F(RendererTest, SphereIsWhereItShouldBe) {
     EXPECT_FALSE(red(colour(image, middle + beyond)));
     EXPECT_FALSE(red(colour(image, middle - beyond)));
   }
+}
+
+TEST_F(RendererTest, CapsuleIsWhereItShouldBe) {
+  const glm::vec3 half(0.8f, 0.3f, 0.0f);
+  frame.capsules = {{middle - half, middle + half, 0.25f, red_sphere.colour}};
+  const Image image = picture();
+  const glm::vec3 along = glm::normalize(half), across(-along.y, along.x, 0.0f);
+  for (const float at : {-1.0f, -0.5f, 0.0f, 0.5f, 1.0f}) {
+    EXPECT_TRUE(red(colour(image, middle + at * half + 0.2f * across))) << at;
+    EXPECT_TRUE(red(colour(image, middle + at * half - 0.2f * across))) << at;
+    EXPECT_FALSE(red(colour(image, middle + at * half + 0.33f * across))) << at;
+  }
+  EXPECT_TRUE(red(colour(image, middle + half + 0.2f * along))) << "its ends are round";
+  EXPECT_FALSE(red(colour(image, middle + half + 0.33f * along)));
+}
+
+/// A cube on its edge.
+Block red_block() {
+  const glm::vec3 x(0.36f, 0.36f, 0.0f), y(-0.36f, 0.36f, 0.0f), z(0.0f, 0.0f, 0.5f);
+  return {middle, glm::mat3(x, y, z), red_sphere.colour};
+}
+
+TEST_F(RendererTest, BlockIsWhereItShouldBeAndCastsAShadow) {
+  const Image empty = picture();
+  frame.blocks = {red_block()};
+  const Image image = picture();
+  const glm::vec3 front(0.0f, 0.0f, 0.5f), right(0.65f, 0.0f, 0.0f), up(0.0f, 0.65f, 0.0f);
+  for (const glm::vec3& corner : {right, -right, up, -up}) EXPECT_TRUE(red(colour(image, middle + front + corner)));
+  EXPECT_FALSE(red(colour(image, middle + front + 0.8f * (right + up)))) << "it stands on its edge";
+  const glm::vec3 shadow(0.7f, 0.0f, -0.42f);
+  EXPECT_LT(brightness(colour(image, shadow)), brightness(colour(empty, shadow)) - 30);
+}
+
+TEST_F(RendererTest, PlaneIsSeenFromItsFrontAlone) {
+  frame.ground.reset();
+  frame.spheres = {red_sphere};
+  for (const float side : {-1.0f, 1.0f}) {  // before or behind the sphere, facing the camera
+    frame.planes = {{middle + glm::vec3(0.0f, 0.0f, 0.7f * side), glm::vec3(0.0f, 0.0f, 1.0f)}};
+    EXPECT_EQ(red(colour(picture(), middle)), side < 0.0f);
+  }
+  frame.planes[0].normal = {0.0f, 0.0f, -1.0f};
+  EXPECT_TRUE(red(colour(picture(), middle))) << "from behind one looks through it";
 }
 
 TEST_F(RendererTest, SphereCastsItsShadowAwayFromTheLight) {

@@ -192,6 +192,16 @@ TEST_P(FastImpact, GoesNeitherInNorThroughAndDoesNotExplode) {
 
 INSTANTIATE_TEST_SUITE_P(Solids, FastImpact, testing::ValuesIn(targets), [](const auto& i) { return i.param.name; });
 
+TEST(SolidMotion, TheShippedContainerLosesNone) {
+  World world(find_scene("container", SBCOLLIDE_SCENES), {.threads = 2});
+  run(world, 200);  // by then all have fallen
+  ASSERT_EQ(world.bodies().count(), 47u);
+  for (BodyId b = 0; b < 47; ++b) {
+    const glm::dvec3 centre = motion(world, b).centre;
+    EXPECT_LT(std::max(std::abs(centre.x), std::abs(centre.z)), 2.5 - 0.4) << "body " << b << " at " << centre.x << ", " << centre.y << ", " << centre.z;
+  }
+}
+
 TEST(SolidMotion, ABallComesToRestInABox) {
   Material m = gas_ball();
   m.internal_damping = 10;
