@@ -74,9 +74,26 @@ TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
     EXPECT_TRUE(all.insert(l["stage"]).second);
     EXPECT_FALSE(l["why"].get<std::string>().empty());
   }
-  EXPECT_EQ(all, (Keys{"arrive", "contact-response", "structural-springs", "bend-springs", "shear-springs",
-                       "gas-pressure", "gravity", "integrate", "solid-spheres", "ground", "internal-damping",
-                       "rebound-damping", "rolling-resistance", "detect", "sleep"}));
+  EXPECT_EQ(all, (Keys{"arrive",
+                       "contact-response",
+                       "structural-springs",
+                       "bend-springs",
+                       "shear-springs",
+                       "gas-pressure",
+                       "shape-matching",
+                       "gravity",
+                       "integrate",
+                       "restitution",
+                       "solid-spheres",
+                       "ground",
+                       "solid-planes",
+                       "solid-boxes",
+                       "solid-capsules",
+                       "internal-damping",
+                       "rebound-damping",
+                       "rolling-resistance",
+                       "detect",
+                       "sleep"}));
   const auto runs = [&](const char* stage) {
     return std::find(plan["stages"].begin(), plan["stages"].end(), stage) != plan["stages"].end();
   };

@@ -198,7 +198,8 @@ TEST(SolidMotion, TheShippedContainerLosesNone) {
   ASSERT_EQ(world.bodies().count(), 47u);
   for (BodyId b = 0; b < 47; ++b) {
     const glm::dvec3 centre = motion(world, b).centre;
-    EXPECT_LT(std::max(std::abs(centre.x), std::abs(centre.z)), 2.5 - 0.4) << "body " << b << " at " << centre.x << ", " << centre.y << ", " << centre.z;
+    EXPECT_LT(std::max(std::abs(centre.x), std::abs(centre.z)), 2.5 - 0.4)
+        << "body " << b << " at " << centre.x << ", " << centre.y << ", " << centre.z;
   }
 }
 
