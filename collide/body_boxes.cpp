@@ -10,12 +10,8 @@ namespace collide {
 
 void BodyBoxes::build(const Frame& frame, Result& result) {
   const Bodies& bodies = *frame.bodies;
+  result.start();
   result.contacts.clear();
-  result.self_contacts = 0;
-  result.counters = {};
-  result.skipped = {};
-  result.coverage = Coverage::exact;
-  result.non_finite_bodies.clear();
   box.resize(bodies.count());
   live.clear();
   for (Index body = 0; body < bodies.count(); ++body) {

@@ -66,10 +66,7 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers&
   shape_ = frame.bodies->shape;
   for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
   move_.assign(shape_.size(), 0);
-  workers.run([&](int thread) {
-    const Part part = part_of(shape_.size(), thread, workers.threads());
-    for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
-  });
+  note_all(frame, workers);
   state_ = State::noted;  // last: whatever throws before leaves nothing half noted
 }
 
@@ -84,6 +81,13 @@ void ContactMemory::note(const Frame& frame, Index body) {
   std::copy_n(now.x, now.size, x_.begin() + first);
   std::copy_n(now.y, now.size, y_.begin() + first);
   std::copy_n(now.z, now.size, z_.begin() + first);
+}
+
+void ContactMemory::note_all(const Frame& frame, Workers& workers) {
+  workers.run([&](int thread) {
+    const Part part = part_of(shape_.size(), thread, workers.threads());
+    for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
+  });
 }
 
 void ContactMemory::measure_moves(const Frame& frame, Workers& workers) {
@@ -129,13 +133,13 @@ bool ContactMemory::refresh(const Frame& frame, GroupSearch& search, Workers& wo
 
 /// From how fast nine tenths of the bodies have been since they were noted down.
 bool ContactMemory::choose_margin(const Frame& frame, float tolerance) {
-  std::vector<float> moves;
+  moves_.clear();
   for (Index body = 0; body < shape_.size(); ++body) {
-    if (frame.bodies->size(body) > 0) moves.push_back(move_[body]);
+    if (frame.bodies->size(body) > 0) moves_.push_back(move_[body]);
   }
-  if (moves.empty()) return false;
-  const auto ninth = moves.begin() + static_cast<std::ptrdiff_t>(moves.size() * 9 / 10);
-  std::nth_element(moves.begin(), ninth, moves.end());
+  if (moves_.empty()) return false;
+  const auto ninth = moves_.begin() + static_cast<std::ptrdiff_t>(moves_.size() * 9 / 10);
+  std::nth_element(moves_.begin(), ninth, moves_.end());
   const float speed = *ninth / static_cast<float>(age_);
   margin_ = std::clamp(frames_to_last * speed, least_margin * tolerance, most_margin * tolerance);
   const float distance = query(frame).distance;
@@ -166,21 +170,9 @@ void ContactMemory::list_all(const Frame& frame, GroupSearch& search, Workers& w
   search.find(frame, query(frame), workers);
   search.count(result);
   result.self_contacts = 0;  // those were of candidates
-  search.concatenate(workers, candidates_);
-  groups_.assign(shape_.size(), {});
-  partners_.clear();
-  std::size_t end = 0;
-  for (const Index body : search.live()) {
-    const std::span<const Index> partners = search.partners(body);
-    const std::size_t begin = end, first_partner = partners_.size();
-    end += search.group(body).size();
-    partners_.insert(partners_.end(), partners.begin(), partners.end());
-    groups_[body] = {begin, end, first_partner, partners_.size()};
-  }
-  workers.run([&](int thread) {
-    const Part part = part_of(shape_.size(), thread, workers.threads());
-    for (std::size_t body = part.begin; body < part.end; ++body) note(frame, static_cast<Index>(body));
-  });
+  lists_.clear(shape_.size());
+  for (const Index body : search.live()) lists_.add(body, search.group(body), search.partners(body));
+  note_all(frame, workers);
   std::fill(move_.begin(), move_.end(), 0.0f);
   std::fill(still_.begin(), still_.end(), std::uint8_t{0});
   std::fill(same_.begin(), same_.end(), std::uint8_t{0});
@@ -197,48 +189,69 @@ void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers&
     find_stale();
   }
   search.bound(frame, workers, result.non_finite_bodies);
-  std::vector<bool> fresh(shape_.size(), false), wanted(shape_.size(), false);
-  for (const Index body : stale_) fresh[body] = true;
   const GroupSearch::Query what = query(frame);
   search.find_near(what.distance, workers);
-  for (const Index body : search.live()) {
-    const std::span<const Index> behind = search.near().behind(body);
-    const std::span<const Index> before = std::span(partners_).subspan(
-        groups_[body].first_partner, groups_[body].last_partner - groups_[body].first_partner);
-    const auto is_fresh = [&](Index b) { return fresh[b]; };
-    // Those that are near no more have to leave the group, since they may not even be finite.
-    wanted[body] = fresh[body] || std::any_of(behind.begin(), behind.end(), is_fresh) ||
-                   std::any_of(before.begin(), before.end(), is_fresh);
-  }
-  search.find_groups(frame, what, workers, [&](Index body) { return wanted[body]; });
+  find_wanted(search);
+  search.find_groups(frame, what, workers, [&](Index body) { return wanted_[body]; });
   search.count(result);
   result.self_contacts = 0;
-
-  std::vector<Contact> candidates;
-  std::vector<Index> partners;
-  std::vector<Group> groups(shape_.size());
-  for (const Index body : search.live()) {
-    const Group& old = groups_[body];
-    const auto pairs = wanted[body] ? search.group(body)
-                                    : std::span<const Contact>(candidates_).subspan(old.begin, old.end - old.begin);
-    const auto others = wanted[body] ? search.partners(body)
-                                     : std::span<const Index>(partners_).subspan(old.first_partner,
-                                                                                 old.last_partner - old.first_partner);
-    groups[body] = {candidates.size(), candidates.size() + pairs.size(), partners.size(),
-                    partners.size() + others.size()};
-    candidates.insert(candidates.end(), pairs.begin(), pairs.end());
-    partners.insert(partners.end(), others.begin(), others.end());
-  }
-  if (candidates.size() > what.most_pairs) throw std::length_error("too many candidates");
-  groups_.swap(groups);
-  candidates_.swap(candidates);
-  partners_.swap(partners);
+  merge(search, what.most_pairs);
   for (const Index body : stale_) {
     note(frame, body);
     move_[body] = 0;
     still_[body] = same_[body] = 0;
   }
   slices_hold_ = false;
+}
+
+/// Groups with a stale body in them, now or when they were listed: those that are near no more have to leave the group,
+/// since they may not even be finite.
+void ContactMemory::find_wanted(const GroupSearch& search) {
+  fresh_.assign(shape_.size(), false);
+  wanted_.assign(shape_.size(), false);
+  for (const Index body : stale_) fresh_[body] = true;
+  const auto is_fresh = [&](Index body) { return fresh_[body]; };
+  for (const Index body : search.live()) {
+    const std::span<const Index> behind = search.near().behind(body), before = lists_.partners_of(body);
+    wanted_[body] = fresh_[body] || std::any_of(behind.begin(), behind.end(), is_fresh) ||
+                    std::any_of(before.begin(), before.end(), is_fresh);
+  }
+}
+
+/// The wanted groups as they were found, the others as they were.
+void ContactMemory::merge(const GroupSearch& search, std::size_t most_candidates) {
+  merged_.clear(shape_.size());
+  for (const Index body : search.live()) {
+    if (wanted_[body]) {
+      merged_.add(body, search.group(body), search.partners(body));
+    } else {
+      merged_.add(body, lists_.pairs_of(body), lists_.partners_of(body));
+    }
+  }
+  if (merged_.candidates.size() > most_candidates) throw std::length_error("too many candidates");
+  std::swap(lists_, merged_);
+}
+
+void ContactMemory::Lists::clear(std::size_t bodies) {
+  groups.assign(bodies, {});
+  candidates.clear();
+  partners.clear();
+}
+
+void ContactMemory::Lists::add(Index body, std::span<const Contact> pairs, std::span<const Index> others) {
+  groups[body] = {candidates.size(), candidates.size() + pairs.size(), partners.size(),
+                  partners.size() + others.size()};
+  candidates.insert(candidates.end(), pairs.begin(), pairs.end());
+  partners.insert(partners.end(), others.begin(), others.end());
+}
+
+std::span<const Contact> ContactMemory::Lists::pairs_of(Index body) const {
+  return std::span(candidates).subspan(groups[body].begin, groups[body].end - groups[body].begin);
+}
+
+std::span<const Index> ContactMemory::Lists::partners_of(Index body) const {
+  const Group& group = groups[body];
+  return std::span(partners).subspan(group.first_partner, group.last_partner - group.first_partner);
 }
 
 void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
@@ -250,10 +263,11 @@ void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
     own.self_contacts = own.tests = own.remembered = own.kept = 0;
   }
   workers.run([&](int thread) {
-    const Part part = part_of(candidates_.size() + shape_.size(), thread, workers.threads());
+    const Part part = part_of(lists_.candidates.size() + shape_.size(), thread, workers.threads());
     for (Index body = 0; body < shape_.size(); ++body) {
-      const std::size_t place = groups_[body].begin + body;
-      if (groups_[body].begin == groups_[body].end) continue;
+      const Group& group = lists_.groups[body];
+      const std::size_t place = group.begin + body;
+      if (group.begin == group.end) continue;
       if (place >= part.begin && place < part.end) test_group(static_cast<std::size_t>(thread), frame, body);
     }
   });
@@ -273,25 +287,23 @@ void ContactMemory::test(const Frame& frame, Workers& workers, Result& result) {
 
 void ContactMemory::test_group(std::size_t thread, const Frame& frame, Index body) {
   Thread& own = threads_[thread];
-  const Group& group = groups_[body];
-  const std::size_t before = own.contacts.size(), partners = group.last_partner - group.first_partner;
+  const std::span<const Contact> candidates = lists_.pairs_of(body);
+  const std::span<const Index> partners = lists_.partners_of(body);
+  const std::size_t before = own.contacts.size();
   const bool kept = slices_hold_ && still(body) &&
-                    std::all_of(partners_.begin() + static_cast<std::ptrdiff_t>(group.first_partner),
-                                partners_.begin() + static_cast<std::ptrdiff_t>(group.last_partner),
-                                [&](Index other) { return still(other); });
+                    std::all_of(partners.begin(), partners.end(), [&](Index other) { return still(other); });
   if (kept) {
-    own.kept += partners;
+    own.kept += partners.size();
     const auto last = threads_[slices_[body].thread].last_contacts.begin();
     own.contacts.insert(own.contacts.end(), last + static_cast<std::ptrdiff_t>(slices_[body].begin),
                         last + static_cast<std::ptrdiff_t>(slices_[body].end));
   } else {
-    own.remembered += partners;
-    own.tests += group.end - group.begin;
-    own.contacts.resize(before + group.end - group.begin);
+    own.remembered += partners.size();
+    own.tests += candidates.size();
+    own.contacts.resize(before + candidates.size());
     const float tolerance2 = settings_.tolerance * settings_.tolerance;
     Contact* to = own.contacts.data() + before;
-    for (std::size_t k = group.begin; k < group.end; ++k) {
-      const Contact pair = candidates_[k];
+    for (const Contact pair : candidates) {
       *to = pair;  // whether it counts is what a processor cannot foresee
       to += squared_distance(frame.x[pair.a], frame.y[pair.a], frame.z[pair.a], frame.x[pair.b], frame.y[pair.b],
                              frame.z[pair.b]) < tolerance2;

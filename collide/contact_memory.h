@@ -38,6 +38,17 @@ class ContactMemory {
     std::size_t begin = 0, end = 0;                   // of the candidates
     std::size_t first_partner = 0, last_partner = 0;  // of the bodies in them, itself left out
   };
+  struct Lists {
+    std::vector<Group> groups;  // of each body
+    std::vector<Contact> candidates;
+    std::vector<Index> partners;
+
+    void clear(std::size_t bodies);
+    /// Appends the group of a body.
+    void add(Index body, std::span<const Contact> pairs, std::span<const Index> others);
+    std::span<const Contact> pairs_of(Index body) const;
+    std::span<const Index> partners_of(Index body) const;
+  };
   struct Slice {
     std::size_t thread, begin, end;
   };
@@ -49,12 +60,15 @@ class ContactMemory {
   bool same_bodies(const Frame& frame, const Settings& settings) const;
   void measure_moves(const Frame& frame, Workers& workers);
   void note(const Frame& frame, Index body);
+  void note_all(const Frame& frame, Workers& workers);
   bool choose_margin(const Frame& frame, float tolerance);
   void find_stale();
   bool refresh(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   GroupSearch::Query query(const Frame& frame) const;
   void list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
+  void find_wanted(const GroupSearch& search);
+  void merge(const GroupSearch& search, std::size_t most_candidates);
   void test(const Frame& frame, Workers& workers, Result& result);
   void test_group(std::size_t thread, const Frame& frame, Index body);
   bool still(Index body) const { return still_[body] >= 2; }
@@ -71,11 +85,11 @@ class ContactMemory {
   std::vector<std::uint8_t> still_, same_;  // frames in a row with no move at all, or with the same D; at most 255
   std::vector<Index> stale_;
   float margin_ = 0;
-  bool level_ = false;  // all bodies were noted down as the groups were listed
-  int age_ = 0;         // frames since then
-  std::vector<Group> groups_;
-  std::vector<Contact> candidates_;
-  std::vector<Index> partners_;
+  bool level_ = false;    // all bodies were noted down as the groups were listed
+  int age_ = 0;           // frames since then
+  Lists lists_, merged_;  // merged_, fresh_, wanted_, moves_: memory of single functions
+  std::vector<bool> fresh_, wanted_;
+  std::vector<float> moves_;
   std::vector<Slice> slices_;  // of each body: its contacts in the last frame
   bool slices_hold_ = false;
   std::vector<Thread> threads_;  // as many as there ever were

@@ -87,6 +87,15 @@ struct Result {
   std::uint64_t& skip(Skip kind) { return skipped[static_cast<std::size_t>(kind)]; }
   Coverage coverage = Coverage::exact;
   std::vector<Index> non_finite_bodies;  // bodies with a NaN or infinite coordinate: left out, named here, ascending
+
+  /// For a new frame: all but the contacts, which a method overwrites.
+  void start() {
+    self_contacts = 0;
+    counters = {};
+    skipped = {};
+    coverage = Coverage::exact;
+    non_finite_bodies.clear();
+  }
 };
 
 /// A detector's inner picture, for drawing. Filled only on request.

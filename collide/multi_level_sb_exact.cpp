@@ -16,14 +16,9 @@ constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
 class MultiLevelSbExact final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
-    result.self_contacts = 0;
-    result.counters = {};
-    result.skipped = {};
-    result.coverage = Coverage::exact;
+    result.start();
     if (memory_.recall(frame, settings, search_, workers, result)) return;
-    result.self_contacts = 0;
-    result.counters = {};
-    result.skipped = {};
+    result.start();  // without what was tried
     search_.bound(frame, workers, result.non_finite_bodies);
     search_.find(frame,
                  {.distance = settings.tolerance,
