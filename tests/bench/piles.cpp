@@ -95,6 +95,7 @@ softbody::Scene block(int columns, int layers, int rows, std::span<const double>
   softbody::BodySource body = scene.bodies.front();
   scene.bodies.clear();
   scene.spheres.clear();
+  scene.sleep.speed = 0.05;
   Random random;
   const double spacing = 2.2 * *std::max_element(radii.begin(), radii.end());
   for (int i = 0; i < columns * layers * rows; ++i) {
