@@ -1,10 +1,17 @@
 #include "collide/surface.h"
 
 #include <algorithm>
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
 namespace collide {
+
+namespace {
+
+constexpr Index missing = std::numeric_limits<Index>::max();
+
+}  // namespace
 
 Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
     : vertex_count_(vertex_count), triangles_(std::move(triangles)), first_(vertex_count + std::size_t{1}, 0) {
@@ -23,6 +30,16 @@ Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
   closed_ = !triangles_.empty() && up == down;
   std::set_union(up.begin(), up.end(), down.begin(), down.end(), std::back_inserter(edges_));
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+
+  edge_triangles_.assign(edges_.size(), {missing, missing});
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
+      const auto edge = std::lower_bound(edges_.begin(), edges_.end(), Edge{std::min(a, b), std::max(a, b)});
+      auto& at = edge_triangles_[static_cast<std::size_t>(edge - edges_.begin())];
+      at = {at[0] == missing ? t : at[0], t};
+    }
+  }
 
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   around_.resize(3 * triangles_.size());

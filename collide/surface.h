@@ -18,6 +18,8 @@ class Surface {
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// The sides of all triangles, each once; ascending.
   const std::vector<Edge>& edges() const { return edges_; }
+  /// The triangles at each edge; on a border the same one twice, and two of them where more meet.
+  const std::vector<std::array<Index, 2>>& edge_triangles() const { return edge_triangles_; }
   /// The triangles around a vertex; ascending.
   std::span<const Index> around(Index vertex) const {
     return std::span(around_).subspan(first_[vertex], first_[vertex + std::size_t{1}] - first_[vertex]);
@@ -30,6 +32,7 @@ class Surface {
   Index vertex_count_;
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
+  std::vector<std::array<Index, 2>> edge_triangles_;
   std::vector<Index> first_, around_;  // vertex_count + 1 offsets into around_
   bool closed_;
 };

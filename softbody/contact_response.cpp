@@ -80,4 +80,34 @@ void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const Bod
   shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
 }
 
+/// Finds the candidates of surface contact for the rest of the frame, unless those at hand still hold.
+void Dynamics::find_surface_contacts(double left) {
+  const std::size_t n = vertices_->vertex_count();
+  for (auto* components : {&seen_, &velocity_})
+    for (auto& c : *components) c.resize(n);
+  world_positions(seen_[0], seen_[1], seen_[2]);
+  const collide::Frame now{seen_[0], seen_[1], seen_[2], vertices_};
+  if (found_ > 0 && surface_.holds(now, float(found_ - left))) return;
+  found_ = left;
+  since_found_.assign(std::size_t(workers_.threads()), 0.0f);
+  std::vector<collide::SurfaceBody> traits;
+  std::vector<ContactBody> contacts;
+  for (BodyId id = 0; id < bodies_.size(); ++id) {
+    const Body& body = bodies_[id];
+    const Prototype& p = prototype(id);
+    const auto edge = float(p.mean_edge);
+    const float reach = std::min(0.5f * float(p.material.thickness), 0.1f * edge);
+    // Twice what the body needed last: the calmer it is, the fewer candidates. A new one is no calm one.
+    const float strayed = id < surface_.bodies() ? 2 * surface_.stray(id) : edge;
+    const float slack = std::clamp(strayed, 0.015f * edge, 0.1f * edge);
+    traits.push_back({p.surface.get(), reach + slack, slack, edge, body.moves()});
+    contacts.push_back({body.origin, slot(body, 0), body.moves() ? float(1 / p.particle_mass) : 0.0f,
+                        float(p.material.friction), float(p.material.restitution)});
+    for (Index v = 0; v < p.mesh.vertices.size(); ++v)
+      for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(body, v)];
+  }
+  surface_.find({now, velocity_[0], velocity_[1], velocity_[2]}, std::move(traits), std::move(contacts), float(left),
+                self_contact_, workers_);
+}
+
 }  // namespace softbody

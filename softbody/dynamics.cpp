@@ -23,6 +23,10 @@ void Dynamics::set_plan(const Plan& plan) {
                  plan.has(Stage::rolling_resistance)};
   has_gravity_ = plan.has(Stage::gravity);
   has_restitution_ = plan.has(Stage::restitution);
+  has_surface_ = plan.has(Stage::surface_contact);
+  self_contact_ = scene_.collision.self_collision;
+  if (!has_surface_) surface_.clear();
+  if (!plan.has(Stage::contact_response)) shield_.pairs.clear();
 }
 
 void Dynamics::set_integrator(std::string_view key) { integrate_ = find_integrator(key)->advance; }
@@ -73,8 +77,12 @@ int Dynamics::advance(double seconds) {
   // A handful of bodies is done before a second thread has woken up.
   active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
   int total = 0;
+  found_ = 0;
   for (double left = seconds; left > 0;) {
-    const int count = substeps(left), now = std::min(count, substeps_within_bound(left / count));
+    if (has_surface_) find_surface_contacts(left);
+    const int count = std::max(substeps(left), int(std::ceil(left * surface_.rate())));
+    int now = std::min(count, substeps_within_bound(left / count));
+    if (!surface_.empty()) now = std::min(now, 4);  // before it is looked whether its candidates still hold
     run(now, static_cast<float>(left / count));
     total += now;
     left = now == count ? 0 : left - now * (left / count);
@@ -123,6 +131,16 @@ void Dynamics::contact_forces(int thread, float h) {
   shield_.evaluate(collide::part_of(shield_.pairs.size(), thread, active_threads_),
                    {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()}, h);
   barrier();
+}
+
+void Dynamics::surface_contacts(int thread, float h) {
+  if (!has_surface_ || surface_.empty()) return;
+  barrier();  // the velocities of all bodies are there
+  surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
+                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)], h);
+  since_found_[std::size_t(thread)] += h;
+  barrier();
+  surface_.solve(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, [this] { barrier(); });
 }
 
 void Dynamics::forces(Batch& b) {

@@ -5,6 +5,7 @@
 #include "softbody/plan.h"
 #include "softbody/prototype.h"
 #include "softbody/shield.h"
+#include "softbody/surface_contact.h"
 
 namespace softbody {
 
@@ -63,6 +64,9 @@ class Dynamics {
   void set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
                     const std::vector<collide::Contact>& contacts, float shield);
 
+  /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
+  void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
+
   /// Advances by `seconds` in equal substeps, as many as the stability bound asks for, which is worked
   /// out anew as bodies move; returns their number.
   int advance(double seconds);
@@ -73,14 +77,16 @@ class Dynamics {
 
   // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
   std::span<Batch* const> share(int thread) const;
-  void contact_forces(int thread, float h);  // of this thread's part of the contacts; needs a barrier() after it
-  void forces(Batch& batch);                 // all forces at the current positions and velocities
-  void kick(Batch& batch, float h);          // v += h (f / m + g)
-  void solids(Batch& batch, float h);        // on the velocity, so that x + h v is not inside a solid
-  void drift(Batch& batch, float h);         // x += h v
+  void contact_forces(int thread, float h);    // of this thread's part of the contacts; needs a barrier() after it
+  void forces(Batch& batch);                   // all forces at the current positions and velocities
+  void kick(Batch& batch, float h);            // v += h (f / m + g)
+  void surface_contacts(int thread, float h);  // on the velocities, so that surfaces do not pass through each other
+  void solids(Batch& batch, float h);          // on the velocity, so that x + h v is not inside a solid
+  void drift(Batch& batch, float h);           // x += h v
   void barrier();
 
   // Reading.
+  const SurfaceContact& surface_contact() const { return surface_; }
   std::size_t body_count() const { return bodies_.size(); }
   const Body& body(BodyId id) const { return bodies_[id]; }
   const Prototype& prototype(BodyId id) const { return *batches_[bodies_[id].batch].prototype; }
@@ -118,6 +124,7 @@ class Dynamics {
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
+  void find_surface_contacts(double left);
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
@@ -142,8 +149,14 @@ class Dynamics {
   Components x_, v_, f_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   Shield shield_;
-  std::vector<ShieldPair> pairs_before_;    // of the frame before
-  std::vector<std::uint32_t> contacts_of_;  // a vertex, in the frame at hand
+  SurfaceContact surface_;
+  bool has_surface_ = false, self_contact_ = false;
+  std::vector<float> since_found_;  // s, as each thread counts them
+  double found_ = 0;                // s before the end of the frame, when surface_ was found; 0: not yet
+  const collide::Bodies* vertices_ = nullptr;
+  std::array<std::vector<float>, 3> seen_, velocity_;  // world, for surface_
+  std::vector<ShieldPair> pairs_before_;               // of the frame before
+  std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
   std::vector<Batch*> moving_;
   int active_threads_ = 1;
 };

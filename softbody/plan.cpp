@@ -32,6 +32,14 @@ const char* contacts(const Facts& f) {
   return f.bodies() > 1 || f.scene.collision.self_collision ? nullptr : "one body, and self-collision is off";
 }
 
+const char* vertex_contacts(const Facts& f) {
+  return f.scene.contact_surface == ContactSurface::vertices ? contacts(f) : "the surfaces keep the bodies apart";
+}
+
+const char* surface_contacts(const Facts& f) {
+  return f.scene.contact_surface == ContactSurface::surfaces ? contacts(f) : "the vertices keep the bodies apart";
+}
+
 template <std::vector<Spring> Prototype::*list>
 const char* springs(const Facts& f) {
   return f.any([](const Prototype& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
@@ -91,7 +99,8 @@ struct Row {
 
 constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::arrive, "arrive", arrivals},
-    {Stage::contact_response, "contact-response", contacts},
+    {Stage::contact_response, "contact-response", vertex_contacts},
+    {Stage::surface_contact, "surface-contact", surface_contacts},
     {Stage::structural_springs, "structural-springs", springs<&Prototype::structural>},
     {Stage::bend_springs, "bend-springs", springs<&Prototype::bend>},
     {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},

@@ -14,6 +14,7 @@ namespace softbody {
 enum class Stage {
   arrive,
   contact_response,
+  surface_contact,
   structural_springs,
   bend_springs,
   shear_springs,

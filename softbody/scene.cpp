@@ -40,4 +40,16 @@ Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
   throw SceneError("unknown scene '" + name + "'; use one of: " + known + "; or the path of a .toml file");
 }
 
+const ContactSurfaceInfo* find_contact_surface(std::string_view key) {
+  for (const ContactSurfaceInfo& c : contact_surfaces)
+    if (c.key == key) return &c;
+  return nullptr;
+}
+
+std::string contact_surface_keys() {
+  std::string keys;
+  for (const ContactSurfaceInfo& c : contact_surfaces) keys.append(keys.empty() ? "" : ", ").append(c.key);
+  return keys;
+}
+
 }  // namespace softbody

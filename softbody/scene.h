@@ -2,10 +2,12 @@
 // A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; the README documents the
 // format.
 
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <glm/mat3x3.hpp>
@@ -40,6 +42,7 @@ struct Material {
   double rebound_speed = 0;  // m/s: solids throw a body back no faster than this or their restitution does; 0: no limit
   double thickness = 0.005;  // m: particles keep this far from solids, so that the faces between them stay outside
   double friction = 0.5;     // Coulomb, against other bodies
+  double restitution = 0;    // 0..1, Newton's, of surface contact between bodies
   double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
   double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
   /// Hz with which a lone particle swings about its place in the mesh's own shape (shape_matching.h); 0: springs and
@@ -137,12 +140,32 @@ struct Caption {
   std::string text;
 };
 
+/// What keeps bodies apart.
+enum class ContactSurface {
+  vertices,  // the paper's tolerance force between the vertices that the detector finds (§2.3)
+  surfaces,  // vertices against faces and edges against edges
+};
+struct ContactSurfaceInfo {
+  ContactSurface value;
+  std::string_view key, name, summary;
+};
+inline constexpr std::array<ContactSurfaceInfo, 2> contact_surfaces{{
+    {ContactSurface::vertices, "vertex-vertex", "Vertex-vertex",
+     "The paper's: vertices closer than the tolerance push each other apart (\u00a72.3)."},
+    {ContactSurface::surfaces, "surface", "Surface",
+     "Vertices against faces and edges against edges: the true surfaces never meet."},
+}};
+/// nullptr if there is none with this key.
+const ContactSurfaceInfo* find_contact_surface(std::string_view key);
+std::string contact_surface_keys();
+
 struct Scene {
   std::string key;  // the file's stem
   std::string name;
   std::string look_at;              // one sentence: what to look at
   glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
   std::string method{collide::default_method};
+  ContactSurface contact_surface = ContactSurface::vertices;
   collide::Settings collision;  // cell_size is filled in by the world if `default_cell_size`
   bool default_cell_size = true;
   std::vector<Material> materials;

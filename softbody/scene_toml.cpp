@@ -175,6 +175,7 @@ Material read_material(Table& table) {
   m.rebound_speed = table.number("rebound_speed", m.rebound_speed, 0, 1e6);
   m.thickness = table.number("thickness", m.thickness, 0, 1e3);
   m.friction = table.number("friction", m.friction, 0, 10);
+  m.restitution = table.number("restitution", m.restitution, 0, 1);
   m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
   m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
   const double shape = table.number("shape_frequency", -1, 0, 1e3);
@@ -239,6 +240,10 @@ void read_collision(Table table, Scene& scene) {
   collide::Settings& c = scene.collision;
   scene.method = table.text("method", scene.method);
   if (!collide::find_method(scene.method)) table.fail("method", "must be one of: " + collide::method_keys());
+  const ContactSurfaceInfo* surface =
+      find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
+  if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
+  scene.contact_surface = surface->value;
   c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, tiny, 1e6));
   c.self_collision = table.boolean("self_collision", c.self_collision);
   c.levels = table.integer("levels", c.levels, 0, collide::max_levels);

@@ -9,6 +9,9 @@ void semi_implicit_euler(Dynamics& dynamics, int thread, float h) {
   for (Batch* batch : dynamics.share(thread)) {
     dynamics.forces(*batch);
     dynamics.kick(*batch, h);
+  }
+  dynamics.surface_contacts(thread, h);
+  for (Batch* batch : dynamics.share(thread)) {
     dynamics.solids(*batch, h);
     dynamics.drift(*batch, h);
   }

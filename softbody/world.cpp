@@ -98,6 +98,7 @@ World::State::State(Scene s, const Options& o)
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
   for (const auto& p : prototypes.all()) check_stability(*p);
+  dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
   dynamics.set_integrator(options.integrator);
   if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
@@ -247,6 +248,14 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
   if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
   s.wake_all();
   s.detect();
+}
+
+void World::set_contact_surface(ContactSurface surface) {
+  State& s = *state_;
+  s.scene.contact_surface = surface;
+  s.plan = make_plan(s.scene, s.prototypes.all());
+  s.dynamics.set_plan(s.plan);
+  s.wake_all();
 }
 
 const collide::Bodies& World::bodies() const { return state_->bodies; }

@@ -52,6 +52,7 @@ class World {
   bool uses_default_cell_size() const;
   const collide::Method& method() const;
   void set_method(std::string_view key);
+  void set_contact_surface(ContactSurface surface);
   void set_collision(const collide::Settings& settings, bool default_cell_size);
 
   // The current state.

@@ -1,0 +1,29 @@
+#pragma once
+// Where features of surfaces, vertices and faces, edges and edges, are closest to each other. In float, for contact
+// that is solved many times a frame; the exact judge is surface_oracle.h.
+
+#include <glm/vec3.hpp>
+
+#include "collide/surface.h"
+#include "collide/vertex_kernels.h"
+
+namespace collide {
+
+/// Where two features are closest, seen from the first one's side.
+struct Closest {
+  float weight[4];  // of the corners: vertex, three of the face; or two of one edge, two of the other. Each side's
+                    // weights add up to 1.
+  glm::vec3 apart;  // m, from the second feature's closest point to the first one's
+  bool inner;       // both closest points lie inside their features, not on a border
+};
+/// Ericson (2005), Real-Time Collision Detection, sections 5.1.5 and 5.1.9. Degenerate faces and edges are as good as
+/// others: the closest point lies on what is left of them.
+Closest closest_vertex_face(const glm::vec3& vertex, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
+Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s);  // pq, rs
+
+/// Whether a point lies inside a closed surface with its vertices at `at`: by the parity of a ray, in double.
+bool inside(const glm::vec3& point, const Surface& surface, const Run& at);
+/// The face with the point closest to `point`; at least one face.
+Index nearest_face(const glm::vec3& point, const Surface& surface, const Run& at);
+
+}  // namespace collide

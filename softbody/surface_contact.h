@@ -1,0 +1,157 @@
+#pragma once
+// Contact of the true surfaces: vertices against faces and edges against edges, kept a distance apart.
+//
+// A contact is a row: the relative velocity u of the two closest points, along the unit normal n, must not use up the
+// gap g within the substep of h seconds,
+//
+//   u . n >= -g / h            while they are apart: nothing passes through;
+//   u . n >= -0.1 g / h        where they overlap already: pushed out at a tenth of the depth a substep, at most 1 m/s;
+//   u . n >= e |u_before . n|  at an impact faster than `impact_speed`: Newton's restitution.
+//
+// Impulses that bring this about act on the corners by their weights, equal and opposite along the line between the two
+// points, so that linear and angular momentum stay; friction takes at most mu times them from the slip (Coulomb). The
+// rows of a substep are solved by projected Gauss-Seidel with accumulated impulses, started from those of the substep
+// before (Catto 2005; many substeps of few iterations, Macklin et al. 2019). Bodies' pairs are coloured, so that those
+// of a colour share no body and the result does not depend on threads.
+//
+// Which side a feature is on: outside a closed body the normal is simply from the one closest point to the other. A
+// vertex is inside if it lies behind the face that it is closest to; it then has only that row. Open surfaces and a
+// body and itself have no inside: there the normal is remembered, and points whose normal flips have crossed and are
+// brought back. Bodies found deep in each other (at the start, or dropped there) are parted through their nearest
+// faces.
+
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "collide/surface_search.h"
+#include "softbody/kernels.h"
+
+namespace softbody {
+
+using Index = collide::Index;
+
+/// What surface contact knows of a body.
+struct ContactBody {
+  glm::dvec3 origin{0.0};      // m
+  std::size_t first_slot = 0;  // of its vertices: first_slot + lanes * v
+  float inverse_mass = 0;      // 1/kg, of a particle; 0: it does not move
+  float friction = 0, restitution = 0;
+};
+
+struct ContactRow {
+  std::array<std::uint32_t, 4> slot;
+  std::array<float, 4> weight;    // first side positive, second negative
+  std::array<float, 4> mobility;  // weight / mass
+  glm::vec3 normal;               // unit, from the second side to the first
+  float mass;                     // kg, effective: 1 / sum of weight^2 / mass
+  float target;                   // m/s, least normal speed
+  float gap;                      // m, beyond the distance kept
+  float friction;
+  float pressed;          // N s, accumulated along the normal
+  glm::vec3 drag;         // N s, accumulated across it
+  std::uint32_t feature;  // place in the search's features
+};
+
+class SurfaceContact {
+ public:
+  static constexpr int iterations = 2;       // a substep
+  static constexpr float push_speed = 1.0f;  // m/s, overlaps come apart no faster
+
+  /// The candidates of the coming `seconds`. traits and bodies: one a body.
+  void find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits, std::vector<ContactBody> bodies,
+            float seconds, bool self, collide::Workers& workers);
+  void clear();
+  bool holds(const collide::Frame& now, float elapsed) { return search_.holds(now, elapsed); }
+  std::size_t bodies() const { return bodies_.size(); }  // in the last find()
+  float stray(Index body) const { return search_.stray(body); }
+  bool empty() const { return pairs_.empty(); }
+  /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
+  float rate() const { return rate_; }
+
+  /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
+  /// forces. On every thread.
+  void prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
+  /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
+  void solve(int thread, int threads, Field<float> v, const std::function<void()>& barrier);
+
+  /// Every two bodies that touched in the last substep, a < b.
+  std::vector<collide::ItemPair> touching() const;
+  std::size_t rows() const;
+
+ private:
+  struct Pair {
+    collide::SurfacePair range;
+    glm::vec3 offset;  // origin of b minus origin of a
+    float distance;    // m, kept between the surfaces
+    float friction, restitution;
+    float inverse_a, inverse_b;
+    std::size_t slot_a, slot_b;
+    bool overlap = false;  // some vertex is deep inside: see deep
+    std::uint32_t deep = 0, deep_end = 0;
+    int thread = 0;
+    std::uint32_t first_row = 0, rows = 0;
+  };
+  /// What is remembered of a candidate.
+  struct Memory {
+    glm::vec3 normal{0.0f};
+    float pressed = 0;
+    glm::vec3 drag{0.0f};
+  };
+  struct DeepVertex {
+    Index vertex, face;
+    bool of_b;  // whose vertex it is
+  };
+  /// One body of a pair, seen from the other's origin where that is the first.
+  struct Side {
+    const collide::Surface* surface;
+    std::size_t slot;
+    glm::vec3 offset;
+    float inverse_mass;
+  };
+  struct Near {
+    collide::Closest closest;
+    glm::vec3 face_normal;  // not of unit length
+    float distance2;
+    std::uint32_t feature;
+  };
+  struct alignas(64) Thread {
+    std::vector<ContactRow> rows;
+    std::vector<Near> near;  // faces near one vertex
+  };
+  /// The state of a substep, as one thread sees it.
+  struct Step {
+    Field<const float> x, v;
+    float h;
+    float until;  // s after the candidates were found: the end of the substep
+    Thread& own;
+    Pair& pair;
+    float look;  // m: no contact beyond it
+  };
+
+  void inherit(const std::vector<Pair>& old_pairs, const std::vector<collide::FeaturePair>& old_features,
+               const std::vector<Memory>& old_memory);
+  Pair make_pair(const collide::SurfacePair& range) const;
+  void find_deep(Pair& pair);
+  void colour();
+  Side side(const Pair& pair, bool second) const;
+  void vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b);
+  void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
+  void deep_vertices(Step& step);
+  void edges_on_edges(Step& step);
+  bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
+  void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
+
+  std::vector<collide::SurfaceBody> traits_;
+  std::vector<ContactBody> bodies_;
+  collide::SurfaceSearch search_;
+  std::vector<Pair> pairs_;
+  std::vector<Memory> memory_;
+  std::vector<DeepVertex> deep_;
+  std::vector<std::vector<std::uint32_t>> colours_;
+  std::vector<Thread> threads_;
+  float rate_ = 0;
+};
+
+}  // namespace softbody
