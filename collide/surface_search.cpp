@@ -61,6 +61,7 @@ Run SurfaceSearch::run(Index body) const {
 
 float SurfaceSearch::speed(const SurfacePair& pair) const {
   const Swept &a = swept_[pair.a], &b = swept_[pair.b];
+  if (pair.a == pair.b) return 2 * a.strain / seconds_;
   return glm::length(a.velocity - b.velocity) + (a.spread + b.spread) / seconds_;
 }
 
@@ -95,7 +96,7 @@ void SurfaceSearch::sweep_body(Index body) {
     momentum += glm::cross(arm(v), velocity(v) - s.velocity);
     inertia += glm::dot(arm(v), arm(v)) * (2.0f / 3);  // as if it were a ball: any spin will do
   }
-  const glm::vec3 spin = inertia > 0 ? momentum / inertia : glm::vec3(0.0f);
+  s.spin = inertia > 0 ? momentum / inertia : glm::vec3(0.0f);
   float strain2 = 0;
   s.vertices.clear();
   s.vertices.reserve(count);
@@ -103,7 +104,7 @@ void SurfaceSearch::sweep_body(Index body) {
   for (Index v = 0; v < count; ++v) {
     const glm::vec3 x(at.x[v], at.y[v], at.z[v]);
     const glm::vec3 move = traits.moves ? seconds_ * (velocity(v) - s.velocity) : glm::vec3(0.0f);
-    const glm::vec3 strain = traits.moves ? move - seconds_ * glm::cross(spin, arm(v)) : glm::vec3(0.0f);
+    const glm::vec3 strain = traits.moves ? move - seconds_ * glm::cross(s.spin, arm(v)) : glm::vec3(0.0f);
     farthest2 = std::max(farthest2, glm::dot(move, move));
     strain2 = std::max(strain2, glm::dot(strain, strain));
     s.vertices.add({x + below(move) - traits.skin, x + above(move) + traits.skin}, v);
@@ -244,18 +245,25 @@ glm::vec3 SurfaceSearch::at(Index body, Index v) const {
   return {f.x[i], f.y[i], f.z[i]};
 }
 
+glm::vec3 SurfaceSearch::velocity(Index body, Index v) const {
+  if (!bodies_[body].moves) return glm::vec3(0.0f);
+  const Index i = motion_.positions.bodies->first[body] + v;
+  return {motion_.vx[i], motion_.vy[i], motion_.vz[i]};
+}
+
+/// What is left of a vertex's velocity without the body's rigid motion.
+glm::vec3 SurfaceSearch::strain_velocity(Index body, Index v) const {
+  const Swept& s = swept_[body];
+  return velocity(body, v) - s.velocity - glm::cross(s.spin, at(body, v) - s.centre);
+}
+
 /// The squared relative speed of two features' corners, the greatest; within a body, of what is not its rigid motion.
 template <std::size_t n, std::size_t m>
 float SurfaceSearch::fastest(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const {
-  if (a == b) return 4 * swept_[a].strain * swept_[a].strain / (seconds_ * seconds_);
-  const auto velocity = [&](Index body, Index v) {
-    const Index i = motion_.positions.bodies->first[body] + v;
-    return bodies_[body].moves ? glm::vec3(motion_.vx[i], motion_.vy[i], motion_.vz[i]) : glm::vec3(0.0f);
-  };
   float most = 0;
   for (const Index v : one)
     for (const Index w : two) {
-      const glm::vec3 u = velocity(a, v) - velocity(b, w);
+      const glm::vec3 u = a == b ? strain_velocity(a, v) - strain_velocity(a, w) : velocity(a, v) - velocity(b, w);
       most = std::max(most, glm::dot(u, u));
     }
   return most;
@@ -308,10 +316,14 @@ void SurfaceSearch::find_self(Thread& own, SurfacePair& pair) {
   }
   const Surface& surface = *bodies_[pair.a].surface;
   const Run x = run(pair.a);
-  const float grown = bodies_[pair.a].skin + swept_[pair.a].strain;
   own.vertices.clear();
   own.vertices.reserve(x.size);
-  for (Index v = 0; v < x.size; ++v) own.vertices.add({at(pair.a, v) - grown, at(pair.a, v) + grown}, v);
+  const float turn = seconds_ * glm::length(swept_[pair.a].spin);
+  for (Index v = 0; v < x.size; ++v) {
+    const glm::vec3 s = seconds_ * strain_velocity(pair.a, v);
+    const float grown = bodies_[pair.a].skin + turn * glm::length(s);
+    own.vertices.add({at(pair.a, v) + below(s) - grown, at(pair.a, v) + above(s) + grown}, v);
+  }
   own.vertices.end();
   join(own.vertices, surface.triangles(), own.faces);
   join(own.vertices, surface.edges(), own.edges);

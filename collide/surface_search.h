@@ -11,7 +11,8 @@
 // of each other have boxes that overlap: they are candidates.
 //   Within a body, let v_i = u + w x r_i + s_i for any u and w. Then |x_i + v_i t - x_j - v_j t| >= |(1 + t [w]) (r_i -
 // r_j)| - t |s_i| - t |s_j|, and the first is at least |r_i - r_j|, since w x r is normal to r: turning brings nothing
-// closer. So only features closer than the reach, the slack and |s| T of both sides are candidates.
+// closer. Turned back by 1 + t [w], the strain s t is off by t |w| times itself at most: boxes swept over s T and grown
+// by that and the skin overlap if the features come within reach.
 
 #include <span>
 #include <utility>
@@ -83,6 +84,7 @@ class SurfaceSearch {
     float spread = 0;          // m: how far a vertex may get from where the mean velocity takes it
     float strain = 0;          // m: the same from where the body's rigid motion takes it
     glm::vec3 centre{0.0f};    // m
+    glm::vec3 spin{0.0f};      // 1/s, about the centre
     float stray = 0;           // m
     Aabb box;                  // of all its vertices, seen from the body
     Aabb world;                // the same seen from the world
@@ -111,6 +113,8 @@ class SurfaceSearch {
   template <class Meet>
   void keep(Thread& own, const SurfacePair& pair, const Meet& meet);
   glm::vec3 at(Index body, Index v) const;
+  glm::vec3 velocity(Index body, Index v) const;
+  glm::vec3 strain_velocity(Index body, Index v) const;
   void gather();
   bool star_shaped(Index body) const;
   void find_near();
