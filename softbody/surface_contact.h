@@ -54,6 +54,15 @@ struct ContactRow {
   std::uint32_t feature;  // place in the search's features
 };
 
+/// A contact that pressed in the last substep, for whoever shows it.
+struct SurfaceTouch {
+  Index a, b;                   // bodies of the first and the second side; equal: inside one
+  std::array<Index, 4> vertex;  // over the world
+  std::array<float, 4> weight;  // of the vertices: the first side's add up to 1 and are its closest point, the second's
+                                // to -1
+  glm::vec3 normal;             // unit, from the second side to the first
+};
+
 class SurfaceContact {
  public:
   static constexpr int iterations = 2;       // a substep
@@ -79,6 +88,8 @@ class SurfaceContact {
   /// Every two bodies that touched in the last substep, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
+  /// `vertices`: those of the bodies that find() was given, and perhaps of more. Bodies that sleep press on none.
+  std::vector<SurfaceTouch> touches(const collide::Bodies& vertices) const;
 
  private:
   struct Pair {
@@ -136,6 +147,7 @@ class SurfaceContact {
   void find_deep(Pair& pair);
   void colour();
   Side side(const Pair& pair, bool second) const;
+  Index owner(const Pair& pair, std::uint32_t slot) const;
   void vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b);
   void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
   void deep_vertices(Step& step);
