@@ -8,28 +8,44 @@
 
 namespace collide {
 
+namespace {
+
+constexpr float slight = 1e-6f;  // squared sine of an angle below which a face is a line, and edges are parallel
+
+const Closest& nearer(const Closest& a, const Closest& b) {
+  return glm::dot(b.apart, b.apart) < glm::dot(a.apart, a.apart) ? b : a;
+}
+
+}  // namespace
+
 Closest closest_vertex_face(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const auto at = [&](float v, float w, bool inner) -> Closest {
     const float u = 1 - v - w;
     return {{1, u, v, w}, p - (u * a + v * b + w * c), inner};
   };
-  const auto share = [](float part, float whole) { return whole > 0 ? part / whole : 0.0f; };
+  const auto share = [](float part, float whole) { return whole > 0 ? std::clamp(part / whole, 0.0f, 1.0f) : 0.0f; };
   const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
   const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
   if (d1 <= 0 && d2 <= 0) return at(0, 0, false);
   const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
   if (d3 >= 0 && d4 <= d3) return at(1, 0, false);
-  const float vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return at(share(d1, d1 - d3), 0, false);
   const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
   if (d6 >= 0 && d5 <= d6) return at(0, 1, false);
-  const float vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return at(0, share(d2, d2 - d6), false);
-  const float va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) {
+  const auto on_ab = [&] { return at(share(d1, d1 - d3), 0, false); };
+  const auto on_ac = [&] { return at(0, share(d2, d2 - d6), false); };
+  const auto on_bc = [&] {
     const float w = share(d4 - d3, (d4 - d3) + (d5 - d6));
     return at(1 - w, w, false);
-  }
+  };
+  // In a sliver rounding decides between the sides and the inside: its sides are close enough to all of it.
+  if (const glm::vec3 n = glm::cross(ab, ac); glm::dot(n, n) <= slight * glm::dot(ab, ab) * glm::dot(ac, ac))
+    return nearer(nearer(on_ab(), on_ac()), on_bc());
+  const float vc = d1 * d4 - d3 * d2;
+  if (vc <= 0 && d1 >= 0 && d3 <= 0) return on_ab();
+  const float vb = d5 * d2 - d1 * d6;
+  if (vb <= 0 && d2 >= 0 && d6 <= 0) return on_ac();
+  const float va = d3 * d6 - d5 * d4;
+  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return on_bc();
   const float sum = va + vb + vc;
   return at(vb / sum, vc / sum, true);
 }
@@ -40,7 +56,7 @@ Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r
               b = glm::dot(d1, d2);
   const auto within = [](float part, float whole) { return whole > 0 ? std::clamp(part / whole, 0.0f, 1.0f) : 0.0f; };
   const float denominator = a * e - b * b;
-  const bool parallel = denominator <= 1e-6f * a * e;
+  const bool parallel = denominator <= slight * a * e;
   float along = parallel ? 0.0f : std::clamp((b * f - c * e) / denominator, 0.0f, 1.0f);
   float across = within(b * along + f, e);
   along = within(b * across - c, a);

@@ -17,7 +17,8 @@ struct Closest {
   bool inner;       // both closest points lie inside their features, not on a border
 };
 /// Ericson (2005), Real-Time Collision Detection, sections 5.1.5 and 5.1.9. Degenerate faces and edges are as good as
-/// others: the closest point lies on what is left of them.
+/// others: the closest point lies on what is left of them. Faces with a corner's angle below 1e-3 are taken as their
+/// sides, and edges within that angle as parallel: distances may then be too large by that share of their length.
 Closest closest_vertex_face(const glm::vec3& vertex, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s);  // pq, rs
 

@@ -114,8 +114,8 @@ void SurfaceSearch::sweep_body(Index body) {
   s.strain = std::sqrt(strain2);
   s.box = s.vertices.bounds();
   s.world = {s.box.lo + below(seconds_ * s.velocity), s.box.hi + above(seconds_ * s.velocity)};
-  const glm::vec3 side = s.world.hi - s.world.lo;
-  s.live = std::isfinite(side.x + side.y + side.z + s.spread);
+  const glm::vec3 all = s.centre + s.velocity + (s.world.hi - s.world.lo);  // boxes alone do not show a NaN
+  s.live = std::isfinite(all.x + all.y + all.z + s.spread);
 }
 
 void SurfaceSearch::find_near() {

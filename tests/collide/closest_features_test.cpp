@@ -1,0 +1,184 @@
+// Closest points against the least over corners, sides and insides worked out in double, and inside() against the exact
+// oracle.
+
+#include "collide/closest_features.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "every_target.h"
+#include "surface_meshes.h"
+
+namespace collide::test {
+namespace {
+
+using glm::dvec3;
+
+double to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
+  const double length2 = glm::dot(b - a, b - a);
+  const double t = length2 > 0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
+  return glm::length(p - (a + t * (b - a)));
+}
+
+double to_face(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
+  const double border = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
+  const dvec3 n = glm::cross(b - a, c - a);
+  const bool above = glm::dot(glm::cross(b - a, p - a), n) > 0 && glm::dot(glm::cross(c - b, p - b), n) > 0 &&
+                     glm::dot(glm::cross(a - c, p - c), n) > 0;
+  return above ? std::min(border, std::abs(glm::dot(p - a, n)) / glm::length(n)) : border;
+}
+
+double between_edges(const dvec3& p, const dvec3& q, const dvec3& r, const dvec3& s) {
+  const double ends = std::min({to_segment(p, r, s), to_segment(q, r, s), to_segment(r, p, q), to_segment(s, p, q)});
+  const dvec3 n = glm::cross(q - p, s - r);
+  const double n2 = glm::dot(n, n);
+  if (n2 == 0) return ends;
+  const double along = glm::dot(glm::cross(r - p, s - r), n) / n2, across = glm::dot(glm::cross(r - p, q - p), n) / n2;
+  const bool inner = along > 0 && along < 1 && across > 0 && across < 1;
+  return inner ? std::min(ends, std::abs(glm::dot(r - p, n)) / std::sqrt(n2)) : ends;
+}
+
+struct Features {
+  glm::vec3 p, q, r, s;  // vertex p against face qrs, or edge pq against edge rs
+};
+
+constexpr double close = 2e-5;   // m, of coordinates up to 1 m
+constexpr double slight = 4e-3;  // m: 1e-3 of the length of the longest
+
+/// Weights of a point of each feature, and the way between these two points, which is as short as it can be.
+void expect_closest_vertex_face(const Features& f, const char* what, double error = close) {
+  const Closest c = closest_vertex_face(f.p, f.q, f.r, f.s);
+  EXPECT_EQ(c.weight[0], 1);
+  for (int k = 1; k < 4; ++k) EXPECT_GE(c.weight[k], -1e-6f) << what;
+  EXPECT_NEAR(c.weight[1] + c.weight[2] + c.weight[3], 1, 1e-6) << what;
+  const dvec3 point =
+      double(c.weight[1]) * dvec3(f.q) + double(c.weight[2]) * dvec3(f.r) + double(c.weight[3]) * dvec3(f.s);
+  EXPECT_LT(glm::length(dvec3(f.p) - point - dvec3(c.apart)), 2e-6) << what;
+  EXPECT_NEAR(glm::length(c.apart), to_face(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error) << what;
+}
+
+void expect_closest_edges(const Features& f, const char* what, double error = close) {
+  const Closest c = closest_edges(f.p, f.q, f.r, f.s);
+  for (const float weight : c.weight) EXPECT_TRUE(weight >= 0 && weight <= 1) << what << ' ' << weight;
+  EXPECT_NEAR(c.weight[0] + c.weight[1], 1, 1e-6) << what;
+  EXPECT_NEAR(c.weight[2] + c.weight[3], 1, 1e-6) << what;
+  const dvec3 one = double(c.weight[0]) * dvec3(f.p) + double(c.weight[1]) * dvec3(f.q),
+              two = double(c.weight[2]) * dvec3(f.r) + double(c.weight[3]) * dvec3(f.s);
+  EXPECT_LT(glm::length(one - two - dvec3(c.apart)), 2e-6) << what;
+  EXPECT_NEAR(glm::length(c.apart), between_edges(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error) << what;
+}
+
+/// Features within a cube of 2 m, the last two corners drawn towards the second by `shape`: 1 leaves them in place.
+std::vector<Features> random_features(std::mt19937& random, std::size_t count, float shape) {
+  std::vector<Features> list;
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::vector<glm::vec3> c = random_points(random, 4, -1, 1);
+    list.push_back({c[0], c[1], glm::mix(c[1], c[2], shape), glm::mix(c[1], c[3], shape)});
+  }
+  return list;
+}
+
+TEST(ClosestFeatures, OfRandomOnesAreAsCloseAsCanBe) {
+  std::mt19937 random(51);
+  int inner_faces = 0, inner_edges = 0;
+  for (const float shape : {1.0f, 0.3f, 0.01f})
+    for (const Features& f : random_features(random, 3000, shape)) {
+      expect_closest_vertex_face(f, "vertex and face");
+      expect_closest_edges({f.p, f.s, f.q, f.r}, "edges");
+      inner_faces += closest_vertex_face(f.p, f.q, f.r, f.s).inner;
+      inner_edges += closest_edges(f.p, f.s, f.q, f.r).inner;
+    }
+  EXPECT_GT(inner_faces, 100);
+  EXPECT_GT(inner_edges, 100);
+}
+
+TEST(ClosestFeatures, InnerSaysThatBothPointsLieInside) {
+  const glm::vec3 a(0), b(1, 0, 0), c(0, 1, 0);
+  EXPECT_TRUE(closest_vertex_face({0.25f, 0.25f, 1}, a, b, c).inner);
+  EXPECT_FALSE(closest_vertex_face({0.25f, -0.25f, 1}, a, b, c).inner);
+  EXPECT_FALSE(closest_vertex_face({-1, -1, 1}, a, b, c).inner);
+  EXPECT_TRUE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, -1, 1}, {0, 1, 1}).inner);
+  EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 2}).inner) << "one ends over the other's middle";
+  EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {2, -1, 1}, {2, 1, 1}).inner);
+}
+
+TEST(ClosestFeatures, TheWayRunsFromTheSecondFeatureToTheFirst) {
+  const glm::vec3 up = closest_vertex_face({0, 3, 0}, {-1, 1, -1}, {1, 1, -1}, {0, 1, 2}).apart;
+  EXPECT_LT(glm::length(up - glm::vec3(0, 2, 0)), 1e-6f);
+  EXPECT_EQ(closest_edges({-1, 3, 0}, {1, 3, 0}, {0, 1, -1}, {0, 1, 1}).apart, glm::vec3(0, 2, 0));
+}
+
+/// Thin slivers, faces that are a line or a point: on a lattice, so that they are so exactly, and off it.
+TEST(ClosestFeatures, OfDegenerateFacesLieOnWhatIsLeftOfThem) {
+  std::mt19937 random(52);
+  for (int i = 0; i < 3000; ++i) {
+    const std::vector<glm::vec3> c = random_points(random, 3, -1, 1);
+    const float t = uniform(random, -0.5f, 1.5f);
+    const glm::vec3 lattice = glm::round(4.0f * c[1]) / 4.0f, step = glm::round(2.0f * c[2]) / 8.0f;
+    expect_closest_vertex_face({c[0], c[1], c[1], c[1]}, "a point");
+    expect_closest_vertex_face({c[0], c[1], c[1], c[2]}, "two corners in one place");
+    expect_closest_vertex_face({c[0], c[1], c[2], c[1]}, "two others");
+    expect_closest_vertex_face({c[0], c[2], c[1], c[1]}, "the last two");
+    expect_closest_vertex_face({c[0], lattice, lattice + step, lattice + 3.0f * step}, "a line on the lattice");
+    expect_closest_vertex_face({c[0], lattice + step, lattice, lattice + 3.0f * step}, "a line, its middle first");
+    expect_closest_vertex_face({c[0], c[1], c[2], glm::mix(c[1], c[2], t)}, "a line but for rounding");
+    expect_closest_vertex_face({c[0], c[1], c[1] + 1e-4f * c[0], c[2]}, "a needle");
+    expect_closest_vertex_face({c[0], c[1], c[2], glm::mix(c[1], c[2], t) + 5e-4f * c[0]}, "a sliver", slight);
+  }
+}
+
+TEST(ClosestFeatures, OfDegenerateAndParallelEdges) {
+  std::mt19937 random(53);
+  for (int i = 0; i < 3000; ++i) {
+    const std::vector<glm::vec3> c = random_points(random, 4, -1, 1);
+    const float t = uniform(random, -1.5f, 1.5f);
+    expect_closest_edges({c[0], c[0], c[1], c[2]}, "the first a point");
+    expect_closest_edges({c[0], c[1], c[2], c[2]}, "the second a point");
+    expect_closest_edges({c[0], c[0], c[1], c[1]}, "two points");
+    expect_closest_edges({c[0], c[1], c[0], c[1]}, "the same");
+    expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0])}, "parallel");
+    expect_closest_edges({c[0], c[1], c[0] + t * (c[1] - c[0]), c[1] + t * (c[1] - c[0])}, "on one line");
+    expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0]) + 1e-4f * c[3]}, "almost parallel", slight);
+  }
+}
+
+TEST(ClosestFeatures, InsideIsWhatTheExactOracleSays) {
+  std::mt19937 random(54);
+  SurfaceMesh dented = ball(1);
+  for (glm::vec3& v : dented.vertices) v *= uniform(random, 0.5f, 1.0f);
+  for (const SurfaceMesh& mesh :
+       {ball(1), box(glm::vec3(-1), glm::vec3(1)), moved(valley(), {-2, -2, -0.5f}), dented}) {
+    const std::vector<glm::vec3> points = random_points(random, 2000, -2, 2);
+    Scene scene{mesh};
+    scene.add({points, {}});
+    std::vector<bool> expected(points.size(), false);
+    for (const Penetration& p : overlaps_of(scene).penetrations) expected[p.vertex - mesh.vertices.size()] = true;
+    const Points3 at(mesh.vertices);
+    int within = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(inside(points[i], *scene.surfaces[0], at.run()), expected[i]) << i;
+      within += expected[i];
+    }
+    EXPECT_GT(within, 50);
+  }
+}
+
+TEST(ClosestFeatures, NearestFaceIsThatOfTheLeastDistance) {
+  const SurfaceMesh mesh = moved(valley(), {-2, -2, -0.5f});
+  const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+  const Points3 at(mesh.vertices);
+  const auto distance = [&](const glm::vec3& p, const Triangle& f) {
+    return to_face(dvec3(p), dvec3(mesh.vertices[f[0]]), dvec3(mesh.vertices[f[1]]), dvec3(mesh.vertices[f[2]]));
+  };
+  std::mt19937 random(55);
+  for (const glm::vec3& p : random_points(random, 1000, -3, 3)) {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Triangle& f : mesh.triangles) least = std::min(least, distance(p, f));
+    EXPECT_NEAR(distance(p, mesh.triangles[nearest_face(p, surface, at.run())]), least, 1e-5);
+  }
+}
+
+}  // namespace
+}  // namespace collide::test

@@ -1,0 +1,380 @@
+// The candidates of surface contact: nothing that comes within reach is missing, whatever moves how.
+
+#include "collide/surface_search.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "every_target.h"
+#include "surface_meshes.h"
+
+namespace collide::test {
+namespace {
+
+/// Bodies that move, and what is asked about them.
+struct Moving {
+  Scene scene;
+  std::vector<glm::vec3> velocity;  // m/s, of every vertex
+  std::vector<SurfaceBody> traits;
+  float seconds = 0.05f;
+
+  /// velocity_of(position seen from the body's middle): m/s.
+  template <class Velocity>
+  void add(const SurfaceMesh& mesh, const glm::vec3& at, float reach, float slack, const Velocity& velocity_of) {
+    scene.add(moved(mesh, at));
+    for (const glm::vec3& v : mesh.vertices) velocity.push_back(velocity_of(v));
+    traits.push_back({scene.surfaces.back().get(), reach + slack, slack, 0.3f, true});
+  }
+  Index first(Index body) const { return scene.state.bodies.first[body]; }
+  /// Where all vertices are after `time`, each off its path by up to its body's slack.
+  Scene after(float time, std::mt19937& random) const;
+};
+
+Scene Moving::after(float time, std::mt19937& random) const {
+  Scene later = scene;
+  for (Index body = 0; body < traits.size(); ++body)
+    for (Index v = first(body); v < first(body + 1); ++v) {
+      const glm::vec3 way = random_points(random, 1, -1, 1)[0], u = traits[body].moves ? velocity[v] : glm::vec3(0);
+      const glm::vec3 stray = 0.999f * traits[body].slack * way / std::max(1e-3f, glm::length(way));
+      const glm::vec3 x = scene.at(v) + time * u + (traits[body].moves ? stray : glm::vec3(0));
+      later.state.x[v] = x.x, later.state.y[v] = x.y, later.state.z[v] = x.z;
+    }
+  return later;
+}
+
+struct Found {
+  SurfaceSearch search;
+  std::vector<float> vx, vy, vz;
+  Found(const Moving& m, bool self, int threads = 1) {
+    for (const glm::vec3& v : m.velocity) vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z);
+    Workers workers(threads);
+    search.find({m.scene.frame(), vx, vy, vz}, m.traits, m.seconds, self, workers);
+  }
+};
+
+/// Everything that was found, as numbers that can be compared.
+std::vector<std::array<float, 8>> listed(const SurfaceSearch& search) {
+  std::vector<std::array<float, 8>> list;
+  for (const SurfacePair& p : search.pairs())
+    for (std::uint32_t i = p.vertex_face; i < p.end; ++i) {
+      const FeaturePair& f = search.features()[i];
+      list.push_back({float(p.a), float(p.b), float(p.vertex_face), float(p.face_vertex), float(p.edge_edge),
+                      float(f.a), float(f.b), f.from});
+    }
+  return list;
+}
+
+/// The candidates of two bodies as a table: when they begin, infinity if they are none.
+class Candidates {
+ public:
+  Candidates(const SurfaceSearch& search, Index a, Index b, const Surface& sa, const Surface& sb)
+      : faces_(sb.triangles().size()), faces_a_(sa.triangles().size()), edges_(sb.edges().size()) {
+    vertex_face_.assign(sa.vertex_count() * faces_, none);
+    face_vertex_.assign(sb.vertex_count() * faces_a_, none);
+    edge_edge_.assign(sa.edges().size() * edges_, none);
+    for (const SurfacePair& p : search.pairs()) {
+      if (p.a != a || p.b != b) continue;
+      const auto& list = search.features();
+      for (std::uint32_t i = p.vertex_face; i < p.face_vertex; ++i)
+        vertex_face_[list[i].a * faces_ + list[i].b] = list[i].from;
+      for (std::uint32_t i = p.face_vertex; i < p.edge_edge; ++i)
+        face_vertex_[list[i].a * faces_a_ + list[i].b] = list[i].from;
+      for (std::uint32_t i = p.edge_edge; i < p.end; ++i) edge_edge_[list[i].a * edges_ + list[i].b] = list[i].from;
+    }
+  }
+  float vertex_face(Index vertex, Index face) const { return vertex_face_[vertex * faces_ + face]; }
+  float face_vertex(Index vertex, Index face) const { return face_vertex_[vertex * faces_a_ + face]; }
+  float edge_edge(Index one, Index two) const { return edge_edge_[one * edges_ + two]; }
+
+ private:
+  static constexpr float none = std::numeric_limits<float>::infinity();
+  std::size_t faces_, faces_a_, edges_;
+  std::vector<float> vertex_face_, face_vertex_, edge_edge_;
+};
+
+/// A moment at which pairs of features are looked at, by plain loops.
+struct Moment {
+  const Moving& moving;
+  const Scene& scene;
+  float time;
+  std::size_t within = 0;  // pairs that were within reach
+
+  glm::vec3 at(Index body, Index v) const { return scene.at(moving.first(body) + v); }
+  template <std::size_t n>
+  Aabb box(Index body, const std::array<Index, n>& corners, float grown) const {
+    Aabb all{at(body, corners[0]), at(body, corners[0])};
+    for (const Index v : corners) all = {glm::min(all.lo, at(body, v)), glm::max(all.hi, at(body, v))};
+    return {all.lo - grown, all.hi + grown};
+  }
+  template <std::size_t n, std::size_t m>
+  static bool share(const std::array<Index, n>& a, const std::array<Index, m>& b) {
+    return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
+  }
+  float reach(Index body) const { return moving.traits[body].skin - moving.traits[body].slack; }
+
+  /// from(i, j): when the candidate of feature i and j begins. closest(i, j): of the two.
+  template <class Ones, class Twos, class From, class Of>
+  void expect(Index a, const Ones& ones, Index b, const Twos& twos, const From& from, const Of& closest, bool ordered) {
+    const float distance = reach(a) + reach(b);
+    std::vector<Aabb> boxes;
+    for (const auto& two : twos) boxes.push_back(box(b, two, 0));
+    for (Index i = 0; i < ones.size(); ++i) {
+      const Aabb near_one = box(a, ones[i], distance);
+      for (Index j = ordered ? i + 1 : 0; j < twos.size(); ++j) {
+        if (!near(near_one, boxes[j], 0) || (a == b && share(ones[i], twos[j]))) continue;
+        if (glm::length(closest(ones[i], twos[j]).apart) > distance) continue;
+        ++within;
+        EXPECT_LE(from(i, j), time) << "bodies " << a << ' ' << b << ", features " << i << ' ' << j;
+      }
+    }
+  }
+  void vertices(Index a, Index b, const auto& from) {
+    std::vector<std::array<Index, 1>> ones;
+    for (Index v = 0; v < moving.first(a + 1) - moving.first(a); ++v) ones.push_back({v});
+    expect(
+        a, ones, b, moving.scene.surfaces[b]->triangles(), from,
+        [&](const auto& v, const Triangle& f) {
+          return closest_vertex_face(at(a, v[0]), at(b, f[0]), at(b, f[1]), at(b, f[2]));
+        },
+        false);
+  }
+  void edges(Index a, Index b, const auto& from) {
+    expect(
+        a, moving.scene.surfaces[a]->edges(), b, moving.scene.surfaces[b]->edges(), from,
+        [&](const Edge& e, const Edge& f) { return closest_edges(at(a, e[0]), at(a, e[1]), at(b, f[0]), at(b, f[1])); },
+        a == b);
+  }
+};
+
+/// Looks at several times whether all that is within reach was foreseen; returns how much was.
+std::size_t expect_complete(const Moving& moving, const SurfaceSearch& search, bool self, std::mt19937& random) {
+  std::size_t within = 0;
+  for (const float part : {0.0f, 0.13f, 0.5f, 0.77f, 1.0f}) {
+    const float time = part * moving.seconds;
+    const Scene later = moving.after(time, random);
+    Moment now{moving, later, time};
+    for (Index a = 0; a < moving.traits.size(); ++a)
+      for (Index b = self ? a : a + 1; b < moving.traits.size(); ++b) {
+        const Surface &sa = *moving.scene.surfaces[a], &sb = *moving.scene.surfaces[b];
+        if (!moving.traits[a].moves && !moving.traits[b].moves) continue;
+        if (a == b && sa.closed()) continue;  // see StarShaped
+        const Candidates candidates(search, a, b, sa, sb);
+        now.vertices(a, b, [&](Index i, Index j) { return candidates.vertex_face(i, j); });
+        if (a != b) now.vertices(b, a, [&](Index i, Index j) { return candidates.face_vertex(i, j); });
+        now.edges(a, b, [&](Index i, Index j) { return candidates.edge_edge(i, j); });
+      }
+    within += now.within;
+  }
+  return within;
+}
+
+/// Five bodies close to each other, round, dented and flat, some of which stand; they fly, turn, and are strained.
+Moving swarm(std::mt19937& random, float speed, float reach, float slack) {
+  Moving m;
+  for (Index body = 0; body < 5; ++body) {
+    SurfaceMesh mesh = body == 3 ? sheet(6, 1.5f) : body == 4 ? box(glm::vec3(-0.4f), glm::vec3(0.3f)) : ball(0.5f, 1);
+    if (body == 2)
+      for (glm::vec3& v : mesh.vertices) v *= uniform(random, 0.4f, 1.2f);
+    const std::vector<glm::vec3> r = random_points(random, 3, -1, 1);
+    mesh = turned(mesh, r[0], uniform(random, 0, 6));
+    const glm::vec3 at = 0.8f * r[1], fly = speed * r[2] - at / m.seconds * uniform(random, 0, 1),
+                    spin = uniform(random, 0, speed) * r[0];
+    m.add(mesh, at, reach, slack, [&](const glm::vec3& v) {
+      return fly + glm::cross(spin, v) + 0.2f * speed * random_points(random, 1, -1, 1)[0];
+    });
+  }
+  m.traits[random() % 5].moves = false;
+  return m;
+}
+
+TEST(SurfaceSearch, MissesNothingThatComesWithinReach) {
+  std::mt19937 random(61);
+  for (const float speed : {0.0f, 0.5f, 10.0f, 200.0f})
+    for (const float slack : {0.0f, 0.01f, 0.05f}) {
+      std::size_t within = 0;
+      for (int trial = 0; trial < 3; ++trial) {
+        const Moving m = swarm(random, speed, trial == 0 ? 0.0f : 0.02f, slack);
+        const Found found(m, true);
+        within += expect_complete(m, found.search, true, random);
+      }
+      EXPECT_GT(within, 20u) << speed << ' ' << slack;
+    }
+}
+
+TEST(SurfaceSearch, ASheetThatFoldsOntoItselfIsForeseen) {
+  std::mt19937 random(62);
+  for (const float speed : {1.0f, 20.0f, 300.0f}) {
+    Moving m;
+    m.seconds = 0.5f / speed;
+    m.add(sheet(10, 1), glm::vec3(0), 0.02f, 0.01f, [&](const glm::vec3& v) {
+      const glm::vec3 fold = v.x > 0 ? speed * glm::vec3(-3 * v.x, 0.2f, 0) : glm::vec3(0);
+      return glm::vec3(5, 7, -3) + glm::cross(glm::vec3(0, speed, speed), v) + fold;
+    });
+    const Found found(m, true);
+    EXPECT_GT(expect_complete(m, found.search, true, random), 100u);
+    EXPECT_EQ(found.search.unfolded(), 0u) << "an open surface";
+  }
+}
+
+TEST(SurfaceSearch, AFlightBringsNoCandidatesWithinABody) {
+  const auto candidates = [](const glm::vec3& fly) {
+    Moving m;
+    m.add(sheet(10, 1), glm::vec3(0), 0.05f, 0.005f, [&](const glm::vec3&) { return fly; });
+    return Found(m, true).search.features().size();
+  };
+  const std::size_t at_rest = candidates(glm::vec3(0));
+  ASSERT_GT(at_rest, 0u);
+  EXPECT_EQ(candidates({128, -64, 32}), at_rest);
+}
+
+TEST(SurfaceSearch, BodiesFarApartHaveNoCandidates) {
+  Moving m;
+  const auto still = [](const glm::vec3&) { return glm::vec3(0); };
+  m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.01f, still);
+  m.add(ball(0.5f), glm::vec3(1.2f, 0, 0), 0.01f, 0.01f, still);
+  EXPECT_TRUE(Found(m, false).search.features().empty());
+  m.traits[0].moves = m.traits[1].moves = false;
+  m.scene = Scene{ball(0.5f), ball(0.5f)};
+  EXPECT_TRUE(Found(m, true).search.pairs().empty()) << "nor have those that stand, wherever they are";
+}
+
+TEST(SurfaceSearch, LeavesOutBodiesThatAreNotFinite) {
+  std::mt19937 random(63);
+  Moving m = swarm(random, 1, 0.02f, 0.01f);
+  for (SurfaceBody& body : m.traits) body.moves = true;
+  m.scene.state.y[m.first(1) + 7] = nan;
+  m.velocity[m.first(4)].z = infinity;
+  const Found found(m, true);
+  ASSERT_FALSE(found.search.features().empty());
+  for (const SurfacePair& p : found.search.pairs()) {
+    EXPECT_TRUE(p.a != 1 && p.b != 1);
+    EXPECT_TRUE(p.a != 4 && p.b != 4);
+  }
+}
+
+class SurfaceSearchOnTargets : public OnEveryTarget {};
+
+TEST_P(SurfaceSearchOnTargets, TheCandidatesAreTheSameAndThoseOfTwoThreads) {
+  for (const float speed : {0.5f, 50.0f}) {
+    const Moving m = swarm(random_, speed, 0.02f, 0.01f);
+    hwy::SetSupportedTargetsForTest(HWY_STATIC_TARGET);
+    const auto expected = listed(Found(m, true).search);
+    hwy::SetSupportedTargetsForTest(GetParam());
+    ASSERT_GT(expected.size(), 100u);
+    EXPECT_EQ(listed(Found(m, true).search), expected);
+    EXPECT_EQ(listed(Found(m, true, 2).search), expected);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Targets, SurfaceSearchOnTargets, testing::ValuesIn(targets()), target_name);
+
+TEST(SurfaceSearch, ComesInAscendingOrderEachPairOnce) {
+  std::mt19937 random(64);
+  const Moving m = swarm(random, 5, 0.02f, 0.01f);
+  const Found found(m, true);
+  const SurfaceSearch& s = found.search;
+  const auto ascends = [&](std::uint32_t begin, std::uint32_t end) {
+    for (std::uint32_t i = begin; i + 1 < end; ++i)
+      if (!(s.features()[i].key() < s.features()[i + 1].key())) return false;
+    return begin <= end;
+  };
+  std::uint32_t next = 0;
+  for (std::size_t i = 0; i < s.pairs().size(); ++i) {
+    const SurfacePair& p = s.pairs()[i];
+    EXPECT_EQ(p.vertex_face, next);
+    EXPECT_TRUE(ascends(p.vertex_face, p.face_vertex) && ascends(p.face_vertex, p.edge_edge) &&
+                ascends(p.edge_edge, p.end));
+    next = p.end;
+    if (i > 0) {
+      EXPECT_LT(std::pair(s.pairs()[i - 1].a, s.pairs()[i - 1].b), std::pair(p.a, p.b));
+    }
+  }
+  EXPECT_EQ(next, s.features().size());
+}
+
+/// Dented balls that are strained more and more: those that are not looked into must not pierce themselves at any time.
+TEST(SurfaceSearch, StarShapedBodiesNeverPierceThemselves) {
+  std::mt19937 random(65);
+  int skipped = 0, pierced = 0;
+  for (int trial = 0; trial < 200; ++trial) {
+    const float dent = uniform(random, 0, 0.5f), part = uniform(random, 0, 1), strain = 20 * part * part * part,
+                slack = uniform(random, 0, 0.002f);
+    SurfaceMesh mesh = ball(0.5f, 1);
+    for (glm::vec3& v : mesh.vertices) v *= uniform(random, 1 - dent, 1);
+    const std::vector<glm::vec3> r = random_points(random, 3, -100, 100);
+    Moving m;
+    m.add(mesh, r[0], 0.01f, slack, [&](const glm::vec3& v) {
+      return r[1] + 0.1f * glm::cross(r[2], v) + strain * random_points(random, 1, -1, 1)[0];
+    });
+    const bool star = Found(m, true).search.unfolded() == 1;
+    skipped += star;
+    bool pierces = false;
+    for (const float when : {0.0f, 0.3f, 0.6f, 1.0f})
+      pierces = pierces || figures_of(m.after(when * m.seconds, random)).self_intersecting_bodies > 0;
+    pierced += pierces;
+    EXPECT_FALSE(star && pierces) << trial;
+  }
+  EXPECT_GT(skipped, 20) << pierced;
+  EXPECT_GT(pierced, 20) << skipped;
+}
+
+TEST(SurfaceSearch, BodiesThatAreNoStarAreLookedInto) {
+  const auto unfolded = [](const SurfaceMesh& mesh) {
+    Moving m;
+    m.add(mesh, glm::vec3(3, 1, 2), 0.01f, 0.001f, [](const glm::vec3&) { return glm::vec3(0); });
+    return Found(m, true).search.unfolded();
+  };
+  EXPECT_EQ(unfolded(ball(1)), 1u);
+  EXPECT_EQ(unfolded(valley()), 0u);
+  SurfaceMesh inverted = ball(1);
+  for (Triangle& f : inverted.triangles) std::swap(f[1], f[2]);
+  EXPECT_EQ(unfolded(inverted), 0u);
+  SurfaceMesh twice = ball(1), second = turned(ball(0.95f), glm::vec3(1, 2, 3), 0.5f);  // one in the other
+  for (const Triangle& f : second.triangles) twice.triangles.push_back({f[0] + 162, f[1] + 162, f[2] + 162});
+  twice.vertices.insert(twice.vertices.end(), second.vertices.begin(), second.vertices.end());
+  EXPECT_EQ(unfolded(twice), 0u) << "every face looks outwards, but the surface winds around the middle twice";
+}
+
+TEST(SurfaceSearch, HoldsWhileNoVertexStraysBeyondTheSlack) {
+  std::mt19937 random(66);
+  Moving m;
+  const glm::vec3 fly(3, -20, 1);
+  m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.05f, [&](const glm::vec3&) { return fly; });
+  m.add(ball(0.5f), glm::vec3(0, 1, 0), 0.01f, 0.05f, [&](const glm::vec3&) { return fly; });
+  m.traits[1].moves = false;
+  Found found(m, false);
+  EXPECT_TRUE(found.search.holds(m.after(0.02f, random).frame(), 0.02f));
+  EXPECT_FALSE(found.search.holds(m.scene.frame(), 0.02f)) << "it did not move";
+  Found again(m, false);
+  Scene off = m.after(0, random);
+  off.state.x = m.scene.state.x, off.state.y = m.scene.state.y, off.state.z = m.scene.state.z;
+  off.state.x[5] += 0.03f;
+  EXPECT_TRUE(again.search.holds(off.frame(), 0));
+  EXPECT_NEAR(again.search.stray(0), 0.03f, 1e-6);
+  off.state.x[5] += 0.03f;
+  EXPECT_FALSE(again.search.holds(off.frame(), 0));
+  EXPECT_NEAR(again.search.stray(0), 0.06f, 1e-6);
+  EXPECT_EQ(again.search.stray(1), 0);
+  EXPECT_FALSE(again.search.holds(m.scene.frame(), 0)) << "what was off has not been foreseen";
+}
+
+TEST(SurfaceSearch, SpeedBoundsTheRelativeSpeedOfAPairsVertices) {
+  std::mt19937 random(67);
+  const Moving m = swarm(random, 5, 0.02f, 0.01f);
+  const Found found(m, false);
+  ASSERT_FALSE(found.search.pairs().empty());
+  for (const SurfacePair& p : found.search.pairs()) {
+    const auto speed = [&](Index body, Index v) { return m.traits[body].moves ? m.velocity[v] : glm::vec3(0); };
+    float most = 0;
+    for (Index v = m.first(p.a); v < m.first(p.a + 1); ++v)
+      for (Index w = m.first(p.b); w < m.first(p.b + 1); ++w)
+        most = std::max(most, glm::length(speed(p.a, v) - speed(p.b, w)));
+    EXPECT_LE(most, found.search.speed(p) * 1.00001f);
+  }
+}
+
+}  // namespace
+}  // namespace collide::test
