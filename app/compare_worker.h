@@ -1,36 +1,20 @@
 #pragma once
-// The comparison's own thread: the demo hands it copies and never waits for it.
+// The comparison on a thread of its own.
 
-#include <condition_variable>
-#include <mutex>
-#include <thread>
-
+#include "app/background_worker.h"
 #include "app/compare.h"
 
 namespace app {
 
-class CompareWorker {
- public:
-  CompareWorker();
+struct CompareTask {
+  using Question = Snapshot;
+  using Answer = CompareReport;
+  static constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the demo shuffles alike
 
-  /// True if an offer would be taken now. After a comparison the worker rests for twice its duration, so that it never
-  /// takes more than a third of a core from the simulation and the drawing.
-  bool ready() const;
-  /// Takes the snapshot, or drops it if not ready(). Never waits for a comparison.
-  void offer(Snapshot snapshot);
-  /// The latest report that was not yet taken.
-  std::optional<CompareReport> take();
+  CompareReport answer(const Snapshot& snapshot, const std::stop_token& stop);
 
- private:
-  void work(const std::stop_token& stop);
-
-  mutable std::mutex mutex_;  // guards the members below
-  std::condition_variable_any wake_;
-  std::optional<Snapshot> waiting_;
-  std::optional<CompareReport> done_;
-  bool busy_ = false;
-  double rest_until_ = 0;  // s, steady clock
-  std::jthread thread_;    // last: started after, joined before all else
+  Comparison comparison{seed};
 };
+using CompareWorker = BackgroundWorker<CompareTask>;
 
 }  // namespace app

@@ -42,7 +42,7 @@ class Pacer {
 
 /// All that a picture of the scene depends on.
 struct PictureKey {
-  std::uint64_t revision = 0, comparison = 0;
+  std::uint64_t revision = 0, comparison = 0, judgement = 0;
   std::size_t misses_of = 0;
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
@@ -142,6 +142,7 @@ class Demo {
         shown.boxes || shown.cells || shown.areas || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
             .comparison = shown.missed ? session_.comparisons() : 0,
+            .judgement = shown.true_surfaces ? session_.surfaces().reports() : 0,
             .misses_of = session_.misses_of(),
             .overlays = shown,
             .bucket = session_.selected_bucket(),
@@ -158,6 +159,8 @@ class Demo {
     if (needs_debug) request.debug = &session_.debug();
     if (request.shown.areas) request.areas = session_.areas();
     request.missed = session_.missed();
+    if (request.shown.touches) request.touches = session_.touches();
+    request.marks = session_.surfaces().report().marks;
     return request;
   }
 

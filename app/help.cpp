@@ -44,9 +44,8 @@ void draw_help(Widgets& w, const SceneArea& area, bool& open) {
   ImGui::PushTextWrapPos(w.px(1.8f * half_width));
   ImGui::TextUnformatted(
       "Soft spheres fall on a solid sphere. In every frame a detector finds which of their vertices come closer than "
-      "the "
-      "tolerance; its contacts push the bodies apart. Choose the detector and its settings in the panel, and switch on "
-      "what you want to see of it.");
+      "the tolerance. With vertex-vertex contact, the paper's, these push the bodies apart; with surface contact faces "
+      "and edges do. Choose in the panel, and switch on what you want to see.");
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   const float left = ImGui::GetCursorPosX();

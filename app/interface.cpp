@@ -4,6 +4,7 @@
 #include "app/help.h"
 #include "app/panel.h"
 #include "app/status.h"
+#include "app/surface_view.h"
 
 namespace app {
 
@@ -36,7 +37,8 @@ void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui,
   SceneArea left_of_table = above;
   if (table) left_of_table.max.x -= widgets.px(HashView::width + margin);
   draw_caption(widgets, session, left_of_table, seconds);
-  draw_legends(widgets, session, above, draw_status(widgets, session, above));
+  const float status_end = draw_status(widgets, session, above);
+  draw_legends(widgets, session, above, draw_true_surfaces(widgets, session, above, status_end));
   if (table) hash_view_.draw(widgets, session, above, ui.table);
   if (ui.sweep) sweep_view_.draw(widgets, session, left_of_table, ui.sweep);
 }

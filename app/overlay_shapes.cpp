@@ -1,6 +1,7 @@
 #include "app/overlay_shapes.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>
@@ -11,9 +12,9 @@
 namespace app {
 namespace {
 
-using Positions = std::span<const glm::vec3>;
+using Points = std::span<const glm::vec3>;
 
-void add_body_boxes(const softbody::World& world, Positions positions, engine::FrameData& frame) {
+void add_body_boxes(const softbody::World& world, Points positions, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
   const collide::Bodies& bodies = world.bodies();
@@ -92,7 +93,7 @@ void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::Fra
   frame.boxes.push_back(std::move(selected));
 }
 
-void add_contact(Positions positions, const collide::Contact& contact, const glm::vec3& colour, engine::LineSet& lines,
+void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, engine::LineSet& lines,
                  engine::PointSet& points) {
   const glm::vec3 a = positions[contact.a], b = positions[contact.b];
   lines.lines.push_back({a, b, glm::vec4(colour, 0.9f)});
@@ -103,7 +104,7 @@ void add_contact(Positions positions, const collide::Contact& contact, const glm
 // Contacts lie where bodies press together, hence mostly behind a surface: they show through well.
 constexpr float contacts_hidden = 0.55f;
 
-void add_contacts(const softbody::World& world, Positions positions, engine::FrameData& frame) {
+void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
   const auto body = world.vertex_body();
@@ -118,7 +119,7 @@ void add_contacts(const softbody::World& world, Positions positions, engine::Fra
   frame.points.push_back(std::move(points));
 }
 
-void add_missed(const std::vector<collide::Contact>& missed, Positions positions, engine::FrameData& frame) {
+void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.8f};
   engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.8f};
   for (const collide::Contact& contact : missed) {
@@ -128,7 +129,40 @@ void add_missed(const std::vector<collide::Contact>& missed, Positions positions
   frame.points.push_back(std::move(points));
 }
 
-void add_springs(const std::vector<softbody::Spring>& springs, Positions body, float alpha, engine::LineSet& set) {
+/// Both closest points, and the normal from the second one, half a mean edge long.
+void add_touches(const softbody::World& world, std::span<const softbody::SurfaceTouch> touches, Points positions,
+                 engine::FrameData& frame) {
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
+  for (const softbody::SurfaceTouch& touch : touches) {
+    glm::vec3 first(0.0f), second(0.0f);
+    for (std::size_t k = 0; k < touch.vertex.size(); ++k)
+      (touch.weight[k] > 0 ? first : second) += std::abs(touch.weight[k]) * positions[touch.vertex[k]];
+    const glm::vec4 colour(touch.a == touch.b ? contact_inside_colour : contact_between_colour, 1.0f);
+    const float length = 0.5f * static_cast<float>(world.prototype(touch.a).mean_edge);
+    lines.lines.push_back({second, second + length * touch.normal, colour});
+    points.points.push_back({first, colour});
+    points.points.push_back({second, colour});
+  }
+  frame.lines.push_back(std::move(lines));
+  frame.points.push_back(std::move(points));
+}
+
+/// Penetrating vertices joined to the surface that they passed, and the points where edges pierce faces.
+void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::FrameData& frame) {
+  engine::LineSet lines{.lines = {}, .width = 1.5f, .hidden = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 4.0f, .hidden = contacts_hidden};
+  const glm::vec4 colour(contact_missed_colour, 1.0f);
+  for (const SurfaceMark& mark : marks) {
+    const glm::vec3 vertex = positions[mark.vertex], point = vertex + mark.offset;
+    points.points.push_back({mark.piercing ? point : vertex, colour});
+    if (!mark.piercing) lines.lines.push_back({vertex, point, colour});
+  }
+  frame.lines.push_back(std::move(lines));
+  frame.points.push_back(std::move(points));
+}
+
+void add_springs(const std::vector<softbody::Spring>& springs, Points body, float alpha, engine::LineSet& set) {
   for (const softbody::Spring& spring : springs) {
     const glm::vec3 a = body[spring.i], b = body[spring.j];
     const float strain = glm::distance(a, b) / static_cast<float>(spring.rest) - 1.0f;
@@ -136,13 +170,13 @@ void add_springs(const std::vector<softbody::Spring>& springs, Positions body, f
   }
 }
 
-void add_springs(const softbody::World& world, Positions positions, engine::FrameData& frame) {
+void add_springs(const softbody::World& world, Points positions, engine::FrameData& frame) {
   engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0.1f};
   engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0.1f};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
-    const Positions body = positions.subspan(bodies.first[b], bodies.size(b));
+    const Points body = positions.subspan(bodies.first[b], bodies.size(b));
     add_springs(prototype.structural, body, 1.0f, structural);
     add_springs(prototype.bend, body, 0.45f, others);
     add_springs(prototype.shear, body, 0.7f, others);
@@ -153,7 +187,7 @@ void add_springs(const softbody::World& world, Positions positions, engine::Fram
 
 }  // namespace
 
-void add_overlays(const softbody::World& world, const OverlayRequest& request, Positions positions,
+void add_overlays(const softbody::World& world, const OverlayRequest& request, Points positions,
                   engine::FrameData& frame) {
   const Overlays& shown = request.shown;
   if (shown.springs) add_springs(world, positions, frame);
@@ -165,6 +199,8 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, P
   if (shown.areas) add_areas(request.areas, frame);
   if (shown.contacts) add_contacts(world, positions, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
+  if (shown.touches) add_touches(world, request.touches, positions, frame);
+  if (shown.true_surfaces) add_marks(request.marks, positions, frame);
 }
 
 }  // namespace app

@@ -14,9 +14,13 @@ struct Overlays {
   bool springs = false;
   bool missed = false;
   bool areas = false;
+  bool touches = false;
+  bool true_surfaces = false;
 
   bool operator==(const Overlays&) const = default;
-  bool any() const { return body_boxes || boxes || cells || contacts || springs || missed || areas; }
+  bool any() const {
+    return body_boxes || boxes || cells || contacts || springs || missed || areas || touches || true_surfaces;
+  }
 };
 
 struct OverlayRow {
@@ -27,7 +31,7 @@ struct OverlayRow {
   bool Overlays::*shown;
 };
 
-inline constexpr std::array<OverlayRow, 7> overlay_table{{
+inline constexpr std::array<OverlayRow, 9> overlay_table{{
     {"body-boxes", "Body boxes", '1', "The axis-aligned bounding box of each body, in the body's colour (§2.1).",
      &Overlays::body_boxes},
     {"boxes", "Subdivided boxes", '2',
@@ -46,6 +50,14 @@ inline constexpr std::array<OverlayRow, 7> overlay_table{{
     {"areas", "Areas searched", '7',
      "Where two bodies can touch, and how these areas are cut: the exact method looks nowhere else (§2.1, §5).",
      &Overlays::areas},
+    {"touches", "Surface contacts", '8',
+     "Where surfaces pressed on each other at the end of the last step with motion: the two closest points and the "
+     "normal. None with vertex-vertex contact, and none between bodies that sleep.",
+     &Overlays::touches},
+    {"true-surfaces", "True surfaces", '9',
+     "The surfaces judged exactly, beside the simulation: what is inside what, how deep, what passed through, and what "
+     "of it the method's contacts do not show; that is drawn.",
+     &Overlays::true_surfaces},
 }};
 
 }  // namespace app

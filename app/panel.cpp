@@ -84,12 +84,14 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
     const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
     w.checkbox(std::string(row.label).c_str(), session.overlays.*row.shown, tooltip.c_str());
   }
+  place(i++);
   w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
-  place(1);
+  place(i++);
+  w.checkbox("Error vs run time###Error against run time", ui.sweep,
+             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+  place(i++);
   w.checkbox("Compare methods", session.compare.on,
              "All methods on the same frozen frame: what each costs, and what it misses (V).");
-  w.checkbox("Error against run time", ui.sweep,
-             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {

@@ -12,13 +12,22 @@ namespace {
 constexpr float label_column = 108;  // design pixels
 constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
 
+/// True if not the detector's contacts but the surfaces keep the bodies apart.
+bool surfaces_hold(const Session& session) {
+  return session.world().scene().contact_surface == softbody::ContactSurface::surfaces;
+}
+
 void draw_method(Widgets& w, Session& session) {
   const collide::Method& method = session.world().method();
   w.row("Method", w.px(label_column));
   w.chip(method.colour, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
-  const std::string name(method.name), summary = std::string(method.summary) + " (M: next method)";
+  std::string summary(method.summary);
+  if (surfaces_hold(session))
+    summary += " With surface contact it moves nothing: its contacts are shown and compared, and wake sleeping bodies.";
+  summary += " (M: next method)";
+  const std::string name(method.name);
   if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
   std::string_view chosen = method.key;
   for (const collide::Method& each : collide::methods()) {
@@ -29,6 +38,21 @@ void draw_method(Widgets& w, Session& session) {
   }
   ImGui::EndCombo();
   session.set_method(chosen);
+}
+
+void draw_contact_surface(Widgets& w, Session& session) {
+  const softbody::ContactSurface now = session.world().scene().contact_surface;
+  w.row("Contact", w.px(label_column));
+  const auto text = [](std::string_view part) { return std::string(part); };
+  const auto& info = *std::ranges::find(softbody::contact_surfaces, now, &softbody::ContactSurfaceInfo::value);
+  const std::string tooltip = "What keeps bodies apart. " + text(info.summary) + " (F: the next one)";
+  if (!w.begin_choices("Contact surface", text(info.name).c_str(), tooltip.c_str())) return;
+  softbody::ContactSurface chosen = now;
+  for (const softbody::ContactSurfaceInfo& each : softbody::contact_surfaces) {
+    if (w.choice(text(each.name).c_str(), each.value == now, text(each.summary).c_str())) chosen = each.value;
+  }
+  ImGui::EndCombo();
+  session.set_contact_surface(chosen);
 }
 
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
@@ -145,12 +169,21 @@ void draw_detection(Widgets& w, Session& session, bool table_shown) {
   changed |= draw_buckets(w, settings, hash);
   changed |= draw_primes(w, settings, hash);
   changed |= draw_cell_size(w, settings, automatic, hash);
+  draw_contact_surface(w, session);
   w.row("Tolerance", w.px(label_column));
-  changed |= w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",
-                      "Vertices closer than this are in contact, and push each other apart (§2.3).", true);
   changed |=
-      w.checkbox("Self-collision", settings.self_collision,
-                 "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as close at rest.");
+      w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",
+               surfaces_hold(session)
+                   ? "Vertices closer than this are in contact (§2.3). With surface contact that pushes nothing: "
+                     "it is detected, shown and compared, and tells which bodies sleep together."
+                   : "Vertices closer than this are in contact, and push each other apart (§2.3).",
+               true);
+  changed |= w.checkbox("Self-collision", settings.self_collision,
+                        surfaces_hold(session)
+                            ? "Also contact inside one body (§2.4): of its surface with itself, and of its vertices, "
+                              "which are shown but push nothing."
+                            : "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as "
+                              "close at rest.");
   ImGui::SameLine(w.px(label_column + 46));
   if (w.button("Scene's settings", "Method and settings as the scene has them.", ImGui::GetContentRegionAvail().x)) {
     session.restore_settings();

@@ -55,11 +55,15 @@ void draw_curves(Widgets& w, const Session& session) {
   draw_curve(w, "Recall", value, history.recall, 1.0f, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 
-void draw_counter(Widgets& w, const char* label, const std::string& value, const char* tooltip) {
-  ImGui::TextDisabled("%s", label);
-  ImGui::SameLine();
-  w.value(value);
-  w.done(label, tooltip);
+void draw_touches(Widgets& w, const Session& session) {
+  if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) return;
+  const auto& touches = session.touches();
+  const auto inside = static_cast<std::size_t>(
+      std::ranges::count_if(touches, [](const softbody::SurfaceTouch& touch) { return touch.a == touch.b; }));
+  w.figure("surfaces, between bodies", grouped(touches.size() - inside),
+           "Vertices on faces and edges on edges of another body that pressed on each other in the last substep. "
+           "Bodies that sleep are not looked at.");
+  w.figure("surfaces, inside one body", grouped(inside), "The same within one body.");
 }
 
 /// What the exact method has left out, each kind on a line of its own whether there is any or not: nothing jumps.
@@ -70,7 +74,7 @@ void draw_skipped(Widgets& w, const Session& session) {
   w.done("Skipped", "Work that this frame did not need. Each kind is left out on a proof: the contacts are the same.");
   for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
-    draw_counter(w, label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
+    w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
   }
 }
 
@@ -80,18 +84,19 @@ void draw_numbers(Widgets& w, const Session& session) {
   draw_curves(w, session);
   const collide::Result& found = session.world().detection();
   const collide::Counters& counters = found.counters;
-  draw_counter(w, "between bodies", grouped(found.contacts.size() - found.self_contacts),
-               "Contacts whose two vertices belong to two bodies (§2.3).");
-  draw_counter(w, "inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
-  draw_counter(w, "with solids", grouped(session.world().solid_contacts().size()),
-               "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
-  draw_counter(w, "Pair tests", grouped(counters.pair_tests),
-               "Distances evaluated in this frame; brute force evaluates all (§2.3).");
-  draw_counter(w, "Hash evaluations", grouped(counters.hashes),
-               "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
-  draw_counter(w, "Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
-  draw_counter(w, "Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
-  draw_counter(w, "Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");
+  w.figure("between bodies", grouped(found.contacts.size() - found.self_contacts),
+           "Contacts whose two vertices belong to two bodies (§2.3).");
+  w.figure("inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
+  w.figure("with solids", grouped(session.world().solid_contacts().size()),
+           "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
+  draw_touches(w, session);
+  w.figure("Pair tests", grouped(counters.pair_tests),
+           "Distances evaluated in this frame; brute force evaluates all (§2.3).");
+  w.figure("Hash evaluations", grouped(counters.hashes),
+           "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
+  w.figure("Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
+  w.figure("Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
+  w.figure("Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");
   draw_skipped(w, session);
 }
 

@@ -6,18 +6,21 @@
 #include <optional>
 
 #include "app/overlays.h"
+#include "app/true_surfaces.h"
 #include "engine/renderer.h"
 #include "softbody/world.h"
 
 namespace app {
 
-/// What to draw over the bodies. Pointers may be null; they must live until draw() returns.
+/// What to draw over the bodies. Pointers may be null; they and the spans must live until draw() returns.
 struct OverlayRequest {
   Overlays shown;
   const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the selected bucket
   std::optional<std::uint32_t> selected_bucket;   // its boxes and cells stand out, and show in any case
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
+  std::span<const softbody::SurfaceTouch> touches;        // the same
+  std::span<const SurfaceMark> marks;                     // the same
 };
 
 /// Positions to draw a vertex at: `part` of the way from `from` to where it is. Vertices beyond `from` are where they

@@ -45,6 +45,7 @@ void Session::start(const softbody::Scene& scene) {
   ++worlds_;
   comparison_ = {};
   forget_measurements();
+  surfaces_.restart(revision_);
 }
 
 void Session::advance(double elapsed) {
@@ -56,6 +57,10 @@ void Session::advance(double elapsed) {
     run(elapsed);
   }
   exchange_comparison();
+  if (overlays.true_surfaces)
+    surfaces_.exchange(*world_, before_last_step_, revision_);
+  else
+    surfaces_.restart(revision_);
 }
 
 void Session::run(double elapsed) {
@@ -131,6 +136,7 @@ void Session::choose_scene(const std::string& key_or_path) {
 void Session::reset() {
   softbody::Scene scene = scene_;
   scene.method = world_->method().key;
+  scene.contact_surface = world_->scene().contact_surface;
   scene.collision = world_->collision();
   scene.default_cell_size = world_->uses_default_cell_size();
   try {
@@ -156,6 +162,7 @@ bool Session::affordable(const collide::Method& method, const collide::Settings&
 }
 
 void Session::restore_settings() {
+  set_contact_surface(scene_.contact_surface);
   set_method(scene_.method);
   set_collision(scene_.collision, scene_.default_cell_size);
   set_method(scene_.method);  // again: it may have been too slow with the settings before
@@ -199,6 +206,20 @@ void Session::next_method() {
   }
 }
 
+void Session::set_contact_surface(softbody::ContactSurface surface) {
+  if (surface == world_->scene().contact_surface) return;
+  notice_.clear();
+  succeeds([&] { world_->set_contact_surface(surface); });
+  ++revision_;
+}
+
+void Session::next_contact_surface() {
+  const auto& all = softbody::contact_surfaces;
+  const auto here =
+      std::ranges::find(all, world_->scene().contact_surface, &softbody::ContactSurfaceInfo::value) - all.begin();
+  set_contact_surface(all[(static_cast<std::size_t>(here) + 1) % all.size()].value);
+}
+
 void Session::set_collision(const collide::Settings& settings, bool default_cell_size) {
   // The automatic cell size is the world's own business, so a bad one of the caller's does no harm.
   collide::Settings checked = settings;
@@ -240,6 +261,12 @@ collide::DebugGeometry Session::picture_of(collide::Detector& detector) const {
   } catch (const std::exception&) {
     return {};
   }
+}
+
+const std::vector<softbody::SurfaceTouch>& Session::touches() const {
+  if (touches_revision_ == revision_) return touches_;
+  touches_revision_ = revision_;
+  return touches_ = world_->dynamics().surface_contact().touches(world_->bodies());
 }
 
 std::vector<collide::DebugGeometry::Box> Session::areas() const {

@@ -8,6 +8,7 @@
 #include "app/compare_worker.h"
 #include "app/overlays.h"
 #include "app/ring.h"
+#include "app/surface_watch.h"
 #include "softbody/world.h"
 
 namespace app {
@@ -73,6 +74,8 @@ class Session {
   // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
   void set_method(std::string_view key);
   void next_method();
+  void set_contact_surface(softbody::ContactSurface surface);
+  void next_contact_surface();
   void set_collision(const collide::Settings& settings, bool default_cell_size);
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
@@ -98,6 +101,11 @@ class Session {
   std::size_t misses_of() const { return compare.on ? compare.misses_of.value_or(driver()) : driver(); }
   /// What the method of choice missed; nullptr if that is not known.
   const std::vector<collide::Contact>* missed() const;
+
+  /// What the surface oracle says of the last step, while overlays.true_surfaces is on.
+  const SurfaceWatch& surfaces() const { return surfaces_; }
+  /// What pressed on what in the last step; empty unless the contact surface is the surfaces.
+  const std::vector<softbody::SurfaceTouch>& touches() const;
 
   Overlays overlays;
   const History& history() const { return history_; }
@@ -139,8 +147,11 @@ class Session {
   mutable std::uint64_t debug_revision_ = 0;
   History history_;
   CompareReport comparison_;
+  mutable std::vector<softbody::SurfaceTouch> touches_;
+  mutable std::uint64_t touches_revision_ = 0;
   std::string notice_;
   CompareWorker compare_worker_;
+  SurfaceWatch surfaces_;
 };
 
 }  // namespace app

@@ -21,6 +21,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.reset(); }},
     Shortcut{GLFW_KEY_D, 0, "D", "Drop another body", [](Session& s, UiState&) { s.drop(); }},
     Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { s.next_method(); }},
+    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { s.next_contact_surface(); }},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes", [](Session& s, UiState&) { change_levels(s, -1); }, true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes", [](Session& s, UiState&) { change_levels(s, 1); }, true},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods", [](Session& s, UiState&) { s.compare.on = !s.compare.on; }},

@@ -10,9 +10,6 @@
 namespace app {
 namespace {
 
-constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                   ImGuiWindowFlags_NoNav;
 constexpr double hint_seconds = 20, fade_seconds = 2;
 
 std::string recall_sentence(const Session& session) {
@@ -112,6 +109,15 @@ void strain_scale(const Widgets& w) {
   ImGui::TextDisabled("+20 %%");
 }
 
+void touches_legend(Widgets& w, const Session& session) {
+  if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
+    ImGui::TextDisabled("no surface contacts: vertices keep the bodies apart");
+    return;
+  }
+  legend_line(w, contact_between_colour, "surface contact between bodies, and its normal");
+  legend_line(w, contact_inside_colour, "surface contact inside one body");
+}
+
 void table_legend(const Session& session) {
   const collide::DebugGeometry& debug = session.debug();
   const Overlays& shown = session.overlays;
@@ -130,7 +136,7 @@ void table_legend(const Session& session) {
 void draw_legends(Widgets& w, const Session& session, const SceneArea& area, float top) {
   const Overlays& shown = session.overlays;
   const bool table = shown.boxes || shown.cells || session.selected_bucket();
-  if (!table && !shown.contacts && !shown.springs && !shown.missed && !shown.areas) return;
+  if (!table && !shown.contacts && !shown.springs && !shown.missed && !shown.areas && !shown.touches) return;
   ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
   ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
   if (table) table_legend(session);
@@ -139,6 +145,7 @@ void draw_legends(Widgets& w, const Session& session, const SceneArea& area, flo
     legend_line(w, contact_inside_colour, "contact inside one body");
     legend_line(w, contact_solid_colour, "contact with a solid");
   }
+  if (shown.touches) touches_legend(w, session);
   if (shown.missed) legend_line(w, contact_missed_colour, "missed contact");
   if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
   if (shown.springs) {

@@ -12,6 +12,11 @@ struct SceneArea {
   ImVec2 min, max;
 };
 
+/// Of what stands over the scene without a frame to drag it by.
+inline constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
+                                          ImGuiWindowFlags_NoNav;
+
 struct Light {
   glm::vec3 colour;
   const char* name;      // the colour in words

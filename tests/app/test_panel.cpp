@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 
 #include "app/panel.h"
@@ -7,6 +8,8 @@
 
 namespace app {
 namespace {
+
+using namespace std::chrono_literals;
 
 TEST(Panel, SwitchesEveryOverlay) {
   PanelRig rig;
@@ -31,6 +34,40 @@ TEST(Panel, ChoosesEveryMethodWhileRunning) {
     rig.frames(5);
     EXPECT_TRUE(rig.session.notice().empty()) << rig.session.notice();
   }
+}
+
+TEST(Panel, ChoosesEveryContactSurface) {
+  PanelRig rig;
+  const std::vector order{softbody::ContactSurface::surfaces, softbody::ContactSurface::vertices};
+  for (const softbody::ContactSurface surface : order) {
+    const auto& all = softbody::contact_surfaces;
+    rig.click("Contact surface");
+    rig.click(std::ranges::find(all, surface, &softbody::ContactSurfaceInfo::value)->name);
+    EXPECT_EQ(rig.session.world().scene().contact_surface, surface);
+    rig.frames(3);
+    const bool counted = rig.recorder.find("surfaces, between bodies") != nullptr;
+    EXPECT_EQ(counted, surface == softbody::ContactSurface::surfaces);
+  }
+}
+
+TEST(Panel, TheFiguresOfTheTrueSurfacesComeAndMoveNothing) {
+  PanelRig rig;
+  EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
+  rig.click("True surfaces");
+  rig.frames(2);
+  const auto before = rig.recorder.widgets;
+  for (const auto end = std::chrono::steady_clock::now() + 60s;
+       rig.session.surfaces().sums().steps < 2 && std::chrono::steady_clock::now() < end;)
+    rig.frame();
+  ASSERT_GE(rig.session.surfaces().sums().steps, 2);
+  ASSERT_EQ(rig.recorder.widgets.size(), before.size());
+  for (const Recorder::Widget& was : before) {
+    const Recorder::Widget is = rig.widget(was.label);
+    EXPECT_TRUE(is.min.x == was.min.x && is.min.y == was.min.y && is.max.x == was.max.x && is.max.y == was.max.y)
+        << was.label << " moved";
+  }
+  rig.click("True surfaces");
+  EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
 }
 
 TEST(Panel, EnablesOnlyWhatTheMethodUses) {
@@ -292,6 +329,10 @@ TEST(Shortcuts, DoWhatTheHelpSays) {
   EXPECT_EQ(session.world().collision().levels, 4);
   for (int i = 0; i < 20; ++i) tap('[');
   EXPECT_EQ(session.world().collision().levels, 0);
+  tap('F');
+  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
+  tap('F');
+  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::vertices);
   tap('M');
   EXPECT_NE(session.world().method().key, collide::default_method);
   for (const OverlayRow& row : overlay_table) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
 #include <chrono>
@@ -265,6 +266,55 @@ TEST(Session, ComparesAllMethodsAgainAndAgainWhileAskedTo) {
   settings.levels = 5;
   session.set_collision(settings, true);
   EXPECT_EQ(session.history().method_ms[method].size(), 0u);  // other settings, other times
+}
+
+TEST(Session, ResetKeepsTheContactSurfaceAndTheScenesSettingsBringItBack) {
+  Session session = make_session();
+  const auto surface = [&] { return session.world().scene().contact_surface; };
+  const auto revision = session.revision();
+  session.set_contact_surface(softbody::ContactSurface::surfaces);
+  EXPECT_NE(session.revision(), revision);
+  session.advance(tick);
+  session.reset();
+  EXPECT_EQ(surface(), softbody::ContactSurface::surfaces);
+  session.restore_settings();
+  EXPECT_EQ(surface(), softbody::ContactSurface::vertices);
+}
+
+/// The first side's closest point, or the second's.
+glm::dvec3 closest_point(const softbody::SurfaceTouch& touch, const collide::Frame& frame, bool second) {
+  glm::dvec3 point(0.0);
+  double sum = 0;
+  for (std::size_t k = 0; k < touch.vertex.size(); ++k) {
+    const double weight = second ? -touch.weight[k] : touch.weight[k];
+    const collide::Index v = touch.vertex[k];
+    if (weight > 0) point += weight * glm::dvec3(frame.x[v], frame.y[v], frame.z[v]);
+    if (weight > 0) sum += weight;
+  }
+  EXPECT_NEAR(sum, 1, 1e-5);
+  return point;
+}
+
+TEST(Session, TouchesAreTheClosestPointsOfTheTwoBodies) {
+  softbody::Scene scene = touching_pair();
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  scene.bodies[0].velocity = {1, 0, 0};
+  Session session(scene, {}, 1);
+  for (int i = 0; i < 60 && session.touches().empty(); ++i) session.advance(tick);
+  ASSERT_FALSE(session.touches().empty());
+  const collide::Frame frame = session.world().positions();
+  const auto body = session.world().vertex_body();
+  for (const softbody::SurfaceTouch& touch : session.touches()) {
+    EXPECT_NE(touch.a, touch.b);
+    EXPECT_EQ(body[touch.vertex[0]], touch.a);
+    EXPECT_EQ(body[touch.vertex[3]], touch.b);
+    const glm::dvec3 apart = closest_point(touch, frame, false) - closest_point(touch, frame, true);
+    EXPECT_LT(glm::length(apart), 0.02);
+    EXPECT_GT(glm::dot(apart, glm::dvec3(touch.normal)), 0);
+    EXPECT_GT((touch.a == 0 ? -1 : 1) * touch.normal.x, 0.5f);  // body 0 is at the left
+  }
+  session.set_contact_surface(softbody::ContactSurface::vertices);
+  EXPECT_TRUE(session.touches().empty());
 }
 
 TEST(Ring, KeepsTheLastValuesInOrder) {
