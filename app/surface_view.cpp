@@ -51,12 +51,12 @@ void draw_crossings(Widgets& w, const collide::SurfaceFigures& figures, const Cr
   w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
            "Vertices that passed through a face in the step to this frame, either way, and pairs of edges that passed "
            "through each other: on straight lines from the frame before.");
-  const std::string label = "Passed in " + grouped(static_cast<std::uint64_t>(sums.steps)) +
-                            (sums.steps == 1 ? " judged step" : " judged steps") + "###Passed in all";
+  w.figure("Passed in judged steps", vertices_and_edges(sums.vertices, sums.edge_pairs),
+           "The same, summed over all steps judged since this was switched on or the scene reset.");
   w.figure(
-      label.c_str(), vertices_and_edges(sums.vertices, sums.edge_pairs),
-      "The same, summed over all steps judged since this was switched on or the scene reset. While bodies are many "
-      "or machines slow, steps in between are not judged: pause and step (N) to see each.");
+      "Judged steps", grouped(static_cast<std::uint64_t>(sums.steps)),
+      "How many these are. Where bodies are many or the machine is slow, steps in between are not judged: pause and "
+      "step (N) to see each.");
 }
 
 void draw_missed(Widgets& w, const Session& session) {

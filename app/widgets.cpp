@@ -158,8 +158,7 @@ void Widgets::line(const std::string& text) { text_in_line(text, 0.0f); }
 void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
 
 void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
-  const std::string_view shown = std::string_view(label).substr(0, std::string_view(label).find("###"));
-  ImGui::TextDisabled("%.*s", static_cast<int>(shown.size()), shown.data());
+  ImGui::TextDisabled("%s", label);
   ImGui::SameLine();
   value(value_text);
   done(label, tooltip);

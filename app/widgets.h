@@ -69,7 +69,7 @@ class Widgets {
   /// Text that takes the rest of the line whatever it says, flush left or right: changing digits move nothing else.
   void line(const std::string& text);
   void value(const std::string& text);
-  /// A line with a grey label and its value at the right. What follows "###" in the label is its name, and not shown.
+  /// A line with a grey label and its value at the right.
   void figure(const char* label, const std::string& value, const char* tooltip);
   /// A square of colour in the middle of a line.
   void chip(const glm::vec3& colour, float line_height);
