@@ -25,7 +25,9 @@ void draw_method(Widgets& w, Session& session) {
   ImGui::SetNextItemWidth(-FLT_MIN);
   std::string summary(method.summary);
   if (surfaces_hold(session))
-    summary += " With surface contact it moves nothing: its contacts are shown and compared, and wake sleeping bodies.";
+    summary +=
+        " With surface contact it moves nothing: its contacts are shown, compared, and tell which bodies sleep "
+        "together.";
   summary += " (M: next method)";
   const std::string name(method.name);
   if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
