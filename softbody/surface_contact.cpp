@@ -372,7 +372,8 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   row.mass = 1 / mobility;
   row.gap = gap;
   row.target = gap > 0 ? -gap / step.h : std::min(-push_share * gap / step.h, push_speed);
-  if (memory.pressed == 0 && speed < -impact_speed) row.target = std::max(row.target, -step.pair.restitution * speed);
+  const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
+  if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
   row.friction = step.pair.friction;
   row.pressed = memory.pressed;
   row.drag = memory.pressed > 0 ? memory.drag - glm::dot(memory.drag, normal) * normal : glm::vec3(0.0f);

@@ -49,6 +49,7 @@ gravity = [0.5, -1.62, 0]
 
 [collision]
 method = "grid-hash"
+contact_surface = "surface"
 tolerance = 0.2
 self_collision = false
 levels = 6
@@ -71,6 +72,7 @@ internal_damping = 7
 rebound_speed = 1.5
 thickness = 0.03
 friction = 0.35
+restitution = 0.625
 rolling_resistance = 0.15
 contact_stiffness = 55
 start_in_equilibrium = false
@@ -152,6 +154,7 @@ TEST(SceneFile, EveryKeyArrivesWhereItBelongs) {
   EXPECT_EQ(s.look_at, "Every key at once.");
   EXPECT_EQ(s.gravity, glm::dvec3(0.5, -1.62, 0));
   EXPECT_EQ(s.method, "grid-hash");
+  EXPECT_EQ(s.contact_surface, ContactSurface::surfaces);
   EXPECT_EQ(s.collision.tolerance, 0.2f);
   EXPECT_FALSE(s.collision.self_collision);
   EXPECT_EQ(s.collision.levels, 6);
@@ -185,6 +188,7 @@ TEST(SceneFile, MaterialsAndSolids) {
   EXPECT_EQ(m.rebound_speed, 1.5);
   EXPECT_EQ(m.thickness, 0.03);
   EXPECT_EQ(m.friction, 0.35);
+  EXPECT_EQ(m.restitution, 0.625);
   EXPECT_EQ(m.rolling_resistance, 0.15);
   EXPECT_EQ(m.contact_stiffness, 55);
   EXPECT_FALSE(m.start_in_equilibrium);

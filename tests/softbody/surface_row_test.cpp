@@ -1,0 +1,136 @@
+// Contact of the true surfaces, one row of it: one vertex against the middle of a face, by closed forms.
+
+#include "softbody/surface_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+struct Impact {
+  float gap = 0.01f;  // m, beyond the distance that is kept
+  glm::vec3 velocity{0, -10, 0};
+  float restitution = 0, friction = 0;
+  float inverse_a = 2, inverse_b = 0.5f;  // 1/kg, of a particle
+};
+
+/// Triangle a stands on its first vertex above the middle of triangle b, which lies level. b has no velocity.
+class OneRow {
+ public:
+  static constexpr float h = 0.001f, reach = 0.002f;
+  explicit OneRow(const Impact& impact) : impact_(impact) {
+    const double y = double(impact.gap + 2 * reach);
+    place(0, {{0, y, 0}, {0.3, y + 1, 0.1}, {-0.2, y + 1, 0.2}}, impact.velocity);
+    place(1, {{-1, 0, -1}, {1, 0, -1}, {0, 0, 2}}, glm::vec3(0));
+    before_ = v;
+    solve();
+  }
+  /// Of the vertex towards the point of the face below it.
+  glm::dvec3 relative() const { return v.at(0, 0) - (v.at(0, 1) + v.at(1, 1) + v.at(2, 1)) / 3.0; }
+  double mass(int body) const { return 1 / double(body == 0 ? impact_.inverse_a : impact_.inverse_b); }
+  /// What the contact gave to both bodies together: momentum, and angular momentum about the origin.
+  std::pair<glm::dvec3, glm::dvec3> given() const {
+    glm::dvec3 linear(0.0), angular(0.0);
+    for (int body = 0; body < 2; ++body)
+      for (std::size_t i = 0; i < 3; ++i) {
+        const glm::dvec3 p = mass(body) * (v.at(i, body) - before_.at(i, body));
+        linear += p;
+        angular += glm::cross(x.at(i, body), p);
+      }
+    return {linear, angular};
+  }
+  LaneField x{3}, v{3};
+
+ private:
+  void place(int body, const std::vector<glm::dvec3>& corners, const glm::vec3& velocity) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      x.set(i, body, corners[i]);
+      v.set(i, body, glm::dvec3(velocity));
+      seen_[0].push_back(float(corners[i].x)), seen_[1].push_back(float(corners[i].y));
+      seen_[2].push_back(float(corners[i].z));
+      for (int k = 0; k < 3; ++k) speed_[std::size_t(k)].push_back(velocity[k]);
+    }
+    const std::vector<collide::Edge> none;
+    bodies_.add(std::make_shared<const collide::Shape>(3, none));
+  }
+  void solve() {
+    const collide::Surface triangle(3, {{0, 1, 2}});
+    const collide::SurfaceBody traits{&triangle, reach + 0.01f, 0.01f, 1, true};
+    const auto body = [&](std::size_t lane, float inverse_mass) {
+      return ContactBody{glm::dvec3(0.0), lane, inverse_mass, impact_.friction, impact_.restitution};
+    };
+    collide::Workers workers(1);
+    SurfaceContact contact;
+    contact.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
+                 {body(0, impact_.inverse_a), body(1, impact_.inverse_b)}, h, false, workers);
+    contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
+    ASSERT_LE(contact.rows(), 1u);
+    contact.solve(0, 1, v.field(), [] {});
+  }
+
+  Impact impact_;
+  LaneField before_{3};
+  collide::Bodies bodies_;
+  std::array<std::vector<float>, 3> seen_, speed_;
+};
+
+TEST(SurfaceContactRow, LetsTheGapBeUsedUpAndNoMore) {
+  constexpr double rounding = 1e-3;        // m/s: the normal is that of two points some mm apart, in floats of 1 m
+  for (const float speed : {0.4f, 10.0f})  // below the impact speed and above
+    for (const float gap : {0.0f, 0.0001f, 0.0003f})
+      for (const float inverse_b : {0.0f, 0.5f}) {
+        const OneRow row({.gap = gap, .velocity = {0, -speed, 0}, .inverse_b = inverse_b});
+        EXPECT_NEAR(row.relative().y, double(-gap / OneRow::h), rounding) << speed;
+        EXPECT_NEAR(row.relative().x, 0, rounding) << speed;
+      }
+  for (const float restitution : {0.0f, 0.5f}) {
+    const OneRow early({.gap = 0.004f, .velocity = {1, -3, 0}, .restitution = restitution});
+    EXPECT_EQ(early.relative(), glm::dvec3(1, -3, 0)) << "not there yet";
+  }
+  const OneRow leaving({.gap = 0, .velocity = {0, 2, 0}});
+  EXPECT_EQ(leaving.relative(), glm::dvec3(0, 2, 0)) << "never pulled";
+}
+
+TEST(SurfaceContactRow, ThrowsBackByTheRestitution) {
+  for (const float e : {0.25f, 0.5f, 1.0f}) {
+    EXPECT_NEAR(OneRow({.gap = 0, .velocity = {0, -4, 0}, .restitution = e}).relative().y, 4 * e, 1e-5);
+    const double slow = 0.9 * double(impact_speed);
+    EXPECT_NEAR(OneRow({.gap = 0, .velocity = {0, float(-slow), 0}, .restitution = e}).relative().y, 0, 1e-4)
+        << "slow ones are not thrown back";
+  }
+}
+
+TEST(SurfaceContactRow, TakesFrictionTimesTheImpulseFromTheSlip) {
+  for (const float mu : {0.0f, 0.2f, 0.5f, 2.0f}) {
+    const OneRow row({.gap = 0, .velocity = {3, -5, 4}, .friction = mu});
+    const double kept =
+        std::max(0.0, 1 - double(mu) * 5 / 5);  // the slip is 5 m/s, and so is the change along the normal
+    EXPECT_NEAR(row.relative().x, 3 * kept, 1e-3) << mu;
+    EXPECT_NEAR(row.relative().z, 4 * kept, 1e-3) << mu;
+    EXPECT_NEAR(row.relative().y, 0, 1e-3) << mu;
+  }
+}
+
+TEST(SurfaceContactRow, BringsOverlapsApartByATenthASubstepAtMost1MetreASecond) {
+  const float h = OneRow::h;
+  // Still on their own sides, but closer than the distance that is kept.
+  for (const float depth : {0.0005f, 0.001f, 0.003f})
+    EXPECT_NEAR(OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y, 0.1 * double(depth / h), 1e-3);
+}
+
+TEST(SurfaceContactRow, GivesNoMomentumInAll) {
+  const OneRow smooth({.gap = 0, .velocity = {3, -5, 4}}), rough({.gap = 0, .velocity = {3, -5, 4}, .friction = 0.5f});
+  for (const OneRow* row : {&smooth, &rough}) EXPECT_LT(glm::length(row->given().first), 1e-5);
+  EXPECT_LT(glm::length(smooth.given().second), 1e-5);
+  // Friction acts at two points that are the kept distance apart: a couple of at most that times the friction impulse.
+  const double effective = 1 / (1 / rough.mass(0) + 1 / rough.mass(1) / 3);
+  EXPECT_LT(glm::length(rough.given().second), 2 * double(OneRow::reach) * 0.5 * 5 * effective * 1.001);
+}
+
+}  // namespace
+}  // namespace softbody::test
