@@ -30,6 +30,8 @@ void list(const std::string& what) {
     for (const collide::Method& m : collide::methods()) row(m.key, m.name);
   } else if (what == "integrators") {
     for (const softbody::Integrator& i : softbody::integrators()) row(i.key, i.name);
+  } else if (what == "contact-surfaces") {
+    for (const softbody::ContactSurfaceInfo& s : softbody::contact_surfaces) row(s.key, s.name);
   } else {
     list_scenes(scene_folder());
   }

@@ -54,6 +54,10 @@ void add_common_options(CLI::App& command, Options& options) {
 void add_scene_options(CLI::App& command, Options& options) {
   command.add_option("--scene", options.scene, "scene: a key of `list scenes` or a .toml file")->type_name("S");
   add_common_options(command, options);
+  command
+      .add_option("--contact-surface", options.contact_surface,
+                  "what keeps bodies apart: a key of `list contact-surfaces`")
+      ->type_name("K");
 }
 
 CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
@@ -66,7 +70,9 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
       ->type_name("N,N,...");
   simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
   simulate->add_option("--out", options.out, "folder for the pictures (default: the current one)")->type_name("DIR");
-  simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
+  CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
+  simulate->add_flag("--oracle", options.oracle, "with --json: what overlaps and passes through in each frame; slow")
+      ->needs(json);
   return simulate;
 }
 
@@ -92,10 +98,13 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 CLI::App* add_report(CLI::App& cli, Options& options) {
   ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
-  report->add_option("what", r.name, "detection")->required();
+  report->add_option("what", r.name, "detection or contact")->required();
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
-  report->add_option("--threads", r.threads, "threads of the detectors that are timed (default 1)")
+  report
+      ->add_option("--threads", r.threads,
+                   "detection: threads of the detectors that are timed (default 1); contact: runs side by side "
+                   "(default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   report->add_option("--out", options.out, "folder for the report")->type_name("DIR")->required();
@@ -116,6 +125,9 @@ void refuse_empty_values(const CLI::App& command) {
 void check(const Options& options) {
   if (!softbody::find_integrator(options.integrator))
     throw UsageError("--integrator " + options.integrator + ": unknown; use one of: " + softbody::integrator_keys());
+  if (options.contact_surface && !softbody::find_contact_surface(*options.contact_surface))
+    throw UsageError("--contact-surface " + *options.contact_surface +
+                     ": unknown; use one of: " + softbody::contact_surface_keys());
   if (!(options.frame_time >= 1e-6 && options.frame_time <= 1))
     throw UsageError("--dt: must be a number of seconds from 1e-6 to 1, e.g. 0.0166667");
 }
@@ -143,9 +155,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   const CLI::App* detect = add_detect(cli, options);
   const CLI::App* report = add_report(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
-  list->add_option("what", options.list_of, "scenes, methods or integrators")
+  list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
       ->required()
-      ->check(CLI::IsMember({"scenes", "methods", "integrators"}));
+      ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
 
   try {
     cli.parse(argc, argv);
@@ -172,6 +184,7 @@ softbody::Scene load_scene(const Options& options) {
   scene.method = chosen_method(options.detection, scene.method).key;
   apply(options.detection, scene.collision);
   if (options.detection.cell_size) scene.default_cell_size = false;
+  if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
   return scene;
 }
 

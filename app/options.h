@@ -33,13 +33,14 @@ struct ReportOptions {
   std::string name;                  // which report
   std::optional<std::string> scene;  // only this one
   bool quick = false;                // within a minute: less of everything
-  int threads = 1;                   // of the detectors that are timed
+  std::optional<int> threads;        // detection: of the detectors that are timed; contact: runs side by side
 };
 
 struct Options {
   Command command = Command::demo;
   std::string scene = "drop";
   DetectionOptions detection;
+  std::optional<std::string> contact_surface;  // a key; otherwise the scene's
   DetectOptions detect;
   ReportOptions report;
   std::string integrator;
@@ -50,7 +51,8 @@ struct Options {
   std::vector<int> captures;  // frames to write a picture of, ascending
   std::filesystem::path out = ".";
   bool json = false;
-  std::string list_of;  // "scenes", "methods" or "integrators"
+  bool oracle = false;  // `simulate --json`: the surface oracle's figures of each frame
+  std::string list_of;  // "scenes", "methods", "integrators" or "contact-surfaces"
 };
 
 /// Throws UsageError. Nothing if help or the version was asked for, which is printed.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "app/report_contact.h"
 #include "app/report_detection.h"
 
 namespace app {
@@ -14,7 +15,7 @@ struct Report {
 };
 
 /// All there are.
-constexpr std::array reports{Report{"detection", report_detection}};
+constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact}};
 
 const Report& find_report(const std::string& name) {
   const auto found = std::ranges::find(reports, name, &Report::name);

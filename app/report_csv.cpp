@@ -1,41 +1,9 @@
 #include "app/report_csv.h"
 
-#include "app/report_text.h"
+#include "app/csv_line.h"
 
 namespace app {
 namespace {
-
-/// One line, field by field.
-class Line {
- public:
-  explicit Line(std::string& text) : text_(text) {}
-  ~Line() { text_ += '\n'; }
-  Line(const Line&) = delete;
-  Line& operator=(const Line&) = delete;
-
-  void add(std::string_view field) {
-    if (!first_) text_ += ',';
-    first_ = false;
-    if (field.find_first_of(",\"\r\n") == std::string_view::npos) {
-      text_ += field;
-      return;
-    }
-    text_ += '"';
-    for (const char c : field) text_.append(c == '"' ? 2 : 1, c);
-    text_ += '"';
-  }
-  void add(double number) { add(std::string_view(format("%.9g", number))); }
-  void add(std::uint64_t number) { add(std::string_view(std::to_string(number))); }
-  /// The number if it means something, else an empty field.
-  template <class Number>
-  void add_if(bool known, Number number) {
-    known ? add(number) : add(std::string_view());
-  }
-
- private:
-  std::string& text_;
-  bool first_ = true;
-};
 
 constexpr std::string_view coverage_name(collide::Coverage coverage) {
   switch (coverage) {
@@ -50,7 +18,7 @@ constexpr std::string_view coverage_name(collide::Coverage coverage) {
 }
 
 void add_header(std::string& text) {
-  Line line(text);
+  CsvLine line(text);
   for (const char* name : {"part",       "scene",  "frame",    "bodies",        "vertices",    "method",  "levels",
                            "buckets",    "cell",   "cell_x",   "cell_y",        "cell_z",      "not_run", "repetitions",
                            "ms_median",  "ms_min", "contacts", "true_contacts", "missed",      "recall",  "precision",
@@ -60,7 +28,7 @@ void add_header(std::string& text) {
   line.add(std::string_view("reference"));
 }
 
-void add_settings(Line& line, const Configuration& c) {
+void add_settings(CsvLine& line, const Configuration& c) {
   const collide::Method& method = method_of(c);
   line.add(method.key);
   line.add_if(method.uses_levels, static_cast<std::uint64_t>(c.settings.levels));
@@ -69,7 +37,7 @@ void add_settings(Line& line, const Configuration& c) {
   for (int axis = 0; axis < 3; ++axis) line.add_if(method.uses_hash, double{c.settings.cell_size[axis]});
 }
 
-void add_measured(Line& line, const SweepRow& row, const SweepReport& sweep) {
+void add_measured(CsvLine& line, const SweepRow& row, const SweepReport& sweep) {
   const bool run = row.not_run.empty();
   const bool scored = run && sweep.reference;
   line.add(row.not_run);
@@ -93,7 +61,7 @@ void add_measured(Line& line, const SweepRow& row, const SweepReport& sweep) {
 void add_rows(std::string& text, std::string_view part, const SceneResult& scene) {
   for (const StateResult& state : scene.states) {
     for (const SweepRow& row : state.sweep.rows) {
-      Line line(text);
+      CsvLine line(text);
       line.add(part);
       line.add(scene.scene);
       for (const std::uint64_t number :

@@ -1,14 +1,10 @@
 #include "app/report_detection.h"
 
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 
-#include "app/gnuplot.h"
 #include "app/output_file.h"
-#include "app/report.h"
 #include "app/report_csv.h"
+#include "app/report_files.h"
 #include "app/report_markdown.h"
 #include "app/report_plots.h"
 #include "app/report_recording.h"
@@ -17,20 +13,6 @@ namespace app {
 namespace {
 
 constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
-
-/// A terminal's last line says what is going on.
-void say(const std::string& what, double progress) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
-}
-
-softbody::Scene scene_named(const std::string& name) { return softbody::find_scene(name, scene_folder()); }
-
-std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
-  if (options.scene) return {scene_named(*options.scene)};
-  std::vector<softbody::Scene> scenes;
-  for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));
-  return scenes;
-}
 
 SweepLimits limits_of(const ReportOptions& options) {
   if (options.quick) return {.repetitions = 3, .repeat_ms = 50};
@@ -84,12 +66,10 @@ DetectionResults measure(const Options& options, const std::vector<softbody::Sce
   const ReportOptions& o = options.report;
   DetectionResults results;
   results.quick = o.quick;
-  results.threads = o.threads;
+  results.threads = o.threads.value_or(1);
   results.limits = limits_of(o);
-  results.command = std::string("sbcollide report detection") + (o.scene ? " --scene " + *o.scene : "") +
-                    (o.quick ? " --quick" : "") + (o.threads > 1 ? " --threads " + std::to_string(o.threads) : "") +
-                    " --out DIR";
-  collide::Workers workers(o.threads);
+  results.command = command_of(o);
+  collide::Workers workers(results.threads);
   const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
   const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
@@ -104,40 +84,17 @@ DetectionResults measure(const Options& options, const std::vector<softbody::Sce
   return results;
 }
 
-void write(const std::filesystem::path& file, std::string_view bytes) {
-  OutputFile out(file);
-  out.write(bytes);
-  out.commit();
-}
-
-/// File names and contents; empty if they cannot be drawn, which is said: the figures are worth having without them.
-std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
-  std::vector<std::pair<std::string, std::string>> pictures;
-  try {
-    for (const Plot& plot : plots) {
-      pictures.emplace_back(plot.name + ".svg", draw(plot.script, Picture::svg));
-      pictures.emplace_back(plot.name + ".png", draw(plot.script, Picture::png));
-    }
-  } catch (const std::runtime_error& error) {
-    std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
-    pictures.clear();
-  }
-  return pictures;
-}
-
 }  // namespace
 
 void report_detection(const Options& options) {
   const std::vector<softbody::Scene> scenes = chosen_scenes(options.report);
   prepare_folder(options.out);
   const DetectionResults results = measure(options, scenes);
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%60s\r", "");
-  std::vector<Plot> plots = detection_plots(results);
-  const auto pictures = draw_all(plots);
-  if (pictures.empty()) plots.clear();
-  write(options.out / "detection.csv", detection_csv(results));
-  for (const auto& [name, bytes] : pictures) write(options.out / name, bytes);
-  write(options.out / "report.md", detection_markdown(results, plots));
+  write_report(options.out, {.csv_name = "detection.csv",
+                             .csv = detection_csv(results),
+                             .markdown_name = "report.md",
+                             .plots = detection_plots(results),
+                             .markdown = [&](const auto& drawn) { return detection_markdown(results, drawn); }});
 }
 
 }  // namespace app

@@ -8,9 +8,6 @@
 #include "app/report_text.h"
 
 namespace app {
-namespace {
-
-/// As gnuplot reads a string without escapes.
 std::string literal(std::string_view text) {
   std::string result = "'";
   for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
@@ -22,12 +19,7 @@ std::string colour(const collide::Method& method) {
   return format("'#%02x%02x%02x'", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
 }
 
-constexpr const char* style =
-    "set logscale xy\n"
-    "set grid xtics ytics linecolor '#dddddd' linewidth 1 linetype 1\n"
-    "set border linecolor '#666666'\n"
-    "set key outside top center horizontal maxcols 3 reverse Left samplen 1.5 width -3\n"
-    "set xtics format '%g'\n";
+namespace {
 
 /// Where points without any error lie on an axis that has no 0: below all others, a lane a method, so that they do not
 /// hide each other.
@@ -118,7 +110,7 @@ std::string add_points(std::string& script, const std::vector<Mean>& means, cons
 Plot error_against_time(const SceneResult& scene) {
   const std::vector<Mean> all = means(scene);
   const Floor floor(all);
-  std::string script = style + error_axis(floor);
+  std::string script = plot_style + error_axis(floor);
   script += joined("set title ", literal(joined(scene.name, ": error against run time")), "\n");
   script += "set xlabel 'detection from scratch, ms a frame'\nset ylabel 'missed share of the true contacts'\n";
   add_front(script, all, floor);
@@ -157,7 +149,7 @@ std::string title(const Configuration& c) {
 }
 
 Plot cost_against_bodies(const SceneResult& growth) {
-  std::string script = style, plots;
+  std::string script = plot_style, plots;
   script +=
       "set title 'Cost of a frame against the number of bodies'\nset xlabel 'bodies'\n"
       "set ylabel 'detection from scratch, ms a frame'\nset ytics format '%g'\n";

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/output_file.h"
+#include "app/world_oracle.h"
 #include "softbody/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/capture.h"
@@ -26,6 +27,7 @@ struct Row {
   softbody::Profile profile;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
+  std::optional<collide::SurfaceFigures> oracle;  // if asked for
 };
 
 Row take_row(const softbody::World& world) {
@@ -35,20 +37,33 @@ Row take_row(const softbody::World& world) {
           d.contacts.size() - d.self_contacts,
           d.self_contacts,
           world.solid_contacts().size(),
-          softbody::measure(world)};
+          softbody::measure(world),
+          {}};
+}
+
+Json to_json(const collide::SurfaceFigures& f) {
+  return {{"penetrating_vertices", f.penetrating_vertices},
+          {"overlapping_pairs", f.overlapping_pairs},
+          {"self_intersecting_bodies", f.self_intersecting_bodies},
+          {"deepest", f.deepest},
+          {"mean_depth", f.mean_depth},
+          {"crossed_vertices", f.crossed_vertices},
+          {"edge_crossings", f.edge_crossings}};
 }
 
 Json to_json(const Row& r) {
   const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
-  return {{"frame", r.frame},
-          {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
-          {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
-          {"energy", m.energy},
-          {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
-          {"deepest_penetration", m.deepest_penetration},
-          {"max_speed", m.max_speed},
-          {"finite", m.finite}};
+  Json row{{"frame", r.frame},
+           {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
+           {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
+           {"energy", m.energy},
+           {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
+           {"deepest_penetration", m.deepest_penetration},
+           {"max_speed", m.max_speed},
+           {"finite", m.finite}};
+  if (r.oracle) row["oracle"] = to_json(*r.oracle);
+  return row;
 }
 
 Json to_json(const softbody::Plan& plan) {
@@ -157,11 +172,15 @@ void simulate(const Options& options) {
   Pictures pictures(options);
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
+  WorldOracle oracle(options.oracle ? options.threads : 1);
+  if (options.oracle) oracle.crossings(world);  // from where the first frame starts
   std::vector<Row> rows;
   rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
     rows.push_back(take_row(world));
+    if (options.oracle)
+      rows.back().oracle = collide::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
   }

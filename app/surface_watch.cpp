@@ -1,5 +1,7 @@
 #include "app/surface_watch.h"
 
+#include "app/world_oracle.h"
+
 namespace app {
 namespace {
 
@@ -10,7 +12,7 @@ StepCopy copy_step(const softbody::World& world, const Positions& before, std::u
   copy.before = before;
   copy.at.copy(world.positions());
   copy.bodies = world.bodies();
-  for (collide::Index b = 0; b < copy.bodies.count(); ++b) copy.surfaces.push_back(world.prototype(b).surface);
+  copy.surfaces = surfaces_of(world);
   copy.contacts = world.detection().contacts;
   return copy;
 }

@@ -27,6 +27,8 @@ const Bad bad_lines[]{
     {"missing_scene_file", {"simulate", "--scene", "none.toml", "--frames", "2"}, {"none.toml", "cannot be read"}},
     {"unknown_method", drop({"--method", "magic"}), {"--method magic", "brute-force"}},
     {"unknown_integrator", drop({"--integrator", "magic"}), {"--integrator magic", "semi-implicit-euler"}},
+    {"unknown_contact_surface", drop({"--contact-surface", "magic"}), {"magic", "vertex-vertex, surface"}},
+    {"oracle_without_json", {"simulate", "--scene", "drop", "--frames", "2", "--oracle"}, {"--oracle", "--json"}},
     {"unknown_option", drop({"--magic"}), {"--magic"}},
     {"unknown_command", {"magic"}, {"magic"}},
     {"unknown_list", {"list", "magic"}, {"magic", "scenes"}},

@@ -65,6 +65,12 @@ TEST(List, MethodsHasTheKeysOfTheContract) {
 
 TEST(List, IntegratorsHasTheDefault) { EXPECT_TRUE(rows("integrators").contains("semi-implicit-euler")); }
 
+TEST(List, ContactSurfacesHasThePapersAndTheTrueOne) {
+  const auto surfaces = rows("contact-surfaces");
+  EXPECT_EQ(surfaces.size(), 2u);
+  EXPECT_TRUE(surfaces.contains("vertex-vertex") && surfaces.contains("surface"));
+}
+
 TEST(List, EveryMethodAndIntegratorListedRuns) {
   for (const auto& [key, name] : rows("methods"))
     EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--method", key})["method"], key);

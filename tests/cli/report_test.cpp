@@ -3,57 +3,10 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include <fstream>
-#include <map>
-#include <set>
-
-#include "tests/cli/process.h"
+#include "tests/cli/report_rig.h"
 
 namespace cli::test {
 namespace {
-
-using Row = std::map<std::string, std::string>;  // by column
-
-/// One line of CSV; a quoted field may hold commas and doubled quotes.
-std::vector<std::string> fields(const std::string& line) {
-  std::vector<std::string> all(1);
-  bool quoted = false;
-  for (std::size_t i = 0; i < line.size(); ++i) {
-    if (line[i] == '"' && quoted && line[i + 1] == '"') {
-      all.back() += line[i++];
-    } else if (line[i] == '"') {
-      quoted = !quoted;
-    } else if (line[i] == ',' && !quoted) {
-      all.emplace_back();
-    } else {
-      all.back() += line[i];
-    }
-  }
-  return all;
-}
-
-std::vector<Row> read_csv(const std::filesystem::path& file) {
-  std::ifstream in(file);
-  std::string line;
-  std::getline(in, line);
-  const auto names = fields(line);
-  std::vector<Row> rows;
-  while (std::getline(in, line)) {
-    const auto values = fields(line);
-    EXPECT_EQ(values.size(), names.size()) << line;
-    for (std::size_t i = 0; i < std::min(values.size(), names.size()); ++i) {
-      if (i == 0) rows.emplace_back();
-      rows.back()[names[i]] = values[i];
-    }
-  }
-  return rows;
-}
-
-std::set<std::string> names_in(const std::filesystem::path& folder) {
-  std::set<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) names.insert(entry.path().filename());
-  return names;
-}
 
 /// Four balls that fall into each other; the key asks for care where it is written.
 const std::filesystem::path& balls() {
@@ -85,13 +38,6 @@ std::vector<Row> sweep_rows() {
     if (row["part"] == "sweep") rows.push_back(std::move(row));
   }
   return rows;
-}
-
-double number(const std::string& text) {
-  std::size_t end = 0;
-  const double value = text.empty() ? -1 : std::stod(text, &end);
-  EXPECT_TRUE(!text.empty() && end == text.size()) << "'" << text << "' is no number";
-  return value;
 }
 
 std::string methods_table() { return run({"list", "methods"}).out; }
@@ -172,7 +118,7 @@ TEST(Report, TheMarkdownSaysHowItWasMadeAndShowsThePlotsThatAreThere) {
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
   EXPECT_NE(text.find("1 thread,"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
-  for (const std::string& name : names_in(quick_report())) {
+  for (const std::string& name : file_names(quick_report())) {
     EXPECT_GT(std::filesystem::file_size(quick_report() / name), 1000u) << name;
     if (name.ends_with(".svg")) {
       EXPECT_NE(text.find("](<" + name + ">)"), std::string::npos) << name;
@@ -203,7 +149,7 @@ TEST(Report, WithoutGnuplotOnlyThePlotsAreLeftOut) {
   EXPECT_EQ(o.status, 0);
   EXPECT_NE(o.err.find("gnuplot-nox"), std::string::npos) << o.err;
   EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1);
-  EXPECT_EQ(names_in(folder.path()), (std::set<std::string>{"detection.csv", "report.md"}));
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"detection.csv", "report.md"}));
   EXPECT_EQ(read_file(folder.path() / "report.md").find("!["), std::string::npos) << "no links to what is not there";
 }
 
@@ -230,7 +176,7 @@ TEST(Report, BadInputIsRefusedInOneLineAndLeavesNothing) {
   EXPECT_EQ(read_file(file), "not a folder");
   EXPECT_FALSE(std::filesystem::exists(out)) << "not even the folder";
   refused({"detection", "--scene", nobody, "--quick", "--out", out}, {"nobody", "no body"});
-  EXPECT_EQ(names_in(out), std::set<std::string>{}) << "known only after a simulation";
+  EXPECT_EQ(file_names(out), std::set<std::string>{}) << "known only after a simulation";
 }
 
 }  // namespace

@@ -188,6 +188,37 @@ TEST(Simulate, PrimesReachTheHashAndPoorOnesAreNamed) {
   EXPECT_EQ(simulate({"--scene", "drop", "--frames", "1"})["warnings"], json::array());
 }
 
+TEST(Simulate, TheContactSurfaceIsTheOneAskedFor) {
+  const auto stages = [](std::vector<std::string> more) {
+    more.insert(more.end(), {"--scene", "drop", "--frames", "1"});
+    const json d = simulate(more);
+    return std::pair(d["plan"]["stages"].dump(), d["state_hash"]);
+  };
+  const auto surface = stages({"--contact-surface", "surface"}), paper = stages({"--contact-surface", "vertex-vertex"});
+  EXPECT_NE(surface.first.find("surface-contact"), std::string::npos);
+  EXPECT_EQ(paper.first.find("surface-contact"), std::string::npos);
+  EXPECT_EQ(stages({}), paper) << "the scene's own";
+}
+
+TEST(Simulate, TheOracleCountsWhatOverlapsAndWhatPassesThrough) {
+  const TemporaryFolder folder;  // one ball held in another, a third that flies through both in frame 2
+  const auto scene = folder.write("through.toml",
+                                  "gravity = [0, 0, 0]\n[[body]]\nrelease = 99\n[[body]]\nposition = [0.8, 3, 0]\n"
+                                  "release = 99\n[[body]]\nposition = [0.4, 9, 0.1]\nvelocity = [0, -300, 0]\n");
+  const json frames = simulate({"--scene", scene, "--frames", "2", "--oracle"})["frames"];
+  const json &first = frames[0]["oracle"], &second = frames[1]["oracle"];
+  EXPECT_EQ(keys(first), (Keys{"penetrating_vertices", "overlapping_pairs", "self_intersecting_bodies", "deepest",
+                               "mean_depth", "crossed_vertices", "edge_crossings"}));
+  EXPECT_EQ(first["overlapping_pairs"], 1);
+  EXPECT_GT(first["penetrating_vertices"], 10);
+  EXPECT_NEAR(first["deepest"], 0.2, 0.02) << "two balls of 0.5 m, 0.8 m apart; the faces lie a little inside";
+  EXPECT_GT(first["deepest"], first["mean_depth"]);
+  EXPECT_EQ(first["crossed_vertices"], 0) << "it is still above them";
+  EXPECT_GT(second["crossed_vertices"], 100);
+  EXPECT_GT(second["edge_crossings"], 100);
+  EXPECT_EQ(second["penetrating_vertices"], first["penetrating_vertices"]) << "and below them after";
+}
+
 TEST(Simulate, WithoutJsonPrintsAShortTable) {
   const Outcome o = run({"simulate", "--scene", "drop", "--frames", "100"});
   EXPECT_EQ(o.status, 0);

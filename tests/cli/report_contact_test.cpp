@@ -1,0 +1,108 @@
+// `report contact`: the files that it leaves, and that its figures are those of known states.
+
+#include <gtest/gtest.h>
+
+#include "tests/cli/report_rig.h"
+
+namespace cli::test {
+namespace {
+
+/// The rows of a quick report on one scene without gravity; by "surface", "multi-level-sb", "multi-level-sb-exact".
+std::map<std::string, Row> rows_of(const std::string& bodies, std::string* markdown = nullptr) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("state.toml", "gravity = [0, 0, 0]\n[collision]\ntolerance = 0.1\n" + bodies);
+  const auto out = folder.path() / "out";
+  const Outcome o = run({"report", "contact", "--quick", "--scene", scene, "--out", out});
+  EXPECT_EQ(o.status, 0) << o.err;
+  if (markdown) *markdown = read_file(out / "contact.md");
+  std::map<std::string, Row> rows;
+  for (Row& row : read_csv(out / "contact.csv")) {
+    EXPECT_EQ(row["part"], "scene");
+    EXPECT_EQ(row["scene"], "state");
+    const std::string key = row["method"].empty() ? row["contact_surface"] : row["method"];
+    EXPECT_TRUE(rows.emplace(key, std::move(row)).second) << "twice";
+  }
+  EXPECT_EQ(rows.size(), 3u);
+  return rows;
+}
+
+TEST(ContactReport, AKnownPenetrationIsCountedInEveryRow) {
+  std::string markdown;
+  const auto rows = rows_of("[[body]]\nrelease = 9999\n[[body]]\nposition = [0.8, 3, 0]\nrelease = 9999\n", &markdown);
+  for (auto [key, row] : rows) {
+    EXPECT_EQ(row["not_run"], "") << key;
+    EXPECT_EQ(number(row["radius"]), 0.5);
+    EXPECT_EQ(row["bodies"], "2");
+    EXPECT_NEAR(number(row["deepest"]), 0.2, 0.02) << key << ": 0.5 m each, 0.8 m apart, held there";
+    EXPECT_EQ(row["deepest"], row["end_depth"]);
+    EXPECT_GT(number(row["mean_depth"]), 0);
+    EXPECT_LT(number(row["mean_depth"]), number(row["deepest"]));
+    EXPECT_GT(number(row["penetrations"]), 10 * number(row["looks"]));
+    EXPECT_EQ(row["end_overlapping_pairs"], "1");
+    EXPECT_EQ(row["passed"], "0");
+    EXPECT_EQ(row["jitter"], "0");
+    EXPECT_EQ(row["finite"], "1");
+    EXPECT_GT(number(row["cpu_ms"]), 0);
+    EXPECT_NE(row["failures"].find("R deep at the end"), std::string::npos) << row["failures"];
+    EXPECT_EQ(row["failures"].find("awake"), std::string::npos) << "without gravity nothing has to come to rest";
+  }
+  Row surface = rows.at("surface"), exact = rows.at("multi-level-sb-exact");
+  EXPECT_EQ(surface["missed"], "");
+  EXPECT_EQ(surface["tolerance"], "");
+  EXPECT_EQ(number(exact["tolerance_ratio"]), 1);
+  EXPECT_NEAR(number(exact["tolerance"]), 0.1, 1e-6);
+  EXPECT_GT(number(exact["missed"]), 0) << "the deepest vertex is 0.2 m from all of the other's";
+  EXPECT_LT(number(exact["missed"]), number(exact["penetrations"]));
+  EXPECT_NE(markdown.find("| Surface | 1 of 1 |"), std::string::npos) << markdown;
+}
+
+TEST(ContactReport, WhatFliesThroughIsSeenThoughItNeverOverlapsInAFrame) {
+  const auto rows = rows_of("[[body]]\n[[body]]\nposition = [0, 9.25, 0.1]\nvelocity = [0, -150, 0]\n");
+  for (const char* key : {"multi-level-sb", "multi-level-sb-exact"}) {
+    Row row = rows.at(key);
+    EXPECT_EQ(row["penetrations"], "0") << "from one side to the other in one frame";
+    EXPECT_GT(number(row["passed"]), 162) << "of either body most";
+    EXPECT_NE(row["failures"].find("passed"), std::string::npos);
+  }
+}
+
+TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
+  for (auto [key, row] : rows_of("[[body]]\n[[body]]\nposition = [3, 3, 0]\n")) {
+    EXPECT_EQ(row["failures"], "") << key;
+    EXPECT_EQ(row["penetrations"], "0");
+    EXPECT_EQ(row["missed"], key == "surface" ? "" : "0");
+  }
+}
+
+TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
+  const TemporaryFolder folder;
+  const Outcome o = run({"report", "contact", "--quick", "--scene", "drop-3000", "--out", folder.path()});
+  EXPECT_EQ(o.status, 0) << o.err;
+  for (Row row : read_csv(folder.path() / "contact.csv")) {
+    EXPECT_NE(row["not_run"].find("budget"), std::string::npos);
+    EXPECT_EQ(row["deepest"], "");
+    EXPECT_EQ(row["failures"], "");
+  }
+  EXPECT_NE(read_file(folder.path() / "contact.md").find("Not run: over the budget"), std::string::npos);
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contact.csv", "contact.md"})) << "nothing to plot";
+}
+
+TEST(ContactReport, TheMarkdownShowsThePlotThatIsThere) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("pair.toml", "gravity = [0, 0, 0]\n[[body]]\n[[body]]\nposition = [3, 3, 0]\n");
+  const auto out = folder.path() / "new" / "out";
+  const Outcome o = run({"report", "contact", "--quick", "--scene", scene, "--threads", "1", "--out", out});
+  EXPECT_EQ(o.status, 0) << o.err;
+  const std::string text = read_file(out / "contact.md");
+  EXPECT_NE(text.find("`sbcollide report contact --scene " + scene.string() + " --quick --threads 1 --out DIR`"),
+            std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  for (const std::string& name : file_names(out)) {
+    if (name.ends_with(".svg")) {
+      EXPECT_NE(text.find("](<" + name + ">)"), std::string::npos) << name;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cli::test

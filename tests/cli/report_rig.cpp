@@ -1,0 +1,54 @@
+#include "tests/cli/report_rig.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace cli::test {
+namespace {
+
+/// One line of CSV; a quoted field may hold commas and doubled quotes.
+std::vector<std::string> fields(const std::string& line) {
+  std::vector<std::string> all(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    if (line[i] == '"' && quoted && line[i + 1] == '"') {
+      all.back() += line[i++];
+    } else if (line[i] == '"') {
+      quoted = !quoted;
+    } else if (line[i] == ',' && !quoted) {
+      all.emplace_back();
+    } else {
+      all.back() += line[i];
+    }
+  }
+  return all;
+}
+
+}  // namespace
+
+std::vector<Row> read_csv(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::string line;
+  std::getline(in, line);
+  const auto names = fields(line);
+  std::vector<Row> rows;
+  while (std::getline(in, line)) {
+    const auto values = fields(line);
+    EXPECT_EQ(values.size(), names.size()) << line;
+    for (std::size_t i = 0; i < std::min(values.size(), names.size()); ++i) {
+      if (i == 0) rows.emplace_back();
+      rows.back()[names[i]] = values[i];
+    }
+  }
+  return rows;
+}
+
+double number(const std::string& text) {
+  std::size_t end = 0;
+  const double value = text.empty() ? -1 : std::stod(text, &end);
+  EXPECT_TRUE(!text.empty() && end == text.size()) << "'" << text << "' is no number";
+  return value;
+}
+
+}  // namespace cli::test
