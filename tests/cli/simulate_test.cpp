@@ -76,6 +76,7 @@ TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
   }
   EXPECT_EQ(all, (Keys{"arrive",
                        "contact-response",
+                       "surface-contact",
                        "structural-springs",
                        "bend-springs",
                        "shear-springs",
