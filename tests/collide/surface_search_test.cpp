@@ -1,7 +1,5 @@
 // The candidates of surface contact: nothing that comes within reach is missing, whatever moves how.
 
-#include "collide/surface_search.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -9,51 +7,10 @@
 #include <limits>
 
 #include "every_target.h"
-#include "surface_meshes.h"
+#include "moving_surfaces.h"
 
 namespace collide::test {
 namespace {
-
-/// Bodies that move, and what is asked about them.
-struct Moving {
-  Scene scene;
-  std::vector<glm::vec3> velocity;  // m/s, of every vertex
-  std::vector<SurfaceBody> traits;
-  float seconds = 0.05f;
-
-  /// velocity_of(position seen from the body's middle): m/s.
-  template <class Velocity>
-  void add(const SurfaceMesh& mesh, const glm::vec3& at, float reach, float slack, const Velocity& velocity_of) {
-    scene.add(moved(mesh, at));
-    for (const glm::vec3& v : mesh.vertices) velocity.push_back(velocity_of(v));
-    traits.push_back({scene.surfaces.back().get(), reach + slack, slack, 0.3f, true});
-  }
-  Index first(Index body) const { return scene.state.bodies.first[body]; }
-  /// Where all vertices are after `time`, each off its path by up to its body's slack.
-  Scene after(float time, std::mt19937& random) const;
-};
-
-Scene Moving::after(float time, std::mt19937& random) const {
-  Scene later = scene;
-  for (Index body = 0; body < traits.size(); ++body)
-    for (Index v = first(body); v < first(body + 1); ++v) {
-      const glm::vec3 way = random_points(random, 1, -1, 1)[0], u = traits[body].moves ? velocity[v] : glm::vec3(0);
-      const glm::vec3 stray = 0.999f * traits[body].slack * way / std::max(1e-3f, glm::length(way));
-      const glm::vec3 x = scene.at(v) + time * u + (traits[body].moves ? stray : glm::vec3(0));
-      later.state.x[v] = x.x, later.state.y[v] = x.y, later.state.z[v] = x.z;
-    }
-  return later;
-}
-
-struct Found {
-  SurfaceSearch search;
-  std::vector<float> vx, vy, vz;
-  Found(const Moving& m, bool self, int threads = 1) {
-    for (const glm::vec3& v : m.velocity) vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z);
-    Workers workers(threads);
-    search.find({m.scene.frame(), vx, vy, vz}, m.traits, m.seconds, self, workers);
-  }
-};
 
 /// Everything that was found, as numbers that can be compared.
 std::vector<std::array<float, 8>> listed(const SurfaceSearch& search) {
@@ -293,72 +250,6 @@ TEST(SurfaceSearch, ComesInAscendingOrderEachPairOnce) {
     }
   }
   EXPECT_EQ(next, s.features().size());
-}
-
-/// Dented balls that are strained more and more: those that are not looked into must not pierce themselves at any time.
-TEST(SurfaceSearch, StarShapedBodiesNeverPierceThemselves) {
-  std::mt19937 random(65);
-  int skipped = 0, pierced = 0;
-  for (int trial = 0; trial < 200; ++trial) {
-    const float dent = uniform(random, 0, 0.5f), part = uniform(random, 0, 1), strain = 20 * part * part * part,
-                slack = uniform(random, 0, 0.002f);
-    SurfaceMesh mesh = ball(0.5f, 1);
-    for (glm::vec3& v : mesh.vertices) v *= uniform(random, 1 - dent, 1);
-    const std::vector<glm::vec3> r = random_points(random, 3, -100, 100);
-    Moving m;
-    m.add(mesh, r[0], 0.01f, slack, [&](const glm::vec3& v) {
-      return r[1] + 0.1f * glm::cross(r[2], v) + strain * random_points(random, 1, -1, 1)[0];
-    });
-    const bool star = Found(m, true).search.unfolded() == 1;
-    skipped += star;
-    bool pierces = false;
-    for (const float when : {0.0f, 0.3f, 0.6f, 1.0f})
-      pierces = pierces || figures_of(m.after(when * m.seconds, random)).self_intersecting_bodies > 0;
-    pierced += pierces;
-    EXPECT_FALSE(star && pierces) << trial;
-  }
-  EXPECT_GT(skipped, 20) << pierced;
-  EXPECT_GT(pierced, 20) << skipped;
-}
-
-TEST(SurfaceSearch, BodiesThatAreNoStarAreLookedInto) {
-  const auto unfolded = [](const SurfaceMesh& mesh) {
-    Moving m;
-    m.add(mesh, glm::vec3(3, 1, 2), 0.01f, 0.001f, [](const glm::vec3&) { return glm::vec3(0); });
-    return Found(m, true).search.unfolded();
-  };
-  EXPECT_EQ(unfolded(ball(1)), 1u);
-  EXPECT_EQ(unfolded(valley()), 0u);
-  SurfaceMesh inverted = ball(1);
-  for (Triangle& f : inverted.triangles) std::swap(f[1], f[2]);
-  EXPECT_EQ(unfolded(inverted), 0u);
-  SurfaceMesh twice = ball(1), second = turned(ball(0.95f), glm::vec3(1, 2, 3), 0.5f);  // one in the other
-  for (const Triangle& f : second.triangles) twice.triangles.push_back({f[0] + 162, f[1] + 162, f[2] + 162});
-  twice.vertices.insert(twice.vertices.end(), second.vertices.begin(), second.vertices.end());
-  EXPECT_EQ(unfolded(twice), 0u) << "every face looks outwards, but the surface winds around the middle twice";
-}
-
-TEST(SurfaceSearch, HoldsWhileNoVertexStraysBeyondTheSlack) {
-  std::mt19937 random(66);
-  Moving m;
-  const glm::vec3 fly(3, -20, 1);
-  m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.05f, [&](const glm::vec3&) { return fly; });
-  m.add(ball(0.5f), glm::vec3(0, 1, 0), 0.01f, 0.05f, [&](const glm::vec3&) { return fly; });
-  m.traits[1].moves = false;
-  Found found(m, false);
-  EXPECT_TRUE(found.search.holds(m.after(0.02f, random).frame(), 0.02f));
-  EXPECT_FALSE(found.search.holds(m.scene.frame(), 0.02f)) << "it did not move";
-  Found again(m, false);
-  Scene off = m.after(0, random);
-  off.state.x = m.scene.state.x, off.state.y = m.scene.state.y, off.state.z = m.scene.state.z;
-  off.state.x[5] += 0.03f;
-  EXPECT_TRUE(again.search.holds(off.frame(), 0));
-  EXPECT_NEAR(again.search.stray(0), 0.03f, 1e-6);
-  off.state.x[5] += 0.03f;
-  EXPECT_FALSE(again.search.holds(off.frame(), 0));
-  EXPECT_NEAR(again.search.stray(0), 0.06f, 1e-6);
-  EXPECT_EQ(again.search.stray(1), 0);
-  EXPECT_FALSE(again.search.holds(m.scene.frame(), 0)) << "what was off has not been foreseen";
 }
 
 TEST(SurfaceSearch, SpeedBoundsTheRelativeSpeedOfAPairsVertices) {

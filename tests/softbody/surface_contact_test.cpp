@@ -5,50 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "collide/surface_oracle.h"
-#include "tests/softbody/helpers.h"
+#include "tests/softbody/surface_rig.h"
 
 namespace softbody::test {
 namespace {
-
-Material rubber(double friction = 0.5) {
-  Material m = gas_ball();
-  m.thickness = 0.005;
-  m.friction = friction;
-  return m;
-}
-
-/// One ball of 0.5 m without gravity or solids.
-Scene ball_in_space(const Material& material, const glm::dvec3& velocity = glm::dvec3(0.0)) {
-  Scene scene = lone_body(material, velocity);
-  scene.contact_surface = ContactSurface::surfaces;
-  scene.collision.self_collision = true;
-  return scene;
-}
-
-/// The exact oracle, frame by frame.
-class Judge {
- public:
-  explicit Judge(const World& world) : world_(world) {
-    for (BodyId b = 0; b < world.bodies().count(); ++b) surfaces_.push_back(world.prototype(b).surface);
-  }
-  /// What overlaps now.
-  collide::SurfaceFigures look() {
-    return collide::figures_of(world_.positions(), collide::find_overlaps(world_.positions(), surfaces_, workers_));
-  }
-  void expect_clean(const std::string& when) {
-    const collide::SurfaceFigures f = look();
-    EXPECT_EQ(f.penetrating_vertices, 0u) << when << ", deepest " << f.deepest;
-    EXPECT_EQ(f.piercings, 0u) << when;
-  }
-
- private:
-  const World& world_;
-  collide::Surfaces surfaces_;
-  collide::Workers workers_{1};
-};
-
-std::string frame_of(const World& world) { return "frame " + std::to_string(world.frame()); }
 
 /// Two balls that meet off their centres.
 Scene glancing(double friction) {
@@ -240,93 +200,6 @@ TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
     if (i % 3 == 0) judge.expect_clean(frame_of(world));
   }
   EXPECT_TRUE(met);
-}
-
-/// Four balls that meet in mid-air, enough that a second thread takes part.
-Scene crowd() {
-  Scene scene = ball_in_space(rubber(), {4, 0, 0});
-  scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{-0.8, 0.5};
-  add_body(scene, {1.2, 0.3, 0}, {-4, 0, 0});
-  add_body(scene, {0.5, 1.2, 0.2}, {0, -4, 0});
-  add_body(scene, {0.6, 2.3, 0.1}, {0, -8, 0});
-  return scene;
-}
-
-/// Balls of several sizes that meet: so many prototypes that a second thread takes part.
-Scene sizes() {
-  Scene scene = crowd();
-  for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].mesh.radius -= 0.02 * double(i);
-  return scene;
-}
-
-/// Sheets that fall flat on each other: so many rows that threads share the solver too.
-Scene sheets() {
-  Scene scene = ball_in_space(rubber());
-  scene.collision.self_collision = false;
-  scene.gravity = {0, -9.81, 0};
-  scene.ground = Ground{};
-  scene.bodies.clear();
-  for (int i = 0; i < 5; ++i) {
-    add_body(scene, {0.03 * i, 0.01 + 0.008 * i, 0.02 * i}, glm::dvec3(0.0));
-    scene.bodies.back().mesh = {.kind = "grid", .columns = 16, .rows = 16, .width = 2 - 0.1 * i, .depth = 2};
-  }
-  return scene;
-}
-
-TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
-  std::size_t most_rows = 0;
-  const auto hash = [&](const Scene& scene, int frames, int threads, Isa isa) {
-    World::Options options;
-    options.threads = threads;
-    options.isa = isa;
-    World world(scene, options);
-    for (int i = 0; i < frames; ++i) {
-      world.step();
-      most_rows = std::max(most_rows, world.dynamics().surface_contact().rows());
-    }
-    return world.state_hash();
-  };
-  for (const auto& [scene, frames] : {std::pair(sizes(), 25), std::pair(sheets(), 10)}) {
-    const std::uint64_t expected = hash(scene, frames, 1, Isa::baseline);
-    for (const Isa isa : isas())
-      for (const int threads : {1, 2}) EXPECT_EQ(hash(scene, frames, threads, isa), expected) << threads;
-  }
-  EXPECT_GT(most_rows, 2000u);
-}
-
-TEST(SurfaceContact, MayBeTurnedOnAndOffAtAnyTime) {
-  World world(crowd(), {});
-  Judge judge(world);
-  for (int i = 0; i < 60; ++i) {
-    if (i % 7 == 3) world.set_contact_surface(ContactSurface::vertices);
-    if (i % 7 == 5) world.set_contact_surface(ContactSurface::surfaces);
-    world.step();
-    ASSERT_TRUE(measure(world).finite) << frame_of(world);
-    ASSERT_LT(measure(world).max_speed, 40) << frame_of(world);
-  }
-  world.set_contact_surface(ContactSurface::surfaces);
-  EXPECT_TRUE(world.plan().has(Stage::surface_contact));
-  EXPECT_FALSE(world.plan().has(Stage::contact_response));
-  run(world, 60);
-  judge.expect_clean("after a second of surface contact");
-}
-
-TEST(SurfaceContact, LeavesVertexContactAsItIs) {
-  const auto hash = [](double restitution, bool to_and_fro) {
-    Scene scene = crowd();
-    scene.contact_surface = ContactSurface::vertices;
-    scene.materials[0].restitution = restitution;
-    World world(scene, {});
-    if (to_and_fro) {
-      world.set_contact_surface(ContactSurface::surfaces);
-      world.set_contact_surface(ContactSurface::vertices);
-    }
-    run(world, 30);
-    return world.state_hash();
-  };
-  EXPECT_EQ(hash(0.9, false), hash(0, false)) << "restitution is of surface contact";
-  EXPECT_EQ(hash(0, true), hash(0, false));
 }
 
 }  // namespace

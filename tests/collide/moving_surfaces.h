@@ -1,0 +1,52 @@
+#pragma once
+// Bodies in motion that the search for surface contact is tried on.
+
+#include <glm/geometric.hpp>
+
+#include "collide/surface_search.h"
+#include "surface_meshes.h"
+
+namespace collide::test {
+
+/// Bodies that move, and what is asked about them.
+struct Moving {
+  Scene scene;
+  std::vector<glm::vec3> velocity;  // m/s, of every vertex
+  std::vector<SurfaceBody> traits;
+  float seconds = 0.05f;
+
+  /// velocity_of(position seen from the body's middle): m/s.
+  template <class Velocity>
+  void add(const SurfaceMesh& mesh, const glm::vec3& at, float reach, float slack, const Velocity& velocity_of) {
+    scene.add(moved(mesh, at));
+    for (const glm::vec3& v : mesh.vertices) velocity.push_back(velocity_of(v));
+    traits.push_back({scene.surfaces.back().get(), reach + slack, slack, 0.3f, true});
+  }
+  Index first(Index body) const { return scene.state.bodies.first[body]; }
+  /// Where all vertices are after `time`, each off its path by up to its body's slack.
+  Scene after(float time, std::mt19937& random) const;
+};
+
+inline Scene Moving::after(float time, std::mt19937& random) const {
+  Scene later = scene;
+  for (Index body = 0; body < traits.size(); ++body)
+    for (Index v = first(body); v < first(body + 1); ++v) {
+      const glm::vec3 way = random_points(random, 1, -1, 1)[0], u = traits[body].moves ? velocity[v] : glm::vec3(0);
+      const glm::vec3 stray = 0.999f * traits[body].slack * way / std::max(1e-3f, glm::length(way));
+      const glm::vec3 x = scene.at(v) + time * u + (traits[body].moves ? stray : glm::vec3(0));
+      later.state.x[v] = x.x, later.state.y[v] = x.y, later.state.z[v] = x.z;
+    }
+  return later;
+}
+
+struct Found {
+  SurfaceSearch search;
+  std::vector<float> vx, vy, vz;
+  Found(const Moving& m, bool self, int threads = 1) {
+    for (const glm::vec3& v : m.velocity) vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z);
+    Workers workers(threads);
+    search.find({m.scene.frame(), vx, vy, vz}, m.traits, m.seconds, self, workers);
+  }
+};
+
+}  // namespace collide::test
