@@ -39,20 +39,23 @@ TEST(SurfaceContact, DoesNotActBetweenBodiesThatAreApart) {
   EXPECT_NEAR(glm::length(motion(world, 0).spin_momentum), 0, 1e-5);
 }
 
-/// A ball thrown down at 100 m/s at something around the origin.
+/// A ball thrown down at something around the origin.
 struct Target {
   const char* name;
   bool sheet, held, asleep;
+  double speed = 100;    // m/s
+  int subdivisions = 2;  // of all balls
 };
 void PrintTo(const Target& t, std::ostream* out) { *out << t.name; }
 
 class ThrownBall : public testing::TestWithParam<Target> {
  protected:
-  static Scene scene_at(double speed) {
+  static Scene scene() {
     const Target& target = GetParam();
-    Scene scene = ball_in_space(rubber(), {0, -speed, 0});
+    Scene scene = ball_in_space(rubber(), {0, -target.speed, 0});
     scene.bodies[0].position = {0.05, 1.5, 0.03};
     add_body(scene, glm::dvec3(0.0), glm::dvec3(0.0));
+    for (BodySource& body : scene.bodies) body.mesh.subdivisions = target.subdivisions;
     BodySource& other = scene.bodies[1];
     if (target.sheet) other.mesh = {.kind = "grid", .columns = 10, .rows = 10, .width = 2.5, .depth = 2.5};
     if (target.held) other.release = 1000;
@@ -65,7 +68,7 @@ class ThrownBall : public testing::TestWithParam<Target> {
 };
 
 TEST_P(ThrownBall, NeitherPassesThroughNorSinksIn) {
-  World world(scene_at(100), {});
+  World world(scene(), {});
   Judge judge(world);
   if (GetParam().asleep) {
     run(world, 5);
@@ -77,23 +80,28 @@ TEST_P(ThrownBall, NeitherPassesThroughNorSinksIn) {
     ASSERT_EQ(now.penetrating_vertices, 0u) << frame_of(world) << ", deepest " << now.deepest;
     ASSERT_EQ(now.overlapping_pairs, 0u) << frame_of(world);
     ASSERT_TRUE(measure(world).finite);
-    ASSERT_LT(measure(world).max_speed, 300) << frame_of(world);
+    ASSERT_LT(measure(world).max_speed, 3 * GetParam().speed) << frame_of(world);
   }
   const Motion ball = motion(world, 0), other = motion(world, 1);
   if (!GetParam().sheet || GetParam().held) {  // a free sheet wraps itself around it
     EXPECT_GT(ball.centre.y, other.centre.y) << "it is still above";
   }
-  EXPECT_GT(ball.velocity.y, -60) << "it was stopped";
+  EXPECT_GT(ball.velocity.y, -0.6 * GetParam().speed) << "it was stopped";
   EXPECT_FALSE(world.body(1).asleep);
   if (!GetParam().held && !GetParam().asleep) {
-    EXPECT_NEAR(ball.velocity.y + other.velocity.y, -100, 1e-3);
+    EXPECT_NEAR(ball.velocity.y + other.velocity.y, -GetParam().speed, 1e-5 * GetParam().speed);
   }
 }
 
+// Left out: a free sheet at 1000 m/s, which is pierced.
 INSTANTIATE_TEST_SUITE_P(At, ThrownBall,
                          testing::Values(Target{"ball", false, false, false}, Target{"held_ball", false, true, false},
                                          Target{"sleeping_ball", false, false, true},
-                                         Target{"sheet", true, false, false}, Target{"held_sheet", true, true, false}),
+                                         Target{"sheet", true, false, false}, Target{"held_sheet", true, true, false},
+                                         Target{"ball_at_1000", false, false, false, 1000, 1},
+                                         Target{"held_ball_at_1000", false, true, false, 1000, 1},
+                                         Target{"sleeping_ball_at_1000", false, false, true, 1000, 1},
+                                         Target{"held_sheet_at_1000", true, true, false, 1000, 1}),
                          [](const auto& target) { return std::string(target.param.name); });
 
 TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
