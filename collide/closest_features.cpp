@@ -83,7 +83,7 @@ bool inside(const glm::vec3& point, const Surface& surface, const Run& at) {
   return odd;
 }
 
-Index nearest_face(const glm::vec3& point, const Surface& surface, const Run& at) {
+NearestFace nearest_face(const glm::vec3& point, const Surface& surface, const Run& at) {
   Index nearest = 0;
   float least = std::numeric_limits<float>::infinity();
   for (Index i = 0; i < surface.triangles().size(); ++i) {
@@ -95,7 +95,7 @@ Index nearest_face(const glm::vec3& point, const Surface& surface, const Run& at
     const glm::vec3 apart = closest_vertex_face(point, corner[0], corner[1], corner[2]).apart;
     if (const float d2 = glm::dot(apart, apart); d2 < least) least = d2, nearest = i;
   }
-  return nearest;
+  return {nearest, std::sqrt(least)};
 }
 
 }  // namespace collide

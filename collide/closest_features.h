@@ -24,7 +24,11 @@ Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r
 
 /// Whether a point lies inside a closed surface with its vertices at `at`: by the parity of a ray, in double.
 bool inside(const glm::vec3& point, const Surface& surface, const Run& at);
-/// The face with the point closest to `point`; at least one face.
-Index nearest_face(const glm::vec3& point, const Surface& surface, const Run& at);
+struct NearestFace {
+  Index face;
+  float distance;  // m
+};
+/// Of a surface with at least one face.
+NearestFace nearest_face(const glm::vec3& point, const Surface& surface, const Run& at);
 
 }  // namespace collide

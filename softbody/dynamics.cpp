@@ -140,7 +140,8 @@ void Dynamics::surface_contacts(int thread, float h) {
                    {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)], h);
   since_found_[std::size_t(thread)] += h;
   barrier();
-  surface_.solve(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, [this] { barrier(); });
+  surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
+                 {v_[0].data(), v_[1].data(), v_[2].data()}, [this] { barrier(); });
 }
 
 void Dynamics::forces(Batch& b) {

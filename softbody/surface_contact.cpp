@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
 
 namespace softbody {
 namespace {
@@ -15,8 +16,11 @@ using collide::Closest;
 using collide::FeaturePair;
 using collide::Surface;
 
-constexpr float push_share = 0.1f;   // of an overlap, a substep
+constexpr float spring_frequency = 750;  // 1/s, angular
+constexpr float spring_damping = 5;      // of the critical
+constexpr float push_share = 0.1f;       // of an overlap, a substep
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
+constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 constexpr std::uint32_t forgotten = std::numeric_limits<std::uint32_t>::max();
 
 glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
@@ -75,7 +79,6 @@ void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::Su
 SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range) const {
   const ContactBody &a = bodies_[range.a], &b = bodies_[range.b];
   const auto reach = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
-  const bool closed = traits_[range.a].surface->closed() && traits_[range.b].surface->closed();
   return {.range = range,
           .offset = glm::vec3(b.origin - a.origin),
           .distance = reach(range.a) + reach(range.b),
@@ -85,7 +88,7 @@ SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range
           .inverse_b = b.inverse_mass,
           .slot_a = a.first_slot,
           .slot_b = b.first_slot,
-          .overlap = closed && range.a != range.b};
+          .overlap = range.a != range.b && (traits_[range.a].surface->closed() || traits_[range.b].surface->closed())};
 }
 
 /// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
@@ -117,18 +120,26 @@ void SurfaceContact::inherit(const std::vector<Pair>& old_pairs, const std::vect
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
 void SurfaceContact::find_deep(Pair& pair) {
   pair.deep = static_cast<std::uint32_t>(deep_.size());
+  float deepest = 0;
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
+    if (!traits_[other].surface->closed()) continue;
     const collide::Run vertices = search_.run(own), shell = search_.run(other);
     const collide::Bound bound = collide::bound_of(shell);
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
       if (!collide::near({p, p}, bound.box, 0.0f) || !collide::inside(p, *traits_[other].surface, shell)) continue;
-      deep_.push_back({v, collide::nearest_face(p, *traits_[other].surface, shell), of_b});
+      const collide::NearestFace nearest = collide::nearest_face(p, *traits_[other].surface, shell);
+      deepest = std::max(deepest, nearest.distance);
+      deep_.push_back({v, nearest.face, of_b});
     }
   }
+  pair.overlap = deep_.size() > pair.deep;
+  // Vertex by vertex, bodies far inside each other would only be pressed into nested cups.
+  pair.parting = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
+                 deepest > deep_share * std::min(traits_[pair.range.a].edge, traits_[pair.range.b].edge);
+  if (pair.parting) deep_.resize(pair.deep);
   pair.deep_end = static_cast<std::uint32_t>(deep_.size());
-  pair.overlap = pair.deep < pair.deep_end;
 }
 
 /// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
@@ -167,6 +178,8 @@ void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Fiel
     p.thread = thread;
     p.first_row = static_cast<std::uint32_t>(own.rows.size());
     Step step{x, v, h, elapsed + h, own, p, 2 * p.distance + h * search_.speed(p.range)};
+    p.rows = 0;
+    if (p.parting) continue;
     if (p.deep < p.deep_end) deep_vertices(step);
     vertices_on_faces(step, p.range.vertex_face, p.range.face_vertex, false);
     vertices_on_faces(step, p.range.face_vertex, p.range.edge_edge, true);
@@ -325,20 +338,6 @@ void SurfaceContact::edges_on_edges(Step& step) {
       memory = {};
       continue;
     }
-    const float distance = std::sqrt(distance2);
-    glm::vec3 normal = unit(c.apart, memory.normal);
-    bool crossed = false;
-    if (closed) {
-      const glm::vec3 facing = outward(two, f.b) - outward(one, f.a);
-      crossed = glm::dot(normal, facing) < 0;
-      if (crossed && distance > step.pair.distance) {  // the far side of something thin
-        memory = {};
-        continue;
-      }
-      if (crossed) normal = -normal;
-    } else {
-      crossed = orient(memory, true, normal);
-    }
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
       row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * lanes);
@@ -349,29 +348,53 @@ void SurfaceContact::edges_on_edges(Step& step) {
       row.mobility[k + 2] = two.inverse_mass * row.weight[k + 2];
     }
     row.feature = i;
+    const float distance = std::sqrt(distance2);
+    glm::vec3 normal = unit(c.apart, memory.normal);
+    bool crossed = false;
+    if (!closed) {
+      crossed = orient(memory, true, normal);
+    } else if (meets(step, normal_speed(step, row, normal), distance)) {  // else it does not matter which side it is on
+      crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
+      if (crossed && distance > step.pair.distance) {  // the far side of something thin
+        memory = {};
+        continue;
+      }
+      if (crossed) normal = -normal;
+    }
     add_row(step, row, normal, crossed ? -distance : distance, memory);
   }
+}
+
+float SurfaceContact::normal_speed(const Step& step, const ContactRow& row, const glm::vec3& normal) {
+  glm::vec3 velocity(0.0f);
+  for (std::size_t k = 0; k < 4; ++k) velocity += row.weight[k] * read(step.v, row.slot[k]);
+  return glm::dot(velocity, normal);
+}
+
+/// Whether surfaces so far apart may come within their distance, and a tenth more, in this substep.
+bool SurfaceContact::meets(const Step& step, float speed, float apart) {
+  return apart + step.h * std::min(speed, 0.0f) <= 1.1f * step.pair.distance;
 }
 
 /// Adds the row if its gap may be used up in this substep. apart: between the surfaces, negative where they overlap.
 void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
                              Memory& memory) {
-  glm::vec3 velocity(0.0f);
   float mobility = 0;
-  for (std::size_t k = 0; k < 4; ++k) {
-    velocity += corners.weight[k] * read(step.v, corners.slot[k]);
-    mobility += corners.weight[k] * corners.mobility[k];
-  }
-  const float speed = glm::dot(velocity, normal), gap = apart - step.pair.distance;
-  if (mobility <= 0 || gap + step.h * std::min(speed, 0.0f) > 0.1f * step.pair.distance) {
+  for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
+  const float speed = normal_speed(step, corners, normal), gap = apart - step.pair.distance;
+  if (mobility <= 0 || !meets(step, speed, apart)) {
     memory.pressed = 0;
     return;
   }
   ContactRow& row = step.own.rows.emplace_back(corners);
   row.normal = normal;
   row.mass = 1 / mobility;
-  row.gap = gap;
-  row.target = gap > 0 ? -gap / step.h : std::min(-push_share * gap / step.h, push_speed);
+  // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
+  const float spare = apart - 0.5f * step.pair.distance;
+  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, push_speed);
+  const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
+  row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
+  row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);
   const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
   if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
   row.friction = step.pair.friction;
@@ -388,28 +411,60 @@ void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
 void iterate(ContactRow& row, Field<float> v) {
   glm::vec3 velocity(0.0f);
   for (std::size_t k = 0; k < 4; ++k) velocity += row.weight[k] * read(v, row.slot[k]);
-  const float pressed = std::max(0.0f, row.pressed + row.mass * (row.target - glm::dot(velocity, row.normal)));
+  const float speed = glm::dot(velocity, row.normal);
+  const float held = row.hardness / (1 + row.hardness) * (row.pressed + row.mass * (row.widening - speed));
+  const float pressed = std::max({0.0f, held, row.pressed + row.mass * (row.target - speed)});
   const float push = pressed - row.pressed;
   row.pressed = pressed;
   velocity += (push / row.mass) * row.normal;
   const glm::vec3 slip = velocity - glm::dot(velocity, row.normal) * row.normal;
   glm::vec3 drag = row.drag - row.mass * slip;
   if (const float size = glm::length(drag), limit = row.friction * pressed; size > limit) drag *= limit / size;
-  apply(row, push * row.normal + (drag - row.drag), v);
+  if (row.pressed > 0 || push != 0) apply(row, push * row.normal + (drag - row.drag), v);
   row.drag = drag;
 }
 
 }  // namespace
 
-void SurfaceContact::solve(int thread, int threads, Field<float> v, const std::function<void()>& barrier) {
+/// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
+/// and angular momentum stay.
+void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<float> v) const {
+  struct Whole {
+    glm::vec3 centre{0.0f}, velocity{0.0f};
+    float inverse_mass = 0;
+  };
+  const auto whole = [&](const Side& s) {
+    Whole w;
+    const Index count = s.surface->vertex_count();
+    for (Index i = 0; i < count; ++i) {
+      w.centre += (read(x, s.slot + i * lanes) + s.offset) / static_cast<float>(count);
+      w.velocity += read(v, s.slot + i * lanes) / static_cast<float>(count);
+    }
+    w.inverse_mass = s.inverse_mass / static_cast<float>(count);
+    return w;
+  };
+  const Side one = side(pair, false), two = side(pair, true);
+  const Whole a = whole(one), b = whole(two);
+  const glm::vec3 axis = unit(a.centre - b.centre, {});
+  const float missing = push_speed - glm::dot(a.velocity - b.velocity, axis);
+  if (missing <= 0) return;
+  const float impulse = missing / (a.inverse_mass + b.inverse_mass);
+  for (Index i = 0; i < one.surface->vertex_count(); ++i) add(v, one.slot + i * lanes, impulse * a.inverse_mass * axis);
+  for (Index i = 0; i < two.surface->vertex_count(); ++i)
+    add(v, two.slot + i * lanes, -impulse * b.inverse_mass * axis);
+}
+
+void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v,
+                           const std::function<void()>& barrier) {
   constexpr std::size_t few = 2000;  // rows: done before the threads have met at every colour
   const bool alone = rows() < few;
-  const auto pass = [&](const auto& visit) {
+  const auto pass = [&](const auto& visit, bool parting = false) {
     for (const auto& colour : colours_) {
       const collide::Part part =
           alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
       for (std::size_t i = part.begin; i < part.end; ++i) {
         const Pair& p = pairs_[colour[i]];
+        if (parting && p.parting) separate(p, x, v);
         for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r)
           visit(threads_[static_cast<std::size_t>(p.thread)].rows[r]);
       }
@@ -419,18 +474,21 @@ void SurfaceContact::solve(int thread, int threads, Field<float> v, const std::f
   pass([&](ContactRow& row) {
     if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
   });
-  for (int i = 0; i < iterations; ++i) pass([&](ContactRow& row) { iterate(row, v); });
-  pass([&](ContactRow& row) {
-    if (row.feature == forgotten) return;
-    memory_[row.feature].pressed = row.pressed;
-    memory_[row.feature].drag = row.drag;
-  });
+  for (int i = 1; i < iterations; ++i) pass([&](ContactRow& row) { iterate(row, v); }, true);
+  pass(
+      [&](ContactRow& row) {
+        iterate(row, v);
+        if (row.feature == forgotten) return;
+        memory_[row.feature].pressed = row.pressed;
+        memory_[row.feature].drag = row.drag;
+      },
+      true);
   if (alone) barrier();
 }
 
 std::size_t SurfaceContact::rows() const {
   std::size_t sum = 0;
-  for (const Thread& t : threads_) sum += t.rows.size();
+  for (const Pair& p : pairs_) sum += p.rows;
   return sum;
 }
 

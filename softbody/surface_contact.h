@@ -4,21 +4,22 @@
 // A contact is a row: the relative velocity u of the two closest points, along the unit normal n, must not use up the
 // gap g within the substep of h seconds,
 //
-//   u . n >= -g / h            while they are apart: nothing passes through;
-//   u . n >= -0.1 g / h        where they overlap already: pushed out at a tenth of the depth a substep, at most 1 m/s;
+//   u . n >= -(g + d/2) / h    while half of the distance d is left: nothing passes through;
+//   u . n >= 0.1 (-g - d/2) / h  where it is not: pushed out at a tenth of the depth a substep, at most 1 m/s;
 //   u . n >= e |u_before . n|  at an impact faster than `impact_speed`: Newton's restitution.
 //
 // Impulses that bring this about act on the corners by their weights, equal and opposite along the line between the two
-// points, so that linear and angular momentum stay; friction takes at most mu times them from the slip (Coulomb). The
-// rows of a substep are solved by projected Gauss-Seidel with accumulated impulses, started from those of the substep
-// before (Catto 2005; many substeps of few iterations, Macklin et al. 2019). Bodies' pairs are coloured, so that those
-// of a colour share no body and the result does not depend on threads.
+// points, so that linear and angular momentum stay. The distance itself is held by a spring with a damper, integrated
+// implicitly as in a soft constraint (Catto 2011): what rests neither sinks in nor trembles; friction takes at most mu
+// times them from the slip (Coulomb). The rows of a substep are solved by projected Gauss-Seidel with accumulated
+// impulses, started from those of the substep before (Catto 2005; many substeps of few iterations, Macklin et al.
+// 2019). Bodies' pairs are coloured, so that those of a colour share no body and the result does not depend on threads.
 //
 // Which side a feature is on: outside a closed body the normal is simply from the one closest point to the other. A
 // vertex is inside if it lies behind the face that it is closest to; it then has only that row. Open surfaces and a
 // body and itself have no inside: there the normal is remembered, and points whose normal flips have crossed and are
-// brought back. Bodies found deep in each other (at the start, or dropped there) are parted through their nearest
-// faces.
+// brought back. Vertices found inside another body (at the start, or where one was dropped) go out through the faces
+// nearest to them; bodies far inside each other are first moved apart as a whole.
 
 #include <cstdint>
 #include <functional>
@@ -46,8 +47,10 @@ struct ContactRow {
   std::array<float, 4> mobility;  // weight / mass
   glm::vec3 normal;               // unit, from the second side to the first
   float mass;                     // kg, effective: 1 / sum of weight^2 / mass
-  float target;                   // m/s, least normal speed
-  float gap;                      // m, beyond the distance kept
+  float
+      hardness;  // of the spring that keeps the distance, times the substep squared, over the mass; 0: out of its reach
+  float widening;  // m/s, that it asks for
+  float target;    // m/s, least normal speed
   float friction;
   float pressed;          // N s, accumulated along the normal
   glm::vec3 drag;         // N s, accumulated across it
@@ -83,7 +86,7 @@ class SurfaceContact {
   /// forces. On every thread.
   void prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
-  void solve(int thread, int threads, Field<float> v, const std::function<void()>& barrier);
+  void solve(int thread, int threads, Field<const float> x, Field<float> v, const std::function<void()>& barrier);
 
   /// Every two bodies that touched in the last substep, a < b.
   std::vector<collide::ItemPair> touching() const;
@@ -99,7 +102,8 @@ class SurfaceContact {
     float friction, restitution;
     float inverse_a, inverse_b;
     std::size_t slot_a, slot_b;
-    bool overlap = false;  // some vertex is deep inside: see deep
+    bool overlap = false;  // some vertex may be inside the other body: see find_deep()
+    bool parting = false;  // so deep that the bodies are moved apart as a whole
     std::uint32_t deep = 0, deep_end = 0;
     int thread = 0;
     std::uint32_t first_row = 0, rows = 0;
@@ -152,7 +156,10 @@ class SurfaceContact {
   void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
   void deep_vertices(Step& step);
   void edges_on_edges(Step& step);
+  void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
   bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
+  static float normal_speed(const Step& step, const ContactRow& row, const glm::vec3& normal);
+  static bool meets(const Step& step, float speed, float apart);
   void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
 
   std::vector<collide::SurfaceBody> traits_;
