@@ -176,7 +176,7 @@ TEST(ClosestFeatures, NearestFaceIsThatOfTheLeastDistance) {
   for (const glm::vec3& p : random_points(random, 1000, -3, 3)) {
     double least = std::numeric_limits<double>::infinity();
     for (const Triangle& f : mesh.triangles) least = std::min(least, distance(p, f));
-    EXPECT_NEAR(distance(p, mesh.triangles[nearest_face(p, surface, at.run())]), least, 1e-5);
+    EXPECT_NEAR(distance(p, mesh.triangles[nearest_face(p, surface, at.run()).face]), least, 1e-5);
   }
 }
 
