@@ -80,6 +80,19 @@ void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const Bod
   shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
 }
 
+/// Wakes sleepers that a body comes near in the coming frame which is faster than twice the speed of sleep: who sleeps
+/// through a hit stands like a wall.
+void Dynamics::wake_what_is_hit(double seconds) {
+  if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.moves(); })) return;
+  find_surface_contacts(seconds);
+  for (const collide::SurfacePair& pair : surface_.search().pairs())
+    for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+      if (!bodies_[sleeper].asleep || !bodies_[by].moves() || fastest(by) <= 2 * scene_.sleep.speed) continue;
+      put_to_sleep(sleeper, false);
+      found_ = 0;  // its candidates are others now that it moves
+    }
+}
+
 /// Finds the candidates of surface contact for the rest of the frame, unless those at hand still hold.
 void Dynamics::find_surface_contacts(double left) {
   const std::size_t n = vertices_->vertex_count();
@@ -96,7 +109,7 @@ void Dynamics::find_surface_contacts(double left) {
     const Body& body = bodies_[id];
     const Prototype& p = prototype(id);
     const auto edge = float(p.mean_edge);
-    const float reach = std::min(0.5f * float(p.material.thickness), 0.1f * edge);
+    const float reach = std::clamp(0.5f * float(p.material.thickness), 0.01f * edge, 0.1f * edge);
     // Twice what the body needed last: the calmer it is, the fewer candidates. A new one is no calm one.
     const float strayed = id < surface_.bodies() ? 2 * surface_.stray(id) : edge;
     const float slack = std::clamp(strayed, 0.015f * edge, 0.1f * edge);

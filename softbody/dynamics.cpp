@@ -64,6 +64,8 @@ bool Dynamics::moves(const Batch& b) {
 }
 
 int Dynamics::advance(double seconds) {
+  found_ = 0;
+  if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
   for (Batch& b : batches_) {
@@ -77,7 +79,6 @@ int Dynamics::advance(double seconds) {
   // A handful of bodies is done before a second thread has woken up.
   active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
   int total = 0;
-  found_ = 0;
   for (double left = seconds; left > 0;) {
     if (has_surface_) find_surface_contacts(left);
     const int count = std::max(substeps(left), int(std::ceil(left * surface_.rate())));

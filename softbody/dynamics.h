@@ -125,6 +125,7 @@ class Dynamics {
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
   void find_surface_contacts(double left);
+  void wake_what_is_hit(double seconds);
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);

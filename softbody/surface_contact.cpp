@@ -33,6 +33,14 @@ void add(Field<float> f, std::size_t slot, const glm::vec3& d) {
 
 glm::vec3 normal_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) { return glm::cross(b - a, c - a); }
 
+/// Of the two closest points. Bodies that do not move stand, whatever velocity they will set out with.
+glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) {
+  glm::vec3 velocity(0.0f);
+  for (std::size_t k = 0; k < 4; ++k)
+    if (row.mobility[k] != 0) velocity += row.weight[k] * read(v, row.slot[k]);
+  return velocity;
+}
+
 /// v, or `otherwise` if it has no length to speak of; of unit length.
 glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
   const float length = glm::length(v);
@@ -366,9 +374,7 @@ void SurfaceContact::edges_on_edges(Step& step) {
 }
 
 float SurfaceContact::normal_speed(const Step& step, const ContactRow& row, const glm::vec3& normal) {
-  glm::vec3 velocity(0.0f);
-  for (std::size_t k = 0; k < 4; ++k) velocity += row.weight[k] * read(step.v, row.slot[k]);
-  return glm::dot(velocity, normal);
+  return glm::dot(relative_velocity(row, step.v), normal);
 }
 
 /// Whether surfaces so far apart may come within their distance, and a tenth more, in this substep.
@@ -409,8 +415,7 @@ void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
 }
 
 void iterate(ContactRow& row, Field<float> v) {
-  glm::vec3 velocity(0.0f);
-  for (std::size_t k = 0; k < 4; ++k) velocity += row.weight[k] * read(v, row.slot[k]);
+  glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
   const float held = row.hardness / (1 + row.hardness) * (row.pressed + row.mass * (row.widening - speed));
   const float pressed = std::max({0.0f, held, row.pressed + row.mass * (row.target - speed)});

@@ -78,6 +78,7 @@ class SurfaceContact {
   bool holds(const collide::Frame& now, float elapsed) { return search_.holds(now, elapsed); }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   float stray(Index body) const { return search_.stray(body); }
+  const collide::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
   float rate() const { return rate_; }
