@@ -1,4 +1,4 @@
-// Dynamics: the detector's contacts become pairs of the shield.
+// Dynamics: the detector's contacts become pairs of the shield, or the surfaces near each other rows of their contact.
 
 #include <algorithm>
 #include <cmath>
@@ -111,11 +111,11 @@ void Dynamics::find_surface_contacts(double left) {
     const auto edge = float(p.mean_edge);
     const float reach = std::clamp(0.5f * float(p.material.thickness), 0.01f * edge, 0.1f * edge);
     // Twice what the body needed last: the calmer it is, the fewer candidates. A new one is no calm one.
-    const float strayed = id < surface_.bodies() ? 2 * surface_.stray(id) : edge;
+    const float strayed = id < surface_.bodies() && surface_.moved(id) ? 2 * surface_.stray(id) : edge;
     const float slack = std::clamp(strayed, 0.015f * edge, 0.1f * edge);
     traits.push_back({p.surface.get(), reach + slack, slack, edge, body.moves()});
     contacts.push_back({body.origin, slot(body, 0), body.moves() ? float(1 / p.particle_mass) : 0.0f,
-                        float(p.material.friction), float(p.material.restitution)});
+                        float(p.material.friction), float(p.material.restitution), &p.shape->rest()});
     for (Index v = 0; v < p.mesh.vertices.size(); ++v)
       for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(body, v)];
   }

@@ -10,6 +10,12 @@
 
 namespace softbody {
 
+namespace {
+
+constexpr double most_substeps = 1e6;  // a state that asks for more is lost; a count must come out all the same
+
+}  // namespace
+
 void Dynamics::set_plan(const Plan& plan) {
   static constexpr std::pair<Stage, BatchStage> forces[] = {
       {Stage::structural_springs, &Dynamics::structural_springs}, {Stage::bend_springs, &Dynamics::bend_springs},
@@ -55,8 +61,7 @@ int Dynamics::substeps(double seconds) const {
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  constexpr double most = 1e6;  // a state that asks for more is lost; a count must come out all the same
-  return int(std::min(most, std::ceil(std::max(fewest, seconds / stable_step(stiffness, damping)))));
+  return int(std::min(most_substeps, std::ceil(std::max(fewest, seconds / stable_step(stiffness, damping)))));
 }
 
 bool Dynamics::moves(const Batch& b) {
@@ -81,9 +86,11 @@ int Dynamics::advance(double seconds) {
   int total = 0;
   for (double left = seconds; left > 0;) {
     if (has_surface_) find_surface_contacts(left);
-    const int count = std::max(substeps(left), int(std::ceil(left * surface_.rate())));
+    const int stable = substeps(left);
+    const int count = std::max(stable, int(std::min(most_substeps, std::ceil(left * surface_.rate()))));
     int now = std::min(count, substeps_within_bound(left / count));
-    if (!surface_.empty()) now = std::min(now, 4);  // before it is looked whether its candidates still hold
+    // Then it is looked whether the candidates still hold: at once where their speed decides the count.
+    if (!surface_.empty()) now = std::min(now, count > stable ? 1 : 4);
     run(now, static_cast<float>(left / count));
     total += now;
     left = now == count ? 0 : left - now * (left / count);
@@ -142,7 +149,7 @@ void Dynamics::surface_contacts(int thread, float h) {
   since_found_[std::size_t(thread)] += h;
   barrier();
   surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
-                 {v_[0].data(), v_[1].data(), v_[2].data()}, [this] { barrier(); });
+                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
 }
 
 void Dynamics::forces(Batch& b) {

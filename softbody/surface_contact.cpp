@@ -52,6 +52,7 @@ glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
 }  // namespace
 
 void SurfaceContact::clear() {
+  last_h_ = 0;
   search_.clear();
   bodies_.clear();
   pairs_.clear();
@@ -73,15 +74,46 @@ void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::Su
   pairs_.clear();
   for (const collide::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
   memory_.assign(search_.features().size(), {});
+  room_.assign(search_.features().size(), std::numeric_limits<float>::max());
   inherit(old_pairs, old_features, old_memory);
+  for (const Pair& p : pairs_)
+    if (p.range.a == p.range.b) leave_room(p);
   deep_.clear();
-  rate_ = 0;
-  for (Pair& p : pairs_) {
+  for (Pair& p : pairs_)
     if (p.overlap) find_deep(p);
-    const float edge = std::min(traits_[p.range.a].edge, traits_[p.range.b].edge);
-    rate_ = std::max(rate_, search_.speed(p.range) / (step_share * edge));
-  }
+  foresee_speeds();
   colour();
+}
+
+/// Within a body, what is closer at rest than the distance that surfaces keep is not pushed apart.
+void SurfaceContact::leave_room(const Pair& pair) {
+  constexpr float share = 0.9f;
+  const Surface& surface = *traits_[pair.range.a].surface;
+  const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
+  const auto room = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.apart)); };
+  for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
+    const FeaturePair& f = search_.features()[i];
+    if (i < pair.range.edge_edge) {
+      const auto& [a, b, c] = surface.triangles()[f.b];
+      room_[i] = room(collide::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
+    } else {
+      const collide::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
+      room_[i] = room(collide::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
+    }
+  }
+}
+
+/// A pair may be hit through its neighbours within one substep: it is looked at as far as either body's fastest pair
+/// goes.
+void SurfaceContact::foresee_speeds() {
+  std::vector<float> fastest(bodies_.size(), 0);
+  rate_ = 0;
+  for (const Pair& p : pairs_) {
+    const float speed = search_.speed(p.range), edge = std::min(traits_[p.range.a].edge, traits_[p.range.b].edge);
+    for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
+    rate_ = std::max(rate_, speed / (step_share * edge));
+  }
+  for (Pair& p : pairs_) p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
 }
 
 SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range) const {
@@ -185,7 +217,7 @@ void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Fiel
     Pair& p = pairs_[i];
     p.thread = thread;
     p.first_row = static_cast<std::uint32_t>(own.rows.size());
-    Step step{x, v, h, elapsed + h, own, p, 2 * p.distance + h * search_.speed(p.range)};
+    Step step{x, v, h, elapsed + h, own, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
     p.rows = 0;
     if (p.parting) continue;
     if (p.deep < p.deep_end) deep_vertices(step);
@@ -287,7 +319,7 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
       memory = {};
       continue;
     }
-    glm::vec3 normal = unit(n.closest.apart, memory.normal);
+    glm::vec3 normal = unit(n.closest.apart, oriented ? memory.normal : n.face_normal);
     const bool crossed = oriented && orient(memory, n.closest.inner, normal);
     add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), memory);
   }
@@ -361,7 +393,7 @@ void SurfaceContact::edges_on_edges(Step& step) {
     bool crossed = false;
     if (!closed) {
       crossed = orient(memory, true, normal);
-    } else if (meets(step, normal_speed(step, row, normal), distance)) {  // else it does not matter which side it is on
+    } else {
       crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
       if (crossed && distance > step.pair.distance) {  // the far side of something thin
         memory = {};
@@ -373,30 +405,20 @@ void SurfaceContact::edges_on_edges(Step& step) {
   }
 }
 
-float SurfaceContact::normal_speed(const Step& step, const ContactRow& row, const glm::vec3& normal) {
-  return glm::dot(relative_velocity(row, step.v), normal);
-}
-
-/// Whether surfaces so far apart may come within their distance, and a tenth more, in this substep.
-bool SurfaceContact::meets(const Step& step, float speed, float apart) {
-  return apart + step.h * std::min(speed, 0.0f) <= 1.1f * step.pair.distance;
-}
-
-/// Adds the row if its gap may be used up in this substep. apart: between the surfaces, negative where they overlap.
+/// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
 void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
                              Memory& memory) {
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
-  const float speed = normal_speed(step, corners, normal), gap = apart - step.pair.distance;
-  if (mobility <= 0 || !meets(step, speed, apart)) {
-    memory.pressed = 0;
-    return;
-  }
+  if (mobility <= 0) return;
+  const float speed = glm::dot(relative_velocity(corners, step.v), normal);
+  const float room = corners.feature == forgotten ? step.pair.distance : room_[corners.feature];
+  const float distance = std::min(step.pair.distance, room), gap = apart - distance;
   ContactRow& row = step.own.rows.emplace_back(corners);
   row.normal = normal;
   row.mass = 1 / mobility;
   // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
-  const float spare = apart - 0.5f * step.pair.distance;
+  const float spare = apart - 0.5f * distance;
   row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, push_speed);
   const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
   row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
@@ -404,8 +426,8 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
   if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
   row.friction = step.pair.friction;
-  row.pressed = memory.pressed;
-  row.drag = memory.pressed > 0 ? memory.drag - glm::dot(memory.drag, normal) * normal : glm::vec3(0.0f);
+  row.pressed = step.same * memory.pressed;
+  row.drag = step.same * (memory.drag - glm::dot(memory.drag, normal) * normal);
 }
 
 namespace {
@@ -459,7 +481,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     add(v, two.slot + i * lanes, -impulse * b.inverse_mass * axis);
 }
 
-void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v,
+void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
   constexpr std::size_t few = 2000;  // rows: done before the threads have met at every colour
   const bool alone = rows() < few;
@@ -488,6 +510,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
         memory_[row.feature].drag = row.drag;
       },
       true);
+  if (thread == 0) last_h_ = h;
   if (alone) barrier();
 }
 

@@ -9,11 +9,12 @@
 //   u . n >= e |u_before . n|  at an impact faster than `impact_speed`: Newton's restitution.
 //
 // Impulses that bring this about act on the corners by their weights, equal and opposite along the line between the two
-// points, so that linear and angular momentum stay. The distance itself is held by a spring with a damper, integrated
-// implicitly as in a soft constraint (Catto 2011): what rests neither sinks in nor trembles; friction takes at most mu
-// times them from the slip (Coulomb). The rows of a substep are solved by projected Gauss-Seidel with accumulated
-// impulses, started from those of the substep before (Catto 2005; many substeps of few iterations, Macklin et al.
-// 2019). Bodies' pairs are coloured, so that those of a colour share no body and the result does not depend on threads.
+// points, so that linear and angular momentum stay (but for friction, which is a couple over the distance kept). The
+// distance itself is held by a spring with a damper, integrated implicitly as in a soft constraint (Catto 2011): what
+// rests neither sinks in nor trembles; friction takes at most mu times them from the slip (Coulomb). The rows of a
+// substep are solved by projected Gauss-Seidel with accumulated impulses, started from those of the substep before
+// (Catto 2005; many substeps of few iterations, Macklin et al. 2019). Bodies' pairs are coloured, so that those of a
+// colour share no body and the result does not depend on threads.
 //
 // Which side a feature is on: outside a closed body the normal is simply from the one closest point to the other. A
 // vertex is inside if it lies behind the face that it is closest to; it then has only that row. Open surfaces and a
@@ -39,6 +40,7 @@ struct ContactBody {
   std::size_t first_slot = 0;  // of its vertices: first_slot + lanes * v
   float inverse_mass = 0;      // 1/kg, of a particle; 0: it does not move
   float friction = 0, restitution = 0;
+  const std::vector<glm::vec3>* rest = nullptr;  // its vertices at rest, m
 };
 
 struct ContactRow {
@@ -78,6 +80,7 @@ class SurfaceContact {
   bool holds(const collide::Frame& now, float elapsed) { return search_.holds(now, elapsed); }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   float stray(Index body) const { return search_.stray(body); }
+  bool moved(Index body) const { return bodies_[body].inverse_mass > 0; }  // at the last find()
   const collide::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
@@ -87,12 +90,14 @@ class SurfaceContact {
   /// forces. On every thread.
   void prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
-  void solve(int thread, int threads, Field<const float> x, Field<float> v, const std::function<void()>& barrier);
+  void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
+             const std::function<void()>& barrier);
 
   /// Every two bodies that touched in the last substep, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
-  /// `vertices`: those of the bodies that find() was given, and perhaps of more. Bodies that sleep press on none.
+  /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
+  /// substep before.
   std::vector<SurfaceTouch> touches(const collide::Bodies& vertices) const;
 
  private:
@@ -103,6 +108,7 @@ class SurfaceContact {
     float friction, restitution;
     float inverse_a, inverse_b;
     std::size_t slot_a, slot_b;
+    float speed = 0;       // m/s, with which the two may meet
     bool overlap = false;  // some vertex may be inside the other body: see find_deep()
     bool parting = false;  // so deep that the bodies are moved apart as a whole
     std::uint32_t deep = 0, deep_end = 0;
@@ -144,12 +150,15 @@ class SurfaceContact {
     Thread& own;
     Pair& pair;
     float look;  // m: no contact beyond it
+    float same;  // the length of this substep over that of the last one; 0: there was none
   };
 
   void inherit(const std::vector<Pair>& old_pairs, const std::vector<collide::FeaturePair>& old_features,
                const std::vector<Memory>& old_memory);
   Pair make_pair(const collide::SurfacePair& range) const;
   void find_deep(Pair& pair);
+  void leave_room(const Pair& pair);
+  void foresee_speeds();
   void colour();
   Side side(const Pair& pair, bool second) const;
   Index owner(const Pair& pair, std::uint32_t slot) const;
@@ -159,8 +168,6 @@ class SurfaceContact {
   void edges_on_edges(Step& step);
   void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
   bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
-  static float normal_speed(const Step& step, const ContactRow& row, const glm::vec3& normal);
-  static bool meets(const Step& step, float speed, float apart);
   void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
 
   std::vector<collide::SurfaceBody> traits_;
@@ -168,10 +175,12 @@ class SurfaceContact {
   collide::SurfaceSearch search_;
   std::vector<Pair> pairs_;
   std::vector<Memory> memory_;
+  std::vector<float> room_;  // m, of each feature pair: no more than this is kept between the two
   std::vector<DeepVertex> deep_;
   std::vector<std::vector<std::uint32_t>> colours_;
   std::vector<Thread> threads_;
   float rate_ = 0;
+  float last_h_ = 0;  // s, of the last substep
 };
 
 }  // namespace softbody

@@ -190,7 +190,8 @@ void World::step() {
   s.gather();
   s.profile.solve_ms = ms_since(start);
   s.detect();
-  const bool shield_grows = s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
+  const bool shield_grows =
+      s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
   if (s.plan.has(Stage::sleep) && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.profile.total_ms = ms_since(start);
 }
@@ -255,6 +256,8 @@ void World::set_contact_surface(ContactSurface surface) {
   s.scene.contact_surface = surface;
   s.plan = make_plan(s.scene, s.prototypes.all());
   s.dynamics.set_plan(s.plan);
+  // Surfaces lie closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
+  if (surface == ContactSurface::surfaces) s.shield = 0;
   s.wake_all();
 }
 
