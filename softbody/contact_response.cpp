@@ -109,7 +109,7 @@ void Dynamics::find_surface_contacts(double left) {
     const Body& body = bodies_[id];
     const Prototype& p = prototype(id);
     const auto edge = float(p.mean_edge);
-    const float reach = std::clamp(0.5f * float(p.material.thickness), 0.01f * edge, 0.1f * edge);
+    const float reach = std::clamp(0.5f * float(p.material.thickness), 0.001f * edge, 0.1f * edge);
     // Twice what the body needed last: the calmer it is, the fewer candidates. A new one is no calm one.
     const float strayed = id < surface_.bodies() && surface_.moved(id) ? 2 * surface_.stray(id) : edge;
     const float slack = std::clamp(strayed, 0.015f * edge, 0.1f * edge);

@@ -16,8 +16,6 @@ using collide::Closest;
 using collide::FeaturePair;
 using collide::Surface;
 
-constexpr float spring_frequency = 750;  // 1/s, angular
-constexpr float spring_damping = 5;      // of the critical
 constexpr float push_share = 0.1f;       // of an overlap, a substep
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
@@ -501,7 +499,8 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
   pass([&](ContactRow& row) {
     if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
   });
-  for (int i = 1; i < iterations; ++i) pass([&](ContactRow& row) { iterate(row, v); }, true);
+  const int rounds = h * rate_ > 0.5f ? iterations_of_hits : iterations;
+  for (int i = 1; i < rounds; ++i) pass([&](ContactRow& row) { iterate(row, v); }, true);
   pass(
       [&](ContactRow& row) {
         iterate(row, v);

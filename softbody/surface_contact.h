@@ -70,8 +70,12 @@ struct SurfaceTouch {
 
 class SurfaceContact {
  public:
-  static constexpr int iterations = 2;       // a substep
-  static constexpr float push_speed = 1.0f;  // m/s, overlaps come apart no faster
+  static constexpr int iterations = 2;          // a substep
+  static constexpr int iterations_of_hits = 8;  // where two bodies pass each other half as far as they may in a substep
+  static constexpr float push_speed = 1.0f;     // m/s, overlaps come apart no faster
+  // Of the spring that keeps the distance, against the effective mass of the contact:
+  static constexpr float spring_frequency = 750;  // 1/s, angular
+  static constexpr float spring_damping = 5;      // of the critical
 
   /// The candidates of the coming `seconds`. traits and bodies: one a body.
   void find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits, std::vector<ContactBody> bodies,

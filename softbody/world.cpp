@@ -256,8 +256,8 @@ void World::set_contact_surface(ContactSurface surface) {
   s.scene.contact_surface = surface;
   s.plan = make_plan(s.scene, s.prototypes.all());
   s.dynamics.set_plan(s.plan);
-  // Surfaces lie closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
-  if (surface == ContactSurface::surfaces) s.shield = 0;
+  // Surfaces come closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
+  if (surface == ContactSurface::surfaces && s.frame > 0) s.shield = 0;
   s.wake_all();
 }
 

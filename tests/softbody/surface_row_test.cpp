@@ -79,13 +79,14 @@ class OneRow {
   std::array<std::vector<float>, 3> seen_, speed_;
 };
 
-TEST(SurfaceContactRow, LetsTheGapBeUsedUpAndNoMore) {
+TEST(SurfaceContactRow, LetsTheGapAndHalfTheDistanceBeUsedUpAndNoMore) {
   constexpr double rounding = 1e-3;        // m/s: the normal is that of two points some mm apart, in floats of 1 m
-  for (const float speed : {0.4f, 10.0f})  // below the impact speed and above
-    for (const float gap : {0.0f, 0.0001f, 0.0003f})
+  for (const float speed : {0.4f, 10.0f})  // too slow for that, and fast enough
+    for (const float gap : {0.0001f, 0.0003f})
       for (const float inverse_b : {0.0f, 0.5f}) {
         const OneRow row({.gap = gap, .velocity = {0, -speed, 0}, .inverse_b = inverse_b});
-        EXPECT_NEAR(row.relative().y, double(-gap / OneRow::h), rounding) << speed;
+        EXPECT_NEAR(row.relative().y, -std::min(double(speed), double((gap + OneRow::reach) / OneRow::h)), rounding)
+            << speed;
         EXPECT_NEAR(row.relative().x, 0, rounding) << speed;
       }
   for (const float restitution : {0.0f, 0.5f}) {
@@ -98,29 +99,42 @@ TEST(SurfaceContactRow, LetsTheGapBeUsedUpAndNoMore) {
 
 TEST(SurfaceContactRow, ThrowsBackByTheRestitution) {
   for (const float e : {0.25f, 0.5f, 1.0f}) {
-    EXPECT_NEAR(OneRow({.gap = 0, .velocity = {0, -4, 0}, .restitution = e}).relative().y, 4 * e, 1e-5);
+    EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution = e}).relative().y, 4 * e, 1e-5);
     const double slow = 0.9 * double(impact_speed);
-    EXPECT_NEAR(OneRow({.gap = 0, .velocity = {0, float(-slow), 0}, .restitution = e}).relative().y, 0, 1e-4)
+    EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, float(-slow), 0}, .restitution = e}).relative().y, -slow, 1e-4)
         << "slow ones are not thrown back";
   }
 }
 
 TEST(SurfaceContactRow, TakesFrictionTimesTheImpulseFromTheSlip) {
   for (const float mu : {0.0f, 0.2f, 0.5f, 2.0f}) {
-    const OneRow row({.gap = 0, .velocity = {3, -5, 4}, .friction = mu});
-    const double kept =
-        std::max(0.0, 1 - double(mu) * 5 / 5);  // the slip is 5 m/s, and so is the change along the normal
+    const float gap = 0.0001f;
+    const OneRow row({.gap = gap, .velocity = {3, -5, 4}, .friction = mu});
+    const double left = double((gap + OneRow::reach) / OneRow::h);       // m/s, along the normal
+    const double kept = std::max(0.0, 1 - double(mu) * (5 - left) / 5);  // of the slip, 5 m/s
     EXPECT_NEAR(row.relative().x, 3 * kept, 1e-3) << mu;
     EXPECT_NEAR(row.relative().z, 4 * kept, 1e-3) << mu;
-    EXPECT_NEAR(row.relative().y, 0, 1e-3) << mu;
+    EXPECT_NEAR(row.relative().y, -left, 1e-3) << mu;
   }
 }
 
-TEST(SurfaceContactRow, BringsOverlapsApartByATenthASubstepAtMost1MetreASecond) {
-  const float h = OneRow::h;
-  // Still on their own sides, but closer than the distance that is kept.
-  for (const float depth : {0.0005f, 0.001f, 0.003f})
-    EXPECT_NEAR(OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y, 0.1 * double(depth / h), 1e-3);
+/// A damped spring in one implicit step, as a soft constraint (Catto 2011).
+TEST(SurfaceContactRow, KeepsTheDistanceByASpring) {
+  const double turn = double(SurfaceContact::spring_frequency * OneRow::h);
+  const double damping = 2 * double(SurfaceContact::spring_damping) + turn, hardness = turn * damping;
+  for (const float depth : {0.0005f, 0.001f, 0.002f})  // still on their own sides, but closer than that
+    for (const float speed : {0.0f, 0.2f}) {
+      const double widening = double(depth / OneRow::h) * turn / damping;
+      EXPECT_NEAR(OneRow({.gap = -depth, .velocity = {0, -speed, 0}}).relative().y,
+                  (hardness * widening - double(speed)) / (1 + hardness), 1e-3);
+    }
+}
+
+TEST(SurfaceContactRow, PushesOverlapsOutAtATenthASubstep) {
+  const float depth = 0.0039f, beyond = depth - OneRow::reach;  // of half the distance
+  const double spring = OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y;
+  EXPECT_GE(spring, 0.1 * double(beyond / OneRow::h) - 1e-3);
+  EXPECT_LT(spring, double(SurfaceContact::push_speed));
 }
 
 TEST(SurfaceContactRow, GivesNoMomentumInAll) {
