@@ -16,7 +16,7 @@ using collide::Closest;
 using collide::FeaturePair;
 using collide::Surface;
 
-constexpr float push_share = 0.1f;       // of an overlap, a substep
+constexpr float push_share = 0.1f;   // of an overlap, a substep
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 constexpr std::uint32_t forgotten = std::numeric_limits<std::uint32_t>::max();
@@ -391,12 +391,13 @@ void SurfaceContact::edges_on_edges(Step& step) {
     bool crossed = false;
     if (!closed) {
       crossed = orient(memory, true, normal);
-    } else {
+    } else if (glm::dot(memory.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
       crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
       if (crossed && distance > step.pair.distance) {  // the far side of something thin
         memory = {};
         continue;
       }
+      memory.normal = crossed ? glm::vec3(0.0f) : normal;
       if (crossed) normal = -normal;
     }
     add_row(step, row, normal, crossed ? -distance : distance, memory);
