@@ -6,6 +6,8 @@
 
 #include <glm/common.hpp>
 
+#include "collide/midpoint_cut.h"
+
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collide/box_pairs.cpp"
 #include <hwy/foreach_target.h>
@@ -63,20 +65,8 @@ void for_overlapping(const BoxList& list, Index begin, const Aabb& box, std::vec
       visit(start + 64 * w + static_cast<Index>(std::countr_zero(word)));
 }
 
-struct Cut {
-  int axis;
-  float mid;
-};
-
-/// At the midpoint of the widest side.
-Cut cut_of(const Aabb& box) {
-  const glm::vec3 side = box.hi - box.lo;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-  return {axis, box.lo[axis] * 0.5f + box.hi[axis] * 0.5f};
-}
-
 /// Those that reach below the cut, or those that reach it from above.
-void take(const BoxList& list, const Cut& cut, bool low, BoxList& taken) {
+void take(const BoxList& list, const MidpointCut& cut, bool low, BoxList& taken) {
   const auto axis = static_cast<std::size_t>(cut.axis);
   taken.clear();
   taken.reserve(list.size);
@@ -85,7 +75,7 @@ void take(const BoxList& list, const Cut& cut, bool low, BoxList& taken) {
   taken.end();
 }
 
-glm::vec3 above(glm::vec3 from, const Cut& cut) {
+glm::vec3 above(glm::vec3 from, const MidpointCut& cut) {
   from[cut.axis] = std::max(from[cut.axis], cut.mid);
   return from;
 }
@@ -169,7 +159,7 @@ BoxPairs::Level& BoxPairs::level(std::size_t depth) {
 void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& from, std::size_t depth) {
   const auto tests = [](const BoxList& one, const BoxList& other) { return std::uint64_t{one.size} * other.size; };
   if (tests(a, b) > leaf_tests && depth < most_cuts) {
-    const Cut cut = cut_of(a.bounds());
+    const MidpointCut cut = cut_of(a.bounds());
     Level& own = level(depth);
     take(a, cut, true, own.low_a), take(b, cut, true, own.low_b);
     take(a, cut, false, own.up_a), take(b, cut, false, own.up_b);
@@ -185,7 +175,7 @@ void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& 
 void BoxPairs::cut_within(const BoxList& list, const glm::vec3& from, std::size_t depth) {
   const auto tests = [](const BoxList& one) { return std::uint64_t{one.size} * one.size / 2; };
   if (tests(list) > leaf_tests && depth < most_cuts) {
-    const Cut cut = cut_of(list.bounds());
+    const MidpointCut cut = cut_of(list.bounds());
     Level& own = level(depth);
     take(list, cut, true, own.low_a), take(list, cut, false, own.up_a);
     if (tests(own.low_a) + tests(own.up_a) < tests(list) / 8 * 7) {

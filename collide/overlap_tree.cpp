@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "collide/midpoint_cut.h"
+
 namespace collide {
 
 namespace {
@@ -35,18 +37,6 @@ void filter_near(const Picked& set, const Aabb& box, float reach, Picked& kept) 
 }
 
 const std::vector<float>& along(const Picked& set, int axis) { return axis == 0 ? set.x : axis == 1 ? set.y : set.z; }
-
-struct Cut {
-  int axis;
-  float mid;
-};
-
-/// At the midpoint of the widest side.
-Cut cut_of(const Aabb& box) {
-  const glm::vec3 side = box.hi - box.lo;
-  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
-  return {axis, box.lo[axis] * 0.5f + box.hi[axis] * 0.5f};
-}
 
 }  // namespace
 
@@ -85,7 +75,7 @@ void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
   filter_near(a, bounds_of(b), reach_, own.near_a);
   if (own.near_a.size == 0) return;
   filter_near(b, bounds_of(own.near_a), reach_, own.near_b);
-  const Cut cut = cut_of(bounds_of(own.near_a));
+  const MidpointCut cut = cut_of(bounds_of(own.near_a));
   const int axis = cut.axis;
   const float mid = cut.mid;
   const std::vector<float>&va = along(own.near_a, axis), &vb = along(own.near_b, axis);
@@ -108,7 +98,7 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
-  const Cut cut = cut_of(bounds_of(set));
+  const MidpointCut cut = cut_of(bounds_of(set));
   const int axis = cut.axis;
   const float mid = cut.mid;
   const std::vector<float>& v = along(set, axis);

@@ -73,17 +73,14 @@ void SurfaceSearch::clear() {
 
 void SurfaceSearch::sweep_body(Index body) {
   Swept& s = swept_[body];
-  const Index first = motion_.positions.bodies->first[body], count = motion_.positions.bodies->size(body);
+  const Index count = motion_.positions.bodies->size(body);
   const SurfaceBody& traits = bodies_[body];
   s.live = false;
   if (count == 0 || !traits.surface) return;
-  const auto velocity = [&](Index v) {
-    return glm::vec3(motion_.vx[first + v], motion_.vy[first + v], motion_.vz[first + v]);
-  };
   const Run at = run(body);
   s.velocity = glm::vec3(0.0f);
   if (traits.moves) {
-    for (Index v = 0; v < count; ++v) s.velocity += velocity(v);
+    for (Index v = 0; v < count; ++v) s.velocity += velocity(body, v);
     s.velocity = s.velocity / static_cast<float>(count);
   }
   glm::vec3 momentum(0.0f), centre(0.0f);
@@ -93,7 +90,7 @@ void SurfaceSearch::sweep_body(Index body) {
   s.centre = centre;
   const auto arm = [&](Index v) { return glm::vec3(at.x[v], at.y[v], at.z[v]) - centre; };
   for (Index v = 0; v < count && traits.moves; ++v) {
-    momentum += glm::cross(arm(v), velocity(v) - s.velocity);
+    momentum += glm::cross(arm(v), velocity(body, v) - s.velocity);
     inertia += glm::dot(arm(v), arm(v)) * (2.0f / 3);  // as if it were a ball: any spin will do
   }
   s.spin = inertia > 0 ? momentum / inertia : glm::vec3(0.0f);
@@ -103,7 +100,7 @@ void SurfaceSearch::sweep_body(Index body) {
   float farthest2 = 0;
   for (Index v = 0; v < count; ++v) {
     const glm::vec3 x(at.x[v], at.y[v], at.z[v]);
-    const glm::vec3 move = traits.moves ? seconds_ * (velocity(v) - s.velocity) : glm::vec3(0.0f);
+    const glm::vec3 move = traits.moves ? seconds_ * (velocity(body, v) - s.velocity) : glm::vec3(0.0f);
     const glm::vec3 strain = traits.moves ? move - seconds_ * glm::cross(s.spin, arm(v)) : glm::vec3(0.0f);
     farthest2 = std::max(farthest2, glm::dot(move, move));
     strain2 = std::max(strain2, glm::dot(strain, strain));
