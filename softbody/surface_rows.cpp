@@ -1,0 +1,239 @@
+// Surface contact: the rows of a substep, from the features that are near each other.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+#include "softbody/surface_vectors.h"
+
+namespace softbody {
+namespace {
+
+using collide::Closest;
+using collide::FeaturePair;
+
+constexpr float push_share = 0.1f;  // of an overlap, a substep
+
+ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility, const collide::Triangle& face,
+                      std::size_t face_slot, float face_mobility) {
+  ContactRow row{};
+  row.slot[0] = static_cast<std::uint32_t>(vertex_slot);
+  row.weight[0] = 1;
+  row.mobility[0] = vertex_mobility;
+  for (std::size_t k = 0; k < 3; ++k) {
+    row.slot[k + 1] = static_cast<std::uint32_t>(face_slot + face[k] * lanes);
+    row.weight[k + 1] = -c.weight[k + 1];
+    row.mobility[k + 1] = face_mobility * row.weight[k + 1];
+  }
+  return row;
+}
+
+}  // namespace
+
+void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
+                             float h) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  own.rows.clear();
+  const collide::Part part = collide::part_of(pairs_.size(), thread, threads);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    Pair& p = pairs_[i];
+    p.thread = thread;
+    p.first_row = static_cast<std::uint32_t>(own.rows.size());
+    Step step{x, v, h, elapsed + h, own, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
+    p.rows = 0;
+    if (p.parting) continue;
+    if (p.deep < p.deep_end) deep_vertices(step);
+    vertices_on_faces(step, p.range.vertex_face, p.range.face_vertex, false);
+    vertices_on_faces(step, p.range.face_vertex, p.range.edge_edge, true);
+    if (p.deep == p.deep_end) edges_on_edges(step);
+    p.rows = static_cast<std::uint32_t>(own.rows.size()) - p.first_row;
+  }
+}
+
+void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
+  const Side vertex_side = side(step.pair, vertex_of_b), face_side = side(step.pair, !vertex_of_b);
+  const Side faces = step.pair.range.a == step.pair.range.b ? vertex_side : face_side;
+  const bool oriented = step.pair.range.a == step.pair.range.b || !faces.surface->closed();
+  const auto is_deep = [&](Index v) {
+    return std::any_of(deep_.begin() + step.pair.deep, deep_.begin() + step.pair.deep_end,
+                       [&](const DeepVertex& d) { return d.vertex == v && d.of_b == vertex_of_b; });
+  };
+  const auto& features = search_.features();
+  const float look2 = step.look * step.look;
+  for (std::uint32_t i = begin; i < end;) {
+    const Index v = features[i].a;
+    const glm::vec3 p = read(step.x, vertex_side.slot + v * lanes) + vertex_side.offset;
+    step.own.near.clear();
+    for (; i < end && features[i].a == v; ++i) {
+      if (features[i].from > step.until) continue;
+      const collide::Triangle& face = faces.surface->triangles()[features[i].b];
+      glm::vec3 corner[3];
+      for (std::size_t k = 0; k < 3; ++k) corner[k] = read(step.x, faces.slot + face[k] * lanes) + faces.offset;
+      const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
+      const float distance2 = glm::dot(c.apart, c.apart);
+      if (distance2 > look2)
+        memory_[i] = {};
+      else
+        step.own.near.push_back({c, normal_of(corner[0], corner[1], corner[2]), distance2, i});
+    }
+    if (!step.own.near.empty() && !is_deep(v)) vertex_on_faces(step, vertex_side, faces, oriented);
+  }
+}
+
+/// The rows of one vertex, whose near faces are listed.
+void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented) {
+  const auto& features = search_.features();
+  const std::vector<Near>& near = step.own.near;
+  const auto corners = [&](const Near& n) {
+    const FeaturePair& f = features[n.feature];
+    ContactRow row = corners_of(n.closest, vertex_side.slot + f.a * lanes, vertex_side.inverse_mass,
+                                face_side.surface->triangles()[f.b], face_side.slot, face_side.inverse_mass);
+    row.feature = n.feature;
+    return row;
+  };
+  if (!oriented) {
+    const auto facing = [](const Near& n) {  // |cos| of the angle between the face's normal and the way to the vertex
+      return std::abs(glm::dot(n.closest.apart, n.face_normal)) / glm::length(n.face_normal);
+    };
+    const Near* nearest = &near[0];
+    for (const Near& n : near) {
+      // Faces that share the closest point: the one that faces the vertex most tells which side it is on.
+      const bool tie = std::abs(n.distance2 - nearest->distance2) <= 1e-5f * nearest->distance2;
+      if (tie ? facing(n) > facing(*nearest) : n.distance2 < nearest->distance2) nearest = &n;
+    }
+    if (glm::dot(nearest->closest.apart, nearest->face_normal) < 0) {
+      const float depth = std::sqrt(nearest->distance2);
+      for (const Near& n : near)
+        memory_[n.feature].pressed = n.feature == nearest->feature ? memory_[n.feature].pressed : 0;
+      if (depth > step.pair.distance) step.pair.overlap = true;  // to be looked at when candidates are found next
+      add_row(step, corners(*nearest), unit(-nearest->closest.apart, nearest->face_normal), -depth,
+              memory_[nearest->feature]);
+      return;
+    }
+  }
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const Near& n = near[k];
+    Memory& memory = memory_[n.feature];
+    const bool twice =
+        !n.closest.inner && std::any_of(near.begin(), near.begin() + std::ptrdiff_t(k), [&](const Near& m) {
+          const glm::vec3 d = m.closest.apart - n.closest.apart;
+          return glm::dot(d, d) <= 1e-6f * n.distance2;
+        });
+    if (twice) {
+      memory = {};
+      continue;
+    }
+    glm::vec3 normal = unit(n.closest.apart, oriented ? memory.normal : n.face_normal);
+    const bool crossed = oriented && orient(memory, n.closest.inner, normal);
+    add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), memory);
+  }
+}
+
+/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
+bool SurfaceContact::orient(Memory& memory, bool inner, glm::vec3& normal) const {
+  const bool crossed = inner && glm::dot(memory.normal, normal) < 0;
+  if (crossed) normal = -normal;
+  memory.normal = inner ? normal : glm::vec3(0.0f);
+  return crossed;
+}
+
+/// Those deep inside another body: towards the plane of the face that they are closest to.
+void SurfaceContact::deep_vertices(Step& step) {
+  for (std::uint32_t i = step.pair.deep; i < step.pair.deep_end; ++i) {
+    const DeepVertex& d = deep_[i];
+    const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
+    const collide::Triangle& face = face_side.surface->triangles()[d.face];
+    glm::vec3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = read(step.x, face_side.slot + face[k] * lanes) + face_side.offset;
+    const glm::vec3 p = read(step.x, vertex_side.slot + d.vertex * lanes) + vertex_side.offset;
+    const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
+    const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
+    ContactRow row = corners_of(c, vertex_side.slot + d.vertex * lanes, vertex_side.inverse_mass, face, face_side.slot,
+                                face_side.inverse_mass);
+    row.feature = forgotten;
+    Memory none;
+    add_row(step, row, normal, glm::dot(p - corner[0], normal), none);
+  }
+}
+
+void SurfaceContact::edges_on_edges(Step& step) {
+  const collide::SurfacePair& range = step.pair.range;
+  const bool self = range.a == range.b;
+  const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
+  const bool closed = !self && one.surface->closed() && two.surface->closed();
+  const float look2 = step.look * step.look;
+  const auto at = [&](const Side& s, Index v) { return read(step.x, s.slot + v * lanes) + s.offset; };
+  const auto outward = [&](const Side& s, Index edge) {
+    glm::vec3 sum(0.0f);
+    for (const Index f : s.surface->edge_triangles()[edge]) {
+      const collide::Triangle& face = s.surface->triangles()[f];
+      sum += unit(normal_of(at(s, face[0]), at(s, face[1]), at(s, face[2])), {});
+    }
+    return sum;
+  };
+  for (std::uint32_t i = range.edge_edge; i < range.end; ++i) {
+    const FeaturePair& f = search_.features()[i];
+    if (f.from > step.until) continue;
+    const collide::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+    const Closest c = collide::closest_edges(at(one, e1[0]), at(one, e1[1]), at(two, e2[0]), at(two, e2[1]));
+    const float distance2 = glm::dot(c.apart, c.apart);
+    Memory& memory = memory_[i];
+    if (!c.inner || distance2 > look2) {  // those that end on a corner are a vertex's
+      memory = {};
+      continue;
+    }
+    ContactRow row{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * lanes);
+      row.slot[k + 2] = static_cast<std::uint32_t>(two.slot + e2[k] * lanes);
+      row.weight[k] = c.weight[k];
+      row.weight[k + 2] = -c.weight[k + 2];
+      row.mobility[k] = one.inverse_mass * row.weight[k];
+      row.mobility[k + 2] = two.inverse_mass * row.weight[k + 2];
+    }
+    row.feature = i;
+    const float distance = std::sqrt(distance2);
+    glm::vec3 normal = unit(c.apart, memory.normal);
+    bool crossed = false;
+    if (!closed) {
+      crossed = orient(memory, true, normal);
+    } else if (glm::dot(memory.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
+      crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
+      if (crossed && distance > step.pair.distance) {  // the far side of something thin
+        memory = {};
+        continue;
+      }
+      memory.normal = crossed ? glm::vec3(0.0f) : normal;
+      if (crossed) normal = -normal;
+    }
+    add_row(step, row, normal, crossed ? -distance : distance, memory);
+  }
+}
+
+/// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
+void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
+                             Memory& memory) {
+  float mobility = 0;
+  for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
+  if (mobility <= 0) return;
+  const float speed = glm::dot(relative_velocity(corners, step.v), normal);
+  const float room = corners.feature == forgotten ? step.pair.distance : room_[corners.feature];
+  const float distance = std::min(step.pair.distance, room), gap = apart - distance;
+  ContactRow& row = step.own.rows.emplace_back(corners);
+  row.normal = normal;
+  row.mass = 1 / mobility;
+  // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
+  const float spare = apart - 0.5f * distance;
+  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, push_speed);
+  const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
+  row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
+  row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);
+  const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
+  if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
+  row.friction = step.pair.friction;
+  row.pressed = step.same * memory.pressed;
+  row.drag = step.same * (memory.drag - glm::dot(memory.drag, normal) * normal);
+}
+
+}  // namespace softbody
