@@ -1,5 +1,3 @@
-#include "softbody/world.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,8 +7,7 @@
 #include <glm/vec2.hpp>
 
 #include "softbody/measures.h"
-#include "softbody/prototype_set.h"
-#include "softbody/sleep.h"
+#include "softbody/world_state.h"
 
 namespace softbody {
 namespace {
@@ -20,17 +17,6 @@ using Clock = std::chrono::steady_clock;
 double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
-
-/// Positions as a detector wants them.
-struct Coordinates {
-  std::vector<float> x, y, z;
-  void add(const glm::vec3& p) {
-    x.push_back(p.x);
-    y.push_back(p.y);
-    z.push_back(p.z);
-  }
-  collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
-};
 
 /// The default cell size is that of the bodies at rest, whatever they look like later.
 glm::vec3 rest_cell_size(const PrototypeSet& prototypes, const collide::Settings& settings) {
@@ -44,44 +30,6 @@ glm::vec3 rest_cell_size(const PrototypeSet& prototypes, const collide::Settings
 }
 
 }  // namespace
-
-struct World::State {
-  State(Scene s, const Options& o);
-
-  void add(const BodySource& source, const glm::dvec3& position);
-  void arrive();
-  void gather();
-  void detect();
-  void wake_all();
-  double substeps(const Prototype& p, float thickness) const;
-  void check_stability(const Prototype& p) const;
-  double clear_height(const Prototype& p, const glm::dvec3& position) const;
-
-  Scene scene;
-  Options options;
-  collide::Workers workers;
-  PrototypeSet prototypes;
-  Plan plan;
-  Dynamics dynamics;
-  Sleep sleep;
-  std::vector<char> arrived;  // one a body source of the scene
-  int drops = 0;
-  std::array<double, 2> drop_direction{1, 0};  // x and z
-  int frame = 0;
-
-  const collide::Method* method;
-  std::unique_ptr<collide::Detector> detector;
-  collide::Settings settings;
-  bool default_cell;
-  float shield;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider throws bodies
-                 // about
-
-  collide::Bodies bodies;
-  std::vector<BodyId> vertex_body;
-  Coordinates positions;
-  collide::Result result;
-  Profile profile;
-};
 
 World::State::State(Scene s, const Options& o)
     : scene(std::move(s)),
