@@ -28,6 +28,7 @@ struct SpringLaw {
   double stiffness = 0;  // N/m
   double damping_ratio =
       0;  // of the critical damping of the spring between its two particles: c = 2 zeta sqrt(k m / 2)
+  bool operator==(const SpringLaw&) const = default;
 };
 
 struct Material {
@@ -49,6 +50,7 @@ struct Material {
   /// gas alone. Not given: mesh_file_shape_frequency for meshes from files, 0 for others.
   std::optional<double> shape_frequency;
   bool start_in_equilibrium = true;  // springs and gas are brought into balance when the scene is loaded
+  bool operator==(const Material&) const = default;
 };
 
 inline constexpr double mesh_file_shape_frequency = 10;  // Hz
@@ -75,6 +77,7 @@ struct BodySource {
   glm::dvec3 velocity{0.0};      // m/s
   int appear = 0;                // the frame in which it joins the scene ...
   int release = 0;               // ... held in place until this one
+  bool operator==(const BodySource&) const = default;
 };
 
 // Solids do not move. friction: Coulomb's coefficient. restitution (0 to 1): the share of its normal speed with which a
@@ -84,6 +87,7 @@ struct SolidSphere {
   double radius = 1;       // m
   double friction = 0.5;
   double restitution = 0;
+  bool operator==(const SolidSphere&) const = default;
 };
 
 /// Everything below an unbounded plane.
@@ -92,6 +96,7 @@ struct SolidPlane {
   glm::dvec3 normal{0, 1, 0};  // unit, out of the solid
   double friction = 0.5;
   double restitution = 0;
+  bool operator==(const SolidPlane&) const = default;
 };
 
 struct SolidBox {
@@ -100,6 +105,7 @@ struct SolidBox {
   glm::dmat3 axes{1.0};       // columns: those axes in the world, orthonormal
   double friction = 0.5;
   double restitution = 0;
+  bool operator==(const SolidBox&) const = default;
 };
 
 /// All points within a radius of a line segment.
@@ -108,6 +114,7 @@ struct SolidCapsule {
   double radius = 0.25;                        // m
   double friction = 0.5;
   double restitution = 0;
+  bool operator==(const SolidCapsule&) const = default;
 };
 
 /// The plane y = height.
@@ -115,17 +122,20 @@ struct Ground {
   double height = 0;  // m
   double friction = 0.6;
   double restitution = 0;
+  bool operator==(const Ground&) const = default;
 };
 
 /// Where "drop another body" puts it: a body source and the radius of the disc around its position.
 struct Dropper {
   BodySource body;
   double spread = 0.3;  // m
+  bool operator==(const Dropper&) const = default;
 };
 
 struct SleepRule {
   double speed = 0.03;  // m/s: no particle of a contact island faster ...
   int frames = 30;      // ... for this many frames
+  bool operator==(const SleepRule&) const = default;
 };
 
 struct View {
@@ -133,11 +143,13 @@ struct View {
   double distance = 8;    // m
   double azimuth = 30;    // degrees
   double elevation = 18;  // degrees
+  bool operator==(const View&) const = default;
 };
 
 struct Caption {
   int frame;
   std::string text;
+  bool operator==(const Caption&) const = default;
 };
 
 /// What keeps bodies apart.
@@ -179,6 +191,7 @@ struct Scene {
   SleepRule sleep;
   View view;
   std::vector<Caption> captions;  // what to see from this frame on
+  bool operator==(const Scene&) const = default;
 };
 
 /// Reads a scene file. Throws SceneError; unknown keys, wrong types and values out of range are errors too.

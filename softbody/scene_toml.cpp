@@ -1,159 +1,22 @@
-// Scene files. Every key is read through Table, which checks type and range and remembers what was asked for, so that a
-// key that nobody asked for is reported as unknown.
+// Reading scene files. What is written here has its counterpart in scene_write.cpp.
 
+#include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <limits>
-#include <set>
-#include <sstream>
 
-#define TOML_EXCEPTIONS 1
-#include <toml++/toml.h>
-
-#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
 #include "softbody/obj_file.h"
 #include "softbody/scene.h"
+#include "softbody/toml_table.h"
 
 namespace softbody {
 namespace {
 
-constexpr double any = std::numeric_limits<double>::max();
 constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
-constexpr std::uintmax_t max_file_size = 1 << 20;
 constexpr std::uint64_t max_particles = 4'000'000;
-
-/// One table of the file, with the place of an error in every message.
-class Table {
- public:
-  Table(const toml::table& table, std::string file, std::string name)
-      : table_(table), file_(std::move(file)), name_(std::move(name)) {}
-
-  double number(const std::string& key, double fallback, double lo = -any, double hi = any) {
-    const toml::node* node = find(key);
-    if (!node) return fallback;
-    const auto value = node->is_number() ? node->value<double>() : std::nullopt;
-    if (!value || !std::isfinite(*value) || *value < lo || *value > hi)
-      fail(*node, key, "must be a number" + range(lo, hi));
-    return *value;
-  }
-
-  int integer(const std::string& key, int fallback, int lo, int hi) {
-    const toml::node* node = find(key);
-    if (!node) return fallback;
-    const auto value = node->is_integer() ? node->value<std::int64_t>() : std::nullopt;
-    if (!value || *value < lo || *value > hi) fail(*node, key, "must be a whole number" + range(lo, hi));
-    return static_cast<int>(*value);
-  }
-
-  bool boolean(const std::string& key, bool fallback) {
-    const toml::node* node = find(key);
-    if (!node) return fallback;
-    if (!node->is_boolean()) fail(*node, key, "must be true or false");
-    return *node->value<bool>();
-  }
-
-  std::string text(const std::string& key, std::string fallback) {
-    const toml::node* node = find(key);
-    if (!node) return fallback;
-    if (!node->is_string()) fail(*node, key, "must be a string");
-    return *node->value<std::string>();
-  }
-
-  glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo = -any, double hi = any) {
-    const toml::node* node = find(key);
-    if (!node) return fallback;
-    const toml::array* list = node->as_array();
-    if (!list || list->size() != 3) fail(*node, key, "must be three numbers, e.g. [0, 1, 0]");
-    glm::dvec3 result;
-    for (int k = 0; k < 3; ++k) {
-      const toml::node& item = (*list)[std::size_t(k)];
-      const auto value = item.is_number() ? item.value<double>() : std::nullopt;
-      if (!value || !std::isfinite(*value) || *value < lo || *value > hi)
-        fail(item, key, "must be three numbers, each" + range(lo, hi));
-      result[k] = *value;
-    }
-    return result;
-  }
-
-  glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi) {
-    const glm::dvec3 result = vector(key, fallback, lo, hi);
-    if (result != glm::floor(result)) fail(key, "must be three whole numbers");
-    return result;
-  }
-
-  /// Of the scene file.
-  std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
-
-  bool has(const std::string& key) const { return table_.contains(key); }
-
-  /// The table below `key`, or an empty one.
-  Table child(const std::string& key) {
-    static const toml::table empty;
-    const toml::node* node = find(key);
-    if (!node) return {empty, file_, key};
-    if (!node->is_table()) fail(*node, key, "must be a table");
-    return {*node->as_table(), file_, key};
-  }
-
-  /// The tables of [[key]].
-  std::vector<Table> children(const std::string& key) {
-    std::vector<Table> list;
-    const toml::node* node = find(key);
-    if (!node) return list;
-    const toml::array* array = node->as_array();
-    if (!array) fail(*node, key, "must be a list of tables: write [[" + key + "]]");
-    for (const toml::node& item : *array) {
-      if (!item.is_table()) fail(item, key, "must be a list of tables: write [[" + key + "]]");
-      list.emplace_back(*item.as_table(), file_, key + "[" + std::to_string(list.size()) + "]");
-    }
-    return list;
-  }
-
-  /// Throws if the table holds a key that was never asked for.
-  void close() const {
-    for (const auto& [key, node] : table_)
-      if (!asked_.contains(std::string(key.str()))) {
-        std::string known;
-        for (const auto& k : asked_) known.append(known.empty() ? "" : ", ").append(k);
-        fail(node, std::string(key.str()), "is not known here; known are: " + known);
-      }
-  }
-
-  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    const toml::node* node = table_.get(key);
-    fail(node ? *node : table_, key, what);
-  }
-
- private:
-  const toml::node* find(const std::string& key) {
-    asked_.insert(key);
-    return table_.get(key);
-  }
-
-  static std::string range(double lo, double hi) {
-    std::ostringstream s;
-    s.precision(10);  // 16777216, not 1.67772e+07
-    if (lo > -any && hi < any)
-      s << " from " << lo << " to " << hi;
-    else if (lo > -any)
-      s << " of at least " << lo;
-    return s.str();
-  }
-
-  [[noreturn]] void fail(const toml::node& node, const std::string& key, const std::string& what) const {
-    std::string line = (name_.empty() ? "" : name_ + ".") + key + " " + what;
-    for (char& c : line)
-      if (static_cast<unsigned char>(c) < ' ') c = '?';  // a quoted key may hold anything; the message stays one line
-    throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " + line);
-  }
-
-  const toml::table& table_;
-  std::string file_, name_;
-  std::set<std::string> asked_;
-};
 
 SpringLaw read_springs(Table table, SpringLaw law) {
   law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);
@@ -267,16 +130,30 @@ void read_surface(Table& table, Solid& solid) {
   table.close();
 }
 
-/// A direction of any length but zero.
+constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
+
+/// A direction of any length but zero. Those that are unit stay as they are to the bit, so that saved scenes are equal.
 glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
   const glm::dvec3 v = table.vector(key, fallback, -far, far);
   if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
-  return glm::normalize(v);
+  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
+}
+
+/// A rotation as its matrix, column by column: what saved scenes have, since it is exact.
+glm::dmat3 read_axes(Table table) {
+  const glm::dmat3 axes = table.matrix("axes");
+  table.close();
+  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  for (int k = 0; k < 3; ++k)
+    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
+      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
+  return axes;
 }
 
 /// The columns of the matrix that turns by `degrees` about `axis`, counter-clockwise seen from its tip (Rodrigues).
 /// Sine and cosine are rounded: quarter turns are exact, and the last digits, in which processors differ, do not show.
 glm::dmat3 read_rotation(Table table) {
+  if (table.has("axes")) return read_axes(std::move(table));
   const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
   const double angle = glm::radians(table.number("degrees", 0, -360, 360));
   table.close();
@@ -367,7 +244,12 @@ void add_lattice(const Table& owner, Table table, const BodySource& body, std::v
 }
 
 void read_bodies(Table& root, Scene& scene) {
-  for (Table& t : root.children("material")) scene.materials.push_back(read_material(t));
+  for (Table& t : root.children("material")) {
+    Material m = read_material(t);
+    if (std::ranges::count(scene.materials, m.name, &Material::name) > 0)
+      t.fail("name", "'" + m.name + "' is that of an earlier [[material]]; give each its own");
+    scene.materials.push_back(std::move(m));
+  }
   if (scene.materials.empty()) scene.materials.emplace_back();
   constexpr int forever = 1'000'000'000;
   std::uint64_t particles = 0;
@@ -424,16 +306,8 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
 }  // namespace
 
 Scene load_scene(const std::filesystem::path& file) {
-  std::error_code error;
-  const auto size = std::filesystem::file_size(file, error);
-  if (error) throw SceneError(file.string() + ": cannot be read: " + error.message());
-  if (size > max_file_size) throw SceneError(file.string() + ": is larger than 1 MiB; no scene file is that long");
-  try {
-    const toml::table table = toml::parse_file(file.string());
-    return read_scene(Table(table, file.string(), ""), file);
-  } catch (const toml::parse_error& e) {
-    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
-  }
+  const toml::table table = read_toml(file);
+  return read_scene(Table(table, file.string(), ""), file);
 }
 
 }  // namespace softbody

@@ -113,6 +113,13 @@ const Bad bad_scenes[]{
     {"nan_in_vector", "[[body]]\nposition = [0, nan, 0]\n", 2, "position must be three numbers"},
     {"infinite_in_vector", "gravity = [0, -inf, 0]\n[[body]]\n", 1, "gravity must be three numbers"},
     {"unknown_method", "[collision]\nmethod = \"magic\"\n[[body]]\n", 2, "multi-level-sb-exact"},
+    {"materials_of_one_name", "[[material]]\nname = \"a\"\n[[material]]\nname = \"a\"\n[[body]]\n", 4,
+     "earlier [[material]]"},
+    {"axes_askew", "[[solid_box]]\nrotation = {axes = [[1, 0, 0], [0, 1, 0], [0, 0.1, 1]]}\n[[body]]\n", 2,
+     "right angles"},
+    {"axes_mirrored", "[[solid_box]]\nrotation = {axes = [[1, 0, 0], [0, 1, 0], [0, 0, -1]]}\n[[body]]\n", 2,
+     "right-handed"},
+    {"axes_of_two", "[[solid_box]]\nrotation = {axes = [[1, 0, 0], [0, 1, 0]]}\n[[body]]\n", 2, "three times three"},
     {"unknown_material", "[[material]]\nname = \"a\"\n[[body]]\nmaterial = \"b\"\n", 4, "names no [[material]]"},
     {"unknown_mesh", "[[body]]\nmesh = {kind = \"teapot\"}\n", 2, "\"icosphere\", \"grid\" or \"file\""},
     {"release_before_appear", "[[body]]\nappear = 9\nrelease = 8\n", 3, "must not come before appear"},
@@ -139,8 +146,8 @@ TEST(SceneErrors, AMissingFileAFolderAndAFileTooLarge) {
   const auto missing = folder.path() / "missing.toml";
   EXPECT_EQ(error_of(missing).find(missing.string() + ": cannot be read"), 0u) << error_of(missing);
   EXPECT_FALSE(error_of(folder.path()).empty());
-  const auto large = folder.write("large.toml", "[[body]]\n#" + std::string(1 << 20, 'x') + "\n");
-  EXPECT_NE(error_of(large).find("larger than 1 MiB"), std::string::npos) << error_of(large);
+  const auto large = folder.write("large.toml", "[[body]]\n#" + std::string(16 << 20, 'x') + "\n");
+  EXPECT_NE(error_of(large).find("larger than 16 MiB"), std::string::npos) << error_of(large);
 }
 
 TEST(SceneErrors, AnUnknownKeyListsTheKnownScenes) {
