@@ -71,6 +71,13 @@ void SurfaceSearch::clear() {
   unfolded_ = 0;
 }
 
+void SurfaceSearch::recall(std::vector<FeaturePair> features, std::span<const float> strays) {
+  clear();
+  features_ = std::move(features);
+  swept_.assign(strays.size(), {});
+  for (std::size_t body = 0; body < strays.size(); ++body) swept_[body].stray = strays[body];
+}
+
 void SurfaceSearch::sweep_body(Index body) {
   Swept& s = swept_[body];
   const Index count = motion_.positions.bodies->size(body);

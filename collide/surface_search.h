@@ -64,6 +64,8 @@ class SurfaceSearch {
   const std::vector<SurfacePair>& pairs() const { return pairs_; }
   const std::vector<FeaturePair>& features() const { return features_; }
   std::uint64_t unfolded() const { return unfolded_; }  // bodies that cannot touch themselves: no self pass
+  /// Puts features() and stray() of an earlier search back, one stray a body; pairs() are none until the next find().
+  void recall(std::vector<FeaturePair> features, std::span<const float> strays);
 
   /// Whether the candidates are still complete `elapsed` seconds after find(), with the bodies where they are now.
   bool holds(const Frame& now, float elapsed);

@@ -48,6 +48,18 @@ struct Particle {
   glm::dvec3 position, velocity;  // m and m/s, world
 };
 
+/// All that bodies remember from one frame to the next.
+struct DynamicsState {
+  std::vector<Batch> batches;
+  std::vector<Body> bodies;
+  std::array<LaneArray<float>, 3> x, v;  // m and m/s, as Dynamics stores them
+  float shield_thickness = 0;            // m
+  std::vector<ShieldPair> shield_pairs;
+  SurfaceContact::State surface;
+
+  std::size_t bytes() const;
+};
+
 class Dynamics {
  public:
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -97,6 +109,9 @@ class Dynamics {
   /// World positions, bodies in order of their ids. Every span has one value a vertex.
   void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
   std::uint64_t hash() const;  // FNV-1a over the bits of origins, positions and velocities in order of the ids
+  DynamicsState save() const;
+  /// Goes on from there; the plan and the integrator stay as they are set.
+  void restore(const DynamicsState& state);
   void set_calm_frames(BodyId id, int frames) { bodies_[id].calm_frames = frames; }
 
  private:

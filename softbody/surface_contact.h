@@ -70,6 +70,11 @@ struct SurfaceTouch {
 
 class SurfaceContact {
  public:
+  /// All that is remembered from one substep to the next, and the rows that touches() shows.
+  struct State;
+  State save() const;
+  void restore(const State& state);
+
   static constexpr int iterations = 2;          // a substep
   static constexpr int iterations_of_hits = 8;  // where two bodies pass each other half as far as they may in a substep
   static constexpr float push_speed = 1.0f;     // m/s, overlaps come apart no faster
@@ -185,6 +190,19 @@ class SurfaceContact {
   std::vector<Thread> threads_;
   float rate_ = 0;
   float last_h_ = 0;  // s, of the last substep
+};
+
+struct SurfaceContact::State {
+  std::vector<collide::SurfaceBody> traits;
+  std::vector<ContactBody> bodies;
+  std::vector<float> strays;                   // m, one a body
+  std::vector<Pair> pairs;                     // with their ranges in ...
+  std::vector<collide::FeaturePair> features;  // ... those of which something is remembered,
+  std::vector<Memory> memory;                  // namely this,
+  std::vector<ContactRow> rows;                // and in those that pressed
+  float last_h = 0;
+
+  std::size_t bytes() const;
 };
 
 }  // namespace softbody

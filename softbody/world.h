@@ -19,6 +19,8 @@ struct SolidContact {
   glm::vec3 normal;  // out of the solid
 };
 
+struct Snapshot;
+
 class World {
  public:
   struct Options {
@@ -37,6 +39,11 @@ class World {
   World& operator=(World&&) noexcept;
 
   void step();
+  /// All that decides how the world goes on; see snapshot.h.
+  Snapshot snapshot() const;
+  /// The world as it was, settings included, and detects. It goes on from there to the bit, whatever happened since and
+  /// also in another world than the one that the snapshot was taken of; its threads, frame time and isa stay.
+  void restore(const Snapshot& snapshot);
   /// Detects again on the current positions without moving anything.
   void redetect();
   /// Adds a body at the scene's dropper, above whatever is in the way, and detects. The scene must have a dropper.

@@ -23,6 +23,7 @@ struct World::State {
 
   void add(const BodySource& source, const glm::dvec3& position);
   void arrive();
+  void count_vertices();
   void gather();
   void detect();
   void wake_all();

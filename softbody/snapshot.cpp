@@ -1,0 +1,93 @@
+#include "softbody/snapshot.h"
+
+#include "softbody/world_state.h"
+
+namespace softbody {
+namespace {
+
+std::size_t bytes_of(const auto& list) { return list.size() * sizeof(list[0]); }
+
+}  // namespace
+
+std::size_t DynamicsState::bytes() const {
+  std::size_t sum = bytes_of(batches) + bytes_of(bodies) + bytes_of(shield_pairs) + surface.bytes();
+  for (const auto* components : {&x, &v})
+    for (const auto& c : *components) sum += bytes_of(c);
+  return sum;
+}
+
+DynamicsState Dynamics::save() const {
+  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save()};
+  for (Batch& b : state.batches) b.near_solids.clear();  // they point into the batch that they were copied from
+  return state;
+}
+
+void Dynamics::restore(const DynamicsState& state) {
+  batches_ = state.batches;
+  bodies_ = state.bodies;
+  x_ = state.x;
+  v_ = state.v;
+  for (auto& c : f_) c.resize(x_[0].size());
+  shield_.thickness = state.shield_thickness;
+  shield_.pairs = state.shield_pairs;
+  surface_.restore(state.surface);
+  moving_.clear();
+}
+
+std::size_t Snapshot::bytes() const {
+  return sizeof(*this) + bytes_of(scene.bodies) + bytes_of(arrived) + dynamics.bytes();
+}
+
+Snapshot World::snapshot() const {
+  const State& s = *state_;
+  return {.scene = s.scene,
+          .prototypes = s.prototypes,
+          .dynamics = s.dynamics.save(),
+          .arrived = s.arrived,
+          .drops = s.drops,
+          .drop_direction = s.drop_direction,
+          .frame = s.frame,
+          .integrator = s.options.integrator,
+          .method = s.method,
+          .settings = s.settings,
+          .default_cell = s.default_cell,
+          .shield = s.shield,
+          .profile = s.profile};
+}
+
+void World::restore(const Snapshot& from) {
+  State& s = *state_;
+  s.scene = from.scene;
+  s.prototypes = from.prototypes;
+  s.plan = make_plan(s.scene, s.prototypes.all());
+  s.sleep = Sleep(s.scene.sleep);
+  s.options.integrator = from.integrator;
+  s.dynamics.set_plan(s.plan);
+  s.dynamics.set_integrator(from.integrator);
+  s.dynamics.restore(from.dynamics);
+  s.arrived = from.arrived;
+  s.drops = from.drops;
+  s.drop_direction = from.drop_direction;
+  s.frame = from.frame;
+  s.settings = from.settings;
+  s.default_cell = from.default_cell;
+  s.shield = from.shield;
+  s.profile = from.profile;
+  s.method = from.method;
+  s.detector = s.method->make();  // what it remembers is of another state
+  s.count_vertices();
+  s.gather();
+  s.detect();
+}
+
+/// Bodies and their vertices, as the dynamics have them.
+void World::State::count_vertices() {
+  bodies = {};
+  vertex_body.clear();
+  for (BodyId id = 0; id < dynamics.body_count(); ++id) {
+    bodies.add(dynamics.prototype(id).shape);
+    vertex_body.resize(bodies.vertex_count(), id);
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,147 @@
+// A world that is put back goes on to the bit: in every shipped scene, with both contact surfaces, in the same world
+// and in a new one.
+
+#include "softbody/snapshot.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// What a few frames led to.
+struct Course {
+  std::vector<std::uint64_t> hashes;
+  std::vector<std::vector<collide::Contact>> contacts;
+  bool operator==(const Course&) const = default;
+};
+
+Course follow(World& world, int frames) {
+  Course course{{world.state_hash()}, {world.detection().contacts}};
+  for (int i = 0; i < frames; ++i) {
+    world.step();
+    course.hashes.push_back(world.state_hash());
+    course.contacts.push_back(world.detection().contacts);
+  }
+  return course;
+}
+
+/// Goes on from here for some frames, and again from a snapshot, here and in a world of `scene` that has just begun.
+void expect_the_same_again(World& world, const Scene& scene, int frames) {
+  const Snapshot snapshot = world.snapshot();
+  const auto touches = [](const World& w) { return w.dynamics().surface_contact().touches(w.bodies()).size(); };
+  const std::size_t touched = touches(world);
+  const Course first = follow(world, frames);
+  world.restore(snapshot);
+  EXPECT_EQ(world.frame(), snapshot.frame);
+  EXPECT_EQ(touches(world), touched);
+  EXPECT_TRUE(follow(world, frames) == first) << "from frame " << snapshot.frame;
+  World fresh(scene, {.threads = 2});
+  fresh.restore(snapshot);
+  EXPECT_TRUE(follow(fresh, frames) == first) << "in a new world from frame " << snapshot.frame;
+}
+
+struct Case {
+  std::string scene;
+  ContactSurfaceInfo surface;
+};
+
+class Snapshots : public testing::TestWithParam<Case> {};
+
+TEST_P(Snapshots, ContinueToTheBit) {
+  Scene scene = find_scene(GetParam().scene, SBCOLLIDE_SCENES);
+  scene.contact_surface = GetParam().surface.value;
+  World world(scene, {.threads = 2});
+  for (const int start : {40, 100, 170}) {
+    run(world, start - world.frame());
+    expect_the_same_again(world, scene, 4);
+  }
+}
+
+TEST(Snapshot, OfTheSceneOfAMillionFacesContinuesToTheBit) {
+  const Scene scene = find_scene("drop-3000", SBCOLLIDE_SCENES);
+  World world(scene, {.threads = 2});
+  run(world, 40);
+  EXPECT_FALSE(world.detection().contacts.empty());
+  expect_the_same_again(world, scene, 1);
+}
+
+/// Everything that a scene can be asked for while it runs: drops, other settings, arrivals still to come, sleepers.
+TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
+  const Scene scene = drop_scene();
+  World world(scene, {.threads = 2});
+  run(world, 10);
+  world.drop();
+  world.set_method(collide::paper_method);
+  collide::Settings settings = world.collision();
+  settings.tolerance *= 1.5f;
+  settings.buckets = 17;
+  world.set_collision(settings, false);
+  run(world, 50);
+  const Snapshot snapshot = world.snapshot();
+  world.drop();
+  const Course first = follow(world, 40);
+  World fresh(scene, {});
+  fresh.restore(snapshot);
+  EXPECT_EQ(fresh.method().key, collide::paper_method);
+  EXPECT_EQ(fresh.collision(), world.collision());
+  EXPECT_FALSE(fresh.uses_default_cell_size());
+  fresh.drop();
+  EXPECT_TRUE(follow(fresh, 40) == first);
+}
+
+TEST(Snapshot, GoesBackOverArrivalsAndIntoSleep) {
+  Scene scene = drop_scene();
+  World world(scene, {.threads = 2});
+  const Snapshot start = world.snapshot();
+  while (!world.all_at_rest() && world.frame() < 2000) world.step();
+  ASSERT_TRUE(world.all_at_rest());
+  const std::uint64_t rest = world.state_hash();
+  const int frames = world.frame();
+  const Snapshot asleep = world.snapshot();
+  world.restore(start);
+  EXPECT_FALSE(world.all_at_rest());
+  run(world, frames);
+  EXPECT_EQ(world.state_hash(), rest);
+  World fresh(scene, {});
+  fresh.restore(asleep);
+  EXPECT_TRUE(fresh.all_at_rest());
+  EXPECT_EQ(follow(fresh, 3), follow(world, 3));
+}
+
+/// One of another scene brings that scene with it.
+TEST(Snapshot, MayComeFromAnotherScene) {
+  World cloth(find_scene("cloth", SBCOLLIDE_SCENES), {});
+  run(cloth, 5);
+  World world(drop_scene(), {});
+  world.restore(cloth.snapshot());
+  EXPECT_EQ(world.scene().key, "cloth");
+  EXPECT_EQ(follow(world, 5), follow(cloth, 5));
+}
+
+TEST(Snapshot, SaysHowMuchMemoryItTakes) {
+  const World world(drop_scene(), {});
+  const std::size_t particles = world.bodies().vertex_count();
+  EXPECT_GE(world.snapshot().bytes(), particles * 6 * sizeof(float));
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> list;
+  std::vector<std::string> keys = scene_keys(SBCOLLIDE_SCENES);
+  std::erase(keys, "drop-3000");
+  for (const std::string& key : keys)
+    for (const ContactSurfaceInfo& surface : contact_surfaces) list.push_back({key, surface});
+  return list;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Snapshots, testing::ValuesIn(cases()), [](const auto& one) {
+  std::string name = one.param.scene + "_" + std::string(one.param.surface.key);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+}  // namespace
+}  // namespace softbody::test
