@@ -7,7 +7,7 @@
 
 #include "app/number_text.h"
 #include "engine/resources.h"
-#include "softbody/integrators.h"
+#include "softbody/world.h"
 
 namespace app {
 namespace {
@@ -65,6 +65,11 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   add_scene_options(*simulate, options);
   simulate->add_option("--frames", options.frames, "frames to run")->type_name("N")->check(CLI::Range(1, 10'000'000));
   simulate->add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  simulate
+      ->add_option("--substeps", options.substeps,
+                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
+      ->type_name("N")
+      ->check(CLI::Range(1, softbody::World::max_substeps));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");

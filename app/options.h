@@ -44,6 +44,7 @@ struct Options {
   DetectOptions detect;
   ReportOptions report;
   std::string integrator;
+  std::optional<int> substeps;  // a frame, of the integrator's; none: the stability bound's
   int threads = 1;
   double frame_time = 1.0 / 60.0;  // s
   int width = 1280, height = 720;  // pixels

@@ -166,9 +166,10 @@ void print_remarks(const softbody::Scene& scene) {
 }  // namespace
 
 void simulate(const Options& options) {
-  softbody::World world(
-      load_scene(options),
-      {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
+  softbody::World world(load_scene(options), {.threads = options.threads,
+                                              .frame_time = options.frame_time,
+                                              .integrator = options.integrator,
+                                              .substeps = options.substeps});
   Pictures pictures(options);
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;

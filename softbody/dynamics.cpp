@@ -5,7 +5,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/integrators.h"
 #include "softbody/shape_matching.h"
 
 namespace softbody {
@@ -17,14 +16,25 @@ constexpr double most_substeps = 1e6;  // a state that asks for more is lost; a 
 }  // namespace
 
 void Dynamics::set_plan(const Plan& plan) {
-  static constexpr std::pair<Stage, BatchStage> forces[] = {
-      {Stage::structural_springs, &Dynamics::structural_springs}, {Stage::bend_springs, &Dynamics::bend_springs},
-      {Stage::shear_springs, &Dynamics::shear_springs},           {Stage::gas_pressure, &Dynamics::gas_pressure},
-      {Stage::shape_matching, &Dynamics::shape_matching},         {Stage::contact_response, &Dynamics::shield_forces},
+  static constexpr std::pair<Stage, BatchStage> springs_and_gas[] = {
+      {Stage::structural_springs, &Dynamics::structural_springs},
+      {Stage::bend_springs, &Dynamics::bend_springs},
+      {Stage::shear_springs, &Dynamics::shear_springs},
+      {Stage::gas_pressure, &Dynamics::gas_pressure},
+  };
+  static constexpr std::pair<Stage, BatchStage> others[] = {
+      {Stage::shape_matching, &Dynamics::shape_matching},
+      {Stage::contact_response, &Dynamics::shield_forces},
   };
   force_stages_.clear();
-  for (const auto& [stage, run] : forces)
+  other_force_stages_.clear();
+  for (const auto& [stage, run] : springs_and_gas)
     if (plan.has(stage)) force_stages_.push_back(run);
+  for (const auto& [stage, run] : others) {
+    if (!plan.has(stage)) continue;
+    force_stages_.push_back(run);
+    other_force_stages_.push_back(run);
+  }
   resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
                  plan.has(Stage::rolling_resistance)};
   has_gravity_ = plan.has(Stage::gravity);
@@ -35,7 +45,16 @@ void Dynamics::set_plan(const Plan& plan) {
   if (!plan.has(Stage::contact_response)) shield_.pairs.clear();
 }
 
-void Dynamics::set_integrator(std::string_view key) { integrate_ = find_integrator(key)->advance; }
+void Dynamics::set_integrator(const Integrator& integrator) {
+  integrator_ = &integrator;
+  resize_scratch();
+}
+
+void Dynamics::resize_scratch() {
+  scratch_.resize(std::size_t(integrator_->scratch));
+  for (auto& components : scratch_)
+    for (auto& c : components) c.resize(x_[0].size());
+}
 
 int Dynamics::substeps(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
@@ -61,7 +80,8 @@ int Dynamics::substeps(double seconds) const {
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  return int(std::min(most_substeps, std::ceil(std::max(fewest, seconds / stable_step(stiffness, damping)))));
+  return int(
+      std::min(most_substeps, std::ceil(std::max(fewest, seconds / integrator_->stable_step(stiffness, damping)))));
 }
 
 bool Dynamics::moves(const Batch& b) {
@@ -73,6 +93,7 @@ int Dynamics::advance(double seconds) {
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
+  resize_scratch();
   for (Batch& b : batches_) {
     b.impulse = {};
     b.returned = {};
@@ -84,14 +105,16 @@ int Dynamics::advance(double seconds) {
   // A handful of bodies is done before a second thread has woken up.
   active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
   int total = 0;
+  const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {
     if (has_surface_) find_surface_contacts(left);
-    const int stable = substeps(left);
-    const int count = std::max(stable, int(std::min(most_substeps, std::ceil(left * surface_.rate()))));
-    int now = std::min(count, substeps_within_bound(left / count));
+    const int stable = fixed ? fixed - total : substeps(left);
+    const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
+    const int count = std::max(stable, rate);
+    int now = fixed ? count : std::min(count, substeps_within_bound(left / count));
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
-    if (!surface_.empty()) now = std::min(now, count > stable ? 1 : 4);
-    run(now, static_cast<float>(left / count));
+    if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
+    run(now, static_cast<float>(left / count), total == 0);
     total += now;
     left = now == count ? 0 : left - now * (left / count);
   }
@@ -115,9 +138,17 @@ int Dynamics::substeps_within_bound(double h) const {
   return std::max(1, static_cast<int>(trusted));
 }
 
-void Dynamics::run(int count, float h) {
+void Dynamics::run(int count, float h, bool first) {
   const auto task = [&](int thread) {
-    for (int s = 0; s < count; ++s) integrate_(*this, thread, h);
+    for (int s = 0; s < count; ++s) {
+      if (has_restitution_)
+        for (Batch* b : share(thread))
+          for (std::size_t k = 0; k < 3; ++k)
+            std::copy_n(v_[k].begin() + std::ptrdiff_t(b->base), b->particles() * lanes,
+                        before_[k].begin() + std::ptrdiff_t(b->base));
+      integrator_->advance(*this, thread, {h, first && s == 0});
+      if (has_surface_) since_found_[std::size_t(thread)] += h;
+    }
   };
   if (active_threads_ == 1)
     task(0);
@@ -141,21 +172,28 @@ void Dynamics::contact_forces(int thread, float h) {
   barrier();
 }
 
-void Dynamics::surface_contacts(int thread, float h) {
+void Dynamics::contacts(int thread, float h, float since_start) {
+  surface_contacts(thread, h, since_start);
+  for (Batch* batch : share(thread)) solids(*batch, h);
+}
+
+void Dynamics::surface_contacts(int thread, float h, float since_start) {
   if (!has_surface_ || surface_.empty()) return;
   barrier();  // the velocities of all bodies are there
   surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
-                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)], h);
-  since_found_[std::size_t(thread)] += h;
+                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)] + since_start, h);
   barrier();
   surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
                  {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
 }
 
-void Dynamics::forces(Batch& b) {
-  for (auto& c : f_) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.particles() * lanes, 0.0f);
-  for (const BatchStage stage : force_stages_) (this->*stage)(b);
+void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {
+  clear(b, softbody::forces);
+  for (const BatchStage stage : stages) (this->*stage)(b);
 }
+
+void Dynamics::all_forces(Batch& b) { run_stages(b, force_stages_); }
+void Dynamics::other_forces(Batch& b) { run_stages(b, other_force_stages_); }
 
 void Dynamics::structural_springs(Batch& b) { kernels_.springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b)); }
 void Dynamics::bend_springs(Batch& b) { kernels_.springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
@@ -189,10 +227,6 @@ void Dynamics::shield_forces(Batch& b) {
 }
 
 void Dynamics::kick(Batch& b, float h) {
-  if (has_restitution_)
-    for (std::size_t k = 0; k < 3; ++k)
-      std::copy_n(v_[k].begin() + std::ptrdiff_t(b.base), b.particles() * lanes,
-                  before_[k].begin() + std::ptrdiff_t(b.base));
   const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
   kernels_.kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
                 at(v_, b));

@@ -1,6 +1,7 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
+#include "softbody/integrators.h"
 #include "softbody/kernels.h"
 #include "softbody/plan.h"
 #include "softbody/prototype.h"
@@ -60,6 +61,13 @@ struct DynamicsState {
   std::size_t bytes() const;
 };
 
+/// A field over all particles that integrators compute with.
+struct Quantity {
+  int index;
+};
+inline constexpr Quantity positions{0}, velocities{1}, forces{2};
+constexpr Quantity scratch(int i) { return {3 + i}; }
+
 class Dynamics {
  public:
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -67,7 +75,9 @@ class Dynamics {
 
   BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
   void set_plan(const Plan& plan);
-  void set_integrator(std::string_view key);
+  void set_integrator(const Integrator& integrator);
+  /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
+  void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
   void put_to_sleep(BodyId body, bool asleep);
@@ -79,8 +89,8 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds` in equal substeps, as many as the stability bound asks for, which is worked
-  /// out anew as bodies move; returns their number.
+  /// Advances by `seconds` in equal substeps, see set_substeps(); the bound is worked out anew as bodies move. Returns
+  /// their number.
   int advance(double seconds);
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
@@ -89,12 +99,25 @@ class Dynamics {
 
   // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
   std::span<Batch* const> share(int thread) const;
-  void contact_forces(int thread, float h);    // of this thread's part of the contacts; needs a barrier() after it
-  void forces(Batch& batch);                   // all forces at the current positions and velocities
-  void kick(Batch& batch, float h);            // v += h (f / m + g)
-  void surface_contacts(int thread, float h);  // on the velocities, so that surfaces do not pass through each other
-  void solids(Batch& batch, float h);          // on the velocity, so that x + h v is not inside a solid
-  void drift(Batch& batch, float h);           // x += h v
+  // The arithmetic leaves lanes alone that do not move.
+  void contact_forces(int thread, float h);  // of this thread's part of the contacts, for all_forces() of all threads
+  void all_forces(Batch& batch);             // at the current positions and velocities
+  void other_forces(Batch& batch);           // all but those of springs and gas
+  void kick(Batch& batch, float h);          // v += h (f / m + g)
+  void accelerations(Batch& batch);          // f = f / m + g
+  void drift(Batch& batch, float h);         // x += h v
+  /// On the velocities, so that in a step of h from here surfaces do not pass through each other nor particles into
+  /// solids. All velocities must be there; needs a barrier() after it.
+  void contacts(int thread, float h) { contacts(thread, h, 0); }
+  /// The same for the positions that a substep of h ends with.
+  void contacts_at_end(int thread, float h) { contacts(thread, h, h); }
+  // XPBD, on displacements d in this step, which starts at x0; project_gas() wants the positions to be x0 + d.
+  void project_gas(Batch& batch, Quantity d, float h);
+  void project_springs(Batch& batch, Quantity x0, Quantity d, float h);
+  void copy(Batch& batch, Quantity from, Quantity to);           // to = from
+  void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q
+  void scale(Batch& batch, Quantity q, float times);             // q *= times
+  void clear(Batch& batch, Quantity q);                          // q = 0
   void barrier();
 
   // Reading.
@@ -128,6 +151,13 @@ class Dynamics {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
   }
   Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
+  Components& components(Quantity q);
+  template <class Operation>
+  void each_value(Batch& batch, Operation operation);
+  void run_stages(Batch& batch, std::span<const BatchStage> stages);
+  void contacts(int thread, float h, float since_start);
+  void surface_contacts(int thread, float h, float since_start);
+  void solids(Batch& batch, float h);
   void structural_springs(Batch& batch);
   void bend_springs(Batch& batch);
   void shear_springs(Batch& batch);
@@ -145,7 +175,8 @@ class Dynamics {
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
   int substeps_within_bound(double h) const;
-  void run(int substeps, float h);
+  void resize_scratch();
+  void run(int substeps, float h, bool first);
   void resist(BodyId id, double seconds);
   double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);
@@ -154,8 +185,9 @@ class Dynamics {
   const Scene& scene_;
   collide::Workers& workers_;
   const Kernels& kernels_;
-  void (*integrate_)(Dynamics&, int, float) = nullptr;
-  std::vector<BatchStage> force_stages_;
+  const Integrator* integrator_ = nullptr;
+  std::optional<int> fixed_substeps_;
+  std::vector<BatchStage> force_stages_, other_force_stages_;
   struct {
     bool internal, rebound, rolling;
   } resistance_{};
@@ -163,6 +195,7 @@ class Dynamics {
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
   Components x_, v_, f_;
+  std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   Shield shield_;
   SurfaceContact surface_;

@@ -1,16 +1,78 @@
 #include "softbody/integrators.h"
 
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 
-#include "softbody/semi_implicit_euler.h"
+#include "softbody/integrator_steps.h"
+#include "softbody/prototype.h"
 
 namespace softbody {
 namespace {
 
+/// What a step is bound by: the fastest swing of s^2 + gamma s + omega^2 = 0, doubled as in stable_step().
+struct FastestMode {
+  FastestMode(double k_m, double c_m) : omega2(2 * k_m), gamma(2 * c_m) {}
+  double omega2, gamma;  // 1/s^2 and 1/s
+  /// The largest |s| of its two roots.
+  double rate() const {
+    const double overdamped = gamma * gamma / 4 - omega2;
+    return overdamped > 0 ? gamma / 2 + std::sqrt(overdamped) : std::sqrt(omega2);
+  }
+};
+
+constexpr double safety = 0.8;
+constexpr double longest = 1e9;  // s, where nothing swings
+
+/// |1 + h s| <= 1: h <= gamma / omega^2, and 2 / |s| if overdamped. What is hardly damped grows at every step: then by
+/// no more than a factor of e in energy a second.
+double explicit_euler_step(double k_m, double c_m) {
+  const FastestMode mode(k_m, c_m);
+  if (mode.rate() <= 0) return safety * longest;
+  return safety * std::min(mode.omega2 > 0 ? std::max(mode.gamma, 1.0) / mode.omega2 : longest, 2 / mode.rate());
+}
+
+/// The region of stability holds the left half of the disc of this radius (its border meets the real axis at -2.785 and
+/// the imaginary one at 2.828).
+double runge_kutta_4_step(double k_m, double c_m) {
+  const double rate = FastestMode(k_m, c_m).rate();
+  return safety * (rate > 0 ? 2.78 / rate : longest);
+}
+
+double unconditional(double, double) { return std::numeric_limits<double>::infinity(); }
+
 constexpr std::array table{
+    Integrator{"explicit-euler", "Explicit Euler",
+               "The paper's era: position and velocity from the old state; gains energy unless the steps are tiny.", 1,
+               explicit_euler, explicit_euler_step},
     Integrator{"semi-implicit-euler", "Semi-implicit Euler",
-               "Velocity first, then position with the new velocity; substeps from the stability bound.",
-               semi_implicit_euler},
+               "Velocity first, then position with the new velocity; cheap and robust below its stability bound.", 1,
+               semi_implicit_euler, stable_step},
+    Integrator{.key = "velocity-verlet",
+               .name = "Velocity Verlet",
+               .summary = "Second order at the price of semi-implicit Euler; the dampers see a predicted velocity.",
+               .order = 2,
+               .advance = velocity_verlet,
+               .stable_step = stable_step,
+               .scratch = 1},
+    Integrator{.key = "rk4",
+               .name = "Runge-Kutta 4",
+               .summary = "Four evaluations a step and fourth order: for accuracy where nothing is stiff.",
+               .order = 4,
+               .advance = runge_kutta_4,
+               .stable_step = runge_kutta_4_step,
+               .scratch = 4},
+    Integrator{.key = "xpbd",
+               .name = "XPBD",
+               .summary =
+                   "Position-based with compliance, 20 substeps of one pass: never explodes, but converges slowly "
+                   "where it is stiff.",
+               .order = 1,
+               .advance = xpbd,
+               .stable_step = unconditional,
+               .substeps = 20,
+               .scratch = 1},
 };
 
 }  // namespace

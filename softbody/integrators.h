@@ -1,6 +1,6 @@
 #pragma once
 // The one table of integrators. Each is a function that advances all bodies by one substep through Dynamics'
-// operations.
+// operations, so that all share the same forces and contacts.
 
 #include <span>
 #include <string>
@@ -10,12 +10,23 @@ namespace softbody {
 
 class Dynamics;
 
+struct Substep {
+  float h;     // s
+  bool first;  // of its frame: forces that are remembered from before may be out of date
+};
+
 struct Integrator {
   std::string_view key;
   std::string_view name;
   std::string_view summary;
-  /// Advances by h seconds; runs on every thread at once, thread being this one's number.
-  void (*advance)(Dynamics& dynamics, int thread, float h);
+  int order;  // of convergence for smooth motion
+  /// Advances by one substep; runs on every thread at once, thread being this one's number.
+  void (*advance)(Dynamics& dynamics, int thread, const Substep& substep);
+  /// Largest stable step times 0.8 in s, for sums of stiffness/mass (1/s^2) and of damping/mass (1/s) at one particle;
+  /// infinite for what is stable at any step. See stable_step() in prototype.h.
+  double (*stable_step)(double k_m, double c_m);
+  int substeps = 1;  // that belong to the method: of every step asked for
+  int scratch = 0;   // copies of a field over all particles that it needs
 };
 
 std::span<const Integrator> integrators();

@@ -58,6 +58,29 @@ SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Rea
   }
 }
 
+/// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): the spring
+/// as a constraint of compliance 1 / k with its damper. Particles are at x + d, d their displacements in this step:
+/// these are small, so that floats leave velocities their digits.
+SB_INLINE void project_springs(const ProjectArguments& p, std::span<const KernelSpring<float>> list,
+                               Field<const float> x, Field<float> d) {
+  using V = Lane<float>;
+  const V tiny = V{} + 1e-12f;  // m
+  const V inverse_mass = p.inverse_mass * load(p.moves);
+  const float inverse_h = 1 / p.h, inverse_h2 = inverse_h * inverse_h;
+  for (const KernelSpring<float>& s : list) {
+    const Vec<V> di = load(d, s.i), dj = load(d, s.j), moved = dj - di;
+    const Vec<V> dx = (load(x, s.j) - load(x, s.i)) + moved;
+    const V length = square_root(dot(dx, dx));
+    const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
+    const float damping = s.damping * inverse_h;
+    const float yields = 1 / ((s.stiffness + damping) * 2 * p.inverse_mass + inverse_h2);
+    const V impulse = yields * (s.stiffness * (length - s.rest) + damping * dot(moved, n));
+    const Vec<V> shift = (inverse_mass * impulse) * n;
+    store(d, s.i, di + shift);
+    store(d, s.j, dj - shift);
+  }
+}
+
 /// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces, seen from one of the corners and
 /// added up in blocks, for the gas of a body at rest breathes with its last digits.
 template <class Real>

@@ -18,32 +18,35 @@ using Triangles = std::span<const KernelTriangle>;
 
 // One table an instruction set. The bodies are inlined into functions that carry the target attribute; a resolver of
 // the linker (ifunc) would do the same but does not work under the sanitizers.
-#define SB_KERNEL_TABLE(name, target)                                                                             \
-  struct name {                                                                                                   \
-    target static void springs(Springs s, ConstField x, ConstField v, Field<float> f) {                           \
-      body::springs<float>(s, x, v, f);                                                                           \
-    }                                                                                                             \
-    target static void volume(Triangles t, ConstField x, float* r) { body::volume<float>(t, x, r); }              \
-    target static void surface(Triangles t, ConstField x, float* c, float* p) { body::surface(t, x, c, p); }      \
-    target static void pressure(Triangles t, ConstField x, const float* p, Field<float> f) {                      \
-      body::pressure<float>(t, x, p, f);                                                                          \
-    }                                                                                                             \
-    target static void shape_moments(Shape s, ConstField x, ShapeMoments<float>& m) {                             \
-      body::shape_moments<float>(s, x, m);                                                                        \
-    }                                                                                                             \
-    target static void shape_pull(Shape s, const ShapePose<float>& p, float k, ConstField x, Field<float> f) {    \
-      body::shape_pull<float>(s, p, k, x, f);                                                                     \
-    }                                                                                                             \
-    target static void kick(const KickArguments& k, ConstField f, Field<float> v) { body::kick(k, f, v); }        \
-    target static unsigned solid(const SolidArguments& s, ConstField x, Field<float> v) {                         \
-      return body::solid(s, x, v);                                                                                \
-    }                                                                                                             \
-    target static void drift(std::size_t n, float h, const float* moves, ConstField v, Field<float> x) {          \
-      body::drift(n, h, moves, v, x);                                                                             \
-    }                                                                                                             \
-    target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); } \
-    static constexpr Kernels table{springs,    volume, surface, pressure, shape_moments,                          \
-                                   shape_pull, kick,   solid,   drift,    extent};                                \
+#define SB_KERNEL_TABLE(name, target)                                                                              \
+  struct name {                                                                                                    \
+    target static void springs(Springs s, ConstField x, ConstField v, Field<float> f) {                            \
+      body::springs<float>(s, x, v, f);                                                                            \
+    }                                                                                                              \
+    target static void project_springs(const ProjectArguments& p, Springs s, ConstField start, Field<float> x) {   \
+      body::project_springs(p, s, start, x);                                                                       \
+    }                                                                                                              \
+    target static void volume(Triangles t, ConstField x, float* r) { body::volume<float>(t, x, r); }               \
+    target static void surface(Triangles t, ConstField x, float* c, float* p) { body::surface(t, x, c, p); }       \
+    target static void pressure(Triangles t, ConstField x, const float* p, Field<float> f) {                       \
+      body::pressure<float>(t, x, p, f);                                                                           \
+    }                                                                                                              \
+    target static void shape_moments(Shape s, ConstField x, ShapeMoments<float>& m) {                              \
+      body::shape_moments<float>(s, x, m);                                                                         \
+    }                                                                                                              \
+    target static void shape_pull(Shape s, const ShapePose<float>& p, float k, ConstField x, Field<float> f) {     \
+      body::shape_pull<float>(s, p, k, x, f);                                                                      \
+    }                                                                                                              \
+    target static void kick(const KickArguments& k, ConstField f, Field<float> v) { body::kick(k, f, v); }         \
+    target static unsigned solid(const SolidArguments& s, ConstField x, Field<float> v) {                          \
+      return body::solid(s, x, v);                                                                                 \
+    }                                                                                                              \
+    target static void drift(std::size_t n, float h, const float* moves, ConstField v, Field<float> x) {           \
+      body::drift(n, h, moves, v, x);                                                                              \
+    }                                                                                                              \
+    target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) { body::extent(n, x, v, e); }  \
+    static constexpr Kernels table{springs, project_springs, volume, surface, pressure, shape_moments, shape_pull, \
+                                   kick,    solid,           drift,  extent};                                      \
   };
 
 SB_KERNEL_TABLE(Baseline, )

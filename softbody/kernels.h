@@ -55,6 +55,12 @@ struct KickArguments {
   const float* moves;  // lanes values, 0 or 1
 };
 
+struct ProjectArguments {
+  float h;             // s
+  float inverse_mass;  // 1/kg, of a particle
+  const float* moves;  // lanes values, 0 or 1
+};
+
 /// A particle that meets a solid more slowly is not thrown back, so that resting contacts rest.
 inline constexpr float impact_speed = 0.5f;  // m/s
 
@@ -80,6 +86,8 @@ struct Extent {
 
 struct Kernels {
   void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
+  void (*project_springs)(const ProjectArguments&, std::span<const KernelSpring<float>>, Field<const float> x,
+                          Field<float> d);
   void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
   void (*surface)(std::span<const KernelTriangle>, Field<const float> x, float* cross_square_sum, float* perimeter);
   void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);

@@ -79,6 +79,11 @@ double Gas::pressure(double v) const {
   return amount / bend * (2 - v / bend);
 }
 
+double Gas::slope(double v) const {
+  const double held = std::max(v, linear_below * rest_volume);
+  return -amount / (held * held);
+}
+
 double Gas::energy(double v) const {
   const double bend = linear_below * rest_volume;
   const double against_ambient = ambient * (v - rest_volume);
@@ -103,8 +108,7 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   // area vector. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2 <= -dP/dV degree / 12 * sum |c_f|^2 (Cauchy and
   // Schwarz; degree: the largest mean over a face's corners), plus (P - P_ambient) d2V/dx2, whose largest row is at
   // most degree * perimeter / 6.
-  const double bend = linear_below * p.gas.rest_volume, held = std::max(surface.volume, bend);
-  const double slope = p.gas.amount / (held * held);
+  const double slope = -p.gas.slope(surface.volume);
   const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
   const double gas =
       slope * p.face_degree * surface.cross_square_sum / 12 + gauge * p.largest_degree * surface.perimeter / 6;

@@ -24,6 +24,8 @@ struct Gas {
 
   /// Absolute pressure in Pa at volume v, which may be zero or negative (an inverted body).
   double pressure(double v) const;
+  /// Its derivative in Pa/m^3, never positive.
+  double slope(double v) const;
   /// Work done against the ambient pressure and by the gas, 0 at V0, in J; d(energy)/dV = ambient - pressure.
   double energy(double v) const;
 };

@@ -1,20 +1,16 @@
-#include "softbody/semi_implicit_euler.h"
-
 #include "softbody/dynamics.h"
+#include "softbody/integrator_steps.h"
 
 namespace softbody {
 
-void semi_implicit_euler(Dynamics& dynamics, int thread, float h) {
-  dynamics.contact_forces(thread, h);
+void semi_implicit_euler(Dynamics& dynamics, int thread, const Substep& substep) {
+  dynamics.contact_forces(thread, substep.h);
   for (Batch* batch : dynamics.share(thread)) {
-    dynamics.forces(*batch);
-    dynamics.kick(*batch, h);
+    dynamics.all_forces(*batch);
+    dynamics.kick(*batch, substep.h);
   }
-  dynamics.surface_contacts(thread, h);
-  for (Batch* batch : dynamics.share(thread)) {
-    dynamics.solids(*batch, h);
-    dynamics.drift(*batch, h);
-  }
+  dynamics.contacts(thread, substep.h);
+  for (Batch* batch : dynamics.share(thread)) dynamics.drift(*batch, substep.h);
   dynamics.barrier();  // the next contact forces read the positions of all bodies
 }
 

@@ -48,6 +48,7 @@ Snapshot World::snapshot() const {
           .drop_direction = s.drop_direction,
           .frame = s.frame,
           .integrator = s.options.integrator,
+          .substeps = s.options.substeps,
           .method = s.method,
           .settings = s.settings,
           .default_cell = s.default_cell,
@@ -62,8 +63,9 @@ void World::restore(const Snapshot& from) {
   s.plan = make_plan(s.scene, s.prototypes.all());
   s.sleep = Sleep(s.scene.sleep);
   s.options.integrator = from.integrator;
+  s.options.substeps = from.substeps;
   s.dynamics.set_plan(s.plan);
-  s.dynamics.set_integrator(from.integrator);
+  s.set_integrator();
   s.dynamics.restore(from.dynamics);
   s.arrived = from.arrived;
   s.drops = from.drops;

@@ -16,6 +16,7 @@ struct Snapshot {
   std::array<double, 2> drop_direction{};
   int frame = 0;
   std::string integrator;
+  std::optional<int> substeps;
   const collide::Method* method = nullptr;
   collide::Settings settings;
   bool default_cell = true;

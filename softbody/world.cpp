@@ -45,10 +45,9 @@ World::State::State(Scene s, const Options& o)
       settings(scene.collision),
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
-  for (const auto& p : prototypes.all()) check_stability(*p);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
-  dynamics.set_integrator(options.integrator);
+  set_integrator();
   if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
   arrive();
   gather();
@@ -61,7 +60,15 @@ double World::State::substeps(const Prototype& p, float thickness) const {
   const double k = stiffness_per_mass(p, measure_surface(p.start, p.mesh.triangles)) +
                    Shield::stiffness_bound(contact) / p.particle_mass;
   const double c = p.spring_damping_bound + Shield::damping_bound(contact, thickness);
-  return options.frame_time / stable_step(k, c / p.particle_mass);
+  return options.frame_time / find_integrator(options.integrator)->stable_step(k, c / p.particle_mass);
+}
+
+/// As the options have it.
+void World::State::set_integrator() {
+  if (!options.substeps)
+    for (const auto& p : prototypes.all()) check_stability(*p);
+  dynamics.set_integrator(*find_integrator(options.integrator));
+  dynamics.set_substeps(options.substeps);
 }
 
 void World::State::check_stability(const Prototype& p) const {
@@ -187,6 +194,23 @@ void World::set_method(std::string_view key) {
   s.wake_all();
   s.detect();
 }
+
+void World::set_integrator(std::string_view key, std::optional<int> substeps) {
+  State& s = *state_;
+  const Options before = s.options;
+  s.options.integrator = key;
+  s.options.substeps = substeps;
+  try {
+    s.set_integrator();
+  } catch (const SceneError&) {
+    s.options = before;
+    throw;
+  }
+  s.wake_all();
+}
+
+const Integrator& World::integrator() const { return *find_integrator(state_->options.integrator); }
+std::optional<int> World::substeps() const { return state_->options.substeps; }
 
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
   State& s = *state_;

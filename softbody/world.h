@@ -27,6 +27,8 @@ class World {
     int threads = 1;
     double frame_time = 1.0 / 60.0;  // s
     std::string integrator{default_integrator};
+    /// Exactly so many of the integrator's a frame, whatever becomes of it; none: as many as stability asks for.
+    std::optional<int> substeps{};
     Isa isa = best_isa();
   };
   static constexpr int max_substeps = 4000;  // a frame
@@ -59,6 +61,10 @@ class World {
   bool uses_default_cell_size() const;
   const collide::Method& method() const;
   void set_method(std::string_view key);
+  // How bodies move; wakes all. The key must be known; substeps as in Options. Throws SceneError as the constructor.
+  void set_integrator(std::string_view key, std::optional<int> substeps);
+  const Integrator& integrator() const;
+  std::optional<int> substeps() const;
   void set_contact_surface(ContactSurface surface);
   void set_collision(const collide::Settings& settings, bool default_cell_size);
 

@@ -27,6 +27,7 @@ struct World::State {
   void gather();
   void detect();
   void wake_all();
+  void set_integrator();
   double substeps(const Prototype& p, float thickness) const;
   void check_stability(const Prototype& p) const;
   double clear_height(const Prototype& p, const glm::dvec3& position) const;

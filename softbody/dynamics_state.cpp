@@ -1,0 +1,57 @@
+// Dynamics: the plain arithmetic on its fields that integrators ask for.
+
+#include <algorithm>
+
+#include "softbody/dynamics.h"
+
+namespace softbody {
+
+Dynamics::Components& Dynamics::components(Quantity q) {
+  Components* const own[] = {&x_, &v_, &f_};
+  return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
+}
+
+/// operation(place in the arrays, 1 or 0 for whether its lane moves)
+template <class Operation>
+void Dynamics::each_value(Batch& b, Operation operation) {
+  for (std::size_t at = b.base; at < b.base + b.particles() * lanes; at += lanes)
+    for (std::size_t l = 0; l < lanes; ++l) operation(at + l, b.moves[l]);
+}
+
+void Dynamics::copy(Batch& b, Quantity from, Quantity to) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* source = components(from)[k].data();
+    float* target = components(to)[k].data();
+    each_value(b, [=](std::size_t i, float moves) { target[i] = moves > 0 ? source[i] : target[i]; });
+  }
+}
+
+void Dynamics::add(Batch& b, Quantity to, float times, Quantity q) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float* source = components(q)[k].data();
+    float* target = components(to)[k].data();
+    each_value(b, [=](std::size_t i, float moves) { target[i] += moves * times * source[i]; });
+  }
+}
+
+void Dynamics::scale(Batch& b, Quantity q, float times) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    float* target = components(q)[k].data();
+    each_value(b, [=](std::size_t i, float moves) { target[i] *= moves > 0 ? times : 1; });
+  }
+}
+
+void Dynamics::clear(Batch& b, Quantity q) {
+  for (auto& c : components(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.particles() * lanes, 0.0f);
+}
+
+void Dynamics::accelerations(Batch& b) {
+  const auto inverse_mass = float(1 / b.prototype->particle_mass);
+  for (std::size_t k = 0; k < 3; ++k) {
+    const float g = has_gravity_ ? float(scene_.gravity[int(k)]) : 0;
+    float* f = f_[k].data();
+    each_value(b, [=](std::size_t i, float) { f[i] = f[i] * inverse_mass + g; });
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,142 @@
+// Every integrator of the table: order of convergence, conservation, stability at its bound, contacts, threads.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// A ball that has been pulled longer along one axis and flies, turning.
+Scene swinging_ball(double damping_ratio) {
+  Material m = spring_ball();
+  m.structural = {1000, damping_ratio};
+  m.bend = {250, damping_ratio};
+  Scene scene = lone_body(m, {1, 2, 0.5});
+  scene.gravity = {0, -9.81, 0};
+  return scene;
+}
+
+/// Its particles after some frames of 1/60 s with so many substeps each.
+std::vector<glm::dvec3> flight(const Scene& scene, std::string_view integrator, int substeps, int frames) {
+  World world(scene, {.integrator = std::string(integrator), .substeps = substeps});
+  run(world, frames);
+  std::vector<glm::dvec3> list;
+  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
+    list.push_back(world.dynamics().particle(0, i).position);
+  return list;
+}
+
+double rms(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  double sum = 0;
+  for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
+  return std::sqrt(sum / double(a.size()));
+}
+
+class Integrators : public testing::TestWithParam<Integrator> {};
+
+TEST_P(Integrators, ConvergeWithTheirOrder) {
+  const Integrator& i = GetParam();
+  Scene scene = swinging_ball(0.02);
+  scene.materials[0].gas_pressure = 500;  // it breathes, for it does not start in equilibrium
+  scene.materials[0].start_in_equilibrium = false;
+  const auto reference = flight(scene, "rk4", 256, 6);
+  // Coarse enough for the error to be far above a float's.
+  const int coarse = i.order == 4 ? 6 : std::max(48 / i.substeps, 3);
+  const double before = rms(flight(scene, i.key, coarse, 6), reference);
+  const double after = rms(flight(scene, i.key, 2 * coarse, 6), reference);
+  RecordProperty("before", std::to_string(before));
+  EXPECT_GT(std::log2(before / after), i.order - 0.35) << before << " m, then " << after << " m";
+}
+
+TEST_P(Integrators, KeepLinearAndAngularMomentum) {
+  Scene scene = swinging_ball(0.05);
+  scene.gravity = {};
+  scene.materials[0].gas_pressure = 400;
+  scene.materials[0].start_in_equilibrium = false;
+  const Integrator& i = GetParam();
+  World world(scene, {.integrator = std::string(i.key), .substeps = i.order == 1 ? 100 / i.substeps : 20});
+  const Motion start = motion(world, 0);
+  run(world, 60);
+  const Motion end = motion(world, 0);
+  // XPBD's corrections turn while it passes over the springs, and each goes through a displacement and back.
+  const bool approximate = i.key == "xpbd";
+  EXPECT_LT(glm::distance(end.velocity, start.velocity), (approximate ? 1e-4 : 1e-5) * glm::length(start.velocity));
+  EXPECT_LT(glm::distance(end.spin_momentum, start.spin_momentum),
+            (approximate ? 1e-3 : 1e-5) * glm::length(start.velocity));
+}
+
+TEST_P(Integrators, AreStableAtTheirBound) {
+  for (const double zeta : {0.0, 0.02, 0.5, 3.0}) {
+    World world(swinging_ball(zeta), {.frame_time = 1e-3, .integrator = std::string(GetParam().key)});
+    const double start = measure(world).energy;
+    run(world, 150);
+    const Measures end = measure(world);
+    ASSERT_TRUE(end.finite) << zeta;
+    // Explicit Euler may gain where nothing damps, by a factor of e a second.
+    EXPECT_LT(end.energy, start + 0.25 * (0.5 * 5.25 + 1)) << "damping ratio " << zeta;
+  }
+}
+
+TEST_P(Integrators, LetNothingSinkIntoTheGround) {
+  Scene scene = swinging_ball(0.3);
+  scene.bodies[0].position = {0, 1, 0};
+  scene.ground.emplace();
+  World world(scene, {.integrator = std::string(GetParam().key), .substeps = 200 / GetParam().substeps});
+  for (int frame = 0; frame < 150; ++frame) {
+    world.step();
+    const Measures m = measure(world);
+    ASSERT_TRUE(m.finite) << frame;
+    ASSERT_LT(m.deepest_penetration, 1e-4) << frame;
+    ASSERT_LT(m.max_speed, 12) << frame;
+  }
+}
+
+TEST_P(Integrators, GiveTheSameBitsOnOneAndTwoThreads) {
+  std::uint64_t hash[2];
+  for (const int threads : {1, 2}) {
+    World world(drop_scene(), {.threads = threads, .integrator = std::string(GetParam().key), .substeps = 30});
+    run(world, 60);
+    hash[threads - 1] = world.state_hash();
+  }
+  EXPECT_EQ(hash[0], hash[1]);
+}
+
+INSTANTIATE_TEST_SUITE_P(Table, Integrators, testing::ValuesIn(integrators().begin(), integrators().end()),
+                         [](const auto& i) {
+                           std::string name(i.param.key);
+                           std::erase(name, '-');
+                           return name;
+                         });
+
+TEST(Integrator, CanBeChangedWhileItRuns) {
+  World world(drop_scene(), {});
+  run(world, 100);
+  for (const Integrator& i : integrators()) {
+    world.set_integrator(i.key, 60);
+    run(world, 3);
+    EXPECT_EQ(world.integrator().key, i.key);
+    EXPECT_EQ(world.profile().substeps, 60 * i.substeps) << i.key;
+    EXPECT_TRUE(measure(world).finite) << i.key;
+  }
+  world.set_integrator(default_integrator, std::nullopt);
+  world.step();
+  EXPECT_FALSE(world.substeps());
+}
+
+TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
+  for (const std::string_view key : {"semi-implicit-euler", "velocity-verlet", "rk4", "explicit-euler"}) {
+    Scene scene = swinging_ball(0.02);
+    scene.materials[0].structural.stiffness = 1e5;
+    World world(scene, {.integrator = std::string(key), .substeps = 1});
+    run(world, 60);
+    const Measures m = measure(world);
+    EXPECT_TRUE(!m.finite || m.max_speed > 1e3) << key;
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
