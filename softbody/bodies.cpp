@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
 #include "softbody/dynamics.h"
@@ -81,6 +82,19 @@ void Dynamics::put_to_sleep(BodyId id, bool asleep) {
   if (!asleep) return;
   for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i)
     for (auto& c : v_) c[slot(body, i)] = 0.0f;
+}
+
+void Dynamics::set_particles(BodyId id, std::span<const Particle> particles) {
+  Body& body = bodies_[id];
+  glm::dvec3 middle(0.0);
+  for (const Particle& p : particles) middle += p.position / double(particles.size());
+  body.origin = glm::round(middle * 64.0) / 64.0;  // as follow() moves it
+  for (std::size_t i = 0; i < particles.size(); ++i)
+    for (int k = 0; k < 3; ++k) {
+      const std::size_t s = slot(body, static_cast<Index>(i));
+      x_[std::size_t(k)][s] = float(particles[i].position[k] - body.origin[k]);
+      v_[std::size_t(k)][s] = float(particles[i].velocity[k]);
+    }
 }
 
 Particle Dynamics::particle(BodyId id, Index vertex) const {

@@ -80,6 +80,8 @@ class Dynamics {
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
+  /// One a vertex, finite. The body's origin goes to their middle.
+  void set_particles(BodyId body, std::span<const Particle> particles);
   void put_to_sleep(BodyId body, bool asleep);
 
   /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.

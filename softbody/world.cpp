@@ -163,6 +163,14 @@ double World::State::clear_height(const Prototype& p, const glm::dvec3& position
   return height;
 }
 
+void World::set_particles(BodyId body, std::span<const Particle> particles) {
+  State& s = *state_;
+  s.dynamics.set_particles(body, particles);
+  s.wake_all();
+  s.gather();
+  s.detect();
+}
+
 BodyId World::drop() {
   State& s = *state_;
   const Dropper& dropper = *s.scene.dropper;

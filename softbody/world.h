@@ -50,6 +50,8 @@ class World {
   void redetect();
   /// Adds a body at the scene's dropper, above whatever is in the way, and detects. The scene must have a dropper.
   BodyId drop();
+  /// Puts a body's particles where they are told, one a vertex and finite, wakes all and detects.
+  void set_particles(BodyId body, std::span<const Particle> particles);
 
   const Scene& scene() const;
   int frame() const;  // steps done

@@ -133,6 +133,38 @@ TEST(Dropper, IsDeterministic) {
   EXPECT_EQ(a.state_hash(), b.state_hash());
 }
 
+TEST(World, ParticlesGoWhereTheyAreTold) {
+  Scene scene = lone_body(spring_ball());
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  std::vector<Particle> told;
+  for (Index i = 0; i < world.prototype(1).mesh.vertices.size(); ++i) {
+    Particle p = world.dynamics().particle(1, i);
+    told.push_back({glm::dvec3(1000, 0, -2000) + 10.0 * p.position, {0.5, 0, double(i)}});
+  }
+  const Particle other = world.dynamics().particle(0, 7);
+  world.set_particles(1, told);
+  for (Index i = 0; i < told.size(); ++i) {
+    const Particle p = world.dynamics().particle(1, i);
+    EXPECT_LT(glm::distance(p.position, told[i].position), 1e-6) << "far from zero, too: the origin has gone along";
+    EXPECT_EQ(p.velocity, told[i].velocity);
+  }
+  EXPECT_EQ(world.dynamics().particle(0, 7).position, other.position);
+  EXPECT_NEAR(world.positions().x[world.bodies().first[1]], told[0].position.x, 1e-4) << "detectors see them there";
+}
+
+TEST(World, ASleeperWakesWhenParticlesAreMoved) {
+  Scene scene = lone_body(spring_ball());
+  scene.sleep = {.speed = 0.03, .frames = 5};
+  World world(scene, {});
+  run(world, 10);
+  ASSERT_TRUE(world.body(0).asleep);
+  std::vector<Particle> same;
+  for (Index i = 0; i < 162; ++i) same.push_back(world.dynamics().particle(0, i));
+  world.set_particles(0, same);
+  EXPECT_FALSE(world.body(0).asleep);
+}
+
 TEST(Integrators, AreFoundByKeyAndTheDefaultIsOne) {
   ASSERT_FALSE(integrators().empty());
   for (const Integrator& i : integrators()) {
