@@ -103,7 +103,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 CLI::App* add_report(CLI::App& cli, Options& options) {
   ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
-  report->add_option("what", r.name, "detection or contact")->required();
+  report->add_option("what", r.name, "detection, contact or solver")->required();
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   report

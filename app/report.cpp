@@ -5,6 +5,7 @@
 
 #include "app/report_contact.h"
 #include "app/report_detection.h"
+#include "app/report_solver.h"
 
 namespace app {
 namespace {
@@ -15,7 +16,8 @@ struct Report {
 };
 
 /// All there are.
-constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact}};
+constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
+                             Report{"solver", report_solver}};
 
 const Report& find_report(const std::string& name) {
   const auto found = std::ranges::find(reports, name, &Report::name);

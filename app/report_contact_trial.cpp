@@ -1,7 +1,5 @@
 #include "app/report_contact_trial.h"
 
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -9,6 +7,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/cpu_clock.h"
 #include "app/options.h"
 #include "app/report_text.h"
 #include "app/world_oracle.h"
@@ -16,13 +15,6 @@
 
 namespace app {
 namespace {
-
-/// Processor time of this thread, s.
-double thread_seconds() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
-}
 
 double smallest_closed_radius(const softbody::World& world) {
   double radius = 0;

@@ -1,0 +1,169 @@
+// The reports' reference: closed forms, and the world's own solver at small steps.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "app/reference_run.h"
+
+namespace app::test {
+namespace {
+
+using glm::dvec3;
+
+softbody::Scene lone_ball(double stiffness, double damping_ratio) {
+  softbody::Scene scene;
+  softbody::Material m;
+  m.structural = {stiffness, damping_ratio};
+  m.bend = {stiffness / 4, damping_ratio};
+  m.gas_pressure = 0.5 * stiffness;
+  m.rolling_resistance = 0;
+  scene.materials.push_back(m);
+  scene.bodies.push_back({.mesh = {}, .position = dvec3(0.0)});
+  scene.gravity = {};
+  scene.collision.self_collision = false;
+  scene.sleep.speed = 0;
+  return scene;
+}
+
+/// Two particles that one spring of 1 m joins.
+struct Pair {
+  Pair(double stiffness, double damping) {
+    prototype.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
+    prototype.structural = {{0, 1, 1.0, stiffness, damping}};
+    prototype.spring_stiffness_bound = stiffness;
+    prototype.spring_damping_bound = damping;
+    prototype.particle_mass = 0.5;
+    prototype.radius = 0.5;
+    scene.gravity = {};
+  }
+  softbody::Prototype prototype;
+  softbody::Scene scene;
+  BodyState stretched{{{0, 0, 0}, {1.1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
+  ReferenceBody body{prototype, scene};
+};
+
+TEST(ReferenceBody, ADampedSpringSwingsAsTheClosedFormHasIt) {
+  const Pair pair(100, 2);
+  const double reduced = 0.25, rate = 2 / (2 * reduced), omega = std::sqrt(100 / reduced - rate * rate);
+  const double t = 0.37;
+  const double stretch = 0.1 * std::exp(-rate * t) * (std::cos(omega * t) + rate / omega * std::sin(omega * t));
+  const Flight flight = fly(pair.body, pair.stretched, 0.01, {.seconds = t});
+  EXPECT_NEAR(flight.end.x[1].x - flight.end.x[0].x, 1 + stretch, 1e-9);
+}
+
+TEST(ReferenceBody, ConvergesWithTheFourthOrder) {
+  const Pair pair(100, 0);
+  const double t = 0.5, exact = 1 + 0.1 * std::cos(20 * t);
+  const auto error = [&](double fraction) {
+    const BodyState end = fly(pair.body, pair.stretched, fraction, {.seconds = t}).end;
+    return std::abs(end.x[1].x - end.x[0].x - exact);
+  };
+  EXPECT_NEAR(std::log2(error(0.1) / error(0.05)), 4, 0.3);
+}
+
+TEST(ReferenceBody, FliesAsBodiesFall) {
+  softbody::Scene scene = lone_ball(1e3, 0.02);
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies[0].velocity = {3, 4, 5};
+  const softbody::World world(scene, {});
+  const ReferenceBody body(world.prototype(0), scene);
+  const BodyState end = fly(body, state_of(world, 0), 1, {.seconds = 0.5}).end;
+  const RigidMotion m = rigid_motion(end);
+  EXPECT_LT(glm::distance(m.centre, 0.5 * dvec3(3, 4, 5) + 0.125 * dvec3(0, -9.81, 0)), 1e-7);
+  EXPECT_LT(internal_speed(end), 1e-4) << "it started in balance";
+}
+
+TEST(ReferenceBody, ForcesAreTheGradientOfTheEnergyInEveryBranchOfTheGasLaw) {
+  softbody::Scene scene = lone_ball(1e3, 0);
+  scene.materials[0].ambient_pressure = 300;
+  const softbody::World world(scene, {});
+  const ReferenceBody body(world.prototype(0), scene);
+  for (const double scale : {1.1, 0.3, -0.5}) {  // large, below 0.1 V0, inside out
+    BodyState s = state_of(world, 0);
+    for (dvec3& p : s.x) p *= scale;
+    const std::vector<dvec3> a = body.accelerations(s);
+    for (const std::size_t i : {0, 17, 99})
+      for (int k = 0; k < 3; ++k) {
+        const double d = 1e-6;
+        BodyState up = s, down = s;
+        up.x[i][k] += d, down.x[i][k] -= d;
+        const double force = -(body.energy(up) - body.energy(down)) / (2 * d);
+        EXPECT_NEAR(world.prototype(0).particle_mass * a[i][k], force, 1e-4 * std::abs(force) + 1e-5) << scale;
+      }
+  }
+}
+
+TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
+  Pair pair(100, 0);
+  pair.scene.ground = softbody::Ground{.height = 0, .friction = 0.5};
+  pair.scene.gravity = {0, -10, 0};
+  pair.prototype.material.thickness = 0;
+  const BodyState sliding{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}};
+  const BodyState end = fly(pair.body, sliding, 0.02, {.seconds = 0.1}).end;
+  EXPECT_NEAR(end.v[0].z, 0.5, 1e-6) << "0.1 s at 5 m/s^2";
+  EXPECT_NEAR(end.x[0].y, 0, 1e-12);
+}
+
+/// Of the world with rk4 from the reference, R.
+double difference(const softbody::Scene& scene, int substeps) {
+  softbody::World world(scene, {.integrator = "rk4", .substeps = substeps});
+  EXPECT_EQ(ReferenceBody::missing(world), "");
+  const ReferenceBody body(world.prototype(0), world.scene());
+  const Reference r = find_reference(body, state_of(world, 0), 1e-5, {.seconds = 0.25, .steps = 20'000});
+  EXPECT_LT(r.change, 1e-3);
+  for (int frame = 0; frame < 15; ++frame) world.step();
+  return rms_distance(state_of(world, 0).x, r.end.x) / world.prototype(0).radius;
+}
+
+TEST(ReferenceBody, AgreesWithTheWorldInFreeFlight) {
+  softbody::Scene scene = lone_ball(1e3, 0.02);
+  scene.materials[0].start_in_equilibrium = false;
+  scene.bodies[0].velocity = {1, 2, 0.5};
+  EXPECT_LT(difference(scene, 64), 2e-5);
+}
+
+TEST(ReferenceBody, AgreesWithTheWorldInContact) {
+  softbody::Scene scene = lone_ball(1e3, 0.02);
+  scene.gravity = {0, -9.81, 0};
+  scene.ground = softbody::Ground{};
+  scene.bodies[0].position = {0, 0.55, 0};
+  EXPECT_LT(difference(scene, 512), 1e-3);
+}
+
+TEST(ReferenceBody, SaysWhatItDoesNotModel) {
+  softbody::Scene scene = lone_ball(1e3, 0.02);
+  scene.materials[0].internal_damping = 1;
+  EXPECT_EQ(ReferenceBody::missing(softbody::World(scene, {})), "internal-damping");
+  scene.bodies.push_back(scene.bodies[0]);
+  EXPECT_EQ(ReferenceBody::missing(softbody::World(scene, {})), "several bodies");
+}
+
+TEST(Flight, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
+  const Pair pair(100, 5);
+  EXPECT_TRUE(fly(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).settled);
+  const Flight cut = fly(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .steps = 100});
+  EXPECT_FALSE(cut.complete);
+  EXPECT_EQ(cut.steps, 100u);
+}
+
+TEST(BodyShape, TellsShapeFromPlaceAndSpinFromDeformation) {
+  BodyState s{{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {}};
+  const dvec3 spin(0.3, -1, 0.5), velocity(1, 2, 3);
+  std::vector<dvec3> turned;
+  for (const dvec3& p : s.x) {
+    s.v.push_back(velocity + glm::cross(spin, p));
+    turned.emplace_back(-p.y + 5, p.x + 1e3, p.z);
+  }
+  EXPECT_LT(shape_distance(s.x, turned), 1e-9);
+  EXPECT_LT(glm::distance(rigid_motion(s).spin, spin), 1e-9);
+  EXPECT_LT(internal_speed(s), 1e-9);
+  turned[0].x += 1;
+  EXPECT_GT(shape_distance(s.x, turned), 0.1);
+  s.v[0].y += 1;
+  EXPECT_GT(internal_speed(s), 0.1);
+}
+
+}  // namespace
+}  // namespace app::test

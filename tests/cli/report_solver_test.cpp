@@ -1,0 +1,79 @@
+// `report solver`: the files that it leaves, and that its figures say what is known beforehand.
+
+#include <gtest/gtest.h>
+
+#include "app/report_solver_results.h"
+#include "tests/cli/report_rig.h"
+
+namespace cli::test {
+namespace {
+
+/// Of one integrator, the rows in order.
+std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& csv) {
+  std::map<std::string, std::vector<Row>> curves;
+  for (Row& row : read_csv(csv)) curves[row["integrator"]].push_back(row);
+  return curves;
+}
+
+class SolverReport : public testing::Test {
+ protected:
+  /// A small ball that falls, for the time of the report, without meeting anything.
+  void make(const std::string& more = "") {
+    const auto scene = folder_.write(
+        "ball.toml",
+        "[collision]\nself_collision = false\n[[material]]\nname = \"ball\"\nstructural = {stiffness = 100, "
+        "damping_ratio = 0.05}\nbend = {stiffness = 25, damping_ratio = 0.05}\nrolling_resistance = 0\n" +
+            more + "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [0, 50, 0]\n");
+    out_ = folder_.path() / "out";
+    const Outcome o = run({"report", "solver", "--quick", "--scene", scene, "--out", out_});
+    ASSERT_EQ(o.status, 0) << o.err;
+  }
+  TemporaryFolder folder_;
+  std::filesystem::path out_;
+};
+
+TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
+  make();
+  const auto curves = curves_of(out_ / "solver.csv");
+  EXPECT_EQ(curves.size(), softbody::integrators().size());
+  for (const softbody::Integrator& i : softbody::integrators()) {
+    const auto curve = curves.find(std::string(i.key));
+    ASSERT_NE(curve, curves.end()) << i.key;
+    ASSERT_GE(curve->second.size(), 3u) << i.key;
+    Row first = curve->second.front(), last = curve->second.back();
+    EXPECT_EQ(first["substeps"], "1");
+    EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
+    EXPECT_EQ(last["blew_up"], "0") << i.key;
+    EXPECT_LT(number(last["error"]), 1e-2) << i.key;
+    EXPECT_GT(number(last["cpu_ms_alone"]), 0);
+    EXPECT_EQ(last["linear_error"], "") << "it falls";
+    EXPECT_LT(number(last["volume_error"]), 1e-2);
+    EXPECT_EQ(last["reference_converged"], "1");
+    EXPECT_LT(number(last["reference_change"]), 1e-4);
+    EXPECT_GT(number(last["perturbation_growth"]), 0);
+  }
+  const std::string text = read_file(out_ / "solver.md");
+  EXPECT_NE(text.find("RK4 in double"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+}
+
+TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
+  make("internal_damping = 5\n");
+  EXPECT_NE(read_file(out_ / "solver.md").find("rk4 in floats"), std::string::npos);
+  for (auto& [key, curve] : curves_of(out_ / "solver.csv")) {
+    EXPECT_LT(number(curve.back()["error"]), 1e-2) << key;
+  }
+}
+
+TEST(SolverReportErrors, AreSaidBeforeAnythingRuns) {
+  const TemporaryFolder folder;
+  const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
+  const Outcome none = run({"report", "solver", "--quick", "--scene", empty, "--out", folder.path() / "out"});
+  EXPECT_EQ(none.status, 2);
+  EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
+  EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
+  EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
+}
+
+}  // namespace
+}  // namespace cli::test
