@@ -205,7 +205,7 @@ void draw_row(Widgets& w, Session& session, Grid& grid, const Row& row, const Sc
   const Ring& times = session.history().method_ms[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, scale.axis, row.method.colour, "ms",
+    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis}, row.method.colour, "ms",
                 grid.right(plot) - grid.left(plot));
   }
   draw_switches(w, session, grid, row);

@@ -22,6 +22,10 @@ glm::vec3 sequential_colour(float t);
 /// Strain: shorter than at rest (-1, blue), as at rest (0, light grey), longer (1, orange).
 glm::vec3 diverging_colour(float t);
 
+// Lights, whose colours are named beside them.
+inline constexpr glm::vec3 light_green{0.00f, 0.62f, 0.35f}, light_amber{0.93f, 0.62f, 0.00f},
+    light_red{0.82f, 0.13f, 0.12f};
+
 // Okabe and Ito's set, made for all kinds of colour vision.
 inline constexpr glm::vec3 contact_between_colour{0.835f, 0.369f, 0.000f};  // vermilion
 inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.447f, 0.698f};   // blue

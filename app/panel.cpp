@@ -127,6 +127,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   if (w.section("Detection", true)) draw_detection(w, session, ui.table);
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);
+  if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -19,5 +19,6 @@ void draw_panel(Widgets& widgets, Session& session, UiState& ui);
 // Its sections, each for a window already begun.
 void draw_detection(Widgets& widgets, Session& session, bool table_shown);
 void draw_numbers(Widgets& widgets, const Session& session);
+void draw_stability(Widgets& widgets, Session& session);
 
 }  // namespace app

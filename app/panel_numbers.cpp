@@ -12,7 +12,6 @@
 namespace app {
 namespace {
 
-constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
 constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
     "Pairs of bodies whose boxes are out of reach of each other (§2.1).",
     "Pairs of bodies with near boxes that a plane across the line of centres, or the spheres around them, keeps apart.",
@@ -21,18 +20,6 @@ constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
     "Pairs of bodies that have moved little: only vertices that were near each other before are tested.",
     "Pairs of bodies at rest: their contacts are kept, not found again."};
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
-
-void draw_curve(Widgets& w, const char* label, const std::string& value, const Ring& ring, float top,
-                const glm::vec3& colour, const char* unit) {
-  ImGui::TextDisabled("%s", label);
-  const float end = w.px(value_end);
-  ImGui::SameLine(end - ImGui::CalcTextSize(value.c_str()).x);
-  ImGui::TextUnformatted(value.c_str());
-  ImGui::SameLine(end + w.px(12));
-  w.sparkline(label, ring, top, colour, unit);
-}
-
-double latest(const Ring& ring) { return ring.size() == 0 ? 0.0 : static_cast<double>(ring[ring.size() - 1]); }
 
 std::string text(const char* format, double value) {
   std::array<char, 32> buffer{};
@@ -44,15 +31,15 @@ void draw_curves(Widgets& w, const Session& session) {
   const History& history = session.history();
   const softbody::Profile& profile = session.world().profile();
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
-  draw_curve(w, "Detect", text("%.2f ms", profile.detect_ms), history.detect_ms, ms, detect_colour, "ms");
-  draw_curve(w, "Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, ms, solve_colour, "ms");
-  draw_curve(w, "Picture", text("%.1f ms", latest(history.frame_ms)), history.frame_ms,
-             axis_end(history.frame_ms.largest(), 20.0f), glm::vec3(0.45f), "ms from picture to picture");
-  draw_curve(w, "Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
-             axis_end(history.contacts.largest(), 10.0f), glm::vec3(0.45f), "contacts");
+  w.curve("Detect", text("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
+  w.curve("Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Picture", text("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
+          {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
+  w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
+          {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
   const std::string value = driver ? text("%.4f", rounded_down(driver->recall)) : "-";
-  draw_curve(w, "Recall", value, history.recall, 1.0f, glm::vec3(0.45f), "(the share of true contacts found)");
+  w.curve("Recall", value, history.recall, {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 
 void draw_touches(Widgets& w, const Session& session) {

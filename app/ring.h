@@ -21,11 +21,10 @@ class Ring {
   std::size_t size() const { return size_; }
   /// i = 0 is the oldest value kept.
   float operator[](std::size_t i) const { return values_[(next_ + capacity - size_ + i) % capacity]; }
-  float largest() const {
-    float most = 0;
-    for (std::size_t i = 0; i < size_; ++i) most = values_[i] > most ? values_[i] : most;
-    return most;
-  }
+  // 0 if there are no values.
+  float largest() const { return size_ == 0 ? 0 : *std::max_element(values_.begin(), end()); }
+  float smallest() const { return size_ == 0 ? 0 : *std::min_element(values_.begin(), end()); }
+  float latest() const { return size_ == 0 ? 0 : (*this)[size_ - 1]; }
   /// Of the last values, at most `last` of them; 0 if there are none.
   float median(std::size_t last) const {
     std::vector<float> some;
@@ -37,6 +36,10 @@ class Ring {
   }
 
  private:
+  std::array<float, capacity>::const_iterator end() const {
+    return values_.begin() + static_cast<std::ptrdiff_t>(size_);
+  }  // in no order
+
   std::array<float, capacity> values_{};
   std::size_t next_ = 0, size_ = 0;
 };

@@ -35,12 +35,18 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
 
 void Session::start(const softbody::Scene& scene) {
   world_ = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
-  before_last_step_.copy(world_->positions());
-  accumulator_ = 0;
-  step_once_ = false;
   selected_bucket_.reset();
   history_.clear();
   notice_.clear();
+  stability_.restart();
+  show_anew();
+}
+
+/// After the world has become another: what was found out about the one before is of no use.
+void Session::show_anew() {
+  before_last_step_.copy(world_->positions());
+  accumulator_ = 0;
+  step_once_ = false;
   ++revision_;
   ++worlds_;
   comparison_ = {};
@@ -103,7 +109,11 @@ void Session::single_step() {
 void Session::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
+  const bool alarmed = stability_.alarm().has_value();
+  stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });
+  stability_.after_step(*world_, guarded);
+  if (stability_.alarm() && !alarmed) paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
   history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
   history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
@@ -146,6 +156,31 @@ void Session::reset() {
   }
 }
 
+void Session::rewind_to(int frame) {
+  stability_.keep_present(*world_);
+  const auto& past = stability_.past();
+  if (past.snapshots().empty()) return;
+  const std::string method(world_->method().key);
+  const softbody::ContactSurface surface = world_->scene().contact_surface;
+  const collide::Settings settings = world_->collision();
+  const bool default_cell_size = world_->uses_default_cell_size();
+  const std::string integrator(world_->integrator().key);
+  const std::optional<int> substeps = world_->substeps();
+  notice_.clear();
+  succeeds([&] {
+    world_->restore(past.snapshots()[past.at(frame)]);
+    if (integrator != world_->integrator().key || substeps != world_->substeps())
+      world_->set_integrator(integrator, substeps);
+    if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
+    if (method != world_->method().key) world_->set_method(method);
+    if (settings != world_->collision() || default_cell_size != world_->uses_default_cell_size())
+      world_->set_collision(settings, default_cell_size);
+  });
+  paused = true;
+  stability_.went_back();
+  show_anew();
+}
+
 Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
   Forecast forecast;
   forecast.begin(world_->positions(), settings, 0);
@@ -171,6 +206,7 @@ void Session::restore_settings() {
 void Session::drop() {
   if (!can_drop()) return;
   succeeds([&] { world_->drop(); });
+  stability_.intervened();
   ++revision_;
 }
 
@@ -210,6 +246,7 @@ void Session::set_contact_surface(softbody::ContactSurface surface) {
   if (surface == world_->scene().contact_surface) return;
   notice_.clear();
   succeeds([&] { world_->set_contact_surface(surface); });
+  stability_.intervened();
   ++revision_;
 }
 
@@ -227,6 +264,7 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   if (notice_ = collide::problem(checked); !notice_.empty()) return;
   if (!affordable(world_->method(), checked)) return;
   succeeds([&] { world_->set_collision(checked, default_cell_size); });
+  stability_.intervened();
   ++revision_;
   select_bucket(selected_bucket_);
   forget_measurements();

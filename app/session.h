@@ -8,6 +8,7 @@
 #include "app/compare_worker.h"
 #include "app/overlays.h"
 #include "app/ring.h"
+#include "app/stability_watch.h"
 #include "app/surface_watch.h"
 #include "softbody/world.h"
 
@@ -71,6 +72,12 @@ class Session {
   /// The scene's sentence for this moment, or empty.
   const std::string& caption() const;
 
+  /// Pauses when the world blows up.
+  bool guarded = true;
+  const StabilityWatch& stability() const { return stability_; }
+  /// Back to the last snapshot of stability().past() not after this frame, and pauses. The settings in use stay.
+  void rewind_to(int frame);
+
   // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
   void set_method(std::string_view key);
   void next_method();
@@ -116,6 +123,7 @@ class Session {
 
  private:
   void start(const softbody::Scene& scene);
+  void show_anew();
   void run(double elapsed);
   void step();
   template <class Change>
@@ -152,6 +160,7 @@ class Session {
   std::string notice_;
   CompareWorker compare_worker_;
   SurfaceWatch surfaces_;
+  StabilityWatch stability_;
 };
 
 }  // namespace app

@@ -32,11 +32,11 @@ std::string recall_sentence(const Session& session) {
 Light light_of(collide::Coverage coverage) {
   switch (coverage) {
     case collide::Coverage::exact:
-      return {{0.00f, 0.62f, 0.35f}, "Green", "this method is exact and misses no contact."};
+      return {light_green, "Green", "this method is exact and misses no contact."};
     case collide::Coverage::covered:
-      return {{0.93f, 0.62f, 0.00f}, "Amber", "every box fits a cell; only contacts across cell faces can be missed."};
+      return {light_amber, "Amber", "every box fits a cell; only contacts across cell faces can be missed."};
     default:
-      return {{0.82f, 0.13f, 0.12f}, "Red", "a box is larger than a cell, so its corners skip cells."};
+      return {light_red, "Red", "a box is larger than a cell, so its corners skip cells."};
   }
 }
 
@@ -55,7 +55,7 @@ std::string reference_sentence(const CompareReport& report) {
   return report.stands_in.empty() ? text : text + ": " + report.stands_in;
 }
 
-float draw_status(Widgets& w, const Session& session, const SceneArea& area) {
+float draw_status(Widgets& w, Session& session, const SceneArea& area) {
   const Light light = light_of(session.world().detection().coverage);
   const float margin = w.px(12);
   const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
@@ -74,6 +74,7 @@ float draw_status(Widgets& w, const Session& session, const SceneArea& area) {
           "counted beside the simulation. " +
           against)
              .c_str());
+  draw_step_light(w, session);
   if (!session.notice().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
     ImGui::TextWrapped("%s", session.notice().c_str());

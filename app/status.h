@@ -23,6 +23,10 @@ struct Light {
   const char* sentence;  // what it means
 };
 Light light_of(collide::Coverage coverage);
+/// Green: the step keeps within the bound and its reserve. Amber: within the limit of stability. Red: beyond it.
+Light light_of(const StepMargin& margin);
+/// The step's light with its numbers; below it the alarm, if there is one, and the way back.
+void draw_step_light(Widgets& widgets, Session& session);
 
 /// "of the driving method", or whose boxes and buckets are shown instead because the driving method has no table.
 std::string whose_structure(const Session& session);
@@ -33,7 +37,7 @@ double rounded_down(double share);
 std::string reference_sentence(const CompareReport& report);
 
 /// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends.
-float draw_status(Widgets& widgets, const Session& session, const SceneArea& area);
+float draw_status(Widgets& widgets, Session& session, const SceneArea& area);
 /// Below `top`.
 void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area, float top);
 /// `seconds`: how long the window has been open; the hint fades out after a while.

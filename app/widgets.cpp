@@ -22,6 +22,12 @@ float axis_end(float most, float least) {
   return end;
 }
 
+Axis axis_around(const Ring& ring, float least) {
+  const float range = axis_end(ring.largest() - ring.smallest(), least), grid = range / 4;
+  const float bottom = grid * std::floor(ring.smallest() / grid);
+  return {bottom, bottom + range + grid};
+}
+
 void Widgets::done(const char* label, const char* tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
@@ -181,14 +187,25 @@ void Widgets::dot(const glm::vec3& colour) {
   ImGui::SameLine();
 }
 
-void Widgets::sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit,
-                        float width) {
+void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
+                    const glm::vec3& colour, const char* unit) {
+  constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
+  ImGui::TextDisabled("%s", label);
+  const float end = px(value_end);
+  ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine(end + px(12));
+  sparkline(label, ring, axis, colour, unit);
+}
+
+void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, const glm::vec3& colour,
+                        const char* unit, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(hidden(label).c_str(), size);
   std::array<char, 96> tip{};
-  std::snprintf(tip.data(), tip.size(), "The last %zu values, from 0 to %g %s.", Ring::capacity,
-                static_cast<double>(top), unit);
+  std::snprintf(tip.data(), tip.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
+                static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
   done(label, tip.data());
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
@@ -196,7 +213,8 @@ void Widgets::sparkline(const char* label, const Ring& ring, float top, const gl
   std::array<ImVec2, Ring::capacity> points;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
-    points[i] = {at.x + x * size.x, at.y + size.y * (1.0f - std::clamp(ring[i] / top, 0.0f, 1.0f))};
+    points[i] = {at.x + x * size.x,
+                 at.y + size.y * (1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f))};
   }
   draw->AddPolyline(points.data(), static_cast<int>(ring.size()), to_imgui(colour), ImDrawFlags_None, px(1.25f));
 }

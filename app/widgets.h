@@ -39,6 +39,12 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 /// The first of `least`, 2, 5, 10, ... times it that is not below `most`: an axis that stays while values change.
 float axis_end(float most, float least);
 
+struct Axis {
+  float bottom, top;
+};
+/// Around all values of a ring, at least `least` long; it stays while they change a little.
+Axis axis_around(const Ring& ring, float least);
+
 /// One frame of the panel. Labels are unique, also as ImGui's identifiers.
 class Widgets {
  public:
@@ -75,9 +81,12 @@ class Widgets {
   void chip(const glm::vec3& colour, float line_height);
   /// A dot of colour that starts a line.
   void dot(const glm::vec3& colour);
-  /// A curve of the last values between 0 and `top`; width 0: what is left of the line.
-  void sparkline(const char* label, const Ring& ring, float top, const glm::vec3& colour, const char* unit,
+  /// A curve of the last values between the ends of an axis; width 0: what is left of the line.
+  void sparkline(const char* label, const Ring& ring, const Axis& axis, const glm::vec3& colour, const char* unit,
                  float width = 0);
+  /// A line with a grey label, a value and its curve.
+  void curve(const char* label, const std::string& value, const Ring& ring, const Axis& axis, const glm::vec3& colour,
+             const char* unit);
 
   /// Notes the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void done(const char* label, const char* tooltip);

@@ -12,56 +12,75 @@
 namespace softbody {
 namespace {
 
-double spring_energy(const std::vector<Spring>& springs, const std::vector<Particle>& particles) {
-  double energy = 0;
+/// Adds the energy of springs in J; returns the largest strain.
+double add_springs(const std::vector<Spring>& springs, const std::vector<glm::dvec3>& x, double& energy) {
+  double most = 0;
   for (const Spring& s : springs) {
-    const double stretch = glm::distance(particles[s.i].position, particles[s.j].position) - s.rest;
+    const double stretch = glm::distance(x[s.i], x[s.j]) - s.rest;
     energy += 0.5 * s.stiffness * stretch * stretch;
+    if (s.rest > 0) most = std::max(most, std::abs(stretch) / s.rest);
   }
+  return most;
+}
+
+/// Of a body with its particles at x: what it is bent, stretched and blown up by; the largest strain.
+Energy deformation(const Prototype& p, const std::vector<glm::dvec3>& x, double volume, double& largest_strain) {
+  Energy energy;
+  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
+    largest_strain = std::max(largest_strain, add_springs(*springs, x, energy.elastic));
+  if (p.shape_rate > 0) energy.elastic += shape_energy(p, x);
+  if (p.has_gas) energy.gas = p.gas.energy(volume);
   return energy;
 }
 
-double volume_of(const std::vector<Particle>& particles, const std::vector<Triangle>& triangles) {
-  const glm::dvec3 origin = particles.front().position;  // any point will do; a near one loses no digits
+double volume_of(const std::vector<glm::dvec3>& x, const std::vector<Triangle>& triangles) {
+  const glm::dvec3 origin = x.front();  // any point will do; a near one loses no digits
   double six = 0;
-  for (const auto& [a, b, c] : triangles)
-    six += glm::dot(particles[a].position - origin,
-                    glm::cross(particles[b].position - origin, particles[c].position - origin));
+  for (const auto& [a, b, c] : triangles) six += glm::dot(x[a] - origin, glm::cross(x[b] - origin, x[c] - origin));
   return six / 6;
 }
 
-std::vector<glm::dvec3> positions(const std::vector<Particle>& particles) {
-  std::vector<glm::dvec3> list;
-  for (const Particle& q : particles) list.push_back(q.position);
-  return list;
+}  // namespace
+
+Energy& Energy::operator+=(const Energy& other) {
+  kinetic += other.kinetic;
+  elastic += other.elastic;
+  gas += other.gas;
+  gravity += other.gravity;
+  return *this;
 }
 
-/// Adds one body to the totals.
-void add_body(const World& world, BodyId id, Measures& m) {
+BodyMeasures measure(const World& world, BodyId id) {
   const Prototype& p = world.prototype(id);
   const Scene& scene = world.scene();
-  std::vector<Particle> particles;
-  for (Index i = 0; i < p.mesh.vertices.size(); ++i) particles.push_back(world.dynamics().particle(id, i));
-  for (const Particle& q : particles) {
+  BodyMeasures m;
+  double kinetic = 0, gravity = 0;
+  std::vector<glm::dvec3> x;
+  x.reserve(p.mesh.vertices.size());
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
+    const Particle q = world.dynamics().particle(id, i);
+    x.push_back(q.position);
     const double speed2 = glm::dot(q.velocity, q.velocity);
     m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
-    m.energy += p.particle_mass * (0.5 * speed2 - glm::dot(scene.gravity, q.position));
+    kinetic += 0.5 * p.particle_mass * speed2;
+    gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
     m.momentum += p.particle_mass * q.velocity;
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
-  for (const auto* springs : {&p.structural, &p.bend, &p.shear}) m.energy += spring_energy(*springs, particles);
-  if (p.shape_rate > 0) m.energy += shape_energy(p, positions(particles));
-  if (!p.mesh.closed) return;
-  const double volume = volume_of(particles, p.mesh.triangles);
-  if (p.has_gas) m.energy += p.gas.energy(volume);
-  const double ratio = volume / p.start_volume;
-  m.volume_ratio_min = m.has_volume ? std::min(m.volume_ratio_min, ratio) : ratio;
-  m.volume_ratio_max = m.has_volume ? std::max(m.volume_ratio_max, ratio) : ratio;
-  m.has_volume = true;
+  const double volume = p.mesh.closed ? volume_of(x, p.mesh.triangles) : 0;
+  m.energy = deformation(p, x, volume, m.largest_strain);
+  m.energy.kinetic = kinetic;
+  m.energy.gravity = gravity;
+  m.closed = p.mesh.closed;
+  if (m.closed) m.volume_ratio = volume / p.start_volume;
+  return m;
 }
 
-}  // namespace
+Energy starting_energy(const Prototype& p) {
+  double unused = 0;
+  return deformation(p, p.start, p.start_volume, unused);
+}
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
@@ -72,10 +91,30 @@ SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   return deepest;
 }
 
-Measures measure(const World& world) {
+Measures total(std::span<const BodyMeasures> bodies) {
   Measures m;
-  for (BodyId id = 0; id < world.bodies().count(); ++id) add_body(world, id, m);
+  for (const BodyMeasures& b : bodies) {
+    m.energies += b.energy;
+    m.momentum += b.momentum;
+    m.largest_strain = std::max(m.largest_strain, b.largest_strain);
+    m.deepest_penetration = std::max(m.deepest_penetration, b.deepest_penetration);
+    m.max_speed = std::max(m.max_speed, b.max_speed);
+    m.finite = m.finite && b.finite;
+    if (!b.closed) continue;
+    m.volume_ratio_min = m.has_volume ? std::min(m.volume_ratio_min, b.volume_ratio) : b.volume_ratio;
+    m.volume_ratio_max = m.has_volume ? std::max(m.volume_ratio_max, b.volume_ratio) : b.volume_ratio;
+    m.has_volume = true;
+  }
+  m.energy = m.energies.total();
   return m;
 }
+
+std::vector<BodyMeasures> measure_bodies(const World& world) {
+  std::vector<BodyMeasures> list;
+  for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id));
+  return list;
+}
+
+Measures measure(const World& world) { return total(measure_bodies(world)); }
 
 }  // namespace softbody

@@ -5,17 +5,49 @@
 
 namespace softbody {
 
-struct Measures {
-  double energy = 0;         // J: kinetic + springs + gas + gravity (measured from the world's origin)
+/// In J. What contacts store is not in it.
+struct Energy {
+  double kinetic = 0;
+  double elastic = 0;  // springs and shape matching
+  double gas = 0;
+  double gravity = 0;  // measured from the world's origin
+  double deformation() const { return elastic + gas; }
+  double total() const { return kinetic + elastic + gas + gravity; }
+  Energy& operator+=(const Energy& other);
+};
+
+struct BodyMeasures {
+  Energy energy;
   glm::dvec3 momentum{0.0};  // kg m/s
-  bool has_volume = false;   // some body is closed; else the ratios are 0
+  bool closed = false;
+  double volume_ratio = 0;         // of a closed body, over the starting volume
+  double largest_strain = 0;       // of a spring, |length / resting length - 1|
+  double deepest_penetration = 0;  // m, as in Measures
+  double max_speed = 0;            // m/s, of a particle
+  bool finite = true;              // all positions and velocities
+};
+
+BodyMeasures measure(const World& world, BodyId body);
+std::vector<BodyMeasures> measure_bodies(const World& world);
+
+/// Deformation energy of a body's starting shape, which is its least if it starts in equilibrium.
+Energy starting_energy(const Prototype& prototype);
+
+struct Measures {
+  double energy = 0;                                  // J: the total of `energies`
+  Energy energies;                                    // of all bodies
+  glm::dvec3 momentum{0.0};                           // kg m/s
+  bool has_volume = false;                            // some body is closed; else the ratios are 0
   double volume_ratio_min = 0, volume_ratio_max = 0;  // of closed bodies, over the starting volume
+  double largest_strain = 0;                          // of a spring, |length / resting length - 1|
   double deepest_penetration = 0;                     // m >= 0, the deepest particle below a solid's surface
   double max_speed = 0;                               // m/s, of a particle
   bool finite = true;                                 // all positions and velocities
 };
 
 Measures measure(const World& world);
+/// The same from what was measured of all bodies.
+Measures total(std::span<const BodyMeasures> bodies);
 
 /// How deep a point lies in a solid, with the solid's outward normal there.
 struct SolidDepth {

@@ -13,7 +13,8 @@ namespace app {
 
 class PanelRig {
  public:
-  explicit PanelRig(float scale = 1) : gui_(scale), scale_(scale) {
+  explicit PanelRig(float scale = 1, const softbody::Scene& scene = touching_pair())
+      : gui_(scale), scale_(scale), session(scene, {}, 1) {
     input_.display_size = {static_cast<int>(1280 * scale), static_cast<int>(1150 * scale)};
     frames(3);  // ImGui sizes its windows in the first frames
   }
@@ -83,7 +84,7 @@ class PanelRig {
   float scale_;
 
  public:
-  Session session{touching_pair(), {}, 1};
+  Session session;
   UiState ui;
   Interface interface;
   Recorder recorder;

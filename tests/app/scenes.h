@@ -1,6 +1,8 @@
 #pragma once
 // Scenes for the demo's tests, small and in motion from the first frame.
 
+#include <limits>
+
 #include "softbody/scene.h"
 
 namespace app {
@@ -22,6 +24,14 @@ inline softbody::Scene touching_pair() {
   above.position = {0, 5, 0};
   scene.dropper = softbody::Dropper{.body = above};
   scene.captions = {{2, "second"}, {5, "fifth"}};
+  return scene;
+}
+
+/// The same, but the second body comes in a little later, and is lost.
+inline softbody::Scene doomed_pair() {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[1].velocity.y = std::numeric_limits<double>::quiet_NaN();
+  scene.bodies[1].appear = 5;
   return scene;
 }
 

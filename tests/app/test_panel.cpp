@@ -70,6 +70,33 @@ TEST(Panel, TheFiguresOfTheTrueSurfacesComeAndMoveNothing) {
   EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
 }
 
+TEST(Panel, GoesBackByASlider) {
+  PanelRig rig;
+  rig.click("Stability");
+  rig.frames(60);
+  const int frame = rig.session.world().frame();
+  rig.drag("Go back to", -400);
+  EXPECT_EQ(rig.session.world().frame(), 0);
+  EXPECT_TRUE(rig.session.paused);
+  rig.drag("Go back to", 400);
+  EXPECT_GE(rig.session.world().frame(), frame);
+  rig.click("Pause when a body explodes");
+  EXPECT_FALSE(rig.session.guarded);
+  EXPECT_TRUE(rig.recorder.find("Total"));
+  EXPECT_TRUE(rig.recorder.find("Step light"));
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+}
+
+TEST(Panel, NamesTheBodyThatExplodesAndRewinds) {
+  PanelRig rig(1, doomed_pair());
+  rig.frames(10);
+  EXPECT_TRUE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(rig.session.paused);
+  rig.click("Rewind to the last good frame");
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
+}
+
 TEST(Panel, EnablesOnlyWhatTheMethodUses) {
   PanelRig rig;
   rig.ui.table = false;

@@ -1,0 +1,56 @@
+#pragma once
+// Watches a world frame by frame and names the body that blew up: one that is no longer finite, or has energy that
+// nothing there could give, or a speed that nothing there could reach. How large a body gets needs no test of its own:
+// its springs hold the energy of that.
+
+#include <deque>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "softbody/measures.h"
+
+namespace app {
+
+struct Alarm {
+  softbody::BodyId body;
+  int frame;         // the first bad one that was looked at
+  std::string what;  // one sentence that names the body
+};
+
+class Guard {
+ public:
+  /// What contacts have stored comes back within so many looks.
+  static constexpr std::size_t memory = 60;
+  /// More than this share of the energy that moves and deforms bodies, and of m g R, does not appear. The shipped
+  /// scenes, whatever is done to them, gain up to 0.04 by what their contacts stored before.
+  static constexpr double most_gain = 0.1;
+  /// Times what is within reach; the shipped scenes get to 0.6 of that.
+  static constexpr double most_speed = 1.5;
+
+  /// Looks at a frame; `bodies` were measured in it. Bodies that come or go begin it anew.
+  std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
+  /// The user has changed something: energy counts from the next look on.
+  void restart() { looks_.clear(); }
+
+ private:
+  struct Look {
+    double energy = 0;  // J, of all bodies
+    double active = 0;  // J, of their motion and deformation
+    double speed = 0;   // m/s, of the fastest particle
+    double bounce = 0;  // m/s, that a body can give itself by springing back to its shape
+  };
+  void begin(const softbody::World& world, std::size_t bodies);
+  Look sum_up(const std::vector<softbody::BodyMeasures>& bodies) const;
+  Look most_of_late() const;
+  std::optional<Alarm> judge(const Look& now, const std::vector<softbody::BodyMeasures>& bodies, int frame) const;
+  softbody::BodyId culprit(const std::vector<softbody::BodyMeasures>& bodies) const;
+
+  std::deque<Look> looks_;              // of late
+  std::vector<double> body_energy_;     // J, at the last look
+  std::vector<double> resting_, mass_;  // J of the starting shape, and kg
+  double fall_ = 0;                     // J: m |g| R of all
+  double gravity_ = 0;                  // m/s, that it adds within memory
+};
+
+}  // namespace app
