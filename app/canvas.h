@@ -22,6 +22,8 @@ class Canvas {
   void update(glm::ivec2 size, bool changed, bool still, const std::function<void(const engine::Viewport&)>& draw);
   /// Copies the picture to the window, its lower left corner at `origin`.
   void show(glm::ivec2 origin) const;
+  /// The picture; empty before the first update().
+  engine::Image read() const { return plain_ ? plain_->read() : engine::Image{}; }
 
  private:
   static constexpr int samples = 4;

@@ -25,9 +25,7 @@ void Capture::write(const softbody::World& world, const std::filesystem::path& f
   const glm::ivec2 size = studio_->target.size();
   studio_->target.bind();
   studio_->view.draw(world, {}, studio_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
-  OutputFile png(file);
-  png.write(engine::encode_png(studio_->target.read()));
-  png.commit();
+  write_file(file, engine::encode_png(studio_->target.read()));
 }
 
 }  // namespace app

@@ -6,6 +6,7 @@
 
 #include "app/canvas.h"
 #include "app/interface.h"
+#include "app/preferences.h"
 #include "app/scene_view.h"
 #include "app/shortcuts.h"
 #include "engine/context.h"
@@ -59,11 +60,17 @@ bool draws_in_software() {
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
-      : window_({.title = "Multi-Level SB Collide", .size = {options.width, options.height}, .samples = 0}),
+      : preferences_(preferences_path()),
+        window_({.title = "Multi-Level SB Collide",
+                 .size = options.size_given ? glm::ivec2(options.width, options.height) : preferences_.kept().size,
+                 .samples = 0}),
         gui_(window_),
         view_(engine::find_folder("shaders")),
         canvas_(!draws_in_software()),
-        session_(options.scene, options.scene_folder, options.threads) {}
+        session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
+    apply(preferences_.kept(), session_, ui_);
+    keep_preferences();
+  }
 
   void run() {
     while (window_.open() && !ui_.quit) {
@@ -73,6 +80,7 @@ class Demo {
       if (window_.minimised()) continue;  // poll() has slept; the world waits for its window
       frame(elapsed);
     }
+    keep_preferences(true);
   }
 
  private:
@@ -85,15 +93,33 @@ class Demo {
 
   void frame(double elapsed) {
     seconds_ += elapsed;
-    session_.advance(elapsed);
+    ui_.import.drop(window_.dropped_files(), session_);
+    if (ui_.take_away.recording())
+      session_.advance_one(elapsed, ui_.take_away.may_step());
+    else
+      session_.advance(elapsed);
     gui_.begin_frame();
     interface_.draw(session_, ui_, gui_.scale(), seconds_);
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
     draw_scene(viewport);
+    ui_.view = SceneView::view(camera_, viewport.size);
     gui_.end_frame();
+    ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
     window_.present();
+    keep_preferences();
     pacer_.rest();
+  }
+
+  /// Of what is about to be shown.
+  engine::Image picture(bool with_panel) const {
+    return with_panel ? engine::read_pixels(0, window_.framebuffer_size()) : canvas_.read();
+  }
+
+  void keep_preferences(bool last = false) {
+    const glm::vec2 size = glm::vec2(window_.framebuffer_size()) / window_.content_scale();
+    preferences_.keep(preferences_of(session_, ui_, glm::ivec2(glm::round(size))), seconds_, last);
+    if (std::string problem = preferences_.take_problem(); !problem.empty()) session_.set_notice(std::move(problem));
   }
 
   engine::Viewport scene_viewport() const {
@@ -166,7 +192,8 @@ class Demo {
 
   static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
 
-  engine::Window window_;  // first: the others need its context
+  PreferencesFile preferences_;
+  engine::Window window_;  // before the others, which need its context
   engine::Gui gui_;
   SceneView view_;
   Canvas canvas_;

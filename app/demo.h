@@ -9,9 +9,11 @@ namespace app {
 
 struct DemoOptions {
   softbody::Scene scene;
+  std::string scene_name;              // its key or file
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
   int threads = 1;
   int width = 1280, height = 720;  // of the window, screen coordinates
+  bool size_given = false;         // else it has the size that it had last
 };
 
 /// Runs until the window is closed; returns the exit code. Throws engine::Unavailable without a display,

@@ -5,18 +5,24 @@ set(DEMO_SOURCES
   compare_view.cpp
   compare_worker.cpp
   demo.cpp
+  frame_writers.cpp
   guard.cpp
   hash_grid.cpp
   hash_view.cpp
   help.cpp
+  import.cpp
   interface.cpp
   overlay_shapes.cpp
   palette.cpp
   panel.cpp
   panel_detection.cpp
+  panel_files.cpp
   panel_numbers.cpp
   panel_stability.cpp
+  preferences.cpp
+  recording.cpp
   rewind.cpp
+  scene_file.cpp
   scene_view.cpp
   session.cpp
   shortcuts.cpp
@@ -27,5 +33,7 @@ set(DEMO_SOURCES
   sweep_plot.cpp
   sweep_view.cpp
   sweep_worker.cpp
+  take_away.cpp
   true_surfaces.cpp
+  video.cpp
   widgets.cpp)

@@ -168,7 +168,7 @@ void detect(const Options& options) {
   settings.self_collision = options.detect.self_collision;
   apply(options.detection, settings);
   const Sequence sequence = read_sequence(options.detect);
-  if (!options.detection.cell_size)
+  if (automatic_cell_size(options.detection, true))
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
   const std::vector<Row> rows = run(options, method, settings, sequence);
   if (options.json)

@@ -25,6 +25,13 @@ std::array<std::uint32_t, 3> read_primes(const std::string& text) {
   return primes;
 }
 
+glm::vec3 read_cell_size(const std::string& text) {
+  const auto sides = real_numbers(text, ',');
+  if (!sides || (sides->size() != 1 && sides->size() != 3))
+    throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
+  return {float(sides->front()), float((*sides)[sides->size() / 2]), float(sides->back())};
+}
+
 }  // namespace
 
 void add_detection_options(CLI::App& command, DetectionOptions& options) {
@@ -32,7 +39,11 @@ void add_detection_options(CLI::App& command, DetectionOptions& options) {
   command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes (0-15)")
       ->type_name("N");
   command.add_option("--buckets", options.buckets, "number of buckets of the hash table")->type_name("N");
-  command.add_option("--cell-size", options.cell_size, "side of a grid cell in metres")->type_name("S");
+  command
+      .add_option(
+          "--cell-size", options.cell_size,
+          "sides of a grid cell in metres, or auto: as large as the largest subdivided box at rest + the tolerance")
+      ->type_name("S|X,Y,Z|auto");
   command
       .add_option("--primes", options.primes,
                   "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)")
@@ -44,6 +55,10 @@ const collide::Method& chosen_method(const DetectionOptions& options, std::strin
   const collide::Method* method = collide::find_method(options.method ? *options.method : otherwise);
   if (!method) throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys());
   return *method;
+}
+
+bool automatic_cell_size(const DetectionOptions& options, bool otherwise) {
+  return options.cell_size ? *options.cell_size == "auto" : otherwise;
 }
 
 void apply(const DetectionOptions& options, collide::Settings& settings) {
@@ -61,7 +76,7 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
   }
   if (options.tolerance) settings.tolerance = static_cast<float>(*options.tolerance);
   check("--tolerance");
-  if (options.cell_size) settings.cell_size = glm::vec3(static_cast<float>(*options.cell_size));
+  if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
   check("--cell-size");
   if (options.primes) settings.primes = read_primes(*options.primes);
 }

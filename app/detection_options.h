@@ -19,8 +19,9 @@ struct DetectionOptions {
   std::optional<std::string> method;
   std::optional<int> levels;
   std::optional<std::int64_t> buckets;
-  std::optional<double> cell_size, tolerance;  // m
-  std::optional<std::string> primes;           // "A,B,C", as typed
+  std::optional<std::string> cell_size;  // "S", "X,Y,Z" in metres or "auto", as typed
+  std::optional<double> tolerance;       // m
+  std::optional<std::string> primes;     // "A,B,C", as typed
 };
 
 /// Offers them on the command line.
@@ -28,6 +29,9 @@ void add_detection_options(CLI::App& command, DetectionOptions& options);
 
 /// The method asked for, or else the one with the key `otherwise`. Throws UsageError if there is no such method.
 const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise);
+
+/// Whether it says that the cell size is to be worked out, or nothing for the default.
+bool automatic_cell_size(const DetectionOptions& options, bool otherwise);
 
 /// Puts all the others into `settings`, which must be usable. Throws UsageError that names the option at fault.
 void apply(const DetectionOptions& options, collide::Settings& settings);

@@ -19,7 +19,8 @@ SceneArea Interface::scene_area(const UiState& ui, float scale) {
 
 void Interface::draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder) {
   if (recorder) recorder->widgets.clear();
-  Widgets widgets(scale, hover_, recorder);
+  Widgets widgets(scale, hover_, ui.sections, recorder);
+  ui.import.follow(session);
   if (ui.panel) draw_panel(widgets, session, ui);
   const SceneArea area = scene_area(ui, scale);
   if (!panel_covers_scene(ui, scale)) draw_over_scene(widgets, session, ui, area, seconds);

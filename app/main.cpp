@@ -35,10 +35,12 @@ int run(const app::Options& options) {
   }
 #if SBCOLLIDE_GRAPHICS
   return app::run_demo({.scene = app::load_scene(options),
+                        .scene_name = options.scene,
                         .scene_folder = app::scene_folder(),
                         .threads = options.threads,
                         .width = options.width,
-                        .height = options.height});
+                        .height = options.height,
+                        .size_given = options.size_given});
 #else
   throw app::UsageError(
       "this build has no window; use `sbcollide simulate`, or configure with -DSBCOLLIDE_GRAPHICS=ON");

@@ -14,4 +14,10 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// Nothing if the text is no whole number, or one that does not fit.
 std::optional<std::int64_t> whole_number(std::string_view text);
 
+/// Nothing if the text is no number, or not within a double's range.
+std::optional<double> real_number(std::string_view text);
+
+/// Those that separators stand between; nothing unless all are numbers.
+std::optional<std::vector<double>> real_numbers(std::string_view text, char separator);
+
 }  // namespace app

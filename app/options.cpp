@@ -44,6 +44,19 @@ void parse_captures(const std::string& text, Options& options) {
   std::sort(options.captures.begin(), options.captures.end());
 }
 
+softbody::View read_view(const std::string& text) {
+  const auto v = real_numbers(text, ',');
+  const auto within = [&](std::size_t which, double least, double most) {
+    return (*v)[which] >= least && (*v)[which] <= most;
+  };
+  if (!v || v->size() != 6 || !within(0, -1e6, 1e6) || !within(1, -1e6, 1e6) || !within(2, -1e6, 1e6) ||
+      !within(3, 1e-9, 1e6) || !within(4, -360, 360) || !within(5, -89, 89))
+    throw UsageError("--view " + text +
+                     ": must be X,Y,Z,DISTANCE,AZIMUTH,ELEVATION: where to look at and how far from in metres, -360 to "
+                     "360 and -89 to 89 degrees, e.g. 0,0.8,0,8,30,18");
+  return {.target = {(*v)[0], (*v)[1], (*v)[2]}, .distance = (*v)[3], .azimuth = (*v)[4], .elevation = (*v)[5]};
+}
+
 void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
@@ -58,6 +71,14 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--contact-surface", options.contact_surface,
                   "what keeps bodies apart: a key of `list contact-surfaces`")
       ->type_name("K");
+  command.add_flag_function(
+      "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
+      "whether pairs of one body count (default: the scene's)");
+  command
+      .add_option_function<std::string>(
+          "--view", [&options](const std::string& text) { options.view = read_view(text); },
+          "the camera: what it looks at, how far from, degrees round and up (default: the scene's)")
+      ->type_name("X,Y,Z,DISTANCE,AZIMUTH,ELEVATION");
 }
 
 CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
@@ -74,7 +95,12 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
   simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
-  simulate->add_option("--out", options.out, "folder for the pictures (default: the current one)")->type_name("DIR");
+  simulate
+      ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
+      ->type_name("N")
+      ->check(CLI::Range(1, 10'000'000));
+  simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
+      ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
   simulate->add_flag("--oracle", options.oracle, "with --json: what overlaps and passes through in each frame; slow")
       ->needs(json);
@@ -179,6 +205,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                     : *list   ? Command::list
                               : Command::demo;
   if (!size.empty()) parse_size(size, options);
+  options.size_given = !size.empty();
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);
   return options;
@@ -188,7 +215,9 @@ softbody::Scene load_scene(const Options& options) {
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   apply(options.detection, scene.collision);
-  if (options.detection.cell_size) scene.default_cell_size = false;
+  scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
+  if (options.self_collision) scene.collision.self_collision = *options.self_collision;
+  if (options.view) scene.view = *options.view;
   if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
   return scene;
 }

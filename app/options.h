@@ -41,6 +41,8 @@ struct Options {
   std::string scene = "drop";
   DetectionOptions detection;
   std::optional<std::string> contact_surface;  // a key; otherwise the scene's
+  std::optional<bool> self_collision;          // otherwise the scene's
+  std::optional<softbody::View> view;          // otherwise the scene's
   DetectOptions detect;
   ReportOptions report;
   std::string integrator;
@@ -48,8 +50,10 @@ struct Options {
   int threads = 1;
   double frame_time = 1.0 / 60.0;  // s
   int width = 1280, height = 720;  // pixels
+  bool size_given = false;         // the window opens in this size, whatever it had last
   int frames = 800;
-  std::vector<int> captures;  // frames to write a picture of, ascending
+  std::vector<int> captures;     // frames to write a picture of, ascending
+  std::optional<int> obj_every;  // frames between those whose bodies are written as OBJ files
   std::filesystem::path out = ".";
   bool json = false;
   bool oracle = false;  // `simulate --json`: the surface oracle's figures of each frame

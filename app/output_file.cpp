@@ -13,11 +13,27 @@
 namespace app {
 namespace fs = std::filesystem;
 
-void prepare_folder(const std::filesystem::path& folder) {
+void prepare_folder(const std::filesystem::path& folder, std::string_view option) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
   if (error || access(folder.c_str(), W_OK) != 0)
-    throw UsageError("--out " + folder.string() + ": cannot be written to; name a folder of your own");
+    throw UsageError(std::string(option) + folder.string() + ": cannot be written to; name a folder of your own");
+}
+
+void write_file(const fs::path& file, std::string_view bytes) {
+  OutputFile out(file);
+  out.write(bytes);
+  out.commit();
+}
+
+fs::path next_free(const fs::path& folder, const std::string& prefix, const std::string& ending) {
+  for (int number = 1;; ++number) {
+    std::string digits = std::to_string(number);
+    digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
+    fs::path file = folder / (prefix + "_" + digits + ending);
+    std::error_code ignored;
+    if (!fs::exists(fs::symlink_status(file, ignored))) return file;
+  }
 }
 
 OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {

@@ -9,8 +9,16 @@
 
 namespace app {
 
-/// Makes the folder that results go to if it is not there. Throws UsageError if nothing can be written to it.
-void prepare_folder(const std::filesystem::path& folder);
+/// Makes the folder that results go to if it is not there. Throws UsageError if nothing can be written to it; `option`
+/// stands before its name there.
+void prepare_folder(const std::filesystem::path& folder, std::string_view option = "--out ");
+
+/// Writes a file whole or not at all. Throws UsageError.
+void write_file(const std::filesystem::path& file, std::string_view bytes);
+
+/// The first of PREFIX_0001ENDING, PREFIX_0002ENDING, ... in a folder that is not there yet.
+std::filesystem::path next_free(const std::filesystem::path& folder, const std::string& prefix,
+                                const std::string& ending);
 
 class OutputFile {
  public:

@@ -128,6 +128,8 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);
   if (w.section("Stability", false)) draw_stability(w, session);
+  if (w.section("Files", false)) draw_files(w, session, ui);
+  if (w.section("Take away", false)) draw_take_away(w, session, ui);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
   ImGui::End();
   ImGui::PopStyleVar(2);

@@ -10,12 +10,6 @@
 namespace app {
 namespace {
 
-void write(const std::filesystem::path& file, std::string_view bytes) {
-  OutputFile out(file);
-  out.write(bytes);
-  out.commit();
-}
-
 /// File names and contents; empty if they cannot be drawn.
 std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
   std::vector<std::pair<std::string, std::string>> pictures;
@@ -56,9 +50,9 @@ std::string command_of(const ReportOptions& o) {
 void write_report(const std::filesystem::path& folder, const ReportFiles& files) {
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%60s\r", "");
   const auto pictures = draw_all(files.plots);
-  write(folder / files.csv_name, files.csv);
-  for (const auto& [name, bytes] : pictures) write(folder / name, bytes);
-  write(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
+  write_file(folder / files.csv_name, files.csv);
+  for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
+  write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
 }
 
 }  // namespace app

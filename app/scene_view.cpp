@@ -25,6 +25,13 @@ float reaching(const glm::vec3& centre, float radius, std::span<const glm::vec3>
   return ratio <= 1.0f ? radius : radius * std::pow(1.25f, std::ceil(std::log(ratio) / std::log(1.25f)));
 }
 
+/// Scenes are composed for wide pictures; in narrower ones the camera steps back, so many times as far, until as much
+/// fits in.
+double step_back(glm::ivec2 size) {
+  constexpr double composed_for = 1.5;
+  return std::clamp(composed_for * std::max(size.y, 1) / std::max(size.x, 1), 1.0, 3.0);
+}
+
 }  // namespace
 
 const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
@@ -133,12 +140,20 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   const softbody::View& view = scene.view;
-  // Scenes are composed for wide pictures; in narrower ones the camera steps back until as much fits in.
-  constexpr double composed_for = 1.5;
-  const double step_back = std::max(1.0, composed_for * std::max(size.y, 1) / std::max(size.x, 1));
-  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * std::min(step_back, 3.0)),
+  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * step_back(size)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});
   return camera;
+}
+
+softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {
+  const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4; };
+  const engine::Orbit& orbit = camera.orbit();
+  softbody::View view;
+  for (int k = 0; k < 3; ++k) view.target[k] = rounded(double{orbit.target[k]});
+  view.distance = std::max(rounded(double{orbit.distance} / step_back(size)), 1e-4);
+  view.azimuth = rounded(std::remainder(glm::degrees(double{orbit.azimuth}), 360.0));
+  view.elevation = rounded(glm::degrees(double{orbit.elevation}));
+  return view;
 }
 
 }  // namespace app

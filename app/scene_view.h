@@ -43,6 +43,8 @@ class SceneView {
 
   /// The scene's own camera, with limits that suit its size.
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
+  /// The other way round: the view that a scene must have for such a camera, to a tenth of a millimetre or degree.
+  static softbody::View view(const engine::Camera& camera, glm::ivec2 size);
 
  private:
   struct Bounds {

@@ -23,13 +23,14 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
 
 }  // namespace
 
-Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads)
+Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads, std::string scene_name)
     : scene_folder_(std::move(scene_folder)),
       scenes_(list_scenes(scene_folder_)),
       threads_(threads),
       paper_(collide::find_method(collide::paper_method)->make()),
       exact_(collide::find_method(collide::default_method)->make()) {
   start(scene);
+  scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
   scene_ = std::move(scene);
 }
 
@@ -62,6 +63,21 @@ void Session::advance(double elapsed) {
   } else if (!paused) {
     run(elapsed);
   }
+  follow();
+}
+
+void Session::advance_one(double elapsed, bool one) {
+  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
+  if (one && (!paused || step_once_)) {
+    step_once_ = false;
+    accumulator_ = 0;
+    step();
+  }
+  follow();
+}
+
+/// What is known about the world comes after it.
+void Session::follow() {
   exchange_comparison();
   if (overlays.true_surfaces)
     surfaces_.exchange(*world_, before_last_step_, revision_);
@@ -137,20 +153,25 @@ void Session::choose_scene(const std::string& key_or_path) {
   try {
     softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
     start(scene);
+    scene_file_ = SceneFile(key_or_path, scene);
     scene_ = std::move(scene);
   } catch (const std::exception& error) {
     notice_ = error.what();
   }
 }
 
-void Session::reset() {
+softbody::Scene Session::scene_in_use() const {
   softbody::Scene scene = scene_;
   scene.method = world_->method().key;
   scene.contact_surface = world_->scene().contact_surface;
   scene.collision = world_->collision();
   scene.default_cell_size = world_->uses_default_cell_size();
+  return scene;
+}
+
+void Session::reset() {
   try {
-    start(scene);
+    start(scene_in_use());
   } catch (const std::exception& error) {
     notice_ = error.what();  // the present world goes on
   }
@@ -181,6 +202,17 @@ void Session::rewind_to(int frame) {
   show_anew();
 }
 
+void Session::save_scene(const std::filesystem::path& file, const softbody::View& view) {
+  softbody::Scene scene = scene_in_use();
+  scene.view = view;
+  notice_.clear();
+  try {
+    scene_file_ = SceneFile::save(std::move(scene), file);
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
+}
+
 Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
   Forecast forecast;
   forecast.begin(world_->positions(), settings, 0);
@@ -207,6 +239,47 @@ void Session::drop() {
   if (!can_drop()) return;
   succeeds([&] { world_->drop(); });
   stability_.intervened();
+  ++revision_;
+}
+
+namespace {
+
+/// The index of such a material in a list, whatever it is called there; the list's length if there is none.
+std::size_t find_material(const std::vector<softbody::Material>& all, softbody::Material material) {
+  return static_cast<std::size_t>(std::ranges::find_if(all,
+                                                       [&](const softbody::Material& other) {
+                                                         material.name = other.name;
+                                                         return material == other;
+                                                       }) -
+                                  all.begin());
+}
+
+void make_name_new(std::string& name, const std::vector<softbody::Material>& all) {
+  const std::string stem = name;
+  for (int number = 2; std::ranges::count(all, name, &softbody::Material::name) > 0; ++number)
+    name = stem + " " + std::to_string(number);
+}
+
+}  // namespace
+
+void Session::add_body(softbody::BodySource body, softbody::Material material) {
+  notice_.clear();
+  try {
+    const std::size_t known = find_material(scene_.materials, material);
+    body.material = static_cast<int>(known);
+    if (known == scene_.materials.size()) {
+      make_name_new(material.name, scene_.materials);
+      scene_.materials.push_back(std::move(material));
+    }
+    // Also those that came after the past that the world has gone back to.
+    for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
+      world_->add_material(scene_.materials[i]);
+    world_->add(body);
+    scene_.bodies.push_back(std::move(body));
+    stability_.intervened();
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
   ++revision_;
 }
 

@@ -8,6 +8,7 @@
 #include "app/compare_worker.h"
 #include "app/overlays.h"
 #include "app/ring.h"
+#include "app/scene_file.h"
 #include "app/stability_watch.h"
 #include "app/surface_watch.h"
 #include "softbody/world.h"
@@ -40,14 +41,17 @@ class Session {
   static constexpr double step_budget_ms = 25, step_budget_part = 0.4;
   static constexpr double slowest = 0.02, fastest = 1.0;
 
-  /// scene_folder: where other scenes are found by their keys. Throws SceneError.
-  Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads);
+  /// scene_folder: where other scenes are found by their keys. scene_name: what the scene is found by, if not by its
+  /// key. Throws SceneError.
+  Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads, std::string scene_name = "");
 
   // Time. The world moves in whole frames; advance() is told how much real time has passed.
   bool paused = false;
   bool slow_motion = false;
   double slow_factor = 0.1;  // slowest .. fastest, of real time, in slow motion
   void advance(double elapsed);
+  /// For recordings, in place of advance(): one step, however long it took, or none.
+  void advance_one(double elapsed, bool step);
   /// Pauses and does one step with the next advance().
   void single_step();
   /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
@@ -65,10 +69,20 @@ class Session {
   void choose_scene(const std::string& key_or_path);
   /// The scene from its start, with the settings in use.
   void reset();
+  /// The scene with the settings in use: what reset() starts.
+  softbody::Scene scene_in_use() const;
+  /// Writes scene_in_use(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
+  /// written and notice() says why.
+  void save_scene(const std::filesystem::path& file, const softbody::View& view);
+  /// Where the scene came from, or was saved to last.
+  const SceneFile& scene_file() const { return scene_file_; }
   /// Method and settings as the scene has them.
   void restore_settings();
   bool can_drop() const { return world_->scene().dropper.has_value(); }
   void drop();
+  /// A body joins the world, and the scene, which it belongs to after a reset too. If there is such a material already,
+  /// but for its name, it has that one. On an error no body joins and notice() says why.
+  void add_body(softbody::BodySource body, softbody::Material material);
   /// The scene's sentence for this moment, or empty.
   const std::string& caption() const;
 
@@ -120,10 +134,12 @@ class Session {
   std::uint64_t revision() const { return revision_; }
   /// What went wrong last, for the user; empty again after the next successful action.
   const std::string& notice() const { return notice_; }
+  void set_notice(std::string text) { notice_ = std::move(text); }
 
  private:
   void start(const softbody::Scene& scene);
   void show_anew();
+  void follow();
   void run(double elapsed);
   void step();
   template <class Change>
@@ -141,6 +157,7 @@ class Session {
   std::vector<SceneChoice> scenes_;
   int threads_;
   softbody::Scene scene_;  // as it was loaded: the world's own has the settings in use
+  SceneFile scene_file_;
   std::unique_ptr<softbody::World> world_;
   Positions before_last_step_;
   double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()

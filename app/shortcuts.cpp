@@ -28,6 +28,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.table = !ui.table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
+    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.take_away.picture_asked = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_F1, GLFW_KEY_SLASH, "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close the help, release the bucket",
@@ -42,6 +43,7 @@ constexpr std::array mouse_table{
     MouseUse{"Left drag", "Turn"},
     MouseUse{"Right drag", "Move sideways"},
     MouseUse{"Wheel", "Closer or further"},
+    MouseUse{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
 };
 
 }  // namespace

@@ -9,6 +9,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "app/obj_write.h"
 #include "app/output_file.h"
 #include "app/world_oracle.h"
 #include "softbody/measures.h"
@@ -124,6 +125,13 @@ void print_table(const softbody::World& world, const std::vector<Row>& rows) {
   std::printf("state hash %s\n", hex(world.state_hash()).c_str());
 }
 
+/// As in the names of files: four digits or more.
+std::string frame_number(int frame) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%04d", frame);
+  return text;
+}
+
 /// Writes the pictures that were asked for; without graphics it refuses before anything runs.
 class Pictures {
  public:
@@ -139,9 +147,7 @@ class Pictures {
   void take(const softbody::World& world) {
     if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
 #if SBCOLLIDE_GRAPHICS
-    char name[32];
-    std::snprintf(name, sizeof name, "frame_%04d.png", world.frame());
-    capture_->write(world, options_.out / name);
+    capture_->write(world, options_.out / ("frame_" + frame_number(world.frame()) + ".png"));
 #endif
   }
 
@@ -150,6 +156,28 @@ class Pictures {
 #if SBCOLLIDE_GRAPHICS
   std::unique_ptr<Capture> capture_;
 #endif
+};
+
+/// Writes the bodies of every Nth frame, and once more at rest whenever there are others than before.
+class Motion {
+ public:
+  explicit Motion(const Options& options) : options_(options) {
+    if (options.obj_every) prepare_folder(options.out);
+  }
+  void take(const softbody::World& world) {
+    if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
+    const std::string number = frame_number(world.frame());
+    if (!bodies_ || !bodies_->are_those_of(world)) {
+      bodies_.emplace(world);
+      write_file(options_.out / ("rest_" + number + ".obj"), bodies_->at_rest());
+    }
+    const collide::Frame at = world.positions();
+    write_file(options_.out / ("frame_" + number + ".obj"), bodies_->frame(at.x, at.y, at.z));
+  }
+
+ private:
+  const Options& options_;
+  std::optional<MovingBodies> bodies_;
 };
 
 /// What was done to the meshes from files, where it may surprise; each once.
@@ -171,6 +199,7 @@ void simulate(const Options& options) {
                                               .integrator = options.integrator,
                                               .substeps = options.substeps});
   Pictures pictures(options);
+  Motion motion(options);
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
   WorldOracle oracle(options.oracle ? options.threads : 1);
@@ -183,6 +212,7 @@ void simulate(const Options& options) {
     if (options.oracle)
       rows.back().oracle = collide::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
+    motion.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
   }
   if (progress) std::fprintf(stderr, "\r%40s\r", "");

@@ -1,6 +1,12 @@
 #pragma once
 // What the user has opened and asked of the window; the rest of the demo's state is the Session's.
 
+#include <map>
+#include <string>
+
+#include "app/import.h"
+#include "app/take_away.h"
+
 namespace app {
 
 struct UiState {
@@ -10,6 +16,11 @@ struct UiState {
   bool help = false;
   bool reset_camera = false;  // asked for; the main loop does it and clears this
   bool quit = false;
+  std::map<std::string, bool> sections;  // of the panel: whether they are open, by their labels
+  softbody::View view;                   // the camera, as a scene file has it
+  TakeAway take_away;
+  Import import;
+  std::string save_as = "scene.toml";  // where the scene is saved to
 };
 
 }  // namespace app

@@ -69,7 +69,10 @@ bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
+  if (const auto kept = sections_.find(label); kept != sections_.end())
+    ImGui::SetNextItemOpen(kept->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  sections_[label] = open;
   done(label, nullptr);
   return open;
 }
@@ -126,6 +129,17 @@ bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t leas
   value = std::clamp(value, least, most);
   done(label, tooltip);
   return changed;
+}
+
+bool Widgets::text(const char* label, std::string& value, const char* hint, const char* tooltip) {
+  std::array<char, 4096> typed{};  // as long as a path may be
+  value.copy(typed.data(), typed.size() - 1);
+  if (ImGui::InputTextWithHint(hidden(label).c_str(), hint, typed.data(), typed.size(),
+                               ImGuiInputTextFlags_AutoSelectAll))
+    value = typed.data();
+  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  done(label, tooltip);
+  return entered;
 }
 
 bool Widgets::begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {

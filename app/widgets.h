@@ -4,6 +4,7 @@
 #include <imgui.h>
 
 #include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -48,8 +49,9 @@ Axis axis_around(const Ring& ring, float least);
 /// One frame of the panel. Labels are unique, also as ImGui's identifiers.
 class Widgets {
  public:
-  Widgets(float scale, Hover& hover, Recorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), hover_(hover), recorder_(recorder) {}
+  /// sections: keeps whether each is open; those that are in it at first start like that.
+  Widgets(float scale, Hover& hover, std::map<std::string, bool>& sections, Recorder* recorder = nullptr)
+      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), hover_(hover), sections_(sections), recorder_(recorder) {}
 
   /// ImGui units of a length in the design's pixels.
   float px(float design) const { return design * scale_; }
@@ -66,6 +68,8 @@ class Widgets {
   bool slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
   /// A field for typing a number within the limits; takes effect with every digit.
   bool number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
+  /// A field for typing text, which it holds as typed; true when Enter is pressed in it. Grey `hint` while it is empty.
+  bool text(const char* label, std::string& value, const char* hint, const char* tooltip);
   /// A choice from a list; ImGui::EndCombo() must follow if true. Items: choice().
   bool begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags = 0);
   bool choice(const char* label, bool selected, const char* tooltip);
@@ -95,6 +99,7 @@ class Widgets {
  private:
   float scale_, usual_alpha_;
   Hover& hover_;
+  std::map<std::string, bool>& sections_;
   Recorder* recorder_;
 };
 

@@ -65,6 +65,7 @@ Window::Window(const WindowOptions& options) {
   }
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, &Window::on_key);
+  glfwSetDropCallback(window_, &Window::on_drop);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(options.vsync);
 }
@@ -76,6 +77,7 @@ void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 void Window::poll() {
   key_presses_.clear();
+  dropped_files_.clear();
   if (minimised()) {
     glfwWaitEventsTimeout(0.1);
   } else {
@@ -114,6 +116,11 @@ glm::vec2 Window::cursor() const {
   double x = 0.0, y = 0.0;
   glfwGetCursorPos(window_, &x, &y);
   return glm::vec2(static_cast<float>(x), static_cast<float>(y)) * pixel_ratio();
+}
+
+void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
+  auto& files = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_files_;
+  files.insert(files.end(), paths, paths + count);
 }
 
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {

@@ -1,5 +1,5 @@
 #pragma once
-// A window with an OpenGL 3.3 core context, and the keys pressed in it. One window per program.
+// A window with an OpenGL 3.3 core context, the keys pressed in it and the files dropped on it. One window per program.
 
 #include <glm/vec2.hpp>
 #include <string>
@@ -47,15 +47,18 @@ class Window {
   float content_scale() const;  // 1 on an ordinary screen, 2 on a high-density one
   float pixel_ratio() const;    // framebuffer pixels per screen coordinate; not the same as content_scale() on X11
   glm::vec2 cursor() const;     // framebuffer pixels from the top left corner
-  const std::vector<KeyPress>& key_presses() const { return key_presses_; }  // since the last poll()
+  const std::vector<KeyPress>& key_presses() const { return key_presses_; }         // since the last poll()
+  const std::vector<std::string>& dropped_files() const { return dropped_files_; }  // paths; since the last poll()
 
   GLFWwindow* handle() const { return window_; }
 
  private:
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+  static void on_drop(GLFWwindow* window, int count, const char** paths);
 
   GLFWwindow* window_ = nullptr;
   std::vector<KeyPress> key_presses_;
+  std::vector<std::string> dropped_files_;
 };
 
 }  // namespace engine

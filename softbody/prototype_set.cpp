@@ -3,13 +3,17 @@
 namespace softbody {
 
 PrototypeSet::PrototypeSet(const Scene& scene) {
-  const auto add = [&](const BodySource& source) {
-    if (index(source) < all_.size()) return;
-    keys_.push_back(source);
-    all_.push_back(make_prototype(source.mesh, scene.materials[std::size_t(source.material)]));
-  };
-  for (const BodySource& b : scene.bodies) add(b);
-  if (scene.dropper) add(scene.dropper->body);
+  for (const BodySource& b : scene.bodies) add(b, scene.materials);
+  if (scene.dropper) add(scene.dropper->body, scene.materials);
+}
+
+const std::shared_ptr<const Prototype>& PrototypeSet::add(const BodySource& source,
+                                                          const std::vector<Material>& materials) {
+  const std::size_t known = index(source);
+  if (known < all_.size()) return all_[known];
+  auto made = make_prototype(source.mesh, materials[std::size_t(source.material)]);
+  keys_.push_back(source);
+  return all_.emplace_back(std::move(made));
 }
 
 std::size_t PrototypeSet::index(const BodySource& source) const {

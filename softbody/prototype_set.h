@@ -1,5 +1,5 @@
 #pragma once
-// One prototype for each different pair of mesh and material among a scene's bodies and its dropper.
+// One prototype for each different pair of mesh and material among a scene's bodies, its dropper and what is added.
 
 #include "softbody/prototype.h"
 
@@ -9,7 +9,9 @@ class PrototypeSet {
  public:
   /// Throws SceneError as make_prototype() does.
   explicit PrototypeSet(const Scene& scene);
-  /// source: one of the scene's.
+  /// The prototype of a source, made if there is none yet. Throws SceneError as make_prototype() does.
+  const std::shared_ptr<const Prototype>& add(const BodySource& source, const std::vector<Material>& materials);
+  /// source: one of those added.
   const std::shared_ptr<const Prototype>& of(const BodySource& source) const { return all_[index(source)]; }
   const std::vector<std::shared_ptr<const Prototype>>& all() const { return all_; }
 

@@ -187,6 +187,22 @@ BodyId World::drop() {
   return s.bodies.count() - 1;
 }
 
+BodyId World::add(const BodySource& source) {
+  State& s = *state_;
+  s.check_stability(*s.prototypes.add(source, s.scene.materials));
+  s.plan = make_plan(s.scene, s.prototypes.all());
+  s.dynamics.set_plan(s.plan);
+  s.add(source, source.position);
+  s.gather();
+  s.detect();
+  return s.bodies.count() - 1;
+}
+
+int World::add_material(const Material& material) {
+  state_->scene.materials.push_back(material);
+  return int(state_->scene.materials.size()) - 1;
+}
+
 const Scene& World::scene() const { return state_->scene; }
 int World::frame() const { return state_->frame; }
 double World::frame_time() const { return state_->options.frame_time; }

@@ -52,6 +52,10 @@ class World {
   BodyId drop();
   /// Puts a body's particles where they are told, one a vertex and finite, wakes all and detects.
   void set_particles(BodyId body, std::span<const Particle> particles);
+  /// Adds a body of any mesh, now and free, whatever the source says of frames. Throws SceneError as construction does.
+  BodyId add(const BodySource& source);
+  /// For bodies to come; its index in the scene's materials. Its name must be new.
+  int add_material(const Material& material);
 
   const Scene& scene() const;
   int frame() const;  // steps done

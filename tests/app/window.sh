@@ -2,7 +2,7 @@
 # The real program in a real window under Xvfb: keys, a click, resizing, closing. Usage: window.sh PROGRAM
 # Exits 77 (skipped) if the X tools are missing.
 set -u
-program=$1
+program=$(realpath "$1")
 work=$(mktemp -d)
 pids=()
 finish() {
@@ -39,6 +39,7 @@ pids+=($!)
 until_true "the X server" test -s "$work/display"
 DISPLAY=:$(cat "$work/display")
 # For builds with sanitizers: the driver's own leaks and threads are not the program's.
+export XDG_CONFIG_HOME=$work/config  # its preferences, not those of whoever runs this
 export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=0 ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
 
 start() {
@@ -98,3 +99,34 @@ kill -0 "$demo" 2>/dev/null || fail "the program died"
 xdotool windowfocus "$window" 2>/dev/null
 press q
 expect_clean_end "the key Q"
+
+# What is named by keyboard comes, what is saved and taken is there, and the window comes back as it was left.
+folder=$work/a\ \ folder
+mkdir "$folder"
+cd "$folder" || exit 1
+printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >mesh.obj
+preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
+grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
+{ for name in Detection Show Numbers; do printf '[[section]]\nname = "%s"\nopen = false\n' $name; done
+  printf '[[section]]\nname = "Files"\nopen = true\n'; } >"$preferences"
+start
+xdotool windowfocus "$window" 2>/dev/null
+click 150 253 1  # the field of the file to open
+xdotool type --delay 300 mesh.obj
+press Return
+sleep 1
+click 150 311 1  # and that of the scene to save
+xdotool keydown ctrl; press a; xdotool keyup ctrl
+xdotool type --delay 300 kept.toml
+press Return
+until_true "the saved scene" test -s kept.toml
+grep -q 'path = "mesh.obj"' kept.toml || fail "the mesh is not in the saved scene"
+click 1100 400 1  # the scene: keys are shortcuts again
+press p
+until_true "the picture" test -s picture_0001.png
+xdotool windowsize "$window" 1100 700
+until_true "the size" has_size "WIDTH=1100 HEIGHT=700 "
+sleep 0.5
+press q
+expect_clean_end "the key Q, the second time"
+grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"

@@ -11,6 +11,8 @@
 #include "engine/gui.h"
 #include "engine/renderer.h"
 #include "engine/resources.h"
+// After GLEW, which wants to be first.
+#include <GLFW/glfw3.h>
 
 namespace engine {
 namespace {
@@ -52,6 +54,14 @@ TEST(WindowTest, ShowsASceneAndAPanel) {
   EXPECT_TRUE(window.open());
   EXPECT_FALSE(window.minimised());
   EXPECT_GE(window.content_scale(), 0.5f);
+  // As the desktop does when two files are dropped.
+  const GLFWdropfun drop = glfwSetDropCallback(window.handle(), nullptr);
+  ASSERT_NE(drop, nullptr);
+  const char* files[]{"/a/star.obj", "/a/b c.toml"};
+  drop(window.handle(), 2, files);
+  EXPECT_EQ(window.dropped_files(), (std::vector<std::string>{"/a/star.obj", "/a/b c.toml"}));
+  window.poll();
+  EXPECT_TRUE(window.dropped_files().empty());
   window.close();
   EXPECT_FALSE(window.open());
 }

@@ -1,0 +1,101 @@
+// The panel's sections of files, by mouse and keyboard.
+
+#include <fstream>
+
+#include "softbody/scene_write.h"
+#include "tests/app/panel_rig.h"
+#include "tests/temporary_folder.h"
+
+namespace app {
+namespace {
+
+using tests::TemporaryFolder;
+
+/// Opens a section and folds those above it, so that it is in sight.
+void open_only(PanelRig& rig, std::string_view section) {
+  for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
+  rig.click(section);
+}
+
+TEST(FilesPanel, LoadsWhatIsNamed) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("lone.toml", "name = \"Lone\"\n[[body]]\n");
+  PanelRig rig;
+  open_only(rig, "Files");
+  rig.type("File to open", file.string());
+  EXPECT_EQ(rig.ui.import.path, file.string());
+  rig.click("Load");
+  EXPECT_EQ(rig.session.world().scene().name, "Lone");
+  rig.type("File to open", "/none.obj");
+  rig.click("Load");
+  for (int i = 0; i < 600 && !rig.ui.import.failed(); ++i) rig.frame();
+  EXPECT_NE(rig.session.notice().find("/none.obj"), std::string::npos) << rig.session.notice();
+}
+
+TEST(FilesPanel, SavesAndSaysWhenItReplaces) {
+  const TemporaryFolder folder;
+  const std::string file = (folder.path() / "saved.toml").string();
+  PanelRig rig;
+  open_only(rig, "Files");
+  rig.session.set_method("grid-hash");
+  rig.type("Scene file", file);
+  rig.click("Save");
+  EXPECT_EQ(rig.session.notice(), "");
+  EXPECT_EQ(softbody::load_scene(file).method, "grid-hash");
+  rig.session.set_method("brute-force");
+  rig.click("Save");
+  EXPECT_EQ(softbody::load_scene(file).method, "brute-force");
+  rig.type("Scene file", "/none/x.toml");
+  rig.click("Save");
+  EXPECT_NE(rig.session.notice().find("/none/x.toml"), std::string::npos) << rig.session.notice();
+}
+
+TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
+  PanelRig rig;
+  open_only(rig, "Files");
+  rig.session.paused = true;
+  rig.session.set_method("grid-hash");
+  rig.click("Copy");
+  const std::string demo = ImGui::GetClipboardText();
+  EXPECT_NE(demo.find(" --scene pair --method grid-hash "), std::string::npos) << demo;
+  rig.click("Copy simulate");
+  const std::string simulate = ImGui::GetClipboardText();
+  const std::string end = " --frames " + std::to_string(rig.session.world().frame());
+  EXPECT_NE(simulate.find(" simulate --scene pair "), std::string::npos) << simulate;
+  EXPECT_NE(simulate.find(end), std::string::npos) << simulate;
+  rig.session.add_body({}, {.name = "new", .mass = 2, .shape_frequency = {}});
+  rig.frames(2);
+  EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
+}
+
+TEST(TakeAwayPanel, AsksForAPictureAndRecords) {
+  const TemporaryFolder folder;
+  PanelRig rig;
+  open_only(rig, "Take away");
+  rig.type("Output folder", folder.path().string());
+  EXPECT_EQ(rig.ui.take_away.folder, folder.path().string());
+  rig.click("Picture");
+  EXPECT_TRUE(rig.ui.take_away.picture_asked);
+  rig.click("Curves");
+  EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
+  for (const RecordingKind& kind : recording_kinds) {
+    rig.click("Kind of recording");
+    rig.click(kind.name);
+    EXPECT_EQ(recording_kinds[rig.ui.take_away.kind].key, kind.key);
+  }
+  rig.click("Record");
+  EXPECT_TRUE(rig.ui.take_away.recording());
+  EXPECT_FALSE(rig.widget("Kind of recording").enabled);
+  rig.click("Record");
+  EXPECT_FALSE(rig.ui.take_away.recording());
+}
+
+TEST(Sections, AreRemembered) {
+  PanelRig rig;
+  EXPECT_TRUE(rig.ui.sections.at("Numbers"));
+  rig.click("Numbers");
+  EXPECT_FALSE(rig.ui.sections.at("Numbers"));
+}
+
+}  // namespace
+}  // namespace app
