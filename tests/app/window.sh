@@ -3,6 +3,7 @@
 # Exits 77 (skipped) if the X tools are missing.
 set -u
 program=$(realpath "$1")
+sources=$(realpath "$(dirname "$0")/../..")
 work=$(mktemp -d)
 pids=()
 finish() {
@@ -107,15 +108,20 @@ cd "$folder" || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >mesh.obj
 preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
 grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
-{ for name in Detection Show Numbers; do printf '[[section]]\nname = "%s"\nopen = false\n' $name; done
-  printf '[[section]]\nname = "Files"\nopen = true\n'; } >"$preferences"
+# All sections of the panel folded but this one, so that its fields stand below the headings before it, 29 pixels each.
+mapfile -t sections < <(grep -o 'w.section("[^"]*"' "$sources/app/panel.cpp" | cut -d '"' -f 2)
+for i in "${!sections[@]}"; do
+  open=false
+  [ "${sections[i]}" = Files ] && open=true && field=$((166 + 29 * i))
+  printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
+done >"$preferences"
 start
 xdotool windowfocus "$window" 2>/dev/null
-click 150 253 1  # the field of the file to open
+click 150 "$field" 1  # the field of the file to open
 xdotool type --delay 300 mesh.obj
 press Return
 sleep 1
-click 150 311 1  # and that of the scene to save
+click 150 $((field + 58)) 1  # and that of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return
