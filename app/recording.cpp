@@ -4,17 +4,17 @@
 
 namespace app {
 
-Recording::Recording(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {
+FrameRecording::FrameRecording(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {
   progress_.name = writer_->name();
   thread_ = std::jthread([this] { work(); });
 }
 
-bool Recording::has_room() const {
+bool FrameRecording::has_room() const {
   const std::scoped_lock lock(mutex_);
   return waiting_.size() < most_waiting;
 }
 
-void Recording::add(RecordedFrame frame) {
+void FrameRecording::add(RecordedFrame frame) {
   {
     const std::scoped_lock lock(mutex_);
     if (progress_.stopping || progress_.ended) return;
@@ -23,7 +23,7 @@ void Recording::add(RecordedFrame frame) {
   wake_.notify_one();
 }
 
-void Recording::stop() {
+void FrameRecording::stop() {
   {
     const std::scoped_lock lock(mutex_);
     progress_.stopping = true;
@@ -31,7 +31,7 @@ void Recording::stop() {
   wake_.notify_one();
 }
 
-Recording::Progress Recording::progress() const {
+FrameRecording::Progress FrameRecording::progress() const {
   const std::scoped_lock lock(mutex_);
   Progress progress = progress_;
   progress.waiting = waiting_.size();
@@ -39,7 +39,7 @@ Recording::Progress Recording::progress() const {
 }
 
 /// Waits for one; false after the last.
-bool Recording::next(RecordedFrame& frame) {
+bool FrameRecording::next(RecordedFrame& frame) {
   std::unique_lock lock(mutex_);
   wake_.wait(lock, [this] { return progress_.stopping || !waiting_.empty(); });
   if (waiting_.empty()) return false;
@@ -48,7 +48,7 @@ bool Recording::next(RecordedFrame& frame) {
   return true;
 }
 
-void Recording::work() {
+void FrameRecording::work() {
   std::string error;
   try {
     for (RecordedFrame frame; next(frame);) {

@@ -33,13 +33,13 @@ class FrameWriter {
   virtual std::string name() const = 0;
 };
 
-class Recording {
+class FrameRecording {
  public:
   static constexpr std::size_t most_waiting = 4;  // frames in memory
 
-  explicit Recording(std::unique_ptr<FrameWriter> writer);
+  explicit FrameRecording(std::unique_ptr<FrameWriter> writer);
   /// Waits until all frames are written.
-  ~Recording() { stop(); }
+  ~FrameRecording() { stop(); }
 
   /// Whether a frame would be taken now; the world waits meanwhile, so that no frame is lost.
   bool has_room() const;

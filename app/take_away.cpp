@@ -97,7 +97,7 @@ void TakeAway::toggle_recording() {
   if (recording_) return;  // the last one is still being written
   attempt([&] {
     recorded_ = &recording_kinds[kind];
-    recording_ = std::make_unique<Recording>(recorded_->make(whole(folder)));
+    recording_ = std::make_unique<FrameRecording>(recorded_->make(whole(folder)));
     recorded_frame_ = -1;
     bodies_.reset();
     return recording_->progress().name;
@@ -128,7 +128,7 @@ void TakeAway::record(const Session& session, const Picture& picture) {
 
 void TakeAway::follow_recording() {
   if (!recording_) return;
-  const Recording::Progress progress = recording_->progress();
+  const FrameRecording::Progress progress = recording_->progress();
   failed_ = !progress.error.empty();
   message_ = failed_ ? progress.error : progress.name + ": " + std::to_string(progress.written) + " frames";
   if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";

@@ -43,7 +43,7 @@ class TakeAway {
   void record(const Session& session, const Picture& picture);
   void follow_recording();
 
-  std::unique_ptr<Recording> recording_;
+  std::unique_ptr<FrameRecording> recording_;
   const RecordingKind* recorded_ = nullptr;
   int recorded_frame_ = -1;                     // of the world, which is recorded once
   std::shared_ptr<const MovingBodies> bodies_;  // of the last frame recorded
