@@ -108,13 +108,17 @@ cd "$folder" || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >mesh.obj
 preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
 grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
-# All sections of the panel folded but this one, so that its fields stand below the headings before it, 29 pixels each.
+# All sections of the panel folded but one, so that its fields stand below the headings before it, 29 pixels each.
 mapfile -t sections < <(grep -o 'w.section("[^"]*"' "$sources/app/panel.cpp" | cut -d '"' -f 2)
-for i in "${!sections[@]}"; do
-  open=false
-  [ "${sections[i]}" = Files ] && open=true && field=$((166 + 29 * i))
-  printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
-done >"$preferences"
+open_only() {
+  local i open
+  for i in "${!sections[@]}"; do
+    open=false
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((166 + 29 * i))
+    printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
+  done >"$preferences"
+}
+open_only Files
 start
 xdotool windowfocus "$window" 2>/dev/null
 click 150 "$field" 1  # the field of the file to open
@@ -136,3 +140,17 @@ sleep 0.5
 press q
 expect_clean_end "the key Q, the second time"
 grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"
+
+# A recording begins and ends by its button; the video is whatever the program called ffmpeg makes of the pictures.
+mkdir "$work/bin"
+printf '#!/bin/sh\nfor last; do :; done\ncat >"$last"\n' >"$work/bin/ffmpeg"
+chmod +x "$work/bin/ffmpeg"
+open_only "Take away"
+PATH=$work/bin:$PATH start
+click 270 $((field + 58)) 1
+sleep 1
+click 270 $((field + 58)) 1
+until_true "the video" test -s video_0001.mp4
+click 1100 400 1
+press q
+expect_clean_end "the key Q, the third time"
