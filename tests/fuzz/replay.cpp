@@ -48,6 +48,6 @@ int main(int argc, char** argv) {
     if (seed % 100 == 0) std::fprintf(stderr, "random inputs %u to %u\n", seed, seed + 99);
     try_random(seed);
   }
-  std::printf("%d files and %u random inputs: all methods agree with the oracle\n", files, count);
+  std::printf("%d files and %u random inputs: nothing found\n", files, count);
   return files > 0 ? 0 : 1;
 }

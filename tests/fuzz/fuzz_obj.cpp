@@ -1,0 +1,47 @@
+// Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
+
+#include "app/obj.h"
+#include "softbody/mesh_import.h"
+#include "text_file.h"
+
+namespace {
+
+void require(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "%s\n", what);
+  std::abort();
+}
+
+void check(const app::ObjBodies& bodies) {
+  require(!bodies.first.empty() && bodies.first.back() == bodies.x.size(), "bodies do not own all vertices");
+  require(bodies.edges.size() == bodies.count(), "not a list of edges for each body");
+  for (std::size_t b = 0; b < bodies.count(); ++b)
+    for (const auto& [i, j] : bodies.edges[b]) require(i < bodies.size(b) && j < bodies.size(b), "an edge to nowhere");
+}
+
+void check(const softbody::Mesh& mesh) {
+  require(mesh.vertices.size() <= softbody::max_imported_vertices, "more vertices than allowed");
+  for (const auto& triangle : mesh.triangles)
+    for (const softbody::Index corner : triangle) require(corner < mesh.vertices.size(), "a corner that is none");
+}
+
+template <class Read>
+void try_to(const std::filesystem::path& file, const Read& read) {
+  try {
+    check(read());
+  } catch (const softbody::ObjError& error) {
+    fuzz::require_one_line(error.what(), file);
+  }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static fuzz::TextFile text(".obj");
+  const std::filesystem::path& file = text.write(data, size);
+  try_to(file, [&] { return app::read_obj(file); });
+  softbody::MeshFile mesh;
+  mesh.path = file;
+  try_to(file, [&] { return softbody::import_mesh(mesh).mesh; });
+  return 0;
+}

@@ -1,0 +1,118 @@
+// The state that every shipped scene comes to, bit for bit: with any number of threads, any instruction set, over a
+// snapshot, and through the program. Where the simulation is meant to give other bits from now on,
+//   test_hashes --write
+// writes hashes.txt anew.
+
+#include <gtest/gtest.h>
+#include <hwy/targets.h>
+
+#include <algorithm>
+#include <bit>
+#include <fstream>
+#include <iomanip>
+#include <iostream>
+#include <sstream>
+
+#include "softbody/snapshot.h"
+#include "tests/cli/process.h"
+
+namespace softbody::test {
+namespace {
+
+struct Row {
+  std::string scene, surface;
+  int frames = 0;
+  std::string hash;  // 16 hexadecimal digits, as `simulate --json` prints them
+};
+
+std::vector<Row> read_rows() {
+  std::vector<Row> rows;
+  std::ifstream file(SBCOLLIDE_HASHES);
+  for (Row r; file >> r.scene >> r.surface >> r.frames >> r.hash;) rows.push_back(r);
+  return rows;
+}
+
+/// How to run: each way must come to the same state.
+struct Way {
+  std::string name;
+  int threads;
+  Isa isa;
+  std::int64_t target;  // of the detectors' loops
+  bool over_snapshot;   // half the way, into a new world
+};
+
+/// The narrowest instructions, AVX2 alone, and all that this machine has.
+std::vector<Way> ways() {
+  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets());
+  const auto narrowest = static_cast<std::int64_t>(std::bit_floor(supported));  // Highway numbers the widest lowest
+  std::vector<Way> list{{"narrowest, one thread", 1, Isa::baseline, narrowest, false},
+                        {"widest, two threads, over a snapshot", 2, best_isa(), 0, true}};
+  if (supported & std::uint64_t{HWY_AVX2}) list.push_back({"AVX2, one thread", 1, best_isa(), HWY_AVX2, false});
+  return list;
+}
+
+void run(World& world, int frames) {
+  while (world.frame() < frames) world.step();
+}
+
+std::string hash_of(const Row& row, const Way& way) {
+  hwy::SetSupportedTargetsForTest(way.target);
+  Scene scene = find_scene(row.scene, SBCOLLIDE_SCENES);
+  scene.contact_surface = find_contact_surface(row.surface)->value;
+  World::Options options;
+  options.threads = way.threads;
+  options.isa = way.isa;
+  World world(scene, options);
+  if (way.over_snapshot) {
+    run(world, row.frames / 2);
+    World fresh(scene, options);
+    fresh.restore(world.snapshot());
+    world = std::move(fresh);
+  }
+  run(world, row.frames);
+  hwy::SetSupportedTargetsForTest(0);
+  std::ostringstream text;
+  text << std::hex << std::setw(16) << std::setfill('0') << world.state_hash();
+  return text.str();
+}
+
+class Hashes : public testing::TestWithParam<Row> {};
+
+TEST_P(Hashes, AreEqualHoweverTheSceneIsRun) {
+  for (const Way& way : ways()) EXPECT_EQ(hash_of(GetParam(), way), GetParam().hash) << way.name;
+}
+
+TEST_P(Hashes, AreThoseOfTheProgram) {
+  const nlohmann::json document =
+      cli::test::simulate({"--scene", GetParam().scene, "--contact-surface", GetParam().surface, "--frames",
+                           std::to_string(GetParam().frames), "--threads", "2"});
+  EXPECT_EQ(document["state_hash"], GetParam().hash);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, Hashes, testing::ValuesIn(read_rows()), [](const auto& one) {
+  std::string name = one.param.scene + "_" + one.param.surface + "_" + std::to_string(one.param.frames);
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+TEST(HashFile, HasEveryShippedScene) {
+  for (const std::string& key : scene_keys(SBCOLLIDE_SCENES))
+    EXPECT_TRUE(std::ranges::any_of(read_rows(), [&](const Row& r) { return r.scene == key; })) << key;
+}
+
+int write_rows() {
+  std::vector<Row> rows = read_rows();
+  for (Row& row : rows) row.hash = hash_of(row, ways().front());
+  std::ofstream file(SBCOLLIDE_HASHES);
+  for (const Row& r : rows) file << r.scene << ' ' << r.surface << ' ' << r.frames << ' ' << r.hash << '\n';
+  return file ? 0 : 1;
+}
+
+}  // namespace
+}  // namespace softbody::test
+
+int main(int count, char** arguments) {
+  testing::InitGoogleTest(&count, arguments);
+  if (count == 2 && std::string(arguments[1]) == "--write") return softbody::test::write_rows();
+  return RUN_ALL_TESTS();
+}
