@@ -23,8 +23,8 @@ struct MeshReader {
 /// A soft body of this mesh that keeps its shape: free above the middle of the scene, clear of solids and bodies.
 softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh);
 
-/// What such a body is made of: springs, and shape matching in place of gas, which no concave or open mesh could hold. It
-/// swings and bends as a body of 1 m and 1 kg does, but weighs more if it is larger.
+/// What such a body is made of: springs, and shape matching in place of gas, which no concave or open mesh could hold.
+/// It swings and bends as a body of 1 m and 1 kg does, but weighs more if it is larger.
 softbody::Material imported_material(double extent);
 
 class Import {
