@@ -34,6 +34,12 @@ double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::d
   return rms_distance(a, fitted);
 }
 
+double volume_of(const std::vector<glm::dvec3>& x, const std::vector<softbody::Triangle>& triangles) {
+  std::vector<glm::dvec3> near;  // softbody::volume() loses digits far from the origin
+  for (const glm::dvec3& p : x) near.push_back(p - x.front());
+  return softbody::volume(near, triangles);
+}
+
 RigidMotion rigid_motion(const BodyState& s) {
   RigidMotion m{.centre = mean(s.x), .velocity = mean(s.v)};
   const double share = 1 / double(s.x.size());

@@ -12,6 +12,9 @@ double rms_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dve
 /// The same once `b` has been moved and turned to where it fits `a` best: how much their shapes differ.
 double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b);
 
+/// m^3, signed, of a closed body wherever it is.
+double volume_of(const std::vector<glm::dvec3>& x, const std::vector<softbody::Triangle>& triangles);
+
 /// A body's motion as a whole, particles of mass 1.
 struct RigidMotion {
   glm::dvec3 centre{0.0}, velocity{0.0};  // m, m/s

@@ -129,13 +129,14 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 CLI::App* add_report(CLI::App& cli, Options& options) {
   ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
-  report->add_option("what", r.name, "detection, contact or solver")->required();
+  report->add_option("what", r.name, "detection, contact, solver or stability")->required();
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   report
-      ->add_option("--threads", r.threads,
-                   "detection: threads of the detectors that are timed (default 1); contact: runs side by side "
-                   "(default: all cores)")
+      ->add_option(
+          "--threads", r.threads,
+          "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
+          "side (default: all cores)")
       ->type_name("N")
       ->check(CLI::Range(1, 256));
   report->add_option("--out", options.out, "folder for the report")->type_name("DIR")->required();

@@ -33,7 +33,7 @@ struct ReportOptions {
   std::string name;                  // which report
   std::optional<std::string> scene;  // only this one
   bool quick = false;                // within a minute: less of everything
-  std::optional<int> threads;        // detection: of the detectors that are timed; contact: runs side by side
+  std::optional<int> threads;        // detection: of the detectors that are timed; else: runs side by side
 };
 
 struct Options {

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/body_shape.h"
 #include "softbody/solids.h"
 
 namespace app {
@@ -74,7 +75,7 @@ void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state
 
 void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
   const auto& faces = prototype_.mesh.triangles;
-  const double gauge = absolute_pressure(prototype_.gas, softbody::volume(state.x, faces)) - prototype_.gas.ambient;
+  const double gauge = absolute_pressure(prototype_.gas, volume_of(state.x, faces)) - prototype_.gas.ambient;
   for (const auto& [i, j, k] : faces) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
     for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / prototype_.particle_mass * area;
@@ -142,7 +143,7 @@ double ReferenceBody::energy(const BodyState& state) const {
       const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
       energy += 0.5 * s.stiffness * stretch * stretch;
     }
-  if (prototype_.has_gas) energy += gas_energy(prototype_.gas, softbody::volume(state.x, prototype_.mesh.triangles));
+  if (prototype_.has_gas) energy += gas_energy(prototype_.gas, volume_of(state.x, prototype_.mesh.triangles));
   return energy;
 }
 

@@ -3,20 +3,37 @@
 #include <algorithm>
 #include <random>
 
+#include <glm/geometric.hpp>
+
 #include "softbody/measures.h"
 
 namespace app {
 namespace {
 
-constexpr std::uint64_t bound_every = 8, look_every = 64;  // steps
+constexpr std::uint64_t bound_every = 4, look_every = 64;  // steps
+constexpr int calm_looks = 8;
+constexpr double top_of_flight = 1e-3;  // s: what gravity acts on is slow there, too, for a shorter time
 
-/// Whether nothing can happen to it any more but that it flies on.
-bool out_of_reach(const ReferenceBody& body, const BodyState& s) {
+/// m/s: what shows that the body is not at rest. One that flies free of gravity and solids may fly on and turn.
+double restless_speed(const ReferenceBody& body, const BodyState& s) {
   const softbody::Scene& scene = body.scene();
-  if (scene.gravity != glm::dvec3(0.0)) return false;
-  return std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
-    return softbody::solid_depth(scene, p).depth > -body.prototype().material.thickness;
-  });
+  const bool free = scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
+                      return softbody::solid_depth(scene, p).depth > -body.prototype().material.thickness;
+                    });
+  return free ? internal_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
+}
+
+/// m/s, of a particle against the body's mean.
+double fastest(const BodyState& s) {
+  const glm::dvec3 mean = rigid_motion(s).velocity;
+  double most = 0;
+  for (const glm::dvec3& v : s.v) most = std::max(most, glm::distance(v, mean));
+  return most;
+}
+
+/// The bound holds for the shape at hand: no particle goes further than a tenth of the body's radius in a step.
+double longest_step(const ReferenceBody& body, const BodyState& s) {
+  return std::min(body.stable_step(s), 0.1 * body.prototype().radius / fastest(s));
 }
 
 BodyState disturbed(BodyState s, double size) {
@@ -32,8 +49,10 @@ BodyState disturbed(BodyState s, double size) {
 Flight fly(const ReferenceBody& body, BodyState s, double fraction, const FlightLimits& limits) {
   Flight flight;
   double left = limits.seconds, h = 0;
-  for (int calm = 0; left > 0; ++flight.steps) {
-    if (flight.steps % bound_every == 0) h = fraction * body.stable_step(s);
+  int calm = 0;
+  const double calm_seconds = body.scene().gravity == glm::dvec3(0.0) ? 0 : top_of_flight;
+  for (double calm_since = left; left > 0; ++flight.steps) {
+    if (flight.steps % bound_every == 0) h = fraction * longest_step(body, s);
     if (flight.steps == limits.steps) {
       flight.complete = false;
       break;
@@ -42,8 +61,9 @@ Flight fly(const ReferenceBody& body, BodyState s, double fraction, const Flight
     body.step(s, now);
     left -= now;
     if (limits.settled_speed <= 0 || flight.steps % look_every != 0) continue;
-    calm = internal_speed(s) < limits.settled_speed && out_of_reach(body, s) ? calm + 1 : 0;
-    if (calm < 8) continue;
+    calm = restless_speed(body, s) < limits.settled_speed ? calm + 1 : 0;
+    if (calm == 0) calm_since = left;
+    if (calm < calm_looks || calm_since - left < calm_seconds) continue;
     flight.settled = true;
     break;
   }

@@ -15,12 +15,13 @@ struct Flight {
 struct FlightLimits {
   double seconds = 0.5;
   std::uint64_t steps = 200'000;
-  /// m/s: a body that moves more slowly in itself for a while, flies freely and without gravity is taken for settled;
-  /// 0: never.
+  /// m/s: a body that moves more slowly for a while has settled; one that flies free of gravity and solids, that does
+  /// so in itself. 0: never.
   double settled_speed = 0;
 };
 
-/// With `fraction` of the stable step, which is worked out anew every few steps.
+/// With `fraction` of the stable step, or of that in which some particle goes a tenth of the radius if it is shorter;
+/// both are worked out anew every few steps.
 Flight fly(const ReferenceBody& body, BodyState start, double fraction, const FlightLimits& limits);
 
 struct Reference {

@@ -6,6 +6,7 @@
 #include "app/report_contact.h"
 #include "app/report_detection.h"
 #include "app/report_solver.h"
+#include "app/report_stability.h"
 
 namespace app {
 namespace {
@@ -17,7 +18,7 @@ struct Report {
 
 /// All there are.
 constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
-                             Report{"solver", report_solver}};
+                             Report{"solver", report_solver}, Report{"stability", report_stability}};
 
 const Report& find_report(const std::string& name) {
   const auto found = std::ranges::find(reports, name, &Report::name);

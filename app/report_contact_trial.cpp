@@ -10,6 +10,7 @@
 #include "app/cpu_clock.h"
 #include "app/options.h"
 #include "app/report_text.h"
+#include "app/solid_passages.h"
 #include "app/world_oracle.h"
 #include "softbody/measures.h"
 
@@ -33,6 +34,7 @@ class Trial {
     result_.settles = world_.scene().gravity != glm::dvec3(0.0);
     result_.tolerance = double{world_.collision().tolerance};
     oracle_.crossings(world_);
+    passages_.look(world_);
   }
 
   void run() {
@@ -104,7 +106,7 @@ class Trial {
 
   /// Of a body's middle, in the last step.
   glm::dvec3 way_of(collide::Index body) const {
-    return body < middles_.size() ? middle(body) - middles_[body] : glm::dvec3(0.0);
+    return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
   }
 
   void look_for_overlaps() {
@@ -137,36 +139,14 @@ class Trial {
     }
   }
 
-  glm::dvec3 middle(collide::Index body) const {
-    const collide::Frame at = world_.positions();
-    glm::dvec3 sum{0.0};
-    for (collide::Index v = at.bodies->first[body]; v < at.bodies->first[body + 1]; ++v)
-      sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);
-    return sum / static_cast<double>(at.bodies->size(body));
-  }
-
   void remember_middles() {
     middles_.clear();
-    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle(b));
+    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle_of(world_, b));
   }
 
-  /// A closed body has gone through a solid if its middle has, straight from where it was outside last: that of one
-  /// wrapped around a solid may lie inside for a while, but comes out again on the side that it went in.
   void look_into_solids() {
-    const auto inside = [&](const glm::dvec3& p) { return softbody::solid_depth(world_.scene(), p).depth > 0; };
-    for (std::size_t b = 0; b < middles_.size(); ++b) {
-      const softbody::Prototype& p = world_.prototype(static_cast<collide::Index>(b));
-      const glm::dvec3 to = middle(static_cast<collide::Index>(b));
-      if (b == outside_.size()) outside_.push_back(middles_[b]);
-      const double way = glm::distance(outside_[b], to);
-      if (!std::isfinite(way)) result_.finite = false;
-      if (!p.mesh.closed || !std::isfinite(way) || inside(to)) continue;
-      const int parts = 1 + static_cast<int>(std::min(16 * way / p.radius, 4000.0));
-      bool through = false;
-      for (int i = 1; i < parts && !through; ++i) through = inside(glm::mix(outside_[b], to, double(i) / parts));
-      result_.through_solids += through;
-      outside_[b] = to;
-    }
+    if (!passages_.look(world_)) result_.finite = false;
+    result_.through_solids = passages_.count();
   }
 
   static constexpr int last_second = 60;  // frames
@@ -176,7 +156,7 @@ class Trial {
   softbody::World world_;
   WorldOracle oracle_{1};
   std::vector<glm::dvec3> middles_;  // of the bodies, before the step
-  std::vector<glm::dvec3> outside_;  // the last ones that were in no solid
+  SolidPassages passages_;
   double depths_ = 0, squares_ = 0, awake_particles_ = 0;
 };
 

@@ -1,15 +1,11 @@
 #include <algorithm>
-#include <array>
 
+#include "app/integrator_colours.h"
 #include "app/report_solver_results.h"
 #include "app/report_text.h"
 
 namespace app {
 namespace {
-
-/// Told apart by people who see few colours, too (Okabe and Ito 2008); one an integrator, in the table's order.
-constexpr std::array<const char*, 8> colours{"#000000", "#e69f00", "#0072b2", "#009e73",
-                                             "#cc79a7", "#d55e00", "#56b4e9", "#888888"};
 
 /// A full batch's, where there is one.
 double cost(const WorkPoint& p) { return p.cpu_batch.value_or(p.cpu_alone); }
@@ -20,7 +16,7 @@ class Diagram {
     std::string good;
     for (const WorkPoint& p : curve.points)
       if (!p.blew_up) good += format("%.9g %.9g %d\n", cost(p), std::max(p.error, 1e-9), p.substeps);
-    const char* colour = colours[number % colours.size()];
+    const char* colour = integrator_colour(number);
     if (!good.empty()) {
       script += joined(format("$g%zu << EOD\n", number), good, "EOD\n");
       plot_ += joined(separator(), format("$g%zu with linespoints pointtype 7 pointsize 0.8 linewidth 2", number),

@@ -8,7 +8,7 @@ namespace app {
 
 using Particles = std::vector<softbody::Particle>;
 
-/// Springs of k N/m, bend springs of k / 4, and gas, without ambient pressure, that inflates an icosphere by a tenth
+/// Springs of k N/m, bend springs of k / 4, and gas, without ambient pressure, that inflates an icosphere by an eighth
 /// whatever k is: 1 kg, and what damps is the springs' damping ratio alone.
 softbody::Material ball_material(double stiffness, double damping_ratio);
 

@@ -151,8 +151,8 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) 
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;
     closed = true;
-    const double right = softbody::volume(truth.bodies[b].x, mesh.triangles);
-    volume = std::max(volume, std::abs(softbody::volume(o.bodies[b].x, mesh.triangles) / right - 1));
+    const double right = volume_of(truth.bodies[b].x, mesh.triangles);
+    volume = std::max(volume, std::abs(volume_of(o.bodies[b].x, mesh.triangles) / right - 1));
   }
   p.speed = std::sqrt(square_sum);
   if (closed) p.volume = volume;

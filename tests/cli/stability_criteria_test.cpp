@@ -1,0 +1,108 @@
+// The criteria of `report stability` on made-up runs: each of them passes what is right and fails what is not.
+
+#include "app/stability_criteria.h"
+
+#include <gtest/gtest.h>
+
+namespace app::test {
+namespace {
+
+constexpr StabilityLimits limits{.energy = 100, .scale = 20, .seconds = 1, .radius = 0.5};
+
+/// Sixty frames of a run in which nothing is wrong, changed by `change` in each.
+template <class Change>
+StabilityFigures run(Change change, const StabilityLimits& l = limits) {
+  StabilityJudge judge(l);
+  for (int frame = 1; frame <= 60 && !judge.lost(); ++frame) {
+    StabilitySample s{.time = frame / 60.0,
+                      .frame = frame,
+                      .energy = 90,
+                      .speed = 3,
+                      .speed_reach = 10,
+                      .extent = 1,
+                      .extent_reach = 4};
+    change(s);
+    judge.add(s);
+  }
+  StabilityFigures f = judge.figures();
+  f.reference = AgainstReference{.shape = 0.001, .volume = 0.002, .rest = 1e-4};
+  return f;
+}
+
+std::string fault(const StabilityFigures& f) {
+  std::string all;
+  for (const std::string& text : failures(f)) all += text + ";";
+  return all;
+}
+
+template <class Change>
+std::string fault(Change change, const StabilityLimits& l = limits) {
+  return fault(run(change, l));
+}
+
+TEST(StabilityCriteria, ARunInOrderPasses) {
+  EXPECT_EQ(fault([](StabilitySample&) {}), "");
+}
+
+TEST(StabilityCriteria, WhatIsNotFiniteFailsAndEndsTheRun) {
+  const StabilityFigures f = run([](StabilitySample& s) { s.finite = s.frame < 30; });
+  EXPECT_EQ(fault(f), "not finite;gave up at 0.5 s;");
+  EXPECT_EQ(f.blew_up, 0.5);
+}
+
+TEST(StabilityCriteria, EnergyMayGrowByAFewHundredthsOfTheScaleAndByTheWorkDone) {
+  EXPECT_EQ(fault([](StabilitySample& s) { s.energy = 100.9; }), "");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.energy = s.frame == 7 ? 101.1 : 90; }), "energy + 0.055;")
+      << "once is enough";
+  EXPECT_EQ(fault([](StabilitySample& s) { s.energy = 150, s.work = 50; }), "");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.energy = 150, s.work = 48; }), "energy + 0.1;");
+}
+
+TEST(StabilityCriteria, ARunWithTenTimesTheScaleTooMuchIsGivenUp) {
+  const StabilityFigures f = run([](StabilitySample& s) { s.energy = s.frame < 12 ? 90 : 400; });
+  EXPECT_EQ(f.blew_up, 0.2);
+  EXPECT_EQ(fault(f), "energy + 15;gave up at 0.2 s;") << "it is not held against the reference's end";
+}
+
+TEST(StabilityCriteria, SpeedAndBoxStayWithinReach) {
+  EXPECT_EQ(fault([](StabilitySample& s) { s.speed = 9.9, s.extent = 3.9; }), "");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.speed = s.frame == 3 ? 20 : 1; }), "speed 2 of what energy can give;");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.extent = s.frame == 3 ? 6 : 1; }), "box 1.5 of what energy can draw;");
+}
+
+TEST(StabilityCriteria, AHitMayGoDeeperThanARestingBody) {
+  EXPECT_EQ(fault([](StabilitySample& s) { s.depth = s.frame == 20 ? 0.049 : 0.009; }), "");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.depth = s.frame == 20 ? 0.06 : 0; }), "0.12 R deep in a solid;");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.depth = s.frame == 55 ? 0.02 : 0; }),
+            "0.04 R deep in a solid in the end;");
+}
+
+TEST(StabilityCriteria, ABodyThatBeginsInsideHasTenFramesToComeOut) {
+  StabilityLimits inside = limits;
+  inside.begins_inside = true;
+  const auto out_after = [](int frames) {
+    return [frames](StabilitySample& s) { s.depth = s.frame <= frames ? 0.2 : 0; };
+  };
+  EXPECT_EQ(fault(out_after(10), inside), "");
+  EXPECT_EQ(fault(out_after(11), inside), "0.4 R deep in a solid;");
+  EXPECT_EQ(fault(out_after(10)), "0.4 R deep in a solid;") << "one that begins outside has none";
+}
+
+TEST(StabilityCriteria, NothingGoesThroughASolid) {
+  EXPECT_EQ(fault([](StabilitySample& s) { s.through = s.frame > 40; }), "through a solid: 1;");
+}
+
+TEST(StabilityCriteria, TheEndIsHeldAgainstTheReference) {
+  StabilityFigures f = run([](StabilitySample&) {});
+  f.reference = AgainstReference{.shape = 0.02, .volume = 0.03, .rest = 0.004};
+  EXPECT_EQ(fault(f), "shape off by 0.02 R;volume off by 3 %;moves at 0.004 m/s;");
+  f.reference.reset();
+  EXPECT_EQ(fault(f), "") << "without a reference the rest decides";
+}
+
+TEST(StabilityCriteria, WhatIsRefusedFails) {
+  EXPECT_EQ(fault(StabilityFigures{.refused = "too stiff"}), "refused: too stiff;");
+}
+
+}  // namespace
+}  // namespace app::test
