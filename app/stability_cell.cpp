@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <queue>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -18,39 +17,6 @@ using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
 
-/// J, springs and gas of a prototype in balance.
-double balance_of(const softbody::Prototype& p) {
-  softbody::Scene nowhere;
-  nowhere.gravity = dvec3(0.0);
-  return ReferenceBody(p, nowhere).energy({p.start, std::vector<dvec3>(p.start.size(), dvec3(0.0))});
-}
-
-/// Any two particles are joined by a chain of so many springs at most: twice those from one particle to the farthest.
-/// None if some cannot be reached.
-std::optional<int> longest_chain(const softbody::Prototype& p) {
-  std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
-  for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
-  std::vector<int> far(next.size(), -1);
-  std::queue<softbody::Index> open;
-  far[0] = 0, open.push(0);
-  while (!open.empty()) {
-    const softbody::Index i = open.front();
-    open.pop();
-    for (const softbody::Index j : next[i])
-      if (far[j] < 0) far[j] = far[i] + 1, open.push(j);
-  }
-  const auto [least, most] = std::ranges::minmax(far);
-  return least < 0 ? std::nullopt : std::optional(2 * most);
-}
-
-/// J, of gravity on one body, 0 at the origin.
-double height_energy(const World& world, const Particles& particles, BodyId body) {
-  double energy = 0;
-  for (const softbody::Particle& p : particles)
-    energy -= world.prototype(body).particle_mass * glm::dot(world.scene().gravity, p.position);
-  return energy;
-}
-
 double gas_energy(const softbody::Prototype& p, const Particles& particles) {
   if (!p.has_gas) return 0;
   std::vector<dvec3> x;
@@ -63,6 +29,11 @@ double extent_of(const Particles& particles) {
   dvec3 lo = particles[0].position, hi = lo;
   for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+}
+
+/// Of the integrator a frame; none: it chooses.
+std::optional<int> steps_of(const softbody::Integrator& integrator) {
+  return integrator.key == "auto" ? std::nullopt : std::optional(1);
 }
 
 /// A run, frame by frame.
@@ -123,8 +94,9 @@ class Run {
     const double least = 1e-9 * limits.scale;  // what has flown away has lost all to gravity
     s.speed_reach = std::sqrt(2 * std::max(available - start_.balance, least) / lightest);
     s.extent_reach = 1;
-    for (std::size_t b = 0; b < std::min(extents.size(), start_.reach.size()); ++b) {
-      const double reach = start_.reach[b] + std::sqrt(2 * std::max(available - gas, least) / start_.softest[b]);
+    for (std::size_t b = 0; b < std::min(extents.size(), start_.leash.size()); ++b) {
+      const auto& [length, stiffness] = start_.leash[b];
+      const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
       if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
     }
   }
@@ -151,12 +123,6 @@ class Run {
   BodyId bodies_ = 0;
 };
 
-std::vector<Particles> all_particles(const World& world) {
-  std::vector<Particles> list;
-  for (BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(particles_of(world, b));
-  return list;
-}
-
 AgainstReference compare(const World& world, const StabilityStart& start) {
   const softbody::Prototype& p = world.prototype(0);
   const BodyState end = state_of(world, 0);
@@ -167,70 +133,6 @@ AgainstReference compare(const World& world, const StabilityStart& start) {
 }
 
 }  // namespace
-
-std::optional<int> steps_of(const softbody::Integrator& integrator) {
-  return integrator.key == "auto" ? std::nullopt : std::optional(1);
-}
-
-StabilityStart prepare(const StabilityScene& from, double seconds) {
-  World world(from.scene, {.substeps = 1});
-  for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
-  StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
-  const bool all_there = s.particles.size() == from.scene.bodies.size();
-  for (softbody::Material& m : s.scene.materials)
-    if (all_there) m.start_in_equilibrium = false;
-  const softbody::Measures m = softbody::measure(world);
-  double height = 0, weight = 0, smallest = std::numeric_limits<double>::infinity();
-  for (BodyId b = 0; b < s.particles.size(); ++b) {
-    const softbody::Prototype& p = world.prototype(b);
-    height += height_energy(world, s.particles[b], b);
-    weight += p.material.mass * 9.81 * p.radius;
-    smallest = std::min(smallest, p.radius);
-    s.balance += balance_of(p);
-    const auto chain = longest_chain(p);
-    double longest = 0, softest = std::numeric_limits<double>::infinity();
-    for (const softbody::Spring& spring : p.structural)
-      longest = std::max(longest, spring.rest), softest = std::min(softest, spring.stiffness / chain.value_or(1));
-    s.reach.push_back(chain ? *chain * longest : std::numeric_limits<double>::infinity());
-    s.softest.push_back(softest);
-  }
-  if (!s.particles.empty()) s.balanced = world.prototype(0).start;
-  s.limits = {.energy = m.energy,
-              .scale = std::max(m.energy - height - s.balance, weight),
-              .seconds = from.first_frame + seconds,
-              .radius = smallest,
-              .begins_inside = m.deepest_penetration > 0};
-  return s;
-}
-
-void find_truth(StabilityStart& start, std::uint64_t steps) {
-  constexpr double close = 1e-3;  // R, of volume: a tenth of what is asked of solvers
-  World world(start.scene, {.substeps = 1});
-  const auto no = [&](const std::string& why) { start.untold = why; };
-  if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
-    return no("the reference does not model " + missing);
-  world.set_particles(0, start.particles[0]);
-  const ReferenceBody body(world.prototype(0), world.scene());
-  const softbody::Prototype& p = world.prototype(0);
-  const auto flown = [&](double fraction, std::uint64_t most) {
-    return fly(body, state_of(world, 0), fraction,
-               {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
-  };
-  Flight flight = flown(0.5, steps);
-  if (!flight.complete) return no("the reference would take too many steps");
-  const double speed = internal_speed(flight.end);
-  if (!std::isfinite(speed)) return no("the reference does not stay finite");
-  if (speed > stability_bounds.rest) return no("the reference has not settled by then");
-  const bool free = world.scene().gravity == dvec3(0.0);
-  if (free && shape_distance(flight.end.x, start.balanced) > stability_bounds.shape * p.radius)
-    return no("the reference does not recover");
-  Flight finer = flown(0.25, 2 * steps);
-  const double shape = shape_distance(flight.end.x, finer.end.x) / p.radius;
-  const double volume =
-      p.mesh.closed ? volume_of(flight.end.x, p.mesh.triangles) / volume_of(finer.end.x, p.mesh.triangles) - 1 : 0;
-  if (!finer.complete || !(shape <= close && std::abs(volume) <= close)) return no("the reference does not converge");
-  start.truth = std::move(finer.end);
-}
 
 StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
   try {
