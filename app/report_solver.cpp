@@ -33,7 +33,7 @@ struct Cell {
 class SolverReport {
  public:
   SolverReport(const ReportOptions& options, std::vector<SolverScene> scenes)
-      : scenes_(std::move(scenes)), effort_(options.quick ? Effort{0.08, 2, 8'000} : Effort{1.5, 5, 400'000}) {
+      : scenes_(std::move(scenes)), effort_(options.quick ? Effort{0.08, 2, 8'000} : Effort{1, 3, 200'000}) {
     results.quick = options.quick;
     results.command = command_of(options);
     results.seconds = run_.seconds();
