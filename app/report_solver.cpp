@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/output_file.h"
+#include "app/own_steps.h"
 #include "app/report_files.h"
 #include "app/report_solver_results.h"
 #include "app/report_text.h"
@@ -65,11 +66,12 @@ class SolverReport {
       say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
       WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
       double took = 0;
-      for (int n = 1; n <= effort_.most_substeps && took < effort_.seconds; n *= 2) {
-        const Outcome outcome = run_solver(scene, run_, integrator.key, n, 1);
+      const int most = chooses_steps(integrator) ? 1 : effort_.most_substeps;
+      for (int n = 1; n <= most && took < effort_.seconds; n *= 2) {
+        const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
         took = outcome.finite ? outcome.cpu : 0;
         WorkPoint point = judge(scene, outcome, truth);
-        point.substeps = n;
+        if (!chooses_steps(integrator)) point.substeps = n;
         if (!point.blew_up) cells_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
         point.cpu_alone = 1e3 * outcome.cpu / run_.seconds() / double(outcome.bodies.size());
         curve.points.push_back(point);
@@ -80,8 +82,8 @@ class SolverReport {
 
   void repeat(Cell& cell) {
     const SolverScene& scene = scenes_[cell.of];
-    const auto key = results.cases[cell.of].curves[cell.curve].integrator->key;
-    const auto time = [&](int copies) { return 1e3 * run_solver(scene, run_, key, cell.substeps, copies).cpu; };
+    const softbody::Integrator& integrator = *results.cases[cell.of].curves[cell.curve].integrator;
+    const auto time = [&](int copies) { return 1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu; };
     cell.alone.ms.push_back(time(1));
     if (scene.repeatable) cell.batch.ms.push_back(time(softbody::lanes));
   }

@@ -19,8 +19,8 @@ std::string solver_csv(const SolverResults& results) {
         CsvLine line(text);
         line.add(c.key);
         line.add(curve.integrator->key);
-        line.add(static_cast<std::uint64_t>(p.substeps));
-        line.add(p.substeps * curve.integrator->substeps / results.frame_time);
+        line.add_if(p.substeps > 0, static_cast<std::uint64_t>(p.substeps));
+        line.add_if(p.substeps > 0, p.substeps * curve.integrator->substeps / results.frame_time);
         line.add(p.cpu_alone);
         line.add_if(p.cpu_batch.has_value(), p.cpu_batch.value_or(0));
         line.add(static_cast<std::uint64_t>(p.blew_up));

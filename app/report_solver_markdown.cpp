@@ -12,7 +12,8 @@ std::string introduction(const SolverResults& r) {
   std::string text = joined("# Solvers: error against run time\n\n`", r.command, "` makes this report.\n\n");
   text += format("- Every integrator advances each scene by %g s in frames of 1/%.0f s, ", r.seconds, 1 / r.frame_time);
   text +=
-      "with 1, 2, 4 ... of its steps a frame (XPBD: each has 20 substeps of its own). Error: RMS over the particles of "
+      "with 1, 2, 4 ... of its steps a frame (XPBD: each has 20 substeps of its own; `auto` chooses its own). Error: "
+      "RMS over the particles of "
       "the difference to the reference, in radii R, at the end.\n"
       "- ms: processor time of the thread for whole steps, a simulated second, ";
   text += format("median of %d repetitions which take turns. ", r.repetitions);
@@ -45,7 +46,7 @@ std::string cheapest(const WorkCurve& curve, double bound) {
   const auto cost = [](const WorkPoint& p) { return p.cpu_batch.value_or(p.cpu_alone); };
   for (const WorkPoint& p : curve.points)
     if (!p.blew_up && p.error <= bound && (!best || cost(p) < cost(*best))) best = &p;
-  return best ? joined(brief(cost(*best)), format(" (%d)", best->substeps)) : "";
+  return best ? joined(brief(cost(*best)), " (", steps_text(*best), ")") : "";
 }
 
 std::string costs(const SolverCase& c) {
@@ -81,7 +82,7 @@ std::string details(const SolverCase& c) {
     std::vector<const WorkPoint*> shown{first};
     if (best != first) shown.push_back(best);
     for (const WorkPoint* p : shown) {
-      text += line({std::string(curve.integrator->name), std::to_string(p->substeps), brief(p->cpu_alone),
+      text += line({std::string(curve.integrator->name), steps_text(*p), brief(p->cpu_alone),
                     p->cpu_batch ? brief(*p->cpu_batch) : "", format("%.2g", p->error), format("%.2g", p->energy),
                     optional_text(p->linear), optional_text(p->angular), optional_text(p->volume),
                     format("%.2g", p->speed)});

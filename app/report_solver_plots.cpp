@@ -15,7 +15,7 @@ class Diagram {
   void add(const WorkCurve& curve, std::size_t number) {
     std::string good;
     for (const WorkPoint& p : curve.points)
-      if (!p.blew_up) good += format("%.9g %.9g %d\n", cost(p), std::max(p.error, 1e-9), p.substeps);
+      if (!p.blew_up) good += format("%.9g %.9g %s\n", cost(p), std::max(p.error, 1e-9), steps_text(p).c_str());
     const char* colour = integrator_colour(number);
     if (!good.empty()) {
       script += joined(format("$g%zu << EOD\n", number), good, "EOD\n");
@@ -35,7 +35,8 @@ class Diagram {
       const auto good = std::ranges::find(points, false, &WorkPoint::blew_up);
       std::string crosses;
       for (const WorkPoint& p : points) {
-        const double whole = good == points.end() ? p.cpu_alone : cost(*good) * p.substeps / good->substeps;
+        const double whole =
+            good == points.end() || good->substeps == 0 ? p.cpu_alone : cost(*good) * p.substeps / good->substeps;
         if (p.blew_up) crosses += format("%.9g %g\n", whole, top);
       }
       if (crosses.empty()) continue;

@@ -8,7 +8,7 @@ namespace app {
 
 /// One integrator with so many steps a frame.
 struct WorkPoint {
-  int substeps = 0;
+  int substeps = 0;                   // 0: it chose them itself
   double cpu_alone = 0;               // ms of processor time a simulated second a body: one body in a batch of lanes
   std::optional<double> cpu_batch{};  // the same for a full batch of bodies
   bool blew_up = false;               // then the rest has no meaning
@@ -18,6 +18,9 @@ struct WorkPoint {
   std::optional<double> volume{};             // of the reference's; only closed bodies
   double speed = 0;                           // m/s, RMS of motion within the bodies at the end: jitter where they rest
 };
+
+/// "8", or "own".
+inline std::string steps_text(const WorkPoint& p) { return p.substeps > 0 ? std::to_string(p.substeps) : "own"; }
 
 struct WorkCurve {
   const softbody::Integrator* integrator;

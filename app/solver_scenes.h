@@ -22,7 +22,7 @@ struct SolverScene {
   std::string key, name;
   softbody::Scene scene{};
   std::vector<Particles> start{};  // a body; empty: as the scene has it
-  bool at_rest = false;          // what moves is jitter
+  bool at_rest = false;            // what moves is jitter
   /// Side by side so many bodies of it cost as much as one: they do not touch.
   bool repeatable = true;
 };

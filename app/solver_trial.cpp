@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/cpu_clock.h"
+#include "app/own_steps.h"
 #include "app/report_text.h"
 #include "softbody/measures.h"
 
@@ -15,18 +16,22 @@ namespace {
 using softbody::BodyId;
 using softbody::World;
 
+const softbody::Integrator& rk4() { return *softbody::find_integrator("rk4"); }
+
 constexpr double spacing = 4;  // m, between copies
 
 /// The scene `copies` times side by side.
-World make_world(const SolverScene& of, const SolverRun& run, std::string_view integrator, int substeps, int copies) {
+World make_world(const SolverScene& of, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
+                 int copies) {
   softbody::Scene scene = of.scene;
   for (int c = 1; c < copies; ++c)
     for (softbody::BodySource body : of.scene.bodies) {
       body.position.x += c * spacing;
       scene.bodies.push_back(body);
     }
-  World world(std::move(scene),
-              {.frame_time = run.frame_time, .integrator = std::string(integrator), .substeps = substeps});
+  World world(std::move(scene), {.frame_time = run.frame_time,
+                                 .integrator = std::string(integrator.key),
+                                 .substeps = steps_for(integrator, substeps)});
   for (int c = 0; c < copies; ++c)
     for (std::size_t b = 0; b < of.start.size(); ++b) {
       Particles start = of.start[b];
@@ -61,10 +66,10 @@ double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b
 
 /// Where the reference does not have the scene's model: the world's own rk4, in floats.
 Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
-  World world = make_world(scene, run, "rk4", 1, 1);
+  World world = make_world(scene, run, rk4(), 1, 1);
   int substeps = world.dynamics().substeps(run.frame_time);
   const auto outcome = [&](const SolverScene& s, int n) {
-    World w = make_world(s, run, "rk4", n, 1);
+    World w = make_world(s, run, rk4(), n, 1);
     return advance(w, run.frames);
   };
   Truth t{};
@@ -107,7 +112,7 @@ double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance
 
 }  // namespace
 
-Outcome run_solver(const SolverScene& scene, const SolverRun& run, std::string_view integrator, int substeps,
+Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                    int copies) {
   World world = make_world(scene, run, integrator, substeps, copies);
   return advance(world, run.frames);
@@ -128,7 +133,7 @@ double energy_scale(const World& world, BodyId id) {
 }
 
 Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
-  const World world = make_world(scene, run, "rk4", 1, 1);
+  const World world = make_world(scene, run, rk4(), 1, 1);
   Truth t = ReferenceBody::missing(world).empty() ? body_truth(world, run, bound, steps)
                                                   : world_truth(scene, run, bound, steps);
   for (BodyId b = 0; b < world.bodies().count(); ++b) t.energy_scale += energy_scale(world, b);

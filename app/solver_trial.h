@@ -21,7 +21,7 @@ struct Outcome {
 };
 
 /// copies: of the scene, side by side. Ends with the first frame that is not finite.
-Outcome run_solver(const SolverScene& scene, const SolverRun& run, std::string_view integrator, int substeps,
+Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                    int copies);
 
 /// What outcomes are held against.

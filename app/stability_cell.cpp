@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/own_steps.h"
 #include "app/solid_passages.h"
 #include "softbody/measures.h"
 
@@ -31,11 +32,6 @@ double extent_of(const Particles& particles) {
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
 }
 
-/// Of the integrator a frame; none: it chooses.
-std::optional<int> steps_of(const softbody::Integrator& integrator) {
-  return integrator.key == "auto" ? std::nullopt : std::optional(1);
-}
-
 /// A run, frame by frame.
 class Run {
  public:
@@ -44,7 +40,7 @@ class Run {
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(
         start_.scene,
-        {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_of(integrator)});
+        {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_for(integrator, 1)});
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
