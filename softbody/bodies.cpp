@@ -64,6 +64,42 @@ BodyId Dynamics::add(std::shared_ptr<const Prototype> prototype, const glm::dvec
   return id;
 }
 
+/// All that the batch knows of one lane goes to another; the one that it leaves is empty.
+void Dynamics::move_lane(Batch& b, int from, int to) {
+  const auto move = [=](float* values) {
+    values[to] = values[from];
+    values[from] = 0.0f;  // last, for both may be the same
+  };
+  for (auto* components : {&x_, &v_, &f_})
+    for (auto& c : *components)
+      for (std::size_t i = 0; i < b.particles(); ++i) move(c.data() + b.base + i * lanes);
+  for (float* values : {b.moves.data(), b.impulse.x, b.impulse.y, b.impulse.z, b.returned.data()}) move(values);
+  b.body[std::size_t(to)] = b.body[std::size_t(from)];
+  bodies_[b.body[std::size_t(to)]].lane = to;
+}
+
+void Dynamics::remove(BodyId id) {
+  Batch& batch = batches_[bodies_[id].batch];
+  move_lane(batch, --batch.used, bodies_[id].lane);
+  shield_.remove(id, vertices_->first[id], vertices_->size(id));
+  surface_.clear();  // found anew in the next frame
+  bodies_.erase(bodies_.begin() + std::ptrdiff_t(id));
+  for (Batch& b : batches_)
+    for (BodyId& body : b.body) body -= body > id;
+  if (grab_ && grab_->body == id) grab_.reset();
+  if (grab_ && grab_->body > id) --grab_->body;
+}
+
+void Dynamics::replace(const std::shared_ptr<const Prototype>& from, const std::shared_ptr<const Prototype>& to) {
+  std::shared_ptr<const KernelMesh> mesh;
+  for (Batch& b : batches_) {
+    if (b.prototype != from) continue;
+    if (!mesh) mesh = std::make_shared<const KernelMesh>(*to);
+    b.prototype = to;
+    b.mesh = mesh;
+  }
+}
+
 void Dynamics::update_moves(const Body& body) {
   batches_[body.batch].moves[std::size_t(body.lane)] = body.moves() ? 1.0f : 0.0f;
 }

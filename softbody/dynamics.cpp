@@ -35,6 +35,7 @@ void Dynamics::set_plan(const Plan& plan) {
     force_stages_.push_back(run);
     other_force_stages_.push_back(run);
   }
+  if (plan.has(Stage::grab)) force_stages_.push_back(&Dynamics::grab_force);  // last: it reckons with the others
   resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
                  plan.has(Stage::rolling_resistance)};
   has_gravity_ = plan.has(Stage::gravity);
@@ -139,6 +140,7 @@ int Dynamics::substeps_within_bound(double h) const {
 }
 
 void Dynamics::run(int count, float h, bool first) {
+  step_ = h;
   const auto task = [&](int thread) {
     for (int s = 0; s < count; ++s) {
       if (has_restitution_)

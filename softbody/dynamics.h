@@ -1,6 +1,9 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
+#include <optional>
+
+#include "softbody/grab.h"
 #include "softbody/integrators.h"
 #include "softbody/kernels.h"
 #include "softbody/plan.h"
@@ -57,6 +60,7 @@ struct DynamicsState {
   float shield_thickness = 0;            // m
   std::vector<ShieldPair> shield_pairs;
   SurfaceContact::State surface;
+  std::optional<Grab> grab;
 
   std::size_t bytes() const;
 };
@@ -74,6 +78,14 @@ class Dynamics {
       : scene_(scene), workers_(workers), kernels_(kernels(isa)) {}
 
   BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
+  /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
+  void remove(BodyId body);
+  /// Bodies of the prototype `from` go on as bodies of `to`, of the same mesh, from where they are.
+  void replace(const std::shared_ptr<const Prototype>& from, const std::shared_ptr<const Prototype>& to);
+  /// What pulls a body; nothing: nobody does. The plan must have Stage::grab while one does.
+  void grab(const std::optional<Grab>& grab);
+  const std::optional<Grab>& grabbed() const { return grab_; }
+  glm::dvec3 grabbed_point() const;  // m; of the body that is grabbed
   void set_plan(const Plan& plan);
   void set_integrator(const Integrator& integrator);
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
@@ -104,7 +116,7 @@ class Dynamics {
   // The arithmetic leaves lanes alone that do not move.
   void contact_forces(int thread, float h);  // of this thread's part of the contacts, for all_forces() of all threads
   void all_forces(Batch& batch);             // at the current positions and velocities
-  void other_forces(Batch& batch);           // all but those of springs and gas
+  void other_forces(Batch& batch);           // all but those of springs, gas and hand
   void kick(Batch& batch, float h);          // v += h (f / m + g)
   void accelerations(Batch& batch);          // f = f / m + g
   void drift(Batch& batch, float h);         // x += h v
@@ -116,6 +128,10 @@ class Dynamics {
   // XPBD, on displacements d in this step, which starts at x0; project_gas() wants the positions to be x0 + d.
   void project_gas(Batch& batch, Quantity d, float h);
   void project_springs(Batch& batch, Quantity x0, Quantity d, float h);
+  /// What the hand does in a step of h, on velocities that hold what all else does. For who takes other_forces().
+  void pull(Batch& batch, float h) {
+    if (grab_) grab_impulse(batch, h);
+  }
   void copy(Batch& batch, Quantity from, Quantity to);           // to = from
   void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q
   void scale(Batch& batch, Quantity q, float times);             // q *= times
@@ -166,6 +182,11 @@ class Dynamics {
   void gas_pressure(Batch& batch);
   void shape_matching(Batch& batch);
   void shield_forces(Batch& batch);
+  void grab_force(Batch& batch);
+  void grab_impulse(Batch& batch, float h);
+  bool is_grabbed(const Batch& batch) const;
+  glm::dvec3 grab_pull(const Prototype& prototype, float h, const glm::dvec3& velocity) const;
+  void move_lane(Batch& batch, int from, int to);
   static bool moves(const Batch& batch);
   double fastest(const Batch& batch) const;  // m/s, of its particles
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
@@ -209,6 +230,8 @@ class Dynamics {
   std::vector<ShieldPair> pairs_before_;               // of the frame before
   std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
   std::vector<Batch*> moving_;
+  std::optional<Grab> grab_;
+  float step_ = 0;  // s, of the substep at hand
   int active_threads_ = 1;
 };
 

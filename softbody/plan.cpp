@@ -11,7 +11,10 @@ namespace {
 struct Facts {
   const Scene& scene;
   const std::vector<std::shared_ptr<const Prototype>>& prototypes;
-  std::size_t bodies() const { return scene.dropper ? 2 : scene.bodies.size(); }  // a dropper can always add another
+  const Visitors& visitors;
+  std::size_t bodies() const {  // a dropper can always add another
+    return scene.dropper ? 2 : scene.bodies.size() + visitors.bodies;
+  }
   template <class Test>
   bool any(Test test) const {
     return std::any_of(prototypes.begin(), prototypes.end(), [&](const auto& p) { return test(*p); });
@@ -52,6 +55,8 @@ const char* gas(const Facts& f) {
 const char* shape(const Facts& f) {
   return f.any([](const Prototype& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
 }
+
+const char* grab(const Facts& f) { return f.visitors.grabs ? nullptr : "nobody holds a body"; }
 
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
@@ -106,6 +111,7 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},
     {Stage::gas_pressure, "gas-pressure", gas},
     {Stage::shape_matching, "shape-matching", shape},
+    {Stage::grab, "grab", grab},
     {Stage::gravity, "gravity", gravity},
     {Stage::integrate, "integrate", needed},
     {Stage::restitution, "restitution", restitution},
@@ -127,9 +133,10 @@ std::string_view stage_key(Stage stage) { return table[std::size_t(stage)].key; 
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
-Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes) {
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
+               const Visitors& visitors) {
   Plan plan;
-  const Facts facts{scene, prototypes};
+  const Facts facts{scene, prototypes, visitors};
   for (const Row& row : table) {
     if (const char* why = row.why_not(facts))
       plan.left_out.push_back({row.stage, why});

@@ -20,6 +20,7 @@ enum class Stage {
   shear_springs,
   gas_pressure,
   shape_matching,
+  grab,
   gravity,
   integrate,
   restitution,
@@ -50,7 +51,14 @@ struct Plan {
   bool has(Stage stage) const;
 };
 
-/// prototypes: those of the scene's bodies and of its dropper.
-Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes);
+/// What is in a world beside its scene's own bodies.
+struct Visitors {
+  std::size_t bodies = 0;  // dropped or thrown in by hand
+  bool grabs = false;      // a hand holds a body
+};
+
+/// prototypes: those of the scene's bodies, of its dropper and of the visitors.
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
+               const Visitors& visitors = {});
 
 }  // namespace softbody

@@ -32,6 +32,7 @@ std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pair
 /// What draws the particles to their places in the mesh's own shape.
 void set_shape(Prototype& p, double frequency) {
   p.shape_rate = 2 * std::numbers::pi * frequency;
+  p.goal.clear();
   if (p.shape_rate <= 0) return;
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
@@ -69,6 +70,22 @@ void list_faces(Prototype& p) {
     p.face.insert(p.face.end(), faces.begin(), faces.end());
     p.first_face.push_back(static_cast<Index>(p.face.size()));
   }
+}
+
+/// All that the material decides, but for the starting shape.
+void give_material(Prototype& p, const MeshSource& source, const Material& material) {
+  p.material = for_mesh(material, source);
+  p.particle_mass = material.mass / double(p.mesh.vertices.size());
+  p.structural = make_springs(p.mesh, p.mesh.edges, p.material.structural, p.particle_mass);
+  p.bend = make_springs(p.mesh, p.mesh.bend_pairs, p.material.bend, p.particle_mass);
+  p.shear = make_springs(p.mesh, p.mesh.shear_pairs, p.material.shear, p.particle_mass);
+  p.spring_stiffness_bound = largest_sum(p, &Spring::stiffness);
+  p.spring_damping_bound = largest_sum(p, &Spring::damping);
+  set_shape(p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
+  if (!p.mesh.closed) return;
+  p.gas.ambient = material.ambient_pressure;
+  p.gas.amount = material.gas_pressure * p.gas.rest_volume;
+  p.has_gas = material.gas_pressure > 0 || material.ambient_pressure > 0;
 }
 
 }  // namespace
@@ -128,28 +145,15 @@ Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vect
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const Material& material) {
   auto p = std::make_shared<Prototype>();
   p->mesh = source.make();
-  p->material = for_mesh(material, source);
   p->radius = bounding_radius(p->mesh);
-  p->particle_mass = material.mass / double(p->mesh.vertices.size());
-  p->structural = make_springs(p->mesh, p->mesh.edges, p->material.structural, p->particle_mass);
-  p->bend = make_springs(p->mesh, p->mesh.bend_pairs, p->material.bend, p->particle_mass);
-  p->shear = make_springs(p->mesh, p->mesh.shear_pairs, p->material.shear, p->particle_mass);
-  p->spring_stiffness_bound = largest_sum(*p, &Spring::stiffness);
-  p->spring_damping_bound = largest_sum(*p, &Spring::damping);
-  set_shape(*p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
-
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)
     p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
   for (const auto& [a, b, c] : p->mesh.triangles)
     p->face_degree =
         std::max(p->face_degree, double(p->faces_of(a).size() + p->faces_of(b).size() + p->faces_of(c).size()) / 3);
-  if (p->mesh.closed) {
-    p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
-    p->gas.ambient = material.ambient_pressure;
-    p->gas.amount = material.gas_pressure * p->gas.rest_volume;
-    p->has_gas = material.gas_pressure > 0 || material.ambient_pressure > 0;
-  }
+  if (p->mesh.closed) p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
+  give_material(*p, source, material);
 
   p->start = material.start_in_equilibrium && p->has_gas ? find_equilibrium(*p) : p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
@@ -158,6 +162,13 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const 
   for (const auto& [i, j] : p->surface->edges()) p->mean_edge += glm::distance(rest[i], rest[j]);
   p->mean_edge /= double(std::max<std::size_t>(1, p->surface->edges().size()));
   p->shape = std::make_shared<collide::Shape>(static_cast<Index>(p->mesh.vertices.size()), p->mesh.edges, rest);
+  return p;
+}
+
+std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
+                                               const Material& material) {
+  auto p = std::make_shared<Prototype>(prototype);
+  give_material(*p, source, material);
   return p;
 }
 

@@ -60,6 +60,11 @@ struct Prototype {
 /// Throws SceneError if no equilibrium is found.
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material);
 
+/// A prototype of the same mesh and of another material. It keeps the starting shape, which is in balance only for the
+/// material that it was found for. source: that of the mesh.
+std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
+                                               const Material& material);
+
 /// What the stability bound of the gas needs of a body's shape.
 struct Surface {
   double volume = 0;            // m^3

@@ -16,6 +16,11 @@ const std::shared_ptr<const Prototype>& PrototypeSet::add(const BodySource& sour
   return all_.emplace_back(std::move(made));
 }
 
+void PrototypeSet::set_material(int index, const Material& material) {
+  for (std::size_t i = 0; i < keys_.size(); ++i)
+    if (keys_[i].material == index) all_[i] = with_material(*all_[i], keys_[i].mesh, material);
+}
+
 std::size_t PrototypeSet::index(const BodySource& source) const {
   std::size_t i = 0;
   while (i < keys_.size() && !(keys_[i].mesh == source.mesh && keys_[i].material == source.material)) ++i;

@@ -11,6 +11,8 @@ class PrototypeSet {
   explicit PrototypeSet(const Scene& scene);
   /// The prototype of a source, made if there is none yet. Throws SceneError as make_prototype() does.
   const std::shared_ptr<const Prototype>& add(const BodySource& source, const std::vector<Material>& materials);
+  /// Gives all prototypes of material number `index` this one instead: see with_material().
+  void set_material(int index, const Material& material);
   /// source: one of those added.
   const std::shared_ptr<const Prototype>& of(const BodySource& source) const { return all_[index(source)]; }
   const std::vector<std::shared_ptr<const Prototype>>& all() const { return all_; }

@@ -40,6 +40,14 @@ void Shield::evaluate(collide::Part part, Field<const float> x, Field<const floa
   }
 }
 
+void Shield::remove(BodyId body, collide::Index first, collide::Index count) {
+  std::erase_if(pairs, [body](const ShieldPair& p) { return p.body_a == body || p.body_b == body; });
+  for (ShieldPair& p : pairs) {
+    for (BodyId* id : {&p.body_a, &p.body_b}) *id -= *id > body;
+    for (collide::Index* vertex : {&p.contact.a, &p.contact.b}) *vertex -= *vertex > first ? count : 0;
+  }
+}
+
 void Shield::inherit(std::span<const ShieldPair> before) {
   auto old = before.begin();
   for (ShieldPair& p : pairs) {

@@ -56,6 +56,8 @@ struct Shield {
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
   void inherit(std::span<const ShieldPair> before);
+  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up. Slots are as before.
+  void remove(BodyId body, collide::Index first, collide::Index count);
   /// Fills `ends`: batch_of(body) gives a body's batch.
   void group(std::size_t batches, const auto& batch_of);
 

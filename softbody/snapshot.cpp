@@ -17,7 +17,7 @@ std::size_t DynamicsState::bytes() const {
 }
 
 DynamicsState Dynamics::save() const {
-  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save()};
+  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), grab_};
   for (Batch& b : state.batches) b.near_solids.clear();  // they point into the batch that they were copied from
   return state;
 }
@@ -31,6 +31,7 @@ void Dynamics::restore(const DynamicsState& state) {
   shield_.thickness = state.shield_thickness;
   shield_.pairs = state.shield_pairs;
   surface_.restore(state.surface);
+  grab_ = state.grab;
   moving_.clear();
 }
 
@@ -44,6 +45,7 @@ Snapshot World::snapshot() const {
           .prototypes = s.prototypes,
           .dynamics = s.dynamics.save(),
           .arrived = s.arrived,
+          .visitors = s.visitors,
           .drops = s.drops,
           .drop_direction = s.drop_direction,
           .frame = s.frame,
@@ -60,11 +62,11 @@ void World::restore(const Snapshot& from) {
   State& s = *state_;
   s.scene = from.scene;
   s.prototypes = from.prototypes;
-  s.plan = make_plan(s.scene, s.prototypes.all());
+  s.visitors = from.visitors;
   s.sleep = Sleep(s.scene.sleep);
   s.options.integrator = from.integrator;
   s.options.substeps = from.substeps;
-  s.dynamics.set_plan(s.plan);
+  s.replan();
   s.set_integrator();
   s.dynamics.restore(from.dynamics);
   s.arrived = from.arrived;

@@ -12,6 +12,7 @@ struct Snapshot {
   PrototypeSet prototypes;
   DynamicsState dynamics;
   std::vector<char> arrived;
+  Visitors visitors;
   int drops = 0;
   std::array<double, 2> drop_direction{};
   int frame = 0;

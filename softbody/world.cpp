@@ -3,9 +3,6 @@
 #include <cmath>
 #include <sstream>
 
-#include <glm/geometric.hpp>
-#include <glm/vec2.hpp>
-
 #include "softbody/measures.h"
 #include "softbody/world_state.h"
 
@@ -86,11 +83,12 @@ void World::State::check_stability(const Prototype& p) const {
   throw SceneError(text.str());
 }
 
-void World::State::add(const BodySource& source, const glm::dvec3& position) {
+BodyId World::State::add(const BodySource& source, const glm::dvec3& position) {
   const auto& prototype = prototypes.of(source);
   const BodyId id = dynamics.add(prototype, position, source.velocity);
   bodies.add(prototype->shape);
   vertex_body.resize(bodies.vertex_count(), id);
+  return id;
 }
 
 void World::State::arrive() {
@@ -134,6 +132,7 @@ void World::step() {
   State& s = *state_;
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
+  if (const auto& grab = grabbed()) s.dynamics.put_to_sleep(grab->body, false);  // nor does it fall asleep meanwhile
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
   if (s.plan.has(Stage::contact_response)) {
@@ -153,49 +152,12 @@ void World::step() {
 
 void World::redetect() { state_->detect(); }
 
-/// The height at which a body dropped at `position` is clear of all others.
-double World::State::clear_height(const Prototype& p, const glm::dvec3& position) const {
-  double height = position.y;
-  const double clear = 1.3 * p.radius + settings.tolerance;
-  for (Index i = 0; i < bodies.vertex_count(); ++i)
-    if (glm::length(glm::dvec2(positions.x[i] - position.x, positions.z[i] - position.z)) < clear)
-      height = std::max(height, positions.y[i] + clear);
-  return height;
-}
-
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   State& s = *state_;
   s.dynamics.set_particles(body, particles);
   s.wake_all();
   s.gather();
   s.detect();
-}
-
-BodyId World::drop() {
-  State& s = *state_;
-  const Dropper& dropper = *s.scene.dropper;
-  // Each drop turns by the golden angle, so that no two fall alike.
-  const double distance = dropper.spread * std::sqrt((s.drops++ % 16 + 0.5) / 16);
-  const auto [c, n] = s.drop_direction;
-  s.drop_direction = {-0.7373688780783197 * c - 0.6754902942615238 * n,
-                      0.6754902942615238 * c - 0.7373688780783197 * n};
-  glm::dvec3 position = dropper.body.position + distance * glm::dvec3(c, 0, n);
-  position.y = s.clear_height(*s.prototypes.of(dropper.body), position);
-  s.add(dropper.body, position);
-  s.gather();
-  s.detect();
-  return s.bodies.count() - 1;
-}
-
-BodyId World::add(const BodySource& source) {
-  State& s = *state_;
-  s.check_stability(*s.prototypes.add(source, s.scene.materials));
-  s.plan = make_plan(s.scene, s.prototypes.all());
-  s.dynamics.set_plan(s.plan);
-  s.add(source, source.position);
-  s.gather();
-  s.detect();
-  return s.bodies.count() - 1;
 }
 
 int World::add_material(const Material& material) {
@@ -239,8 +201,7 @@ std::optional<int> World::substeps() const { return state_->options.substeps; }
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
   State& s = *state_;
   s.settings = s.scene.collision = settings;
-  s.plan = make_plan(s.scene, s.prototypes.all());  // self-collision decides whether a lone body needs detection
-  s.dynamics.set_plan(s.plan);
+  s.replan();  // self-collision decides whether a lone body needs detection
   s.default_cell = default_cell_size;
   if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
   s.wake_all();
@@ -250,8 +211,7 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
 void World::set_contact_surface(ContactSurface surface) {
   State& s = *state_;
   s.scene.contact_surface = surface;
-  s.plan = make_plan(s.scene, s.prototypes.all());
-  s.dynamics.set_plan(s.plan);
+  s.replan();
   // Surfaces come closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
   if (surface == ContactSurface::surfaces && s.frame > 0) s.shield = 0;
   s.wake_all();

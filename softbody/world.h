@@ -48,14 +48,33 @@ class World {
   void restore(const Snapshot& snapshot);
   /// Detects again on the current positions without moving anything.
   void redetect();
-  /// Adds a body at the scene's dropper, above whatever is in the way, and detects. The scene must have a dropper.
-  BodyId drop();
   /// Puts a body's particles where they are told, one a vertex and finite, wakes all and detects.
   void set_particles(BodyId body, std::span<const Particle> particles);
+
+  // Changes by hand, between frames. Each detects again where contacts may be others.
+  /// Adds bodies at the scene's dropper, or else above its first body, each above whatever is in the way; several are
+  /// spread more widely than one. Returns the last.
+  BodyId drop(int count = 1);
   /// Adds a body of any mesh, now and free, whatever the source says of frames. Throws SceneError as construction does.
   BodyId add(const BodySource& source);
   /// For bodies to come; its index in the scene's materials. Its name must be new.
   int add_material(const Material& material);
+  /// Throws a body of the kind that drop() adds, from the first clear place a little way along `velocity` (m/s, not 0).
+  /// Nothing if there is none.
+  std::optional<BodyId> throw_body(const glm::dvec3& from, const glm::dvec3& velocity);
+  /// Takes a body out. Those after it move up by one id, and their vertices with them; its neighbours wake.
+  void remove(BodyId body);
+  /// A hand takes a body, which wakes, stays awake, and is no longer held in place. There is one hand.
+  void grab(const Grab& grab);
+  void pull_to(const glm::dvec3& target);  // m; of the body that is grabbed, if any
+  void release();
+  const std::optional<Grab>& grabbed() const;
+  // Everything wakes. The scene changes with them, and the plan follows; values must be such as a scene file allows.
+  void set_gravity(const glm::dvec3& gravity);  // m/s^2
+  /// index: into the scene's materials. Bodies go on from where they are, and new ones start in the shape that they
+  /// would have started in before. Throws SceneError, and changes nothing, if it is too stiff.
+  void set_material(std::size_t index, const Material& material);
+  void set_solids(const Scene& scene);  // takes over that scene's solids, the ground included
 
   const Scene& scene() const;
   int frame() const;  // steps done

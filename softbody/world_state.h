@@ -21,15 +21,21 @@ struct Coordinates {
 struct World::State {
   State(Scene s, const Options& o);
 
-  void add(const BodySource& source, const glm::dvec3& position);
+  BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
   void count_vertices();
   void gather();
   void detect();
   void wake_all();
   void set_integrator();
+  void wake_near(BodyId body);
+  void replan();
   double substeps(const Prototype& p, float thickness) const;
   void check_stability(const Prototype& p) const;
+  void joined(std::size_t number);  // bodies, by hand
+  Dropper dropper() const;          // the scene's, or one over its first body
+  void drop(const Dropper& dropper);
+  bool is_clear(const Prototype& p, const glm::dvec3& position) const;
   double clear_height(const Prototype& p, const glm::dvec3& position) const;
 
   Scene scene;
@@ -40,6 +46,7 @@ struct World::State {
   Dynamics dynamics;
   Sleep sleep;
   std::vector<char> arrived;  // one a body source of the scene
+  Visitors visitors;
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;

@@ -48,7 +48,8 @@ void xpbd(Dynamics& dynamics, int thread, const Substep& substep) {
     dynamics.project_gas(*batch, displacements, substep.h);
     dynamics.project_springs(*batch, start, displacements, substep.h);
     dynamics.scale(*batch, displacements, 1 / substep.h);
-    dynamics.copy(*batch, start, positions);  // the contacts see where the velocities lead to from here
+    dynamics.copy(*batch, start, positions);  // hand and contacts see where the velocities lead to from here
+    dynamics.pull(*batch, substep.h);
   }
   dynamics.contacts(thread, substep.h);
   for (Batch* batch : dynamics.share(thread)) dynamics.drift(*batch, substep.h);

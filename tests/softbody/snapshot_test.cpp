@@ -69,6 +69,23 @@ TEST(Snapshot, OfTheSceneOfAMillionFacesContinuesToTheBit) {
   expect_the_same_again(world, scene, 1);
 }
 
+TEST(Snapshot, HoldsWhatHandsDid) {
+  const Scene scene = drop_scene();
+  World world(scene, {.threads = 2});
+  run(world, 10);
+  world.drop(3);
+  world.throw_body({-3, 4, 0}, {5, 0, 0});
+  world.remove(1);
+  Material soft = scene.materials[0];
+  soft.structural.stiffness = 100;
+  world.set_material(0, soft);
+  world.set_gravity({0, -5, 0});
+  world.grab({.body = 0, .target = {1, 4, 0}});
+  run(world, 5);
+  expect_the_same_again(world, scene, 10);
+  EXPECT_TRUE(world.grabbed());
+}
+
 /// Everything that a scene can be asked for while it runs: drops, other settings, arrivals still to come, sleepers.
 TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   const Scene scene = drop_scene();

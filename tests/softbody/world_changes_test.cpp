@@ -1,0 +1,290 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody {
+namespace {
+
+/// `number` bodies of the drop scene's material, in layers of four above the ground.
+Scene pile(int number) {
+  Scene scene = test::drop_scene();
+  scene.bodies.clear();
+  scene.spheres.clear();
+  scene.dropper.reset();
+  scene.captions.clear();
+  for (int i = 0; i < number; ++i) {
+    BodySource body;
+    body.position = {0.9 * (i % 2) + 0.01 * i, 0.6 + 1.05 * (i / 4), 0.9 * (i / 2 % 2)};
+    scene.bodies.push_back(body);
+  }
+  return scene;
+}
+
+std::vector<glm::dvec3> positions(const World& world, BodyId body) {
+  std::vector<glm::dvec3> list;
+  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
+    list.push_back(world.dynamics().particle(body, i).position);
+  return list;
+}
+
+void expect_consistent(const World& world) {
+  const collide::Bodies& bodies = world.bodies();
+  ASSERT_EQ(world.vertex_body().size(), bodies.vertex_count());
+  ASSERT_EQ(world.dynamics().body_count(), bodies.count());
+  const collide::Frame frame = world.positions();
+  for (BodyId b = 0; b < bodies.count(); ++b) {
+    ASSERT_EQ(world.vertex_body()[bodies.first[b]], b);
+    ASSERT_EQ(world.vertex_body()[bodies.first[b + 1] - 1], b);
+    const glm::dvec3 first = world.dynamics().particle(b, 0).position;
+    ASSERT_EQ(frame.y[bodies.first[b]], float(first.y));
+  }
+}
+
+std::vector<collide::Contact> true_contacts(const World& world) {
+  collide::Workers alone(1);
+  collide::Result result;
+  collide::find_method("brute-force")->make()->detect(world.positions(), world.collision(), alone, result);
+  return result.contacts;
+}
+
+class RemoveInAPile : public testing::TestWithParam<ContactSurface> {};
+
+TEST_P(RemoveInAPile, LeavesContactsTrueAndTheStateFinite) {
+  Scene scene = pile(14);
+  scene.contact_surface = GetParam();
+  World world(scene, {.threads = 2});
+  test::run(world, 60);
+  int removed = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    if (frame % 20 == 0) {
+      const BodyId count = world.bodies().count(),
+                   gone = std::array<BodyId, 3>{0, count / 2, count - 1}[std::size_t(removed++ % 3)];
+      std::vector<std::vector<glm::dvec3>> others;
+      for (BodyId b = 0; b < count; ++b)
+        if (b != gone) others.push_back(positions(world, b));
+      world.remove(gone);
+      ASSERT_EQ(world.bodies().count(), count - 1);
+      for (BodyId b = 0; b < count - 1; ++b) ASSERT_EQ(positions(world, b), others[b]);
+    }
+    expect_consistent(world);
+    ASSERT_EQ(world.detection().contacts, true_contacts(world)) << "frame " << frame;
+    world.step();
+    ASSERT_TRUE(measure(world).finite);
+  }
+  EXPECT_EQ(world.bodies().count(), 4u);
+  EXPECT_LT(measure(world).max_speed, 3);
+}
+
+INSTANTIATE_TEST_SUITE_P(EveryContactSurface, RemoveInAPile,
+                         testing::Values(ContactSurface::vertices, ContactSurface::surfaces));
+
+TEST(Remove, TheRestGoesOnAsIfTheBodyHadNeverBeen) {
+  Scene three = test::lone_body(test::gas_ball(), {1, 0, 0});
+  test::add_body(three, {5, 0, 0}, {0, 3, 0});
+  test::add_body(three, {0, 9, 0}, {0, 0, 2});
+  Scene two = three;
+  two.bodies.erase(two.bodies.begin() + 1);
+  World world(three, {}), other(two, {});
+  world.remove(1);
+  test::run(world, 30);
+  test::run(other, 30);
+  EXPECT_EQ(world.state_hash(), other.state_hash());
+}
+
+TEST(Remove, TheLastBodyLeavesAnEmptyWorldThatOthersMayJoin) {
+  World world(pile(1), {});
+  world.remove(0);
+  test::run(world, 3);
+  EXPECT_EQ(world.bodies().count(), 0u);
+  EXPECT_TRUE(world.detection().contacts.empty());
+  world.drop();
+  test::run(world, 3);
+  EXPECT_EQ(world.bodies().count(), 1u);
+  expect_consistent(world);
+}
+
+TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
+  Scene scene = pile(1);
+  scene.materials[0].rolling_resistance = 10;
+  scene.bodies[0].mesh.kind = "grid";
+  scene.bodies[0].mesh.columns = scene.bodies[0].mesh.rows = 12;
+  BodySource upper;
+  upper.position = {0.9, 0.55, 0};
+  scene.bodies[0].position = {0, 0.01, 0};
+  upper.position = {0, 0.55, 0};
+  scene.bodies.push_back(upper);
+  World world(scene, {});
+  for (int i = 0; i < 1500 && !world.all_at_rest(); ++i) world.step();
+  ASSERT_TRUE(world.all_at_rest());
+  world.remove(0);
+  EXPECT_FALSE(world.body(0).asleep);
+}
+
+TEST(Remove, OfTheBodyInTheHandOpensIt) {
+  World world(pile(3), {});
+  world.grab({.body = 1});
+  world.remove(0);
+  ASSERT_TRUE(world.grabbed());
+  EXPECT_EQ(world.grabbed()->body, 0u);
+  world.step();
+  world.remove(0);
+  EXPECT_FALSE(world.grabbed());
+  EXPECT_FALSE(world.plan().has(Stage::grab));
+  world.step();
+}
+
+TEST(Add, AThrownBodyHasTheMomentumItWasGiven) {
+  Scene scene = test::lone_body(test::gas_ball());
+  World world(scene, {});
+  BodySource thrown = scene.bodies[0];
+  thrown.position = {0, 5, 0};
+  thrown.velocity = {3, -4, 12};
+  EXPECT_EQ(world.add(thrown), 1u);
+  test::run(world, 60);
+  const glm::dvec3 expected = scene.materials[0].mass * thrown.velocity;
+  EXPECT_LT(glm::distance(measure(world).momentum, expected), 1e-3);
+  EXPECT_LT(glm::distance(test::motion(world, 1).centre, thrown.position + thrown.velocity), 1e-3);
+}
+
+TEST(Add, BringsTheStagesThatASecondBodyNeedsAndMeshesThatTheSceneHasNot) {
+  World world(test::lone_body(test::spring_ball()), {});
+  ASSERT_FALSE(world.plan().has(Stage::detect));
+  BodySource cloth;
+  cloth.mesh.kind = "grid";
+  cloth.position = {0, 0.52, 0};
+  world.add(cloth);
+  EXPECT_TRUE(world.plan().has(Stage::detect));
+  EXPECT_TRUE(world.plan().has(Stage::contact_response));
+  EXPECT_FALSE(world.detection().contacts.empty());
+  expect_consistent(world);
+}
+
+TEST(Throw, FindsRoomBeforeTheCameraOfEveryScene) {
+  for (const std::string& key : scene_keys(SBCOLLIDE_SCENES)) {
+    const Scene scene = find_scene(key, SBCOLLIDE_SCENES);
+    World world(scene, {});
+    const BodyId count = world.bodies().count();
+    const glm::dvec3 back = glm::normalize(glm::dvec3(0.5, 0.35, 0.8));  // the way to the eye, more or less
+    const auto id = world.throw_body(scene.view.target + scene.view.distance * back, -8.0 * back);
+    ASSERT_TRUE(id) << key;
+    EXPECT_EQ(*id, count) << key;
+    world.step();
+    EXPECT_GT(glm::dot(test::motion(world, *id).velocity, -back), 7) << key;
+  }
+}
+
+TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
+  for (const bool has_dropper : {false, true}) {
+    Scene scene = pile(4);
+    if (has_dropper) scene.dropper = Dropper{.body = scene.bodies[0]};
+    World world(scene, {});
+    world.drop(20);
+    ASSERT_EQ(world.bodies().count(), 24u);
+    expect_consistent(world);
+    float top = 0;
+    for (const collide::Contact& c : world.detection().contacts)
+      EXPECT_LT(world.vertex_body()[c.b], 4u);  // those of the pile touch one another
+    for (const float y : world.positions().y) top = std::max(top, y);
+    EXPECT_LT(top, 12);  // no tower
+    test::run(world, 30);
+    EXPECT_TRUE(measure(world).finite);
+  }
+}
+
+TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
+  Scene scene = test::lone_body(test::spring_ball());
+  scene.sleep = {0.05, 2};
+  World world(scene, {});
+  test::run(world, 5);
+  ASSERT_TRUE(world.body(0).asleep);
+  world.set_gravity({0, 0, 6});
+  EXPECT_TRUE(world.plan().has(Stage::gravity));
+  test::run(world, 30);
+  EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
+  world.set_gravity(glm::dvec3(0.0));
+  EXPECT_FALSE(world.plan().has(Stage::gravity));
+  test::run(world, 30);
+  EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
+}
+
+TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
+  World world(test::lone_body(test::spring_ball(), {1, 0, 0}), {});
+  test::run(world, 3);
+  const auto before = positions(world, 0);
+  Material heavy = world.scene().materials[0];
+  heavy.mass = 5;
+  heavy.gas_pressure = heavy.ambient_pressure = 1000;
+  heavy.internal_damping = 2;
+  world.set_material(0, heavy);
+  EXPECT_EQ(positions(world, 0), before);
+  EXPECT_TRUE(world.plan().has(Stage::gas_pressure));
+  EXPECT_TRUE(world.plan().has(Stage::internal_damping));
+  EXPECT_NEAR(glm::length(measure(world).momentum), 5, 1e-4);
+  world.drop();
+  EXPECT_EQ(&world.prototype(0), &world.prototype(1));
+  test::run(world, 30);
+  EXPECT_TRUE(measure(world).finite);
+}
+
+TEST(Changes, AMaterialThatIsTooStiffIsRefusedAndNothingChanges) {
+  World world(test::lone_body(test::spring_ball()), {});
+  const std::vector<Stage> stages = world.plan().stages;
+  Material stiff = world.scene().materials[0];
+  stiff.structural.stiffness = 1e9;
+  EXPECT_THROW(world.set_material(0, stiff), SceneError);
+  EXPECT_EQ(world.scene().materials[0].structural.stiffness, test::spring_ball().structural.stiffness);
+  EXPECT_EQ(world.prototype(0).material.structural.stiffness, test::spring_ball().structural.stiffness);
+  EXPECT_EQ(world.plan().stages, stages);
+}
+
+TEST(Changes, SolidsMoveComeAndGo) {
+  World world(pile(1), {});
+  for (int i = 0; i < 1500 && !world.all_at_rest(); ++i) world.step();
+  ASSERT_TRUE(world.all_at_rest());
+  const double low = test::motion(world, 0).centre.y;
+  Scene solids = world.scene();
+  solids.ground->height = 0.2;
+  world.set_solids(solids);
+  test::run(world, 200);
+  EXPECT_NEAR(test::motion(world, 0).centre.y, low + 0.2, 0.02);
+  EXPECT_LT(measure(world).max_speed, 0.1);  // lifted, not thrown
+  solids.ground.reset();
+  solids.spheres.push_back({.centre = {9, 0, 0}});
+  world.set_solids(solids);
+  EXPECT_FALSE(world.plan().has(Stage::ground));
+  EXPECT_TRUE(world.plan().has(Stage::solid_spheres));
+  test::run(world, 60);
+  EXPECT_LT(test::motion(world, 0).centre.y, low - 4);
+}
+
+/// All that hands can do, one after another.
+std::uint64_t hash_after_much(int threads) {
+  World world(pile(10), {.threads = threads});
+  Scene solids = world.scene();
+  Material material = world.scene().materials[0];
+  material.friction = 0.1;
+  test::run(world, 20);
+  world.grab({.body = 3, .target = {2, 3, 1}});
+  test::run(world, 20);
+  world.pull_to({-1, 4, 0});
+  world.drop(3);
+  test::run(world, 10);
+  world.release();
+  world.remove(2);
+  world.set_material(0, material);
+  world.set_gravity({1, -5, 0});
+  test::run(world, 20);
+  solids.spheres.push_back({.centre = {0, 0.5, 0}, .radius = 0.6});
+  world.set_solids(solids);
+  test::run(world, 20);
+  return world.state_hash();
+}
+
+TEST(Changes, DoNotDependOnTheNumberOfThreads) { EXPECT_EQ(hash_after_much(1), hash_after_much(3)); }
+
+}  // namespace
+}  // namespace softbody
