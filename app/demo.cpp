@@ -3,10 +3,12 @@
 #include <chrono>
 #include <cmath>
 #include <thread>
+#include <utility>
 
 #include "app/canvas.h"
 #include "app/interface.h"
 #include "app/preferences.h"
+#include "app/scene_mouse.h"
 #include "app/scene_view.h"
 #include "app/shortcuts.h"
 #include "engine/context.h"
@@ -47,6 +49,8 @@ struct PictureKey {
   std::size_t misses_of = 0;
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
+  std::optional<softbody::BodyId> selected;
+  std::optional<softbody::Grab> grab;
   glm::mat4 view{0.0f};
   float scale = 0, between = 1;
   bool operator==(const PictureKey&) const = default;
@@ -87,7 +91,7 @@ class Demo {
   void handle_keys() {
     if (gui_.wants_keyboard()) return;
     for (const engine::KeyPress& key : window_.key_presses()) {
-      if (press(key.key, key.repeat, session_, ui_)) seconds_ += key_hint_seconds;
+      if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
     }
   }
 
@@ -102,6 +106,7 @@ class Demo {
     interface_.draw(session_, ui_, gui_.scale(), seconds_);
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
+    do_as_asked(viewport);
     draw_scene(viewport);
     ui_.view = SceneView::view(camera_, viewport.size);
     gui_.end_frame();
@@ -136,15 +141,24 @@ class Demo {
       camera_ = view_.camera(session_.world().scene(), viewport.size);
       ui_.reset_camera = false;
     }
-    const ImGuiIO& io = ImGui::GetIO();
-    if (!gui_.wants_mouse()) {
-      const glm::vec2 moved{io.MouseDelta.x * io.DisplayFramebufferScale.x,
-                            io.MouseDelta.y * io.DisplayFramebufferScale.y};
-      if (io.MouseDown[0]) camera_.rotate(moved, viewport.size);
-      if (io.MouseDown[1] || io.MouseDown[2]) camera_.pan(moved, viewport.size);
-      if (io.MouseWheel != 0) camera_.zoom(io.MouseWheel);
-    }
+    mouse_.follow(mouse_input(viewport), session_, camera_, viewport.size);
+    if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
+  }
+
+  MouseInput mouse_input(const engine::Viewport& viewport) const {
+    const float below = static_cast<float>(window_.framebuffer_size().y - viewport.origin.y - viewport.size.y);
+    return read_mouse({static_cast<float>(viewport.origin.x), below}, !gui_.wants_mouse());
+  }
+
+  /// What the panel and the keys ask for that needs the camera.
+  void do_as_asked(const engine::Viewport& viewport) {
+    if (std::exchange(ui_.throw_body, false)) {
+      const engine::Ray ray = mouse_.ray(camera_, viewport.size);
+      session_.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+    }
+    if (std::exchange(ui_.look_at_body, false) && session_.selected_body())
+      look_at(*session_.selected_body(), session_, camera_, viewport.size);
   }
 
   void draw_scene(const engine::Viewport& viewport) {
@@ -152,9 +166,8 @@ class Demo {
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
     canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      const Positions& before = session_.before_last_step();
       view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale,
-                 {before.x, before.y, before.z, key.between});
+                 session_.drawn_positions(whole_steps()));
     });
     drawn_ = key;
     canvas_.show(viewport.origin);
@@ -162,25 +175,33 @@ class Demo {
     glViewport(0, 0, size.x, size.y);
   }
 
+  /// Boxes, cells and the like are of the present state: then so are the bodies.
+  bool whole_steps() const {
+    const Overlays& shown = session_.overlays;
+    return shown.boxes || shown.cells || shown.areas || session_.selected_bucket();
+  }
+
   PictureKey picture_key() const {
     const Overlays& shown = session_.overlays;
-    const bool whole_steps =
-        shown.boxes || shown.cells || shown.areas || session_.selected_bucket();  // those are of the present state
     return {.revision = session_.revision(),
             .comparison = shown.missed ? session_.comparisons() : 0,
             .judgement = shown.true_surfaces ? session_.surfaces().reports() : 0,
             .misses_of = session_.misses_of(),
             .overlays = shown,
             .bucket = session_.selected_bucket(),
+            .selected = session_.selected_body(),
+            .grab = session_.world().grabbed(),
             .view = camera_.view(),
             .scale = std::max(window_.content_scale(), window_.pixel_ratio()),
-            .between = whole_steps ? 1.0f : session_.between()};
+            .between = whole_steps() ? 1.0f : session_.between()};
   }
 
   OverlayRequest overlay_request() const {
     OverlayRequest request;
     request.shown = session_.overlays;
     request.selected_bucket = session_.selected_bucket();
+    request.selected_body = session_.selected_body();
+    request.eye = camera_.eye();
     const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
     if (needs_debug) request.debug = &session_.debug();
     if (request.shown.areas) request.areas = session_.areas();
@@ -201,6 +222,7 @@ class Demo {
   Interface interface_;
   UiState ui_;
   engine::Camera camera_;
+  SceneMouse mouse_;
   std::string shown_scene_;  // the one that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;

@@ -19,13 +19,19 @@ set(DEMO_SOURCES
   panel_files.cpp
   panel_numbers.cpp
   panel_stability.cpp
+  panel_touch.cpp
+  panel_world.cpp
+  pick.cpp
   preferences.cpp
   recording.cpp
   rewind.cpp
   scene_file.cpp
+  scene_mouse.cpp
   scene_view.cpp
   session.cpp
+  session_touch.cpp
   shortcuts.cpp
+  solid_list.cpp
   stability_watch.cpp
   status.cpp
   surface_view.cpp

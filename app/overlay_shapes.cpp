@@ -185,6 +185,37 @@ void add_springs(const softbody::World& world, Points positions, engine::FrameDa
   frame.lines.push_back(std::move(structural));
 }
 
+/// Edges between a face that is turned to the eye and one that is not, and borders.
+void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
+                 engine::FrameData& frame) {
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.5f};
+  const collide::Surface& surface = *world.prototype(id).surface;
+  const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
+  const auto faces_eye = [&](collide::Index face) {
+    const auto& [a, b, c] = surface.triangles()[face];
+    return glm::dot(glm::cross(body[b] - body[a], body[c] - body[a]), eye - body[a]) > 0;
+  };
+  for (std::size_t e = 0; e < surface.edges().size(); ++e) {
+    const auto [one, other] = surface.edge_triangles()[e];
+    if (one != other && faces_eye(one) == faces_eye(other)) continue;
+    const auto [a, b] = surface.edges()[e];
+    lines.lines.push_back({body[a], body[b], glm::vec4(hand_colour, 1.0f)});
+  }
+  frame.lines.push_back(std::move(lines));
+}
+
+/// The spring of the hand: from the point that it holds to where it draws it.
+void add_grab(const softbody::World& world, const softbody::Grab& grab, Points positions, engine::FrameData& frame) {
+  glm::vec3 held(0.0f);
+  for (int i = 0; i < 3; ++i)
+    held += static_cast<float>(grab.weights[i]) *
+            positions[world.bodies().first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
+  const glm::vec4 colour(hand_colour, 1.0f);
+  const glm::vec3 target(grab.target);
+  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .hidden = 0.7f});
+  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .hidden = 0.7f});
+}
+
 }  // namespace
 
 void add_overlays(const softbody::World& world, const OverlayRequest& request, Points positions,
@@ -201,6 +232,8 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, P
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.touches) add_touches(world, request.touches, positions, frame);
   if (shown.true_surfaces) add_marks(request.marks, positions, frame);
+  if (request.selected_body) add_outline(world, *request.selected_body, request.eye, positions, frame);
+  if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
 }
 
 }  // namespace app

@@ -31,6 +31,7 @@ inline constexpr glm::vec3 contact_between_colour{0.835f, 0.369f, 0.000f};  // v
 inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.447f, 0.698f};   // blue
 inline constexpr glm::vec3 contact_solid_colour{0.000f, 0.620f, 0.451f};    // bluish green
 inline constexpr glm::vec3 area_colour{0.00f, 0.42f, 0.31f};                // the exact method's, darker
+inline constexpr glm::vec3 hand_colour{0.55f, 0.10f, 0.45f};                // what the mouse holds and selects
 inline constexpr glm::vec3 contact_missed_colour{0.10f, 0.05f, 0.10f};      // nearly black
 
 }  // namespace app

@@ -36,8 +36,10 @@ void draw_transport(Widgets& w, Session& session) {
   ImGui::SameLine();
   if (w.button("Reset", "The scene from its start, with the settings below (R).", width)) session.reset();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.can_drop());
-  if (w.button("Drop", "Drops another body from above (D).", width)) session.drop();
+  ImGui::BeginDisabled(!session.can_undo());
+  if (w.button("Undo", "Brings the world back that was there before the last reset or choice of scene (Ctrl+Z).",
+               width))
+    session.undo();
   ImGui::EndDisabled();
 
   w.checkbox("Slow motion", session.slow_motion, "The world runs slower than real time (S).");
@@ -123,9 +125,11 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   draw_scene(w, session, ui);
   draw_transport(w, session);
   draw_progress(w, session);
+  draw_touch(w, session, ui);
   ImGui::Spacing();
   if (w.section("Detection", true)) draw_detection(w, session, ui.table);
   if (w.section("Show", true)) draw_overlays(w, session, ui);
+  if (w.section("World", false)) draw_world(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);
   if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Files", false)) draw_files(w, session, ui);

@@ -18,6 +18,8 @@ void draw_panel(Widgets& widgets, Session& session, UiState& ui);
 
 // Its sections, each for a window already begun.
 void draw_detection(Widgets& widgets, Session& session, bool table_shown);
+void draw_touch(Widgets& widgets, Session& session, UiState& ui);
+void draw_world(Widgets& widgets, Session& session, UiState& ui);
 void draw_numbers(Widgets& widgets, const Session& session);
 void draw_stability(Widgets& widgets, Session& session);
 void draw_files(Widgets& widgets, Session& session, UiState& ui);      // bring your own, save, reproduce

@@ -44,13 +44,9 @@ const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
   return meshes_.emplace(mesh.triangles, std::move(uploaded)).first->second;
 }
 
-void SceneView::gather_positions(const collide::Frame& now, const Blend& blend) {
-  positions_.resize(now.x.size());
-  for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] = {now.x[i], now.y[i], now.z[i]};
-  if (blend.part >= 1) return;
-  for (std::size_t i = 0; i < std::min(positions_.size(), blend.x.size()); ++i) {
-    positions_[i] = glm::mix(glm::vec3(blend.x[i], blend.y[i], blend.z[i]), positions_[i], blend.part);
-  }
+void SceneView::gather_positions(const DrawnPositions& positions) {
+  positions_.resize(positions.size());
+  for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] = positions[i];
 }
 
 void SceneView::gather_bodies(const softbody::World& world, bool dimmed) {
@@ -92,12 +88,12 @@ void SceneView::gather_solids(const softbody::Scene& scene) {
 }
 
 void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-                     const engine::Viewport& viewport, float pixel_scale, const Blend& blend) {
+                     const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
   // Overlays carry meaning in their colours, so the bodies step back.
   const bool dimmed = overlays.shown.any() || overlays.selected_bucket;
-  gather_positions(world.positions(), blend);
+  gather_positions(positions);
   gather_bodies(world, dimmed);
   frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
 

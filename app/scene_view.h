@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 
+#include "app/drawn_positions.h"
 #include "app/overlays.h"
 #include "app/true_surfaces.h"
 #include "engine/renderer.h"
@@ -17,17 +18,12 @@ struct OverlayRequest {
   Overlays shown;
   const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the selected bucket
   std::optional<std::uint32_t> selected_bucket;   // its boxes and cells stand out, and show in any case
+  std::optional<softbody::BodyId> selected_body;  // its outline, as seen from ...
+  glm::vec3 eye{0.0f};                            // ... here
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
   std::span<const softbody::SurfaceTouch> touches;        // the same
   std::span<const SurfaceMark> marks;                     // the same
-};
-
-/// Positions to draw a vertex at: `part` of the way from `from` to where it is. Vertices beyond `from` are where they
-/// are.
-struct Blend {
-  std::span<const float> x, y, z;
-  float part = 1;
 };
 
 class SceneView {
@@ -39,7 +35,12 @@ class SceneView {
   explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
 
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale, const Blend& blend = {});
+            const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions);
+  /// Every vertex where it is.
+  void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+            const engine::Viewport& viewport, float pixel_scale) {
+    draw(world, overlays, camera, viewport, pixel_scale, DrawnPositions{.now = world.positions()});
+  }
 
   /// The scene's own camera, with limits that suit its size.
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
@@ -56,7 +57,7 @@ class SceneView {
     std::vector<std::uint32_t> indices;
   };
 
-  void gather_positions(const collide::Frame& now, const Blend& blend);
+  void gather_positions(const DrawnPositions& positions);
   void gather_bodies(const softbody::World& world, bool dimmed);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);

@@ -31,12 +31,33 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
       exact_(collide::find_method(collide::default_method)->make()) {
   start(scene);
   scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
+  adopt(std::move(scene));
+}
+
+void Session::adopt(softbody::Scene scene) {
   scene_ = std::move(scene);
+  solids_ = list_solids(scene_);
 }
 
 void Session::start(const softbody::Scene& scene) {
-  world_ = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+  auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+  remember();
+  world_ = std::move(world);
+  begin();
+}
+
+/// The world that is about to be left.
+void Session::remember() {
+  if (!world_) return;
+  world_->release();
+  if (past_.size() == most_past) past_.erase(past_.begin());
+  past_.push_back({std::move(world_), scene_, scene_file_, solids_});
+}
+
+/// Another world has come.
+void Session::begin() {
   selected_bucket_.reset();
+  selected_body_.reset();
   history_.clear();
   notice_.clear();
   stability_.restart();
@@ -45,6 +66,7 @@ void Session::start(const softbody::Scene& scene) {
 
 /// After the world has become another: what was found out about the one before is of no use.
 void Session::show_anew() {
+  select_body(selected_body_);
   before_last_step_.copy(world_->positions());
   accumulator_ = 0;
   step_once_ = false;
@@ -117,6 +139,11 @@ float Session::between() const {
   return static_cast<float>(std::clamp(accumulator_ / world_->frame_time(), 0.0, 1.0));
 }
 
+DrawnPositions Session::drawn_positions(bool whole_steps) const {
+  const Positions& before = before_last_step_;
+  return {world_->positions(), before.x, before.y, before.z, whole_steps ? 1.0f : between()};
+}
+
 void Session::single_step() {
   paused = true;
   step_once_ = true;
@@ -128,6 +155,7 @@ void Session::step() {
   const bool alarmed = stability_.alarm().has_value();
   stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });
+  if (world_->grabbed()) stability_.intervened();  // a hand brings energy
   stability_.after_step(*world_, guarded);
   if (stability_.alarm() && !alarmed) paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
@@ -136,9 +164,7 @@ void Session::step() {
   history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
 }
 
-/// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
-template <class Change>
-bool Session::succeeds(Change&& change) {
+bool Session::succeeds(const std::function<void()>& change) {
   try {
     change();
     return true;
@@ -154,7 +180,7 @@ void Session::choose_scene(const std::string& key_or_path) {
     softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
     start(scene);
     scene_file_ = SceneFile(key_or_path, scene);
-    scene_ = std::move(scene);
+    adopt(std::move(scene));
   } catch (const std::exception& error) {
     notice_ = error.what();
   }
@@ -162,8 +188,12 @@ void Session::choose_scene(const std::string& key_or_path) {
 
 softbody::Scene Session::scene_in_use() const {
   softbody::Scene scene = scene_;
+  const softbody::Scene& now = world_->scene();
+  scene.gravity = now.gravity;
+  std::ranges::copy(now.materials, scene.materials.begin());
+  put_solids(solids_, scene);
   scene.method = world_->method().key;
-  scene.contact_surface = world_->scene().contact_surface;
+  scene.contact_surface = now.contact_surface;
   scene.collision = world_->collision();
   scene.default_cell_size = world_->uses_default_cell_size();
   return scene;
@@ -187,12 +217,14 @@ void Session::rewind_to(int frame) {
   const bool default_cell_size = world_->uses_default_cell_size();
   const std::string integrator(world_->integrator().key);
   const std::optional<int> substeps = world_->substeps();
+  const softbody::Scene in_use = world_->scene();
   notice_.clear();
   succeeds([&] {
     world_->restore(past.snapshots()[past.at(frame)]);
     if (integrator != world_->integrator().key || substeps != world_->substeps())
       world_->set_integrator(integrator, substeps);
     if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
+    keep_world_settings(in_use);
     if (method != world_->method().key) world_->set_method(method);
     if (settings != world_->collision() || default_cell_size != world_->uses_default_cell_size())
       world_->set_collision(settings, default_cell_size);
@@ -233,13 +265,6 @@ void Session::restore_settings() {
   set_method(scene_.method);
   set_collision(scene_.collision, scene_.default_cell_size);
   set_method(scene_.method);  // again: it may have been too slow with the settings before
-}
-
-void Session::drop() {
-  if (!can_drop()) return;
-  succeeds([&] { world_->drop(); });
-  stability_.intervened();
-  ++revision_;
 }
 
 namespace {

@@ -2,13 +2,16 @@
 // The demo's state, without window, drawing or panel: a world, the time that drives it, and what is known about it.
 
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 
 #include "app/compare_worker.h"
+#include "app/drawn_positions.h"
 #include "app/overlays.h"
 #include "app/ring.h"
 #include "app/scene_file.h"
+#include "app/solid_list.h"
 #include "app/stability_watch.h"
 #include "app/surface_watch.h"
 #include "softbody/world.h"
@@ -32,6 +35,8 @@ struct CompareChoice {
   std::vector<bool> methods = std::vector<bool>(collide::methods().size(), true);
   std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
 };
+
+inline constexpr int many_drops = 20;  // bodies
 
 class Session {
  public:
@@ -61,6 +66,8 @@ class Session {
   /// in slow motion, which would jerk otherwise.
   float between() const;
   const Positions& before_last_step() const { return before_last_step_; }
+  /// `whole_steps`: without anything between.
+  DrawnPositions drawn_positions(bool whole_steps = false) const;
 
   // What is in the world.
   const softbody::World& world() const { return *world_; }
@@ -78,11 +85,33 @@ class Session {
   const SceneFile& scene_file() const { return scene_file_; }
   /// Method and settings as the scene has them.
   void restore_settings();
-  bool can_drop() const { return world_->scene().dropper.has_value(); }
-  void drop();
   /// A body joins the world, and the scene, which it belongs to after a reset too. If there is such a material already,
   /// but for its name, it has that one. On an error no body joins and notice() says why.
   void add_body(softbody::BodySource body, softbody::Material material);
+  /// The world as it was before the last reset or choice of scene, to the bit; of the last few of them.
+  bool can_undo() const { return !past_.empty(); }
+  void undo();
+
+  // By hand. What a world refuses is told by notice(), and nothing changes.
+  static constexpr double least_throw = 1, most_throw = 25;  // m/s
+  double throw_speed = 8;                                    // m/s
+  bool can_drop() const { return world_->scene().dropper || !world_->scene().bodies.empty(); }
+  void drop(int count = 1);
+  /// direction: of length 1.
+  void throw_body(const glm::dvec3& eye, const glm::dvec3& direction);
+  const std::optional<softbody::BodyId>& selected_body() const { return selected_body_; }
+  void select_body(std::optional<softbody::BodyId> body);
+  void remove_selected();
+  void grab(const softbody::Grab& grab);
+  void pull_to(const glm::dvec3& target);
+  void release();
+  /// In m/s^2, along the direction of the scene's gravity; down, if it has none.
+  void set_gravity(double strength);
+  void set_material(std::size_t index, const softbody::Material& material);
+  const SolidList& solids() const { return solids_; }
+  void set_solids(const SolidList& solids);
+  /// Gravity, materials and solids as the scene has them.
+  void restore_world_settings();
   /// The scene's sentence for this moment, or empty.
   const std::string& caption() const;
 
@@ -137,13 +166,28 @@ class Session {
   void set_notice(std::string text) { notice_ = std::move(text); }
 
  private:
+  /// A world that was left, and its scene as it was loaded.
+  struct Past {
+    std::unique_ptr<softbody::World> world;
+    softbody::Scene scene;
+    SceneFile file;
+    SolidList solids;
+  };
+  static constexpr std::size_t most_past = 4;
+
   void start(const softbody::Scene& scene);
   void show_anew();
   void follow();
+  void keep_world_settings(const softbody::Scene& in_use);
+  void adopt(softbody::Scene scene);
+  void remember();
+  void begin();
   void run(double elapsed);
   void step();
-  template <class Change>
-  bool succeeds(Change&& change);
+  /// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
+  bool succeeds(const std::function<void()>& change);
+  /// For what a world may refuse: then it is as before, and goes on.
+  void try_change(const std::function<void()>& change);
   bool affordable(const collide::Method& method, const collide::Settings& settings);
   collide::DebugGeometry picture_of(collide::Detector& detector) const;
   Work work_of(const collide::Method& method, const collide::Settings& settings) const;
@@ -159,6 +203,9 @@ class Session {
   softbody::Scene scene_;  // as it was loaded: the world's own has the settings in use
   SceneFile scene_file_;
   std::unique_ptr<softbody::World> world_;
+  std::vector<Past> past_;  // the latest last
+  std::optional<softbody::BodyId> selected_body_;
+  SolidList solids_;
   Positions before_last_step_;
   double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()
   bool step_once_ = false;

@@ -14,13 +14,14 @@ struct Shortcut {
   std::string_view what;
   void (*act)(Session& session, UiState& ui);
   bool repeats = false;  // also while the key is held
+  int mods = 0;          // GLFW_MOD_*, which must be down
 };
 
 /// All but the overlays' digits, which are in overlay_table.
 std::span<const Shortcut> shortcuts();
 
 /// Does what the key is for; false if it is for nothing.
-bool press(int key, bool repeat, Session& session, UiState& ui);
+bool press(int key, bool repeat, Session& session, UiState& ui, int mods = 0);
 
 /// Mouse buttons and wheel over the scene, for the help.
 struct MouseUse {

@@ -178,7 +178,8 @@ void draw_caption(Widgets& w, const Session& session, const SceneArea& area, dou
   if (!session.caption().empty()) text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f);
   const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
   if (left <= 0) return;
-  text_on_scene(w, "Drag to turn, wheel to zoom, D drops a body, F1 for help", bottom - line, area, left);
+  text_on_scene(w, "Drag a body to pull it, drag beside it to turn, B throws a body, F1 for help", bottom - line, area,
+                left);
 }
 
 }  // namespace app

@@ -123,6 +123,17 @@ bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t leas
   return changed;
 }
 
+bool Widgets::drag(const char* label, glm::dvec3& value, float least, float most, const char* tooltip) {
+  constexpr float metres_a_pixel = 0.01f;
+  std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
+  const bool changed =
+      ImGui::DragFloat3(hidden(label).c_str(), shown.data(), metres_a_pixel, least, most, "%.2f", kept_inside);
+  done(label, tooltip);
+  const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
+  if (usable) value = {shown[0], shown[1], shown[2]};
+  return usable;
+}
+
 bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
   const bool changed = ImGui::InputScalar(hidden(label).c_str(), ImGuiDataType_U32, &value);

@@ -66,6 +66,8 @@ class Widgets {
               bool logarithmic);
   /// A logarithmic slider over whole numbers.
   bool slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
+  /// Three numbers within the limits, each to drag or to type.
+  bool drag(const char* label, glm::dvec3& value, float least, float most, const char* tooltip);
   /// A field for typing a number within the limits; takes effect with every digit.
   bool number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most, const char* tooltip);
   /// A field for typing text, which it holds as typed; true when Enter is pressed in it. Grey `hint` while it is empty.

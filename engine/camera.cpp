@@ -39,11 +39,20 @@ void Camera::set_orbit(const Orbit& orbit) { now_ = goal_ = clamped(orbit); }
 Orbit Camera::fitted(const glm::vec3& centre, float radius, glm::ivec2 size) {
   scene_radius_ = std::max(radius, 1e-4f);
   centre_ = centre;
+  return before(centre, scene_radius_, size);
+}
+
+/// Where a sphere just fills the viewport.
+Orbit Camera::before(const glm::vec3& centre, float radius, glm::ivec2 size) const {
   const float half = std::atan(std::tan(0.5f * fov) * std::min(1.0f, aspect(size)));
   Orbit orbit = goal_;
   orbit.target = centre;
-  orbit.distance = scene_radius_ / std::sin(half);
+  orbit.distance = radius / std::sin(half);
   return clamped(orbit);
+}
+
+void Camera::glide_to(const glm::vec3& centre, float radius, glm::ivec2 size) {
+  goal_ = before(centre, 2.0f * radius, size);
 }
 
 void Camera::fit(const glm::vec3& centre, float radius, glm::ivec2 size) {

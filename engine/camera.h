@@ -36,6 +36,9 @@ class Camera {
   /// As fit(), but glides there.
   void glide_to_fit(const glm::vec3& centre, float radius, glm::ivec2 size);
 
+  /// Glides to where a sphere fills half of the viewport, keeping the angles and the limits.
+  void glide_to(const glm::vec3& centre, float radius, glm::ivec2 size);
+
   // The three motions, by how far the mouse moved (pixels) or the wheel turned. The camera glides after them.
   void rotate(glm::vec2 pixels, glm::ivec2 size);  // a drag over the viewport's height turns half a circle
   void pan(glm::vec2 pixels, glm::ivec2 size);     // what lies at the target's depth follows the cursor
@@ -57,6 +60,7 @@ class Camera {
  private:
   Orbit clamped(Orbit orbit) const;
   Orbit fitted(const glm::vec3& centre, float radius, glm::ivec2 size);
+  Orbit before(const glm::vec3& centre, float radius, glm::ivec2 size) const;
 
   Orbit now_, goal_;
   glm::vec3 centre_{0.0f};

@@ -72,6 +72,7 @@ TEST(Panel, TheFiguresOfTheTrueSurfacesComeAndMoveNothing) {
 
 TEST(Panel, GoesBackByASlider) {
   PanelRig rig;
+  rig.click("Detection");  // folded, so that all has room
   rig.click("Stability");
   rig.frames(60);
   const int frame = rig.session.world().frame();

@@ -27,10 +27,11 @@ class SceneViewTest : public testing::Test {
     session_.set_collision(settings, false);
   }
 
-  std::vector<std::uint8_t> picture(const OverlayRequest& request, const Blend& blend = {}) {
+  std::vector<std::uint8_t> picture(const OverlayRequest& request, DrawnPositions positions = {}) {
+    positions.now = session_.world().positions();
     target_.bind();
     const engine::Camera camera = view_.camera(session_.world().scene(), size);
-    view_.draw(session_.world(), request, camera, {{0, 0}, size}, 1.0f, blend);
+    view_.draw(session_.world(), request, camera, {{0, 0}, size}, 1.0f, positions);
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     return target_.read().rgba;
   }
@@ -71,10 +72,10 @@ TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
   Positions earlier;
   earlier.copy(session_.world().positions());
   const auto now = picture({});
-  EXPECT_EQ(picture({}, {earlier.x, earlier.y, earlier.z, 0.5f}), now);
+  EXPECT_EQ(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
   for (float& y : earlier.y) y -= 0.5f;
-  EXPECT_EQ(picture({}, {earlier.x, earlier.y, earlier.z, 1.0f}), now);
-  EXPECT_NE(picture({}, {earlier.x, earlier.y, earlier.z, 0.5f}), now);
+  EXPECT_EQ(picture({}, {{}, earlier.x, earlier.y, earlier.z, 1.0f}), now);
+  EXPECT_NE(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
 }
 
 TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {

@@ -108,16 +108,21 @@ TEST(Session, ResetKeepsTheSettingsAndRestartsTheWorld) {
   EXPECT_TRUE(session.world().uses_default_cell_size());
 }
 
-TEST(Session, DropsABodyOnlyWhereTheSceneSaysWhere) {
+TEST(Session, DropsABodyAlsoWhereTheSceneDoesNotSayWhere) {
   Session session = make_session();
   session.drop();
   EXPECT_EQ(session.world().bodies().count(), 3u);
   softbody::Scene scene = touching_pair();
   scene.dropper.reset();
   Session bare(scene, {}, 1);
-  EXPECT_FALSE(bare.can_drop());
+  EXPECT_TRUE(bare.can_drop());
   bare.drop();
-  EXPECT_EQ(bare.world().bodies().count(), 2u);
+  EXPECT_EQ(bare.world().bodies().count(), 3u);
+  scene.bodies.clear();
+  Session nothing(scene, {}, 1);
+  EXPECT_FALSE(nothing.can_drop());
+  nothing.drop();
+  EXPECT_EQ(nothing.world().bodies().count(), 0u);
 }
 
 TEST(Session, RefusesSettingsWithAProblem) {

@@ -82,9 +82,14 @@ has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|H
 
 start
 xdotool windowfocus "$window" 2>/dev/null
-for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c r; do press $key; done
+for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b Delete r ctrl+z r; do press $key; done
 click 30 369 1            # a switch of the panel
 click 700 400 1           # the scene
+sleep 1                   # the first body hangs above the middle of the scene
+xdotool mousemove 800 160; sleep 0.3; xdotool mousedown 1; sleep 0.3
+for _ in $(seq 10); do xdotool mousemove_relative 15 10; sleep 0.05; done
+xdotool mouseup 1
+press Delete              # what was pulled, if the mouse met it
 xdotool mousemove 700 400 mousedown 1 mousemove_relative 120 40; sleep 0.3; xdotool mouseup 1
 xdotool click 4 click 5
 for size in "700 500" "1500 950" "320 240" "1280 720"; do
@@ -114,7 +119,7 @@ open_only() {
   local i open
   for i in "${!sections[@]}"; do
     open=false
-    [ "${sections[i]}" = "$1" ] && open=true && field=$((166 + 29 * i))
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((269 + 29 * i))
     printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
   done >"$preferences"
 }

@@ -82,6 +82,7 @@ TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
                        "shear-springs",
                        "gas-pressure",
                        "shape-matching",
+                       "grab",
                        "gravity",
                        "integrate",
                        "restitution",

@@ -126,6 +126,22 @@ TEST(Camera, GlidesAlikeAtAnyFrameRate) {
   EXPECT_NEAR(fine.orbit().azimuth, coarse.orbit().azimuth, 1e-3f);
 }
 
+TEST(Camera, GlidesToASphereThatThenFillsHalfTheViewport) {
+  Camera camera = looking_at_scene();
+  const Orbit before = camera.orbit();
+  const glm::vec3 centre(1, 0.5f, 0);
+  const float radius = 0.5f;
+  camera.glide_to(centre, radius, size);
+  camera.settle();
+  EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
+  EXPECT_EQ(camera.orbit().elevation, before.elevation);
+  const float opening = std::asin(radius / glm::distance(camera.eye(), centre));  // half the angle that it takes
+  EXPECT_NEAR(std::sin(opening) / std::sin(0.5f * camera.fov), 0.5f, 1e-3f);
+  camera.zoom(-100);
+  camera.settle();
+  EXPECT_GT(camera.orbit().distance, before.distance);  // the scene's limits still hold
+}
+
 TEST(Camera, ManyTurnsDoNotWearItOut) {
   Camera camera = looking_at_scene();
   for (int i = 0; i < 10000; ++i) {
