@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <numeric>
 
 #include <glm/geometric.hpp>
 
@@ -68,14 +69,15 @@ softbody::BodyId Guard::culprit(const std::vector<softbody::BodyMeasures>& bodie
 
 std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::BodyMeasures>& bodies, int frame) const {
   const Look most = most_of_late();
-  const double reach = most_speed * (most.speed + most.bounce + gravity_);
+  const double reach = most_speed * (most.speed + most.bounce + gravity_) + tremble;
   if (now.speed > reach) {
     const auto fastest = std::ranges::max_element(bodies, {}, &softbody::BodyMeasures::max_speed);
     const auto body = static_cast<softbody::BodyId>(fastest - bodies.begin());
     return Alarm{body, frame,
                  text("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
   }
-  const double energy = most.energy + most_gain * (most.active + fall_);
+  const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
+  const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
   if (now.energy <= energy) return {};
   const softbody::BodyId body = culprit(bodies);
   return Alarm{body, frame,

@@ -27,6 +27,8 @@ class Guard {
   static constexpr double most_gain = 0.1;
   /// Times what is within reach; the shipped scenes get to 0.6 of that.
   static constexpr double most_speed = 1.5;
+  /// m/s: where nothing moves, rounding makes bodies tremble far more slowly than that.
+  static constexpr double tremble = 1e-3;
 
   /// Looks at a frame; `bodies` were measured in it. Bodies that come or go begin it anew.
   std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
