@@ -7,7 +7,7 @@
 namespace app {
 
 /// The one that chooses its steps itself: no report prescribes them.
-inline bool chooses_steps(const softbody::Integrator& integrator) { return integrator.key == "auto"; }
+inline bool chooses_steps(const softbody::Integrator& integrator) { return integrator.automatic; }
 
 /// What a world is told: so many steps a frame, or none for one that chooses them.
 inline std::optional<int> steps_for(const softbody::Integrator& integrator, int steps) {

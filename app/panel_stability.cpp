@@ -1,6 +1,7 @@
 // The panel's section on stability: the way back, and how energies, volumes, strains and speeds went. Its light stands
 // in the status.
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -42,6 +43,35 @@ void draw_past(Widgets& w, Session& session) {
   const double mebi = static_cast<double>(session.stability().past().bytes()) / (1 << 20);
   w.figure("Snapshots", text("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
            "Memory is bounded: when it is full, old snapshots are thinned out.");
+}
+
+/// Which integrator, with how many substeps; and which one is at work, if it chooses by itself.
+void draw_integrator(Widgets& w, Session& session) {
+  const softbody::World& world = session.world();
+  const softbody::Integrator& asked = world.integrator();
+  w.row("Integrator", w.px(label_column));
+  if (w.begin_choices("Integrator", std::string(asked.name).c_str(), std::string(asked.summary).c_str())) {
+    for (const softbody::Integrator& i : softbody::integrators())
+      if (w.choice(std::string(i.name).c_str(), &i == &asked, std::string(i.summary).c_str()))
+        session.set_integrator(i.key, world.substeps());
+    ImGui::EndCombo();
+  }
+  bool fixed = world.substeps().has_value();
+  if (w.checkbox("Fixed substeps", fixed,
+                 "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
+                 "up. Else as many as the stability bound asks for."))
+    session.set_integrator(asked.key,
+                           fixed ? std::optional(std::max(1, session.stability().margin().needed)) : std::nullopt);
+  ImGui::BeginDisabled(!fixed);
+  w.row("Substeps", w.px(label_column));
+  int substeps = world.substeps().value_or(std::max(1, world.profile().substeps));
+  if (w.slider("Substeps", substeps, 1, std::max(100, substeps), "%d a frame", "Fewer are faster, until it explodes."))
+    session.set_integrator(asked.key, substeps);
+  ImGui::EndDisabled();
+  if (!asked.automatic) return;
+  const softbody::Dynamics& dynamics = world.dynamics();
+  w.figure("At work", std::string(dynamics.used_integrator().name),
+           std::string("Because ").append(dynamics.why_integrator()).append(".").c_str());
 }
 
 struct Curve {
@@ -93,6 +123,7 @@ void draw_step_light(Widgets& w, Session& session) {
 }
 
 void draw_stability(Widgets& w, Session& session) {
+  draw_integrator(w, session);
   w.checkbox("Pause when a body explodes", session.guarded,
              "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
              "there could give it, and names it.");

@@ -348,6 +348,13 @@ void Session::set_contact_surface(softbody::ContactSurface surface) {
   ++revision_;
 }
 
+void Session::set_integrator(std::string_view key, std::optional<int> substeps) {
+  notice_.clear();
+  succeeds([&] { world_->set_integrator(key, substeps); });
+  stability_.intervened();
+  ++revision_;
+}
+
 void Session::next_contact_surface() {
   const auto& all = softbody::contact_surfaces;
   const auto here =

@@ -126,6 +126,8 @@ class Session {
   void next_method();
   void set_contact_surface(softbody::ContactSurface surface);
   void next_contact_surface();
+  /// substeps: of the integrator's a frame; none: as many as stability asks for.
+  void set_integrator(std::string_view key, std::optional<int> substeps);
   void set_collision(const collide::Settings& settings, bool default_cell_size);
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }

@@ -4,7 +4,7 @@ root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
 # What the program is built from and runs on (Debian 12, Ubuntu 24.04).
 program_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libglew-dev libglm-dev libimgui-dev libgl-dev libegl-dev
-  libgl1-mesa-dri libpng-dev libhwy-dev libgmp-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev fonts-inter
+  libgl1-mesa-dri libpng-dev libhwy-dev libgmp-dev libeigen3-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev fonts-inter
   gnuplot-nox)
 
 say() { printf '%s\n' "$*" >&2; }

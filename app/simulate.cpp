@@ -75,6 +75,13 @@ Json to_json(const softbody::Plan& plan) {
   return {{"stages", stages}, {"left_out", left_out}};
 }
 
+/// Which one was asked for, which one the last frame was integrated with and, if that was chosen automatically, why.
+Json to_json_integrator(const softbody::World& world) {
+  return {{"key", world.integrator().key},
+          {"used", world.dynamics().used_integrator().key},
+          {"why", world.dynamics().why_integrator()}};
+}
+
 std::string hex(std::uint64_t value) {
   char text[17];
   std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
@@ -86,6 +93,7 @@ void print_json(const softbody::World& world, const std::vector<Row>& rows) {
   for (const Row& r : rows) frames.push_back(to_json(r));
   const Json document{{"scene", world.scene().key},
                       {"method", world.method().key},
+                      {"integrator", to_json_integrator(world)},
                       {"plan", to_json(world.plan())},
                       {"warnings", warnings(world.method(), world.collision())},
                       {"frames", frames},
@@ -119,7 +127,9 @@ void print_table(const softbody::World& world, const std::vector<Row>& rows) {
                 ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
                 m.finite ? "" : "  NOT FINITE");
   }
-  std::printf("stages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
+  std::printf("integrator: %s", std::string(world.dynamics().used_integrator().name).c_str());
+  if (const std::string why(world.dynamics().why_integrator()); !why.empty()) std::printf(", for %s", why.c_str());
+  std::printf("\nstages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
   for (const softbody::LeftOut& l : world.plan().left_out)
     std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
   std::printf("state hash %s\n", hex(world.state_hash()).c_str());

@@ -4,10 +4,9 @@
 #include <cmath>
 
 #include <glm/geometric.hpp>
-#include <glm/mat3x3.hpp>
-#include <glm/matrix.hpp>
 
 #include "softbody/dynamics.h"
+#include "softbody/rigid_motion.h"
 
 namespace softbody {
 
@@ -38,21 +37,10 @@ void Dynamics::resist(BodyId id, double seconds) {
     const std::size_t s = slot(body, i);
     return glm::dvec3(c[0][s], c[1][s], c[2][s]);
   };
-  glm::dvec3 centre(0.0), velocity(0.0);
-  for (Index i = 0; i < count; ++i) {
-    centre += read(x_, i) / double(count);
-    velocity += read(v_, i) / double(count);
-  }
-  glm::dvec3 momentum(0.0);  // angular, and inertia, both a unit particle mass
-  glm::dmat3 inertia(0.0);
-  for (Index i = 0; i < count; ++i) {
-    const glm::dvec3 r = read(x_, i) - centre;
-    momentum += glm::cross(r, read(v_, i) - velocity);
-    inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
-  }
-  if (!(glm::determinant(inertia) > 1e-12 * inertia[0][0] * inertia[1][1] * inertia[2][2]))
-    return;  // a line or a point
-  const glm::dvec3 spin = glm::inverse(inertia) * momentum;
+  const RigidMotion motion = rigid_motion(
+      count, [&](std::size_t i) { return read(x_, Index(i)); }, [&](std::size_t i) { return read(v_, Index(i)); });
+  if (!motion.turns) return;
+  const auto& [centre, velocity, momentum, inertia, turns, spin] = motion;
   glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
   if (const double size = p.particle_mass * glm::length(momentum); resistance_.rolling && p.mesh.closed && size > 0)
     lost_spin = spin * std::min(1.0, m.rolling_resistance * p.radius * normal / size);

@@ -47,7 +47,8 @@ void Dynamics::set_plan(const Plan& plan) {
 }
 
 void Dynamics::set_integrator(const Integrator& integrator) {
-  integrator_ = &integrator;
+  asked_ = integrator_ = &integrator;
+  why_ = {};
   resize_scratch();
 }
 
@@ -57,7 +58,7 @@ void Dynamics::resize_scratch() {
     for (auto& c : components) c.resize(x_[0].size());
 }
 
-int Dynamics::substeps(double seconds) const {
+Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double fewest = 1;                  // that keep up with the fastest body near a solid
   for (const Batch& b : batches_) {
@@ -81,8 +82,33 @@ int Dynamics::substeps(double seconds) const {
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  return int(
-      std::min(most_substeps, std::ceil(std::max(fewest, seconds / integrator_->stable_step(stiffness, damping)))));
+  return {integrator_->stable_step(stiffness, damping), fewest};
+}
+
+int Dynamics::substeps(double seconds) const {
+  const Bound b = bound(seconds);
+  return int(std::min(most_substeps, std::ceil(std::max(b.fewest, seconds / b.step))));
+}
+
+/// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver, contact
+/// included, is worth about as much as 400 explicit substeps of the same body.
+void Dynamics::choose(double seconds) {
+  constexpr double implicit_worth = 400;
+  integrator_ = find_integrator("semi-implicit-euler");
+  const Bound b = bound(seconds);
+  if (fixed_substeps_) {
+    why_ = "the number of substeps is given";
+  } else if (seconds / b.step <= implicit_worth * b.fewest) {
+    why_ = "explicit substeps are stable, and cheaper than implicit steps";
+  } else if (has_surface_) {
+    why_ = "contact of the true surfaces wants short steps";
+  } else if (std::any_of(moving_.begin(), moving_.end(),
+                         [](const Batch* batch) { return batch->particles() > most_implicit_particles; })) {
+    why_ = "a body has too many particles for implicit steps";
+  } else {
+    integrator_ = find_integrator("implicit");
+    why_ = "so stiff that implicit steps are cheaper than explicit substeps";
+  }
 }
 
 bool Dynamics::moves(const Batch& b) {
@@ -94,7 +120,6 @@ int Dynamics::advance(double seconds) {
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
-  resize_scratch();
   for (Batch& b : batches_) {
     b.impulse = {};
     b.returned = {};
@@ -103,6 +128,8 @@ int Dynamics::advance(double seconds) {
     prepare_solids(b, seconds);
   }
   if (moving_.empty()) return 0;
+  if (asked_->automatic) choose(seconds);
+  resize_scratch();
   // A handful of bodies is done before a second thread has woken up.
   active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
   int total = 0;
@@ -111,7 +138,13 @@ int Dynamics::advance(double seconds) {
     if (has_surface_) find_surface_contacts(left);
     const int stable = fixed ? fixed - total : substeps(left);
     const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
-    const int count = std::max(stable, rate);
+    int count = std::max(stable, rate);
+    // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
+    if (integrator_->implicit && !fixed) {
+      double h = seconds;
+      while (h > left * (1 + 1e-9) || left / h < count * (1 - 1e-9)) h /= 2;
+      count = int(std::lround(left / h));
+    }
     int now = fixed ? count : std::min(count, substeps_within_bound(left / count));
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
@@ -141,6 +174,7 @@ int Dynamics::substeps_within_bound(double h) const {
 
 void Dynamics::run(int count, float h, bool first) {
   step_ = h;
+  if (integrator_->implicit) prepare_implicit(h);
   const auto task = [&](int thread) {
     for (int s = 0; s < count; ++s) {
       if (has_restitution_)

@@ -1,9 +1,11 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
+#include <map>
 #include <optional>
 
 #include "softbody/grab.h"
+#include "softbody/implicit_solver.h"
 #include "softbody/integrators.h"
 #include "softbody/kernels.h"
 #include "softbody/plan.h"
@@ -74,6 +76,8 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 
 class Dynamics {
  public:
+  static constexpr std::size_t most_implicit_particles = 3000;  // of a body: the matrix grows faster than the springs
+
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
       : scene_(scene), workers_(workers), kernels_(kernels(isa)) {}
 
@@ -88,6 +92,9 @@ class Dynamics {
   glm::dvec3 grabbed_point() const;  // m; of the body that is grabbed
   void set_plan(const Plan& plan);
   void set_integrator(const Integrator& integrator);
+  /// The one that the last frame was integrated with, and, if it was chosen automatically, why.
+  const Integrator& used_integrator() const { return *integrator_; }
+  std::string_view why_integrator() const { return why_; }
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
@@ -132,6 +139,9 @@ class Dynamics {
   void pull(Batch& batch, float h) {
     if (grab_) grab_impulse(batch, h);
   }
+  /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
+  /// be added to them after drift(). Wants other_forces() and the positions and velocities of all bodies.
+  void solve_implicit(int thread, Batch& batch, Quantity mean, Quantity rest, float h);
   void copy(Batch& batch, Quantity from, Quantity to);           // to = from
   void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q
   void scale(Batch& batch, Quantity q, float times);             // q *= times
@@ -198,7 +208,20 @@ class Dynamics {
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
   int substeps_within_bound(double h) const;
+  /// What bounds a substep in the state at hand.
+  struct Bound {
+    double step;    // s
+    double fewest;  // substeps that keep up with the fastest body near a solid
+  };
+  Bound bound(double seconds) const;
+  void choose(double seconds);
   void resize_scratch();
+  void prepare_implicit(float h);
+  const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
+  std::array<bool, lanes> find_planes(const Batch& batch, ImplicitWork& work, double h) const;
+  std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
+  void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
+  std::array<bool, lanes> second_order_step(const Batch& batch, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first);
   void resist(BodyId id, double seconds);
   double undue_speed(BodyId id, double out, double impulse);
@@ -208,7 +231,8 @@ class Dynamics {
   const Scene& scene_;
   collide::Workers& workers_;
   const Kernels& kernels_;
-  const Integrator* integrator_ = nullptr;
+  const Integrator *asked_ = nullptr, *integrator_ = nullptr;
+  std::string_view why_;
   std::optional<int> fixed_substeps_;
   std::vector<BatchStage> force_stages_, other_force_stages_;
   struct {
@@ -220,6 +244,14 @@ class Dynamics {
   Components x_, v_, f_;
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
+  /// What implicit steps keep: the matrices used last, and one workspace a prototype for each thread.
+  struct MatrixOf {
+    const Prototype* prototype;
+    double h;
+    std::shared_ptr<const ImplicitMatrix> matrix;
+  };
+  std::vector<MatrixOf> matrices_;
+  std::vector<std::map<const Prototype*, ImplicitWork>> implicit_work_;
   Shield shield_;
   SurfaceContact surface_;
   bool has_surface_ = false, self_contact_ = false;

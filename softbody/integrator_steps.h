@@ -24,4 +24,9 @@ void runge_kutta_4(Dynamics& dynamics, int thread, const Substep& substep);
 /// 2019): springs with their dampers and the gas are constraints of finite compliance, all else are forces.
 void xpbd(Dynamics& dynamics, int thread, const Substep& substep);
 
+/// Where nothing touches: the L-stable diagonally implicit Runge-Kutta method of second order with two stages
+/// (Alexander 1977), both with the same matrix. Where bodies touch or its solves do not converge: backward Euler,
+/// contacts in the solve. Linear and angular momentum are restored after each.
+void implicit_step(Dynamics& dynamics, int thread, const Substep& substep);
+
 }  // namespace softbody

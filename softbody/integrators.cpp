@@ -43,6 +43,14 @@ double runge_kutta_4_step(double k_m, double c_m) {
 double unconditional(double, double) { return std::numeric_limits<double>::infinity(); }
 
 constexpr std::array table{
+    Integrator{.key = "auto",
+               .name = "Auto",
+               .summary = "Semi-implicit Euler with as many substeps as are stable, or an implicit step where that is "
+                          "cheaper.",
+               .order = 1,
+               .advance = semi_implicit_euler,
+               .stable_step = stable_step,
+               .automatic = true},
     Integrator{"explicit-euler", "Explicit Euler",
                "The paper's era: position and velocity from the old state; gains energy unless the steps are tiny.", 1,
                explicit_euler, explicit_euler_step},
@@ -73,6 +81,16 @@ constexpr std::array table{
                .stable_step = unconditional,
                .substeps = 20,
                .scratch = 1},
+    Integrator{.key = "implicit",
+               .name = "Implicit",
+               .summary =
+                   "Quasi-Newton solves with a prefactored matrix: stable at any stiffness; second order in free "
+                   "flight, backward Euler in contact.",
+               .order = 2,
+               .advance = implicit_step,
+               .stable_step = unconditional,
+               .scratch = 2,
+               .implicit = true},
 };
 
 }  // namespace

@@ -79,6 +79,15 @@ struct SolidArguments {
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution
 };
 
+/// Of a matrix A with P A P^T = L L^T: L by columns, without its diagonal.
+struct CholeskyFactor {
+  std::vector<std::uint32_t> place;  // of unknown i in the factor's order
+  std::vector<std::uint32_t> first;  // unknowns + 1 offsets into row and value
+  std::vector<std::uint32_t> row;
+  std::vector<double> value;
+  std::vector<double> inverse_diagonal;
+};
+
 struct Extent {
   LaneVector lo, hi;                // m, from the body's origin
   alignas(32) float speed2[lanes];  // (m/s)^2, of the fastest particle
@@ -98,6 +107,19 @@ struct Kernels {
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
   void (*extent)(std::size_t particles, Field<const float> x, Field<const float> v, Extent&);
+
+  // For implicit steps, in double; see implicit_kernels.h.
+  void (*implicit_springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
+                           Field<const double> from, Field<const double> ahead, Field<double> f);
+  void (*volume_double)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
+  void (*pressure_double)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
+                          Field<double> f);
+  void (*substitute)(const CholeskyFactor&, double* x, double* room);
+  void (*turn)(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v);
+  void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);
+  void (*inner_product_shared)(std::size_t count, const double* shared, const double* b, double* result);
+  void (*add_scaled)(std::size_t count, const double* times, const double* a, double* y);
+  void (*add_scaled_shared)(std::size_t count, const double* times, const double* shared, double* y);
 };
 
 enum class Isa { baseline, avx2 };

@@ -54,6 +54,11 @@ struct Shield {
 
   /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
+  /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
+  struct Slopes {
+    float along, across;
+  };
+  Slopes slopes(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
   void inherit(std::span<const ShieldPair> before);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up. Slots are as before.

@@ -60,18 +60,26 @@ double World::State::substeps(const Prototype& p, float thickness) const {
   return options.frame_time / find_integrator(options.integrator)->stable_step(k, c / p.particle_mass);
 }
 
+/// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
+bool World::State::implicit_in_reserve(const Prototype& p) const {
+  const auto small = [](const Prototype& one) { return one.mesh.vertices.size() <= Dynamics::most_implicit_particles; };
+  return find_integrator(options.integrator)->automatic && !plan.has(Stage::surface_contact) && small(p) &&
+         std::all_of(prototypes.all().begin(), prototypes.all().end(), [&](const auto& one) { return small(*one); });
+}
+
 /// As the options have it.
 void World::State::set_integrator() {
-  if (!options.substeps)
-    for (const auto& p : prototypes.all()) check_stability(*p);
+  for (const auto& p : prototypes.all()) check_stability(*p);
   dynamics.set_integrator(*find_integrator(options.integrator));
   dynamics.set_substeps(options.substeps);
 }
 
 void World::State::check_stability(const Prototype& p) const {
+  if (options.substeps) return;
   const double steps = substeps(p, shield);
   if (steps <= max_substeps) return;
   const bool wide = substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
+  if (!wide && implicit_in_reserve(p)) return;
   std::ostringstream text;
   text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
   if (wide)

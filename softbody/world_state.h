@@ -30,6 +30,7 @@ struct World::State {
   void set_integrator();
   void wake_near(BodyId body);
   void replan();
+  bool implicit_in_reserve(const Prototype& p) const;
   double substeps(const Prototype& p, float thickness) const;
   void check_stability(const Prototype& p) const;
   void joined(std::size_t number);  // bodies, by hand

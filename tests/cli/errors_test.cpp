@@ -106,7 +106,9 @@ TEST(Errors, ABrokenSceneFileIsNamedWithItsLine) {
   expect_refused({"simulate", "--scene", key, "--frames", "2"}, {key.string() + ":3: ", "colour"});
   const auto syntax = folder.write("syntax.toml", "[[body]\n");
   expect_refused({"simulate", "--scene", syntax, "--frames", "2"}, {syntax.string() + ":1: "});
-  const auto stiff = folder.write("stiff.toml", "[[material]]\nstructural = {stiffness = 1e9}\n[[body]]\n");
+  const auto stiff = folder.write(
+      "stiff.toml",
+      "[collision]\ncontact_surface = \"surface\"\n[[material]]\nstructural = {stiffness = 1e9}\n[[body]]\n");
   expect_refused({"simulate", "--scene", stiff, "--frames", "2"}, {"stiff", "substeps"});
 }
 

@@ -39,12 +39,14 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   for (const softbody::Integrator& i : softbody::integrators()) {
     const auto curve = curves.find(std::string(i.key));
     ASSERT_NE(curve, curves.end()) << i.key;
-    ASSERT_GE(curve->second.size(), 3u) << i.key;
+    ASSERT_GE(curve->second.size(), i.automatic ? 1u : 3u) << i.key;
     Row first = curve->second.front(), last = curve->second.back();
-    EXPECT_EQ(first["substeps"], "1");
-    EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
+    if (!i.automatic) {
+      EXPECT_EQ(first["substeps"], "1");
+      EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
+    }
     EXPECT_EQ(last["blew_up"], "0") << i.key;
-    EXPECT_LT(number(last["error"]), 1e-2) << i.key;
+    EXPECT_LT(number(last["error"]), i.automatic ? 5e-2 : 1e-2) << i.key << ", which may stay with the bound's steps";
     EXPECT_GT(number(last["cpu_ms_alone"]), 0);
     EXPECT_EQ(last["linear_error"], "") << "it falls";
     EXPECT_LT(number(last["volume_error"]), 1e-2);
@@ -61,7 +63,7 @@ TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
   make("internal_damping = 5\n");
   EXPECT_NE(read_file(out_ / "solver.md").find("rk4 in floats"), std::string::npos);
   for (auto& [key, curve] : curves_of(out_ / "solver.csv")) {
-    EXPECT_LT(number(curve.back()["error"]), 1e-2) << key;
+    EXPECT_LT(number(curve.back()["error"]), key == "auto" ? 5e-2 : 1e-2) << key;
   }
 }
 

@@ -38,9 +38,10 @@ position = [0.1, 1.7, 0]
 
 TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   const json d = simulate({"--scene", "drop", "--frames", "5"});
-  EXPECT_EQ(keys(d), (Keys{"scene", "method", "plan", "warnings", "frames", "state_hash"}));
+  EXPECT_EQ(keys(d), (Keys{"scene", "method", "integrator", "plan", "warnings", "frames", "state_hash"}));
   EXPECT_EQ(d["scene"], "drop");
   EXPECT_EQ(d["method"], "multi-level-sb-exact");
+  EXPECT_EQ(d["integrator"]["key"], "auto");
   EXPECT_TRUE(std::regex_match(d["state_hash"].get<std::string>(), std::regex("[0-9a-f]{16}")));
   ASSERT_EQ(d["frames"].size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {

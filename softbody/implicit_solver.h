@@ -1,0 +1,116 @@
+#pragma once
+// One implicit step of up to eight bodies of one prototype, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
+// 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials") for the positions X with
+//
+//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 (f_other / m + gravity).
+//
+// Directions come from the last few gradients (L-BFGS) around the prefactored matrix of implicit_matrix.h; a step that
+// passes the minimum along its direction is shortened by the secant of the slopes, so that no energy, and no logarithm
+// of it, is needed. Contact with solids is implicit, too (Otaduy et al. 2009, "Implicit contact handling for deformable
+// objects"): rounds of this solve with the contact forces held, and of projected Gauss-Seidel for these forces,
+// Coulomb's cone included, on the compliance that the matrix gives the touching particles. Other bodies' shields enter
+// to first order.
+
+#include <array>
+#include <functional>
+#include <memory>
+
+#include "softbody/implicit_matrix.h"
+#include "softbody/kernels.h"
+
+namespace softbody {
+
+/// A field over the particles of a batch: component k of particle i of lane l at (k * particles + i) * lanes + l.
+using Lanes = LaneArray<double>;
+
+/// A solid's plane before a particle, and the force with which they meet.
+struct PlaneContact {
+  std::size_t at;  // particle * lanes + lane
+  double friction;
+  glm::dvec3 normal;      // unit
+  double need;            // m, that the particle has to move along the normal in this step
+  glm::dvec3 force{0.0};  // N
+};
+
+/// The shield between a particle of the batch and one of another body, to first order.
+struct LinearShield {
+  std::size_t at;  // particle * lanes + lane
+  glm::dvec3 normal;
+  double along, across;  // N/m, slopes of the force
+  glm::dvec3 partner;    // m, how far the other particle is taken to move
+};
+
+struct ImplicitProblem {
+  const Prototype& prototype;
+  const ImplicitMatrix& matrix;
+  double h;            // s
+  const float* moves;  // lanes values
+  const Lanes *x, *v;  // at the start
+  const Lanes* other;  // N, forces taken as constant
+  glm::dvec3 gravity;
+  std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
+  const std::vector<LinearShield>* shields;
+};
+
+class ImplicitSolver {
+ public:
+  ImplicitSolver(const Prototype& prototype, const Kernels& kernels);
+
+  /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
+  const Lanes& solve(const ImplicitProblem& problem);
+  bool converged(int lane) const { return converged_[std::size_t(lane)]; }
+  int iterations() const { return iterations_; }  // of the last solve
+
+ private:
+  using PerLane = std::array<double, lanes>;
+  static constexpr std::size_t history = 6;
+  static constexpr int most_iterations = 40, most_rounds = 8, iterations_of_round = 12, most_halvings = 6;
+  static constexpr int most_sweeps = 60;  // of Gauss-Seidel
+
+  Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
+  Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
+  glm::dvec3 read(const Lanes& v, std::size_t at) const { return {v[at], v[at + stride_], v[at + 2 * stride_]}; }
+  void add(Lanes& v, std::size_t at, const glm::dvec3& d) const {
+    v[at] += d.x, v[at + stride_] += d.y, v[at + 2 * stride_] += d.z;
+  }
+  void predict(const ImplicitProblem& p);
+  void stop_at_planes(const ImplicitProblem& p);
+  void fit_rotation(const ImplicitProblem& p);
+  void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
+  void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
+  glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
+  void press(const ImplicitProblem& p);
+  double press_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
+  bool minimise(const ImplicitProblem& p, int iterations);
+  void direction(const ImplicitProblem& p);
+  void apply_matrix(const ImplicitProblem& p, Lanes& q);
+  PerLane product(const Lanes& a, const Lanes& b) const;
+  void add_scaled(const PerLane& times, const Lanes& a, Lanes& y) const;
+  void line_search(const ImplicitProblem& p);
+  void stay(std::size_t lane);
+  void remember();
+
+  const Kernels& kernels_;
+  std::size_t particles_, stride_;  // stride: of a component
+  KernelSpringsOf<double> springs_;
+  std::vector<KernelTriangle> faces_;
+  Lanes target_, ahead_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
+  std::array<Lanes, history> steps_, changes_;
+  std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
+  std::size_t remembered_ = 0, newest_ = 0;
+  PerLane step_{}, reach_{};  // reach: m, of one iteration, the root of the mean square
+  alignas(64) double rotation_[9][lanes];
+  std::array<bool, lanes> converged_{};
+  int iterations_ = 0;
+};
+
+/// What a thread solves the batches of one prototype with.
+struct ImplicitWork {
+  ImplicitWork(const Prototype& prototype, const Kernels& kernels);
+  ImplicitSolver solver;
+  Lanes x, v, other, stage_x, stage_v, end_x, end_v;
+  std::vector<PlaneContact> planes;
+  std::vector<LinearShield> shields;
+};
+
+}  // namespace softbody

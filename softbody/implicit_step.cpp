@@ -1,0 +1,242 @@
+// Dynamics: implicit steps of a batch.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/dynamics.h"
+#include "softbody/integrator_steps.h"
+#include "softbody/rigid_motion.h"
+#include "softbody/solids.h"
+
+namespace softbody {
+namespace {
+
+const double stage = 1 - std::sqrt(0.5);  // gamma of Alexander's method: the length of both its stages over h
+
+}  // namespace
+
+void Dynamics::prepare_implicit(float h) {
+  constexpr std::size_t most_matrices = 32;
+  implicit_work_.resize(std::size_t(workers_.threads()));
+  for (const Batch* b : moving_) {
+    const Prototype* p = b->prototype.get();
+    for (auto& work : implicit_work_) work.try_emplace(p, *p, kernels_);
+    for (const double length : {double(h), stage * double(h)}) {
+      const auto known = [&](const MatrixOf& m) { return m.prototype == p && m.h == length; };
+      if (std::any_of(matrices_.begin(), matrices_.end(), known)) continue;
+      if (matrices_.size() >= most_matrices) matrices_.erase(matrices_.begin(), matrices_.begin() + most_matrices / 2);
+      matrices_.push_back({p, length, std::make_shared<const ImplicitMatrix>(*p, length)});
+    }
+  }
+}
+
+const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const {
+  return *std::find_if(matrices_.begin(), matrices_.end(), [&](const MatrixOf& m) {
+            return m.prototype == b.prototype.get() && m.h == h;
+          })->matrix;
+}
+
+/// The planes of near solids before each particle that may come near its plane in this step; which lanes touch one.
+std::array<bool, lanes> Dynamics::find_planes(const Batch& b, ImplicitWork& work, double h) const {
+  std::array<bool, lanes> touches{};
+  const std::size_t n = b.particles() * lanes;
+  const glm::dvec3 fall = has_gravity_ ? h * scene_.gravity : glm::dvec3(0.0);
+  work.planes.clear();
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (b.moves[lane] <= 0) continue;
+    for (const SolidArguments& s : b.near_solids)
+      for (std::size_t at = lane; at < n; at += lanes) {
+        const auto read = [&](const Lanes& field) { return glm::dvec3(field[at], field[at + n], field[at + 2 * n]); };
+        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]), v = read(work.v);
+        const auto surface = std::visit(
+            [&](const auto& shape) { return body::surface_at(shape, as_vec<double>(read(work.x) - place)); }, s.shape);
+        const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
+        // As the velocities' contact has it: outside, not below the surface; inside, a tenth of the way out.
+        double need = surface.distance > 0 ? -surface.distance : std::min(-0.1 * surface.distance, h);
+        const bool meets = h * glm::dot(v + fall, normal) < need;
+        if (const double approach = -glm::dot(v, normal); meets && s.restitution > 0 && approach > double(impact_speed))
+          need = std::max(need, h * double(s.restitution) * approach);
+        touches[lane] = touches[lane] || meets;
+        work.planes.push_back({at, double(s.friction), normal, need});
+      }
+    // Bodies deform: once one particle touches, all are watched.
+    if (!touches[lane])
+      while (!work.planes.empty() && work.planes.back().at % lanes == lane) work.planes.pop_back();
+  }
+  return touches;
+}
+
+std::array<bool, lanes> Dynamics::find_shields(const Batch& b, ImplicitWork& work, double h) const {
+  std::array<bool, lanes> touches{};
+  work.shields.clear();
+  if (shield_.pairs.empty()) return touches;
+  const Field<const float> x{x_[0].data(), x_[1].data(), x_[2].data()}, v{v_[0].data(), v_[1].data(), v_[2].data()};
+  const auto index = static_cast<std::size_t>(&b - batches_.data());
+  for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
+    const ShieldEnd& end = shield_.ends[e];
+    const ShieldPair& pair = shield_.pairs[end.pair];
+    const Shield::Slopes slopes = shield_.slopes(pair, x, v, float(h));
+    if (slopes.along <= 0) continue;
+    const std::size_t other = end.sign > 0 ? pair.slot_b : pair.slot_a, at = end.slot - b.base;
+    const bool moves = bodies_[end.sign > 0 ? pair.body_b : pair.body_a].moves();
+    const glm::dvec3 partner = moves ? h * glm::dvec3(v.x[other], v.y[other], v.z[other]) : glm::dvec3(0.0);
+    work.shields.push_back({at, glm::dvec3(pair.normal), double(slopes.along), double(slopes.across), partner});
+    touches[at % lanes] = true;
+  }
+  return touches;
+}
+
+/// Restores what the solve has lost of the lanes' linear and angular momentum, in end_v: springs and gas change
+/// neither, gravity and the other forces by as much as they act.
+void Dynamics::keep_momentum(const Batch& b, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const {
+  const std::size_t n = b.particles(), stride = n * lanes;
+  const double mass = b.prototype->particle_mass;
+  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!which[l] || b.moves[l] <= 0) continue;
+    const auto field = [&](const Lanes& f) {
+      return [&f, l, stride](std::size_t i) {
+        const std::size_t at = i * lanes + l;
+        return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
+      };
+    };
+    const auto x = field(work.x), v = field(work.v), other = field(work.other), end_x = field(work.end_x);
+    const RigidMotion before = rigid_motion(n, x, v), after = rigid_motion(n, end_x, field(work.end_v));
+    std::vector<glm::dvec3> force(n);
+    for (std::size_t i = 0; i < n; ++i) force[i] = other(i);
+    for (const LinearShield& s : work.shields) {
+      if (s.at % lanes != l) continue;
+      const std::size_t i = s.at / lanes;
+      const glm::dvec3 u = end_x(i) - x(i) - s.partner, along = glm::dot(u, s.normal) * s.normal;
+      force[i] -= s.along * along + s.across * (u - along);
+    }
+    glm::dvec3 total(0.0), torque(0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      total += force[i];
+      torque += glm::cross(end_x(i) - after.centre, force[i]);
+    }
+    const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + gravity) - after.velocity;
+    const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
+    for (std::size_t i = 0; i < n; ++i) {
+      const glm::dvec3 more = push + glm::cross(spin, end_x(i) - after.centre);
+      for (std::size_t k = 0; k < 3; ++k) work.end_v[i * lanes + l + k * stride] += more[int(k)];
+    }
+  }
+}
+
+/// end_x and end_v of the two stages; which lanes have converged.
+std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork& work, double h) const {
+  const double length = stage * h;
+  work.planes.clear();
+  work.shields.clear();
+  ImplicitProblem problem{*b.prototype, implicit_matrix(b, length),
+                          length,       b.moves.data(),
+                          &work.x,      &work.v,
+                          &work.other,  has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
+                          &work.planes, &work.shields};
+  std::array<bool, lanes> converged;
+  const Lanes& first = work.solver.solve(problem);
+  for (std::size_t i = 0; i < first.size(); ++i) {
+    const double v = (first[i] - work.x[i]) / length;
+    work.stage_x[i] = work.x[i] + (1 - stage) * h * v;
+    work.stage_v[i] = work.v[i] + (1 - stage) / stage * (v - work.v[i]);
+  }
+  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
+  problem.x = &work.stage_x;
+  problem.v = &work.stage_v;
+  work.end_x = work.solver.solve(problem);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
+  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
+  return converged;
+}
+
+void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
+  const double h = double(step);
+  ImplicitWork& work = implicit_work_[std::size_t(thread)].at(b.prototype.get());
+  const std::size_t stride = b.particles() * lanes;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < stride; ++i) {
+      work.x[k * stride + i] = double(x_[k][b.base + i]);
+      work.v[k * stride + i] = double(v_[k][b.base + i]);
+      work.other[k * stride + i] = double(f_[k][b.base + i]);
+    }
+  const std::array<bool, lanes> solid = find_planes(b, work, h);
+  std::array<bool, lanes> first_order = find_shields(b, work, h);
+  bool any_second = false, any_first = false;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    first_order[l] = first_order[l] || solid[l];
+    any_second = any_second || (!first_order[l] && b.moves[l] > 0);
+  }
+  Lanes x = work.x, v = work.v;
+  if (any_second) {
+    const auto planes = std::move(work.planes);
+    const auto shields = std::move(work.shields);
+    const std::array<bool, lanes> converged = second_order_step(b, work, h);
+    std::array<bool, lanes> free{};
+    for (std::size_t l = 0; l < lanes; ++l) {
+      free[l] = !first_order[l];
+      first_order[l] = first_order[l] || !converged[l];
+    }
+    keep_momentum(b, work, free, h);
+    x = work.end_x, v = work.end_v;
+    work.planes = planes;
+    work.shields = shields;
+  }
+  for (std::size_t l = 0; l < lanes; ++l) any_first = any_first || (first_order[l] && b.moves[l] > 0);
+  if (any_first) {
+    ImplicitProblem problem{*b.prototype,
+                            implicit_matrix(b, h),
+                            h,
+                            b.moves.data(),
+                            &work.x,
+                            &work.v,
+                            &work.other,
+                            has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
+                            &work.planes,
+                            &work.shields};
+    work.end_x = work.solver.solve(problem);
+    for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.x[i]) / h;
+    std::array<bool, lanes> apart{};
+    for (std::size_t l = 0; l < lanes; ++l) apart[l] = first_order[l] && !solid[l];
+    keep_momentum(b, work, apart, h);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (first_order[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
+    for (const PlaneContact& c : work.planes) {
+      const std::size_t l = c.at % lanes;
+      const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
+      b.impulse.x[l] += float(impulse.x), b.impulse.y[l] += float(impulse.y), b.impulse.z[l] += float(impulse.z);
+    }
+  }
+  Components &during = components(mean), &after = components(rest);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < stride; ++i) {
+      if (b.moves[i % lanes] <= 0) continue;
+      const double mean_v = (x[k * stride + i] - work.x[k * stride + i]) / h;
+      during[k][b.base + i] = float(mean_v);
+      after[k][b.base + i] = float(v[k * stride + i] - mean_v);
+    }
+}
+
+void implicit_step(Dynamics& dynamics, int thread, const Substep& substep) {
+  constexpr Quantity mean = scratch(0), rest = scratch(1);
+  dynamics.contact_forces(thread, substep.h);
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.other_forces(*batch);
+    dynamics.solve_implicit(thread, *batch, mean, rest, substep.h);
+  }
+  dynamics.barrier();  // nobody's shields are still to look at the velocities
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.copy(*batch, mean, velocities);
+    dynamics.pull(*batch, substep.h);
+  }
+  dynamics.contacts(thread, substep.h);
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.drift(*batch, substep.h);
+    dynamics.add(*batch, velocities, 1, rest);
+  }
+  dynamics.barrier();
+}
+
+}  // namespace softbody

@@ -1,0 +1,42 @@
+#pragma once
+// The rigid part of the motion of particles of equal mass.
+
+#include <cmath>
+
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
+namespace softbody {
+
+struct RigidMotion {
+  glm::dvec3 centre{0.0}, velocity{0.0};
+  glm::dvec3 momentum{0.0};  // angular, about the centre, for particles of mass 1
+  glm::dmat3 inertia{0.0};   // likewise
+  bool turns = false;        // false: a line or a point, which has no spin
+  glm::dvec3 spin{0.0};      // rad/s
+
+  glm::dvec3 spin_of(const glm::dvec3& angular) const {
+    return turns ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
+  }
+};
+
+/// position(i) and velocity(i) for i < count.
+template <class Position, class Velocity>
+RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity) {
+  RigidMotion m;
+  for (std::size_t i = 0; i < count; ++i) {
+    m.centre += position(i) / double(count);
+    m.velocity += velocity(i) / double(count);
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const glm::dvec3 r = position(i) - m.centre;
+    m.momentum += glm::cross(r, velocity(i) - m.velocity);
+    m.inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
+  }
+  m.turns = glm::determinant(m.inertia) > 1e-12 * m.inertia[0][0] * m.inertia[1][1] * m.inertia[2][2];
+  m.spin = m.spin_of(m.momentum);
+  return m;
+}
+
+}  // namespace softbody

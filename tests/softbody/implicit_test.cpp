@@ -1,0 +1,121 @@
+// Implicit steps: their matrix, stiffness without end, rest on a solid, exact equilibria, and what auto makes of them.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "softbody/implicit_matrix.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Its mean height when at rest is worked out by nobody: explicit steps of the same model say it.
+Scene ball_above_ground(double stiffness, double height) {
+  Material m = gas_ball();
+  m.structural = {stiffness, 0.1};
+  m.bend = {stiffness / 4, 0.1};
+  m.internal_damping = 10;
+  m.rebound_speed = 2;
+  m.rolling_resistance = 0.3;
+  Scene scene = lone_body(m);
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies[0].position = {0, height, 0};
+  scene.ground.emplace();
+  return scene;
+}
+
+TEST(ImplicitMatrix, ComplianceIsTheInverse) {
+  for (const bool closed : {true, false}) {
+    MeshSource source;
+    source.subdivisions = 1;
+    if (!closed) source.kind = "grid", source.columns = source.rows = 6;
+    Material m = gas_ball();
+    m.shear = {50, 0.1};
+    const auto p = make_prototype(source, m);
+    const ImplicitMatrix a(*p, 1e-2);
+    const auto n = static_cast<Index>(p->mesh.vertices.size());
+    ASSERT_EQ(a.turns(), closed);
+    // A unit force on one particle, through the factor and Sherman-Morrison, as a solve has it.
+    const Index j = n / 2;
+    Lanes x((closed ? 3 : 1) * n * lanes), room(x.size());
+    x[j * lanes] = 1;
+    kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
+    double along = 0;
+    for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
+    for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];
+    for (Index i = 0; i < n; ++i) {
+      const glm::dmat3 c = a.compliance(i, j), back = a.compliance(j, i);
+      EXPECT_NEAR(c[0][0], x[i * lanes], 1e-12);
+      EXPECT_NEAR(c[0][1], back[1][0], 1e-12) << "symmetric";
+      if (closed) {
+        EXPECT_NEAR(c[0][2], x[(2 * n + i) * lanes], 1e-12);
+      }
+    }
+    EXPECT_GT(glm::determinant(a.compliance(j, j)), 0);
+  }
+}
+
+TEST(Implicit, StandsAnyStiffnessAtSixtyFramesASecond) {
+  for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
+    World world(ball_above_ground(stiffness, 0.8), {.integrator = "implicit", .substeps = 1});
+    const double start = measure(world).energy;
+    for (int frame = 0; frame < 120; ++frame) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite) << stiffness << " N/m, frame " << frame;
+      ASSERT_LT(m.energy, start + 0.05 * 9.81) << stiffness << " N/m, frame " << frame;
+      ASSERT_LT(m.deepest_penetration, 1e-5) << stiffness << " N/m, frame " << frame;
+    }
+    const Measures end = measure(world);
+    EXPECT_LT(end.max_speed, 1e-2) << stiffness;
+    EXPECT_NEAR(end.volume_ratio_min, 1, 1e-2) << stiffness;
+  }
+}
+
+TEST(Implicit, RestsWhereExplicitStepsRest) {
+  double height[2], energy[2];
+  for (const bool implicit : {false, true}) {
+    World world(ball_above_ground(1e3, 0.55), {.integrator = implicit ? "implicit" : "semi-implicit-euler"});
+    run(world, 180);
+    height[implicit] = motion(world, 0).centre.y;
+    energy[implicit] = measure(world).energy;
+  }
+  EXPECT_NEAR(height[1], height[0], 1e-3 * 0.5);
+  EXPECT_NEAR(energy[1], energy[0], 1e-3 * 9.81 * 0.5);
+}
+
+TEST(Implicit, KeepsAnEquilibriumsVolumeToAMillionth) {
+  for (const double stiffness : {1e1, 1e3, 1e6}) {
+    Material m = gas_ball();
+    m.structural = {stiffness, 0.1};
+    m.bend = {stiffness / 4, 0.1};
+    World world(lone_body(m), {.integrator = "implicit", .substeps = 1});
+    run(world, 60);
+    EXPECT_NEAR(measure(world).volume_ratio_min, 1, 1e-6) << stiffness;
+  }
+}
+
+TEST(Auto, TakesExplicitSubstepsWhereTheyAreFew) {
+  World world(ball_above_ground(300, 0.8), {});
+  run(world, 5);
+  EXPECT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler");
+  EXPECT_FALSE(world.dynamics().why_integrator().empty());
+  World explicit_one(ball_above_ground(300, 0.8), {.integrator = "semi-implicit-euler"});
+  run(explicit_one, 5);
+  EXPECT_EQ(world.state_hash(), explicit_one.state_hash());
+}
+
+TEST(Auto, TurnsImplicitWhereItIsStiffAndRefusesNothing) {
+  World world(ball_above_ground(1e9, 0.8), {});
+  for (int frame = 0; frame < 60; ++frame) {
+    world.step();
+    ASSERT_TRUE(measure(world).finite) << frame;
+  }
+  EXPECT_EQ(world.dynamics().used_integrator().key, "implicit");
+  EXPECT_LT(world.profile().substeps, 100);
+}
+
+}  // namespace
+}  // namespace softbody::test
