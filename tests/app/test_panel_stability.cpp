@@ -1,0 +1,32 @@
+// The panel's choice of integrator and substeps.
+
+#include <gtest/gtest.h>
+
+#include "tests/app/panel_rig.h"
+
+namespace app {
+namespace {
+
+TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
+  PanelRig rig;
+  rig.click("Detection");  // folded, so that all has room
+  rig.click("Stability");
+  EXPECT_TRUE(rig.recorder.find("At work")) << "auto says what it takes";
+  for (const softbody::Integrator& i : softbody::integrators()) {
+    if (i.automatic) continue;
+    rig.click("Integrator");
+    rig.click(i.name);
+    EXPECT_EQ(rig.session.world().integrator().key, i.key);
+    EXPECT_FALSE(rig.session.world().substeps());
+    EXPECT_FALSE(rig.recorder.find("At work"));
+  }
+  rig.click("Fixed substeps");
+  EXPECT_TRUE(rig.session.world().substeps());
+  rig.drag("Substeps", -400);
+  EXPECT_EQ(rig.session.world().substeps(), 1);
+  rig.click("Fixed substeps");
+  EXPECT_FALSE(rig.session.world().substeps());
+}
+
+}  // namespace
+}  // namespace app
