@@ -96,9 +96,7 @@ void Dynamics::choose(double seconds) {
   constexpr double implicit_worth = 400;
   integrator_ = find_integrator("semi-implicit-euler");
   const Bound b = bound(seconds);
-  if (fixed_substeps_) {
-    why_ = "the number of substeps is given";
-  } else if (seconds / b.step <= implicit_worth * b.fewest) {
+  if (seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : implicit_worth * b.fewest)) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
   } else if (has_surface_) {
     why_ = "contact of the true surfaces wants short steps";
@@ -142,7 +140,8 @@ int Dynamics::advance(double seconds) {
     // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
     if (integrator_->implicit && !fixed) {
       double h = seconds;
-      while (h > left * (1 + 1e-9) || left / h < count * (1 - 1e-9)) h /= 2;
+      const auto fits = [&] { return std::abs(left / h - std::round(left / h)) < 1e-6; };
+      while (h > left * (1 + 1e-9) || left / h < count * (1 - 1e-9) || !fits()) h /= 2;
       count = int(std::lround(left / h));
     }
     int now = fixed ? count : std::min(count, substeps_within_bound(left / count));

@@ -76,7 +76,7 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 
 class Dynamics {
  public:
-  static constexpr std::size_t most_implicit_particles = 3000;  // of a body: the matrix grows faster than the springs
+  static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
       : scene_(scene), workers_(workers), kernels_(kernels(isa)) {}
@@ -246,12 +246,12 @@ class Dynamics {
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   /// What implicit steps keep: the matrices used last, and one workspace a prototype for each thread.
   struct MatrixOf {
-    const Prototype* prototype;
+    std::shared_ptr<const Prototype> prototype;
     double h;
     std::shared_ptr<const ImplicitMatrix> matrix;
   };
   std::vector<MatrixOf> matrices_;
-  std::vector<std::map<const Prototype*, ImplicitWork>> implicit_work_;
+  std::vector<std::map<std::shared_ptr<const Prototype>, ImplicitWork>> implicit_work_;
   Shield shield_;
   SurfaceContact surface_;
   bool has_surface_ = false, self_contact_ = false;

@@ -30,7 +30,7 @@ void Dynamics::add(Batch& b, Quantity to, float times, Quantity q) {
   for (std::size_t k = 0; k < 3; ++k) {
     const float* source = components(q)[k].data();
     float* target = components(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] += moves * times * source[i]; });
+    each_value(b, [=](std::size_t i, float moves) { target[i] += moves > 0 ? times * source[i] : 0; });
   }
 }
 

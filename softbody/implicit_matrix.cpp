@@ -114,14 +114,16 @@ ImplicitMatrix::~ImplicitMatrix() = default;
 
 void ImplicitMatrix::solve_columns(Index j) const {
   const std::size_t n = shape_.size(), axes = turns_ ? 3 : 1;
+  std::vector<double> columns;
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const std::size_t unknown = axis * n + j;
     Eigen::VectorXd column = Eigen::VectorXd::Unit(Eigen::Index(axes * n), Eigen::Index(unknown));
     column = factored_->llt.solve(column).eval();
     for (std::size_t i = 0; i < gas_.size(); ++i)
       column[Eigen::Index(i)] -= gas_weight_ * gas_response_[unknown] * gas_response_[i];
-    factored_->columns[j].insert(factored_->columns[j].end(), column.begin(), column.end());
+    columns.insert(columns.end(), column.begin(), column.end());
   }
+  factored_->columns[j] = std::move(columns);
 }
 
 glm::dmat3 ImplicitMatrix::compliance(Index i, Index j) const {

@@ -14,8 +14,6 @@ namespace softbody {
 
 class ImplicitMatrix {
  public:
-  static constexpr std::size_t most_particles = 20'000;  // the factor of more takes gigabytes
-
   /// h in s. Throws SceneError if the matrix cannot be factored.
   ImplicitMatrix(const Prototype& prototype, double h);
   ~ImplicitMatrix();

@@ -18,14 +18,14 @@ ImplicitSolver::ImplicitSolver(const Prototype& p, const Kernels& kernels)
     for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
   if (p.has_gas)
     for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
-  for (Lanes* v : {&target_, &ahead_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &room_})
+  for (Lanes* v : {&target_, &goal_, &ahead_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &room_})
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * stride_);
 }
 
 ImplicitWork::ImplicitWork(const Prototype& prototype, const Kernels& kernels) : solver(prototype, kernels) {
-  for (Lanes* lane_field : {&x, &v, &other, &stage_x, &stage_v, &end_x, &end_v})
+  for (Lanes* lane_field : {&x, &v, &stage_x, &stage_v, &end_x, &end_v})
     lane_field->resize(3 * prototype.mesh.vertices.size() * lanes);
 }
 
@@ -41,10 +41,10 @@ void ImplicitSolver::add_scaled(const PerLane& times, const Lanes& a, Lanes& y) 
 
 /// Where a rigid motion would lead: what is stiff ends there but for little, and what is soft is there after one step.
 void ImplicitSolver::predict(const ImplicitProblem& p) {
-  const double h = p.h, share = h * h / p.prototype.particle_mass;
+  const double h = p.h;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = k * stride_; i < (k + 1) * stride_; ++i)
-      target_[i] = (*p.x)[i] + h * (*p.v)[i] + share * (*p.other)[i] + h * h * p.gravity[int(k)];
+      target_[i] = (*p.x)[i] + h * (*p.v)[i] + h * h * p.gravity[int(k)];
   x_ = *p.x;
   for (std::size_t l = 0; l < lanes; ++l) {
     if (p.moves[l] <= 0) continue;
@@ -89,6 +89,23 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
   }
 }
 
+/// Where the shape that the body keeps would have its particles, were it as predicted.
+void ImplicitSolver::place_goal(const ImplicitProblem& p) {
+  const std::vector<glm::dvec3>& shape = p.prototype.goal;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    glm::dvec3 centre(0.0);
+    for (std::size_t i = 0; i < particles_; ++i) centre += read(x_, i * lanes + l) / double(particles_);
+    glm::dmat3 covariance(0.0);
+    for (std::size_t i = 0; i < particles_; ++i)
+      covariance += glm::outerProduct(read(x_, i * lanes + l) - centre, shape[i]);
+    const glm::dmat3 r = best_rotation(covariance);
+    for (std::size_t i = 0; i < particles_; ++i) {
+      const glm::dvec3 place = centre + r * shape[i];
+      for (std::size_t k = 0; k < 3; ++k) goal_[i * lanes + l + k * stride_] = place[int(k)];
+    }
+  }
+}
+
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
   kernels_.implicit_springs(springs_, 1 / p.h, field(x), field(*p.x), field(ahead_), field(g));
@@ -97,6 +114,10 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
     kernels_.volume_double(faces_, field(x), volume);
     for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.prototype.gas.pressure(volume[l]) - p.prototype.gas.ambient;
     kernels_.pressure_double(faces_, field(x), gauge, field(g));
+  }
+  if (!p.prototype.goal.empty()) {
+    const double pull = shape_stiffness(p.prototype);
+    for (std::size_t i = 0; i < 3 * stride_; ++i) g[i] += pull * (goal_[i] - x[i]);
   }
   add_contact_forces(p, x, g);
   const double inertia = p.prototype.particle_mass / (p.h * p.h);
@@ -117,10 +138,19 @@ glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneCo
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, read(x, c.at) - read(*p.x, c.at)));
-  for (const LinearShield& s : *p.shields) {
-    const glm::dvec3 u = read(x, s.at) - read(*p.x, s.at) - s.partner, along = glm::dot(u, s.normal) * s.normal;
-    add(f, s.at, -(s.along * along + s.across * (u - along)));
-  }
+  for (const LinearShield& s : *p.shields) add(f, s.at, s.after(read(x, s.at) - read(*p.x, s.at)));
+}
+
+glm::dvec3 LinearShield::after(const glm::dvec3& moved) const {
+  const glm::dvec3 apart = moved - partner, faster = apart - as_now;
+  const double push = glm::dot(force, normal);
+  const double press = std::max(
+      0.0, push - double(slopes.spring) * glm::dot(apart, normal) - double(slopes.damper) * glm::dot(faster, normal));
+  const auto across = [this](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
+  // The friction spring of the start has slipped for this step already, see Shield::evaluate().
+  glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
+  if (const double size = glm::length(drag), limit = friction * press; size > limit) drag *= limit / size;
+  return press * normal + drag;
 }
 
 /// q = A^-1 q
@@ -166,9 +196,10 @@ void ImplicitSolver::direction(const ImplicitProblem& p) {
 void ImplicitSolver::line_search(const ImplicitProblem& p) {
   const PerLane slope = product(gradient_, direction_), length2 = product(direction_, direction_);
   for (std::size_t l = 0; l < lanes; ++l) {
-    // No particle is to leap over its body: beyond lie other slopes. A slope upwards: at the minimum, or lost.
+    // No particle is to leap over its body: beyond lie other slopes. A slope upwards: at the minimum, or lost. What has
+    // converged stays, whatever the others in the batch still need.
     step_[l] = std::min(1.0, reach_[l] / std::sqrt(length2[l] / double(particles_)));
-    if (!(slope[l] < 0) || !std::isfinite(slope[l])) step_[l] = 0;
+    if (!(slope[l] < 0) || !std::isfinite(slope[l]) || converged_[l]) step_[l] = 0;
   }
   for (int halving = 0;; ++halving) {
     trial_ = x_;
@@ -215,6 +246,7 @@ void ImplicitSolver::remember() {
 bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
   const double enough = 1e-9 * p.prototype.radius;
   gradient(p, x_, gradient_);
+  converged_.fill(false);
   for (int i = 0; i < iterations; ++i) {
     ++iterations_;
     direction(p);
@@ -238,6 +270,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   iterations_ = 0;
   predict(p);
   if (p.matrix.turns()) fit_rotation(p);
+  if (!p.prototype.goal.empty()) place_goal(p);
   if (p.planes->empty()) {
     minimise(p, most_iterations);
     return x_;

@@ -2,7 +2,7 @@
 // One implicit step of up to eight bodies of one prototype, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
 // 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials") for the positions X with
 //
-//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 (f_other / m + gravity).
+//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 gravity.
 //
 // Directions come from the last few gradients (L-BFGS) around the prefactored matrix of implicit_matrix.h; a step that
 // passes the minimum along its direction is shortened by the secant of the slopes, so that no energy, and no logarithm
@@ -17,6 +17,7 @@
 
 #include "softbody/implicit_matrix.h"
 #include "softbody/kernels.h"
+#include "softbody/shield.h"
 
 namespace softbody {
 
@@ -26,7 +27,7 @@ using Lanes = LaneArray<double>;
 /// A solid's plane before a particle, and the force with which they meet.
 struct PlaneContact {
   std::size_t at;  // particle * lanes + lane
-  double friction;
+  double friction, restitution;
   glm::dvec3 normal;      // unit
   double need;            // m, that the particle has to move along the normal in this step
   glm::dvec3 force{0.0};  // N
@@ -34,10 +35,16 @@ struct PlaneContact {
 
 /// The shield between a particle of the batch and one of another body, to first order.
 struct LinearShield {
-  std::size_t at;  // particle * lanes + lane
-  glm::dvec3 normal;
-  double along, across;  // N/m, slopes of the force
-  glm::dvec3 partner;    // m, how far the other particle is taken to move
+  std::size_t at;     // particle * lanes + lane
+  glm::dvec3 normal;  // unit, towards the particle
+  Shield::Slopes slopes;
+  glm::dvec3 force{0.0};  // N, on it at the start
+  double friction = 0;
+  glm::dvec3 partner{0.0};  // m, how far the other particle is taken to move
+  glm::dvec3 as_now{0.0};   // m, how far the two would move apart at the velocities of the start: `force` knows of it
+
+  /// N, when the particle has moved by u. It never pulls, and friction keeps to its limit.
+  glm::dvec3 after(const glm::dvec3& u) const;
 };
 
 struct ImplicitProblem {
@@ -46,7 +53,6 @@ struct ImplicitProblem {
   double h;            // s
   const float* moves;  // lanes values
   const Lanes *x, *v;  // at the start
-  const Lanes* other;  // N, forces taken as constant
   glm::dvec3 gravity;
   std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
   const std::vector<LinearShield>* shields;
@@ -76,6 +82,7 @@ class ImplicitSolver {
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
   void fit_rotation(const ImplicitProblem& p);
+  void place_goal(const ImplicitProblem& p);
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
@@ -94,7 +101,7 @@ class ImplicitSolver {
   std::size_t particles_, stride_;  // stride: of a component
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
-  Lanes target_, ahead_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
+  Lanes target_, goal_, ahead_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
   std::array<Lanes, history> steps_, changes_;
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;
@@ -108,7 +115,7 @@ class ImplicitSolver {
 struct ImplicitWork {
   ImplicitWork(const Prototype& prototype, const Kernels& kernels);
   ImplicitSolver solver;
-  Lanes x, v, other, stage_x, stage_v, end_x, end_v;
+  Lanes x, v, stage_x, stage_v, end_x, end_v;
   std::vector<PlaneContact> planes;
   std::vector<LinearShield> shields;
 };

@@ -17,16 +17,29 @@ const double stage = 1 - std::sqrt(0.5);  // gamma of Alexander's method: the le
 
 }  // namespace
 
+/// What no body needs any more goes: prototypes that are no longer there, and of the others' matrices the oldest.
 void Dynamics::prepare_implicit(float h) {
-  constexpr std::size_t most_matrices = 32;
+  constexpr std::size_t most_lengths = 8;  // kept of one prototype, two of them in use
+  const auto gone = [this](const std::shared_ptr<const Prototype>& p) {
+    return std::none_of(batches_.begin(), batches_.end(), [&](const Batch& b) { return b.prototype == p; });
+  };
+  std::erase_if(matrices_, [&](const MatrixOf& m) { return gone(m.prototype); });
   implicit_work_.resize(std::size_t(workers_.threads()));
+  for (auto& of_thread : implicit_work_) std::erase_if(of_thread, [&](const auto& entry) { return gone(entry.first); });
   for (const Batch* b : moving_) {
-    const Prototype* p = b->prototype.get();
-    for (auto& work : implicit_work_) work.try_emplace(p, *p, kernels_);
+    const auto& p = b->prototype;
+    for (int thread = 0; thread < active_threads_; ++thread)
+      implicit_work_[std::size_t(thread)].try_emplace(p, *p, kernels_);
     for (const double length : {double(h), stage * double(h)}) {
-      const auto known = [&](const MatrixOf& m) { return m.prototype == p && m.h == length; };
-      if (std::any_of(matrices_.begin(), matrices_.end(), known)) continue;
-      if (matrices_.size() >= most_matrices) matrices_.erase(matrices_.begin(), matrices_.begin() + most_matrices / 2);
+      const auto of_p = [&](const MatrixOf& m) { return m.prototype == p; };
+      const auto known =
+          std::find_if(matrices_.begin(), matrices_.end(), [&](const MatrixOf& m) { return of_p(m) && m.h == length; });
+      if (known != matrices_.end()) {
+        std::rotate(known, known + 1, matrices_.end());  // the last ones in use stand last
+        continue;
+      }
+      if (std::size_t(std::count_if(matrices_.begin(), matrices_.end(), of_p)) >= most_lengths)
+        matrices_.erase(std::find_if(matrices_.begin(), matrices_.end(), of_p));
       matrices_.push_back({p, length, std::make_shared<const ImplicitMatrix>(*p, length)});
     }
   }
@@ -34,7 +47,7 @@ void Dynamics::prepare_implicit(float h) {
 
 const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const {
   return *std::find_if(matrices_.begin(), matrices_.end(), [&](const MatrixOf& m) {
-            return m.prototype == b.prototype.get() && m.h == h;
+            return m.prototype == b.prototype && m.h == h;
           })->matrix;
 }
 
@@ -59,7 +72,7 @@ std::array<bool, lanes> Dynamics::find_planes(const Batch& b, ImplicitWork& work
         if (const double approach = -glm::dot(v, normal); meets && s.restitution > 0 && approach > double(impact_speed))
           need = std::max(need, h * double(s.restitution) * approach);
         touches[lane] = touches[lane] || meets;
-        work.planes.push_back({at, double(s.friction), normal, need});
+        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need});
       }
     // Bodies deform: once one particle touches, all are watched.
     if (!touches[lane])
@@ -73,16 +86,21 @@ std::array<bool, lanes> Dynamics::find_shields(const Batch& b, ImplicitWork& wor
   work.shields.clear();
   if (shield_.pairs.empty()) return touches;
   const Field<const float> x{x_[0].data(), x_[1].data(), x_[2].data()}, v{v_[0].data(), v_[1].data(), v_[2].data()};
+  const auto velocity = [&](std::size_t slot) { return glm::dvec3(v.x[slot], v.y[slot], v.z[slot]); };
   const auto index = static_cast<std::size_t>(&b - batches_.data());
   for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
     const ShieldEnd& end = shield_.ends[e];
     const ShieldPair& pair = shield_.pairs[end.pair];
     const Shield::Slopes slopes = shield_.slopes(pair, x, v, float(h));
-    if (slopes.along <= 0) continue;
+    if (slopes.spring <= 0) continue;
     const std::size_t other = end.sign > 0 ? pair.slot_b : pair.slot_a, at = end.slot - b.base;
     const bool moves = bodies_[end.sign > 0 ? pair.body_b : pair.body_a].moves();
-    const glm::dvec3 partner = moves ? h * glm::dvec3(v.x[other], v.y[other], v.z[other]) : glm::dvec3(0.0);
-    work.shields.push_back({at, glm::dvec3(pair.normal), double(slopes.along), double(slopes.across), partner});
+    LinearShield s{.at = at, .normal = double(end.sign) * glm::dvec3(pair.normal), .slopes = slopes};
+    s.force = double(end.sign) * glm::dvec3(shield_.force[end.pair]);
+    s.friction = double(pair.friction);
+    s.partner = moves ? h * velocity(other) : glm::dvec3(0.0);
+    s.as_now = h * velocity(end.slot) - s.partner;
+    work.shields.push_back(s);
     touches[at % lanes] = true;
   }
   return touches;
@@ -102,20 +120,14 @@ void Dynamics::keep_momentum(const Batch& b, ImplicitWork& work, const std::arra
         return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
       };
     };
-    const auto x = field(work.x), v = field(work.v), other = field(work.other), end_x = field(work.end_x);
+    const auto x = field(work.x), v = field(work.v), end_x = field(work.end_x);
     const RigidMotion before = rigid_motion(n, x, v), after = rigid_motion(n, end_x, field(work.end_v));
-    std::vector<glm::dvec3> force(n);
-    for (std::size_t i = 0; i < n; ++i) force[i] = other(i);
+    glm::dvec3 total(0.0), torque(0.0);
     for (const LinearShield& s : work.shields) {
       if (s.at % lanes != l) continue;
-      const std::size_t i = s.at / lanes;
-      const glm::dvec3 u = end_x(i) - x(i) - s.partner, along = glm::dot(u, s.normal) * s.normal;
-      force[i] -= s.along * along + s.across * (u - along);
-    }
-    glm::dvec3 total(0.0), torque(0.0);
-    for (std::size_t i = 0; i < n; ++i) {
-      total += force[i];
-      torque += glm::cross(end_x(i) - after.centre, force[i]);
+      const glm::dvec3 force = s.after(end_x(s.at / lanes) - x(s.at / lanes));
+      total += force;
+      torque += glm::cross(end_x(s.at / lanes) - after.centre, force);
     }
     const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + gravity) - after.velocity;
     const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
@@ -131,11 +143,15 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork
   const double length = stage * h;
   work.planes.clear();
   work.shields.clear();
-  ImplicitProblem problem{*b.prototype, implicit_matrix(b, length),
-                          length,       b.moves.data(),
-                          &work.x,      &work.v,
-                          &work.other,  has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
-                          &work.planes, &work.shields};
+  ImplicitProblem problem{*b.prototype,
+                          implicit_matrix(b, length),
+                          length,
+                          b.moves.data(),
+                          &work.x,
+                          &work.v,
+                          has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
+                          &work.planes,
+                          &work.shields};
   std::array<bool, lanes> converged;
   const Lanes& first = work.solver.solve(problem);
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -154,13 +170,12 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork
 
 void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
   const double h = double(step);
-  ImplicitWork& work = implicit_work_[std::size_t(thread)].at(b.prototype.get());
+  ImplicitWork& work = implicit_work_[std::size_t(thread)].at(b.prototype);
   const std::size_t stride = b.particles() * lanes;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < stride; ++i) {
       work.x[k * stride + i] = double(x_[k][b.base + i]);
       work.v[k * stride + i] = double(v_[k][b.base + i]);
-      work.other[k * stride + i] = double(f_[k][b.base + i]);
     }
   const std::array<bool, lanes> solid = find_planes(b, work, h);
   std::array<bool, lanes> first_order = find_shields(b, work, h);
@@ -192,7 +207,7 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
                             b.moves.data(),
                             &work.x,
                             &work.v,
-                            &work.other,
+
                             has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
                             &work.planes,
                             &work.shields};
@@ -207,6 +222,7 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       const std::size_t l = c.at % lanes;
       const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
       b.impulse.x[l] += float(impulse.x), b.impulse.y[l] += float(impulse.y), b.impulse.z[l] += float(impulse.z);
+      b.returned[l] += float(c.restitution * glm::length(impulse));
     }
   }
   Components &during = components(mean), &after = components(rest);
@@ -223,7 +239,6 @@ void implicit_step(Dynamics& dynamics, int thread, const Substep& substep) {
   constexpr Quantity mean = scratch(0), rest = scratch(1);
   dynamics.contact_forces(thread, substep.h);
   for (Batch* batch : dynamics.share(thread)) {
-    dynamics.other_forces(*batch);
     dynamics.solve_implicit(thread, *batch, mean, rest, substep.h);
   }
   dynamics.barrier();  // nobody's shields are still to look at the velocities

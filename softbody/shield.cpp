@@ -53,14 +53,14 @@ Shield::Slopes Shield::slopes(const ShieldPair& p, Field<const float> x, Field<c
   const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
   const float s = glm::dot(d, p.normal), beyond = std::min(s, 0.0f);
   const float weight = 1 - (glm::dot(d, d) - beyond * beyond) / (h * h);
-  if (weight <= 0) return {0, 0};
+  if (weight <= 0) return {};
   const float separating = glm::dot(read(v, p.slot_a) - read(v, p.slot_b), p.normal);
   const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);
   const float depth = std::min(h - s, h);
   // The weight falls with s, too: by 2 s / h^2 times a depth of h - s, together at most a half.
   const float spring = p.stiffness * damping * (weight + 0.5f);
   const float damper = p.stiffness * weight * depth / (rebound_speed * seconds);
-  return {spring + damper, p.stiffness * (1 + 0.5f * h / (rebound_speed * seconds))};
+  return {spring, damper, p.stiffness, 0.5f * p.stiffness * h / (rebound_speed * seconds)};
 }
 
 void Shield::inherit(std::span<const ShieldPair> before) {

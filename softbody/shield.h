@@ -56,7 +56,8 @@ struct Shield {
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
-    float along, across;
+    float spring, damper;                // along n
+    float across_spring, across_damper;  // while it sticks
   };
   Slopes slopes(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.

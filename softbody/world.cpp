@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <sstream>
+#include <utility>
 
 #include "softbody/measures.h"
 #include "softbody/world_state.h"
@@ -75,6 +76,11 @@ void World::State::set_integrator() {
 }
 
 void World::State::check_stability(const Prototype& p) const {
+  const auto particles = p.mesh.vertices.size();
+  if (find_integrator(options.integrator)->implicit && particles > Dynamics::most_implicit_particles)
+    throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
+                     " vertices has too large a matrix for implicit steps (at most " +
+                     std::to_string(Dynamics::most_implicit_particles) + " vertices); choose another integrator");
   if (options.substeps) return;
   const double steps = substeps(p, shield);
   if (steps <= max_substeps) return;
@@ -218,8 +224,15 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
 
 void World::set_contact_surface(ContactSurface surface) {
   State& s = *state_;
-  s.scene.contact_surface = surface;
+  const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
   s.replan();
+  try {  // for surfaces there are no implicit steps in reserve
+    for (const auto& p : s.prototypes.all()) s.check_stability(*p);
+  } catch (const SceneError&) {
+    s.scene.contact_surface = before;
+    s.replan();
+    throw;
+  }
   // Surfaces come closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
   if (surface == ContactSurface::surfaces && s.frame > 0) s.shield = 0;
   s.wake_all();

@@ -90,7 +90,7 @@ class World {
   void set_integrator(std::string_view key, std::optional<int> substeps);
   const Integrator& integrator() const;
   std::optional<int> substeps() const;
-  void set_contact_surface(ContactSurface surface);
+  void set_contact_surface(ContactSurface surface);  // throws SceneError as the constructor
   void set_collision(const collide::Settings& settings, bool default_cell_size);
 
   // The current state.
