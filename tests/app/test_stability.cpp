@@ -102,7 +102,7 @@ TEST(StepLight, IsGreenAmberAndRed) {
 
 TEST(StepLight, ComparesTheStepWithTheBound) {
   for (const std::optional<int> substeps : {std::optional<int>(), std::optional(1)}) {
-    softbody::World world(touching_pair(), {.substeps = substeps});
+    softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler", .substeps = substeps});
     const int needed = world.dynamics().substeps(world.frame_time());
     ASSERT_GT(needed, 1);
     StabilityWatch watch;
