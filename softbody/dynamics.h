@@ -140,7 +140,7 @@ class Dynamics {
     if (grab_) grab_impulse(batch, h);
   }
   /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
-  /// be added to them after drift(). Wants other_forces() and the positions and velocities of all bodies.
+  /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all bodies.
   void solve_implicit(int thread, Batch& batch, Quantity mean, Quantity rest, float h);
   void copy(Batch& batch, Quantity from, Quantity to);           // to = from
   void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q

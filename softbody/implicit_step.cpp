@@ -15,6 +15,11 @@ namespace {
 
 const double stage = 1 - std::sqrt(0.5);  // gamma of Alexander's method: the length of both its stages over h
 
+ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, const glm::dvec3& gravity,
+                           ImplicitWork& work) {
+  return {*b.prototype, matrix, h, b.moves.data(), &work.x, &work.v, gravity, &work.planes, &work.shields};
+}
+
 }  // namespace
 
 /// What no body needs any more goes: prototypes that are no longer there, and of the others' matrices the oldest.
@@ -143,15 +148,8 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork
   const double length = stage * h;
   work.planes.clear();
   work.shields.clear();
-  ImplicitProblem problem{*b.prototype,
-                          implicit_matrix(b, length),
-                          length,
-                          b.moves.data(),
-                          &work.x,
-                          &work.v,
-                          has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
-                          &work.planes,
-                          &work.shields};
+  ImplicitProblem problem =
+      problem_of(b, implicit_matrix(b, length), length, has_gravity_ ? scene_.gravity : glm::dvec3(0.0), work);
   std::array<bool, lanes> converged;
   const Lanes& first = work.solver.solve(problem);
   for (std::size_t i = 0; i < first.size(); ++i) {
@@ -201,16 +199,8 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
   }
   for (std::size_t l = 0; l < lanes; ++l) any_first = any_first || (first_order[l] && b.moves[l] > 0);
   if (any_first) {
-    ImplicitProblem problem{*b.prototype,
-                            implicit_matrix(b, h),
-                            h,
-                            b.moves.data(),
-                            &work.x,
-                            &work.v,
-
-                            has_gravity_ ? scene_.gravity : glm::dvec3(0.0),
-                            &work.planes,
-                            &work.shields};
+    ImplicitProblem problem =
+        problem_of(b, implicit_matrix(b, h), h, has_gravity_ ? scene_.gravity : glm::dvec3(0.0), work);
     work.end_x = work.solver.solve(problem);
     for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.x[i]) / h;
     std::array<bool, lanes> apart{};
