@@ -5,13 +5,13 @@
 #include <iostream>
 #include <new>
 
-#include "app/detect.h"
-#include "app/list.h"
-#include "app/options.h"
-#include "app/report.h"
-#include "app/simulate.h"
+#include "app/command/detect.h"
+#include "app/command/list.h"
+#include "app/command/options.h"
+#include "app/command/simulate.h"
+#include "app/report/report.h"
 #if SBCOLLIDE_GRAPHICS
-#include "app/demo.h"
+#include "app/demo/demo.h"
 #endif
 
 namespace {

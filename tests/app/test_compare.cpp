@@ -1,4 +1,4 @@
-#include "app/compare.h"
+#include "app/compare/compare.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <chrono>
 #include <set>
 
-#include "app/compare_worker.h"
+#include "app/demo/compare_worker.h"
 #include "softbody/world.h"
 #include "tests/app/scenes.h"
 

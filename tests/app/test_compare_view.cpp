@@ -2,7 +2,7 @@
 #include <chrono>
 #include <thread>
 
-#include "app/shortcuts.h"
+#include "app/demo/shortcuts.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>

@@ -1,8 +1,8 @@
-#include "app/forecast.h"
+#include "app/compare/forecast.h"
 
 #include <gtest/gtest.h>
 
-#include "app/compare.h"
+#include "app/compare/compare.h"
 #include "softbody/world.h"
 #include "tests/app/scenes.h"
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "app/hash_grid.h"
+#include "app/panel/hash_grid.h"
 #include "collide/detector.h"
 
 namespace app {

@@ -9,7 +9,7 @@
 #include <sstream>
 #include <thread>
 
-#include "app/import.h"
+#include "app/demo/import.h"
 #include "softbody/measures.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"

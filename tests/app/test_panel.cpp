@@ -2,8 +2,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "app/panel.h"
-#include "app/shortcuts.h"
+#include "app/demo/shortcuts.h"
+#include "app/panel/panel.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {

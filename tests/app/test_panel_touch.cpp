@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/shortcuts.h"
+#include "app/demo/shortcuts.h"
 #include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
 

@@ -7,7 +7,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/capture.h"
+#include "app/demo/capture.h"
 #include "engine/image.h"
 #include "engine/resources.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
-#include "app/preferences.h"
+#include "app/demo/preferences.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

@@ -4,8 +4,8 @@
 
 #include <cstdio>
 
-#include "app/options.h"
-#include "app/session.h"
+#include "app/command/options.h"
+#include "app/demo/session.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "app/scene_mouse.h"
+#include "app/demo/scene_mouse.h"
 #include "tests/app/hands.h"
 
 namespace app {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <glm/geometric.hpp>
 
-#include "app/capture.h"
-#include "app/palette.h"
-#include "app/scene_view.h"
-#include "app/session.h"
+#include "app/demo/capture.h"
+#include "app/demo/session.h"
+#include "app/view/palette.h"
+#include "app/view/scene_view.h"
 #include "engine/gl.h"
 #include "engine/headless.h"
 #include "engine/resources.h"

@@ -1,4 +1,4 @@
-#include "app/session.h"
+#include "app/demo/session.h"
 
 #include <gtest/gtest.h>
 

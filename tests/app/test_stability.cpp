@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "app/session.h"
-#include "app/status.h"
+#include "app/demo/session.h"
+#include "app/demo/status.h"
 #include "tests/app/scenes.h"
 
 namespace app {

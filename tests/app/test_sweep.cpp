@@ -1,9 +1,9 @@
-#include "app/sweep.h"
+#include "app/compare/sweep.h"
 
 #include <gtest/gtest.h>
 
-#include "app/compare.h"
-#include "app/heap.h"
+#include "app/compare/compare.h"
+#include "app/compare/heap.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "app/shortcuts.h"
+#include "app/demo/shortcuts.h"
 #include "tests/app/panel_rig.h"
 
 #include <GLFW/glfw3.h>

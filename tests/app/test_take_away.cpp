@@ -8,8 +8,8 @@
 #include <set>
 #include <thread>
 
-#include "app/obj.h"
-#include "app/take_away.h"
+#include "app/demo/take_away.h"
+#include "app/files/obj.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

@@ -1,4 +1,4 @@
-#include "app/true_surfaces.h"
+#include "app/demo/true_surfaces.h"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/session.h"
+#include "app/demo/session.h"
 #include "tests/app/scenes.h"
 
 namespace app {

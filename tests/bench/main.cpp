@@ -6,8 +6,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/options.h"
-#include "app/output_file.h"
+#include "app/command/options.h"
+#include "app/files/output_file.h"
 #include "tests/bench/piles.h"
 #include "tests/bench/report.h"
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <map>
 
-#include "app/options.h"
-#include "app/output_file.h"
+#include "app/command/options.h"
+#include "app/files/output_file.h"
 #include "softbody/mesh.h"
 
 namespace bench {

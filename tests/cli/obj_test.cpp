@@ -5,7 +5,7 @@
 #include <cmath>
 #include <random>
 
-#include "app/obj.h"
+#include "app/files/obj.h"
 #include "tests/cli/detect_rig.h"
 
 namespace cli::test {

@@ -1,12 +1,12 @@
 // Files that are written whole or not at all.
 
-#include "app/output_file.h"
+#include "app/files/output_file.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "app/options.h"
+#include "app/command/options.h"
 #include "tests/cli/process.h"
 
 namespace cli::test {

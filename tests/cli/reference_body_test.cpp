@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/reference_run.h"
+#include "app/reference/reference_run.h"
 
 namespace app::test {
 namespace {

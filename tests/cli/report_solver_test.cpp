@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/report_solver_results.h"
+#include "app/report/solver/results.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {

@@ -1,6 +1,6 @@
 // The criteria of `report stability` on made-up runs: each of them passes what is right and fails what is not.
 
-#include "app/stability_criteria.h"
+#include "app/reference/stability_criteria.h"
 
 #include <gtest/gtest.h>
 

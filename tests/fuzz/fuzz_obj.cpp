@@ -1,6 +1,6 @@
 // Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
 
-#include "app/obj.h"
+#include "app/files/obj.h"
 #include "softbody/mesh_import.h"
 #include "text_file.h"
 

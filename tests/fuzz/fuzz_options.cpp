@@ -4,7 +4,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "app/options.h"
+#include "app/command/options.h"
 
 namespace {
 

@@ -1,0 +1,126 @@
+#include "app/compare/compare.h"
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+#include "app/compare/score.h"
+
+namespace app {
+namespace {
+
+double now_ms() {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, CompareRow row) {
+  row.scored = true;
+  row.counters = found.counters;
+  row.coverage = found.coverage;
+  row.contacts = found.contacts.size();
+  Score against = score(found.contacts, truth);
+  row.missed = std::move(against.missed);
+  row.recall = against.recall;
+  row.precision = against.precision;
+  return row;
+}
+
+}  // namespace
+
+std::size_t method_index(std::string_view key) {
+  return static_cast<std::size_t>(collide::find_method(key) - collide::methods().data());
+}
+
+Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
+    : budget_(budget), random_(seed), entries_(collide::methods().size()) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::methods()[i].make();
+}
+
+CompareReport Comparison::run(const Snapshot& snapshot, const std::stop_token& stop) {
+  CompareReport report;
+  report.id = snapshot.id;
+  report.rows.resize(entries_.size());
+  for (Entry& entry : entries_) entry.done = false;
+  forecast_.begin(snapshot.frame(), snapshot.settings, snapshot.world);
+  forecast_.learn(snapshot.driver, snapshot.found.counters);
+
+  report.order = choose(snapshot, report);
+  std::ranges::shuffle(report.order, random_);
+  for (const std::size_t method : report.order) {
+    if (stop.stop_requested()) return report;
+    detect(method, snapshot);
+    CompareRow& row = report.rows[method];
+    if (entries_[method].done) row.ms = entries_[method].ms;
+    row.not_run = entries_[method].error;
+  }
+  report.reference = find_reference(snapshot, report.stands_in);
+  if (report.reference && !entries_[*report.reference].done) detect(*report.reference, snapshot);
+  score(snapshot, report);
+  return report;
+}
+
+/// The methods to time, in the order of the table. The reference is not among them if it is brute force.
+std::vector<std::size_t> Comparison::choose(const Snapshot& snapshot, CompareReport& report) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < snapshot.chosen.size(); ++i) {
+    if (!snapshot.chosen[i]) continue;
+    if (const Work work = forecast_.of(i); work.cost() > budget_) {
+      report.rows[i].not_run = "not run: " + work.in_words() + " predicted";
+    } else if (collide::methods()[i].key != collide::reference_method) {
+      order.push_back(i);
+    }
+  }
+  return order;
+}
+
+void Comparison::detect(std::size_t method, const Snapshot& snapshot) {
+  Entry& entry = entries_[method];
+  entry.error.clear();
+  try {
+    entry.detector->forget();  // from scratch, as the others
+    const double start = now_ms();
+    entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result);
+    entry.ms = now_ms() - start;
+    entry.done = true;
+    forecast_.learn(method, entry.result.counters);
+  } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
+    entry.error = std::string("not run: ") + error.what();
+  }
+}
+
+std::optional<std::size_t> Comparison::find_reference(const Snapshot& snapshot, std::string& stands_in) const {
+  const std::size_t brute_force = method_index(collide::reference_method);
+  const Work work = forecast_.of(brute_force);
+  if (work.cost() <= budget_) return brute_force;
+  stands_in = "brute force would take " + work.in_words();
+  // Methods that build boxes of their own and methods that do not share the least code.
+  const bool driver_uses_levels = collide::methods()[snapshot.driver].uses_levels;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    const collide::Method& method = collide::methods()[i];
+    if (i == brute_force || !method.exact || method.uses_levels == driver_uses_levels) continue;
+    if (entries_[i].done || forecast_.of(i).cost() <= budget_) return i;
+  }
+  return std::nullopt;
+}
+
+void Comparison::score(const Snapshot& snapshot, CompareReport& report) const {
+  if (!report.reference) return;
+  const Entry& reference = entries_[*report.reference];
+  if (!reference.done) {  // it has thrown
+    report.stands_in = reference.error;
+    report.reference.reset();
+    return;
+  }
+  const std::vector<collide::Contact>& truth = reference.result.contacts;
+  report.true_contacts = truth.size();
+  report.reference_ms = reference.ms;
+  for (std::size_t i = 0; i < entries_.size(); ++i) {
+    CompareRow& row = report.rows[i];
+    if (i == snapshot.driver)
+      row = scored(snapshot.found, truth, std::move(row));
+    else if (entries_[i].done)
+      row = scored(entries_[i].result, truth, std::move(row));
+  }
+}
+
+}  // namespace app

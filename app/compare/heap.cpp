@@ -1,0 +1,18 @@
+#include "app/compare/heap.h"
+
+#if defined(__GLIBC__)
+#include <malloc.h>
+#endif
+
+namespace app {
+
+std::size_t heap_in_use() {
+#if defined(__GLIBC__)
+  const struct mallinfo2 heap = ::mallinfo2();
+  return heap.uordblks + heap.hblkhd;  // in the arenas, and large blocks with a mapping of their own
+#else
+  return 0;
+#endif
+}
+
+}  // namespace app

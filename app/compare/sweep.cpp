@@ -1,0 +1,195 @@
+#include "app/compare/sweep.h"
+
+#include <algorithm>
+#include <chrono>
+#include <numeric>
+#include <set>
+
+#include "app/compare/heap.h"
+#include "app/compare/score.h"
+
+namespace app {
+namespace {
+
+/// The one value that stands for an axis which a method has no use for.
+template <class Values, class Value>
+std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
+  return used ? std::vector<Value>(values.begin(), values.end()) : std::vector<Value>{otherwise};
+}
+
+}  // namespace
+
+glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
+  collide::Bodies bodies;
+  std::vector<float> x, y, z;
+  std::set<const softbody::Prototype*> seen;
+  for (collide::Index b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype& prototype = world.prototype(b);
+    if (!seen.insert(&prototype).second) continue;
+    bodies.add(prototype.shape);
+    for (const glm::dvec3& v : prototype.start) {
+      x.push_back(static_cast<float>(v.x));
+      y.push_back(static_cast<float>(v.y));
+      z.push_back(static_cast<float>(v.z));
+    }
+  }
+  return collide::default_cell_size({x, y, z, &bodies}, levels, world.collision().tolerance);
+}
+
+std::vector<Configuration> sweep_configurations(const softbody::World& world) {
+  const collide::Settings& settings = world.collision();
+  std::vector<Configuration> all;
+  for (std::size_t m = 0; m < collide::methods().size(); ++m) {
+    const collide::Method& method = collide::methods()[m];
+    for (const int levels : axis(method.uses_levels, sweep_levels, settings.levels)) {
+      const glm::vec3 automatic = automatic_cell_size(world, levels);
+      for (const std::uint32_t buckets : axis(method.uses_hash, sweep_buckets, settings.buckets)) {
+        for (const double cell : axis(method.uses_hash, sweep_cells, 1.0)) {
+          Configuration& c = all.emplace_back(Configuration{m, settings, cell});
+          c.settings.levels = levels;
+          c.settings.buckets = buckets;
+          c.settings.cell_size = automatic * static_cast<float>(cell);
+        }
+      }
+    }
+  }
+  return all;
+}
+
+Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
+             collide::Workers& workers)
+    : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
+  for (const collide::Method& method : collide::methods()) detectors_.push_back(method.make());
+  for (const Configuration& c : configurations) report_.rows.emplace_back().configuration = c;
+  predict();
+}
+
+/// Strikes out what would exceed the budget.
+void Sweep::predict() {
+  Forecast forecast;
+  for (SweepRow& row : report_.rows) {
+    forecast.begin(frame_, row.configuration.settings, 0);
+    const Work work = forecast.of(row.configuration.method);
+    predicted_.push_back(work.cost());
+    if (work.cost() > limits_.budget) row.not_run = "over budget: " + work.in_words() + " predicted";
+  }
+}
+
+bool Sweep::step() {
+  if (round_ < 0) {
+    find_reference();
+    next_round();
+    return true;
+  }
+  while (order_.empty()) {
+    if (round_ == limits_.repetitions) return false;
+    next_round();
+  }
+  SweepRow& row = report_.rows[order_.back()];
+  order_.pop_back();
+  try {
+    round_ == 0 ? check(row) : time(row);
+  } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
+    row.checked = false;
+    row.times.ms.clear();
+    row.not_run = error.what();
+  }
+  return true;
+}
+
+double Sweep::progress() const {
+  const auto rows = static_cast<double>(report_.rows.size());
+  const double rounds = 1.0 + limits_.repetitions;
+  if (round_ < 0 || rows == 0) return 0;
+  return (round_ + (rows - static_cast<double>(order_.size())) / rows) / rounds;
+}
+
+void Sweep::find_reference() {
+  const auto run = [&](const Configuration& c) {
+    collide::methods()[c.method].make()->detect(frame_, c.settings, workers_, result_);
+    truth_ = result_.contacts;
+    report_.true_contacts = truth_.size();
+    report_.reference = c;
+  };
+  try {
+    if (const auto c = choose_reference()) run(*c);
+  } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
+    report_.stands_in = error.what();
+  }
+}
+
+/// Brute force, if a row has it within the budget; else the exact configuration of least predicted work, one without
+/// subdivided boxes where there is one: it shares the least code with those that have them.
+std::optional<Configuration> Sweep::choose_reference() {
+  std::optional<std::size_t> best;
+  const auto rank = [&](std::size_t i) {
+    return std::pair(collide::methods()[report_.rows[i].configuration.method].uses_levels, predicted_[i]);
+  };
+  for (std::size_t i = 0; i < report_.rows.size(); ++i) {
+    const SweepRow& row = report_.rows[i];
+    const collide::Method& method = collide::methods()[row.configuration.method];
+    if (method.key == collide::reference_method) {
+      if (row.not_run.empty()) return row.configuration;
+      report_.stands_in = "brute force is " + row.not_run;
+    }
+    if (method.exact && row.not_run.empty() && (!best || rank(i) < rank(*best))) best = i;
+  }
+  return best ? std::optional(report_.rows[*best].configuration) : std::nullopt;
+}
+
+void Sweep::next_round() {
+  ++round_;
+  order_.clear();
+  for (std::size_t i = 0; i < report_.rows.size(); ++i) {
+    const SweepRow& row = report_.rows[i];
+    const double spent = std::accumulate(row.times.ms.begin(), row.times.ms.end(), 0.0);
+    if (row.not_run.empty() && spent < limits_.repeat_ms) order_.push_back(i);
+  }
+  std::ranges::shuffle(order_, random_);
+}
+
+void Sweep::check(SweepRow& row) {
+  const Configuration& c = row.configuration;
+  collide::Result result;
+  const std::size_t before = heap_in_use();
+  const auto detector = collide::methods()[c.method].make();
+  detector->detect(frame_, c.settings, workers_, result);
+  row.memory = std::max(heap_in_use(), before) - before;
+  row.counters = result.counters;
+  row.skipped = result.skipped;
+  row.coverage = result.coverage;
+  row.contacts = result.contacts.size();
+  if (report_.reference) {
+    const Score against = score(result.contacts, truth_);
+    row.missed = against.missed.size();
+    row.recall = against.recall;
+    row.precision = against.precision;
+  }
+  row.checked = true;
+}
+
+void Sweep::time(SweepRow& row) {
+  const Configuration& c = row.configuration;
+  collide::Detector& detector = *detectors_[c.method];
+  detector.forget();
+  detector.detect(frame_, c.settings, workers_, result_);
+  detector.forget();
+  const auto start = std::chrono::steady_clock::now();
+  detector.detect(frame_, c.settings, workers_, result_);
+  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
+  row.times.ms.push_back(taken.count());
+}
+
+std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points) {
+  std::vector<std::size_t> order(points.size()), front;
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, [&](std::size_t a, std::size_t b) {
+    return std::pair(points[a].ms, points[a].error) < std::pair(points[b].ms, points[b].error);
+  });
+  for (const std::size_t i : order) {
+    if (front.empty() || points[i].error < points[front.back()].error) front.push_back(i);
+  }
+  return front;
+}
+
+}  // namespace app

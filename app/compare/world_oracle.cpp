@@ -1,0 +1,42 @@
+#include "app/compare/world_oracle.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace app {
+
+collide::Surfaces surfaces_of(const softbody::World& world) {
+  collide::Surfaces surfaces;
+  for (collide::Index b = 0; b < world.bodies().count(); ++b) surfaces.push_back(world.prototype(b).surface);
+  return surfaces;
+}
+
+collide::Overlaps WorldOracle::overlaps(const softbody::World& world) {
+  return collide::find_overlaps(world.positions(), surfaces_of(world), workers_);
+}
+
+double WorldOracle::moved(const softbody::World& world) const {
+  const collide::Frame now = world.positions();
+  double most2 = 0;
+  for (std::size_t v = 0; v < before_.x.size(); ++v) {
+    const glm::dvec3 way(now.x[v] - before_.x[v], now.y[v] - before_.y[v], now.z[v] - before_.z[v]);
+    most2 = std::max(most2, glm::dot(way, way));
+  }
+  return std::sqrt(most2);
+}
+
+std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& world) {
+  const collide::Frame now = world.positions(), before{before_.x, before_.y, before_.z, &bodies_};
+  const std::size_t known = bodies_.vertex_count();  // arrivals come after them
+  const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
+  std::vector<collide::Crossing> found;
+  if (moved(world) > 0) found = collide::find_crossings(before, after, surfaces_, workers_);
+  before_.copy(now);
+  bodies_ = world.bodies();
+  surfaces_ = surfaces_of(world);
+  return found;
+}
+
+}  // namespace app

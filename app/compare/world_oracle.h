@@ -1,0 +1,36 @@
+#pragma once
+// The surface oracle on a world in motion.
+
+#include "app/compare/positions.h"
+#include "collide/surface_oracle.h"
+#include "collide/workers.h"
+#include "softbody/world.h"
+
+namespace app {
+
+/// The surface of each body, as the oracle wants them.
+collide::Surfaces surfaces_of(const softbody::World& world);
+
+class WorldOracle {
+ public:
+  /// threads: of the oracle.
+  explicit WorldOracle(int threads) : workers_(threads) {}
+
+  /// What overlaps at this instant.
+  collide::Overlaps overlaps(const softbody::World& world);
+
+  /// m: how far a vertex is at the most from where it was when crossings() was called last; 0 before.
+  double moved(const softbody::World& world) const;
+
+  /// What passed through what since the last call, each vertex taken along the straight line between the two: bodies
+  /// that arrived in between are left out, and the first call finds nothing. To be called for one world only.
+  std::vector<collide::Crossing> crossings(const softbody::World& world);
+
+ private:
+  collide::Workers workers_;
+  Positions before_;
+  collide::Bodies bodies_;      // of before_
+  collide::Surfaces surfaces_;  // likewise
+};
+
+}  // namespace app

@@ -1,0 +1,18 @@
+#include "app/demo/compare_worker.h"
+
+namespace app {
+
+/// Too little memory for a comparison must not end the demo: its report says so instead.
+CompareReport CompareTask::answer(const Snapshot& snapshot, const std::stop_token& stop) {
+  try {
+    return comparison.run(snapshot, stop);
+  } catch (const std::exception& error) {
+    CompareReport report;
+    report.id = snapshot.id;
+    report.stands_in = std::string("the comparison failed: ") + error.what();
+    report.rows.resize(collide::methods().size());
+    return report;
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,239 @@
+#include "app/demo/demo.h"
+
+#include <chrono>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "app/demo/canvas.h"
+#include "app/demo/interface.h"
+#include "app/demo/preferences.h"
+#include "app/demo/scene_mouse.h"
+#include "app/demo/shortcuts.h"
+#include "app/view/scene_view.h"
+#include "engine/context.h"
+#include "engine/gl.h"
+#include "engine/gui.h"
+#include "engine/resources.h"
+#include "engine/window.h"
+
+namespace app {
+namespace {
+
+double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+
+/// Time between drawn frames. A monitor of 60 Hz never ticks at exactly the world's 1/60 s, and without rounding some
+/// frames would show two steps and some none.
+class Pacer {
+ public:
+  double tick() {
+    const double time = now(), elapsed = time - last_;
+    last_ = time;
+    const double frames = std::round(elapsed * 60);
+    return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
+  }
+  /// Without a monitor to wait for, frames would follow one another at once and heat the machine for nothing.
+  void rest() const {
+    constexpr double shortest = 1.0 / 125;
+    const double left = shortest - (now() - last_);
+    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+  }
+
+ private:
+  double last_ = now();
+};
+
+/// All that a picture of the scene depends on.
+struct PictureKey {
+  std::uint64_t revision = 0, comparison = 0, judgement = 0;
+  std::size_t misses_of = 0;
+  Overlays overlays;
+  std::optional<std::uint32_t> bucket;
+  std::optional<softbody::BodyId> selected;
+  std::optional<softbody::Grab> grab;
+  glm::mat4 view{0.0f};
+  float scale = 0, between = 1;
+  bool operator==(const PictureKey&) const = default;
+};
+
+bool draws_in_software() {
+  const std::string driver = engine::gl_description();
+  return driver.find("llvmpipe") != driver.npos || driver.find("softpipe") != driver.npos;
+}
+
+class Demo {
+ public:
+  explicit Demo(const DemoOptions& options)
+      : preferences_(preferences_path()),
+        window_({.title = "Multi-Level SB Collide",
+                 .size = options.size_given ? glm::ivec2(options.width, options.height) : preferences_.kept().size,
+                 .samples = 0}),
+        gui_(window_),
+        view_(engine::find_folder("shaders")),
+        canvas_(!draws_in_software()),
+        session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
+    apply(preferences_.kept(), session_, ui_);
+    keep_preferences();
+  }
+
+  void run() {
+    while (window_.open() && !ui_.quit) {
+      window_.poll();
+      const double elapsed = pacer_.tick();
+      handle_keys();
+      if (window_.minimised()) continue;  // poll() has slept; the world waits for its window
+      frame(elapsed);
+    }
+    keep_preferences(true);
+  }
+
+ private:
+  void handle_keys() {
+    if (gui_.wants_keyboard()) return;
+    for (const engine::KeyPress& key : window_.key_presses()) {
+      if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
+    }
+  }
+
+  void frame(double elapsed) {
+    seconds_ += elapsed;
+    ui_.import.drop(window_.dropped_files(), session_);
+    if (ui_.take_away.recording())
+      session_.advance_one(elapsed, ui_.take_away.may_step());
+    else
+      session_.advance(elapsed);
+    gui_.begin_frame();
+    interface_.draw(session_, ui_, gui_.scale(), seconds_);
+    const engine::Viewport viewport = scene_viewport();
+    move_camera(viewport, elapsed);
+    do_as_asked(viewport);
+    draw_scene(viewport);
+    ui_.view = SceneView::view(camera_, viewport.size);
+    gui_.end_frame();
+    ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
+    window_.present();
+    keep_preferences();
+    pacer_.rest();
+  }
+
+  /// Of what is about to be shown.
+  engine::Image picture(bool with_panel) const {
+    return with_panel ? engine::read_pixels(0, window_.framebuffer_size()) : canvas_.read();
+  }
+
+  void keep_preferences(bool last = false) {
+    const glm::vec2 size = glm::vec2(window_.framebuffer_size()) / window_.content_scale();
+    preferences_.keep(preferences_of(session_, ui_, glm::ivec2(glm::round(size))), seconds_, last);
+    if (std::string problem = preferences_.take_problem(); !problem.empty()) session_.set_notice(std::move(problem));
+  }
+
+  engine::Viewport scene_viewport() const {
+    const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
+    const SceneArea area = Interface::scene_area(ui_, gui_.scale());
+    const int left = static_cast<int>(std::lround(area.min.x * ratio.x));
+    const glm::ivec2 size = window_.framebuffer_size();
+    return {{left, 0}, {std::max(size.x - left, 0), size.y}};
+  }
+
+  void move_camera(const engine::Viewport& viewport, double elapsed) {
+    if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
+      shown_scene_ = session_.world().scene().key;
+      camera_ = view_.camera(session_.world().scene(), viewport.size);
+      ui_.reset_camera = false;
+    }
+    mouse_.follow(mouse_input(viewport), session_, camera_, viewport.size);
+    if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    camera_.advance(elapsed);
+  }
+
+  MouseInput mouse_input(const engine::Viewport& viewport) const {
+    const float below = static_cast<float>(window_.framebuffer_size().y - viewport.origin.y - viewport.size.y);
+    return read_mouse({static_cast<float>(viewport.origin.x), below}, !gui_.wants_mouse());
+  }
+
+  /// What the panel and the keys ask for that needs the camera.
+  void do_as_asked(const engine::Viewport& viewport) {
+    if (std::exchange(ui_.throw_body, false)) {
+      const engine::Ray ray = mouse_.ray(camera_, viewport.size);
+      session_.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+    }
+    if (std::exchange(ui_.look_at_body, false) && session_.selected_body())
+      look_at(*session_.selected_body(), session_, camera_, viewport.size);
+  }
+
+  void draw_scene(const engine::Viewport& viewport) {
+    if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
+    const PictureKey key = picture_key();
+    const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
+    canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
+      view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale,
+                 session_.drawn_positions(whole_steps()));
+    });
+    drawn_ = key;
+    canvas_.show(viewport.origin);
+    const glm::ivec2 size = window_.framebuffer_size();
+    glViewport(0, 0, size.x, size.y);
+  }
+
+  /// Boxes, cells and the like are of the present state: then so are the bodies.
+  bool whole_steps() const {
+    const Overlays& shown = session_.overlays;
+    return shown.boxes || shown.cells || shown.areas || session_.selected_bucket();
+  }
+
+  PictureKey picture_key() const {
+    const Overlays& shown = session_.overlays;
+    return {.revision = session_.revision(),
+            .comparison = shown.missed ? session_.comparisons() : 0,
+            .judgement = shown.true_surfaces ? session_.surfaces().reports() : 0,
+            .misses_of = session_.misses_of(),
+            .overlays = shown,
+            .bucket = session_.selected_bucket(),
+            .selected = session_.selected_body(),
+            .grab = session_.world().grabbed(),
+            .view = camera_.view(),
+            .scale = std::max(window_.content_scale(), window_.pixel_ratio()),
+            .between = whole_steps() ? 1.0f : session_.between()};
+  }
+
+  OverlayRequest overlay_request() const {
+    OverlayRequest request;
+    request.shown = session_.overlays;
+    request.selected_bucket = session_.selected_bucket();
+    request.selected_body = session_.selected_body();
+    request.eye = camera_.eye();
+    const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
+    if (needs_debug) request.debug = &session_.debug();
+    if (request.shown.areas) request.areas = session_.areas();
+    request.missed = session_.missed();
+    if (request.shown.touches) request.touches = session_.touches();
+    request.marks = session_.surfaces().report().marks;
+    return request;
+  }
+
+  static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
+
+  PreferencesFile preferences_;
+  engine::Window window_;  // before the others, which need its context
+  engine::Gui gui_;
+  SceneView view_;
+  Canvas canvas_;
+  Session session_;
+  Interface interface_;
+  UiState ui_;
+  engine::Camera camera_;
+  SceneMouse mouse_;
+  std::string shown_scene_;  // the one that camera_ was set up for
+  PictureKey drawn_;         // what the canvas shows
+  Pacer pacer_;
+  double seconds_ = 0;  // the window has been open
+};
+
+}  // namespace
+
+int run_demo(const DemoOptions& options) {
+  Demo(options).run();
+  return 0;
+}
+
+}  // namespace app

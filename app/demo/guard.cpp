@@ -1,0 +1,104 @@
+#include "app/demo/guard.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <numeric>
+
+#include <glm/geometric.hpp>
+
+namespace app {
+namespace {
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  std::array<char, 160> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+
+}  // namespace
+
+void Guard::begin(const softbody::World& world, std::size_t bodies) {
+  looks_.clear();
+  resting_.clear();
+  mass_.clear();
+  fall_ = 0;
+  const double g = glm::length(world.scene().gravity);
+  const softbody::Prototype* last = nullptr;
+  for (softbody::BodyId b = 0; b < bodies; ++b) {
+    const softbody::Prototype& p = world.prototype(b);
+    resting_.push_back(&p == last ? resting_.back() : softbody::starting_energy(p).deformation());
+    mass_.push_back(p.material.mass);
+    fall_ += p.material.mass * g * p.radius;
+    last = &p;
+  }
+  gravity_ = g * static_cast<double>(memory) * world.frame_time();
+}
+
+Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) const {
+  Look look{};
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const softbody::Energy& e = bodies[b].energy;
+    const double stored = std::max(0.0, e.deformation() - resting_[b]);
+    look.energy += e.total();
+    look.active += e.kinetic + stored;
+    look.speed = std::max(look.speed, bodies[b].max_speed);
+    look.bounce = std::max(look.bounce, std::sqrt(2 * stored / mass_[b]));
+  }
+  return look;
+}
+
+Guard::Look Guard::most_of_late() const {
+  Look most = looks_.front();
+  for (const Look& l : looks_)
+    most = {std::max(most.energy, l.energy), std::max(most.active, l.active), std::max(most.speed, l.speed),
+            std::max(most.bounce, l.bounce)};
+  return most;
+}
+
+/// The body that gained most since the last look.
+softbody::BodyId Guard::culprit(const std::vector<softbody::BodyMeasures>& bodies) const {
+  std::size_t found = 0;
+  const auto gain = [&](std::size_t b) { return bodies[b].energy.total() - body_energy_[b]; };
+  for (std::size_t b = 1; b < bodies.size(); ++b)
+    if (gain(b) > gain(found)) found = b;
+  return static_cast<softbody::BodyId>(found);
+}
+
+std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::BodyMeasures>& bodies, int frame) const {
+  const Look most = most_of_late();
+  const double reach = most_speed * (most.speed + most.bounce + gravity_) + tremble;
+  if (now.speed > reach) {
+    const auto fastest = std::ranges::max_element(bodies, {}, &softbody::BodyMeasures::max_speed);
+    const auto body = static_cast<softbody::BodyId>(fastest - bodies.begin());
+    return Alarm{body, frame,
+                 text("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
+  }
+  const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
+  const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
+  if (now.energy <= energy) return {};
+  const softbody::BodyId body = culprit(bodies);
+  return Alarm{body, frame,
+               text("Body %u gained energy from nothing: all bodies have %.3g J, and %.3g J is all there can be", body,
+                    now.energy, energy)};
+}
+
+std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
+  const auto lost = std::ranges::find(bodies, false, &softbody::BodyMeasures::finite);
+  if (lost != bodies.end()) {
+    const auto body = static_cast<softbody::BodyId>(lost - bodies.begin());
+    return Alarm{body, world.frame(), text("Body %u is no longer finite", body)};
+  }
+  if (bodies.size() != mass_.size() || looks_.empty()) begin(world, bodies.size());
+  const Look now = sum_up(bodies);
+  const std::optional<Alarm> alarm = looks_.empty() ? std::nullopt : judge(now, bodies, world.frame());
+  looks_.push_back(now);
+  if (looks_.size() > memory) looks_.pop_front();
+  body_energy_.clear();
+  for (const softbody::BodyMeasures& b : bodies) body_energy_.push_back(b.energy.total());
+  return alarm;
+}
+
+}  // namespace app

@@ -1,0 +1,133 @@
+#include "app/demo/import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/text.h"
+#include "softbody/measures.h"
+#include "softbody/obj_file.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t many_vertices = 10'000;
+
+/// The height at which a ball of this radius is clear of what is below, from `at` upwards.
+double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
+  const double gap = radius + static_cast<double>(world.collision().tolerance);
+  const collide::Frame p = world.positions();
+  for (std::size_t i = 0; i < p.x.size(); ++i)
+    if (std::hypot(double{p.x[i]} - at.x, double{p.z[i]} - at.z) < gap) at.y = std::max(at.y, double{p.y[i]} + gap);
+  constexpr int most_tries = 1000;  // a scene may be solid all the way up
+  for (int i = 0; i < most_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
+  return at.y;
+}
+
+std::vector<std::string> lines_about(const softbody::MeshSource& mesh) {
+  const softbody::ImportFindings& f = mesh.imported->findings;
+  std::array<char, 96> scale{};
+  std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
+  std::vector<std::string> lines{mesh.file.path.filename().string() + ": " +
+                                     grouped(mesh.imported->mesh.vertices.size()) + " vertices, " +
+                                     grouped(mesh.imported->mesh.triangles.size()) + " triangles",
+                                 scale.data()};
+  const std::string changed = softbody::remarks(f);
+  if (mesh.imported->mesh.vertices.size() > many_vertices)
+    lines.push_back("so many vertices that the world may run slower than real time");
+  lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
+  return lines;
+}
+
+}  // namespace
+
+MeshReader::Answer MeshReader::answer(const Question& file, const std::stop_token&) const {
+  try {
+    return {softbody::MeshSource::from_file(file), ""};
+  } catch (const std::exception& error) {
+    return {{}, error.what()};
+  }
+}
+
+softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh) {
+  const softbody::Scene& scene = world.scene();
+  softbody::BodySource body;
+  const double radius = softbody::bounding_radius(mesh.imported->mesh);
+  body.mesh = std::move(mesh);
+  const glm::dvec3 at = scene.dropper ? scene.dropper->body.position : scene.view.target + glm::dvec3(0, 1, 0);
+  body.position = {at.x, clear_height(world, at, radius), at.z};
+  body.appear = body.release = world.frame();
+  return body;
+}
+
+softbody::Material imported_material(double extent) {
+  softbody::Material m;
+  m.name = "imported";
+  m.mass = std::clamp(extent * extent * extent, 0.01, 1000.0);
+  m.structural = {200 * m.mass, 0.1};
+  m.bend = {50 * m.mass, 0.1};
+  m.contact_stiffness = 100 * m.mass;
+  m.internal_damping = 10;
+  m.rebound_speed = 2;
+  m.rolling_resistance = 0.3;
+  return m;
+}
+
+void Import::refuse(Session& session, const std::string& why) {
+  report_ = {why};
+  failed_ = true;
+  session.set_notice(why);
+}
+
+void Import::load(Session& session) {
+  if (path.empty() || reading_) return;
+  const std::filesystem::path file(path);
+  failed_ = false;
+  if (file.extension() == ".toml") {
+    report_ = {"scene " + file.filename().string()};
+    session.choose_scene(path);
+    if (!session.notice().empty()) refuse(session, session.notice());
+    return;
+  }
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
+  reading_ = true;
+  report_ = {"reading " + file.filename().string()};
+  softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}};
+  if (z_is_up) mesh.up = {0, 0, 1};
+  reader_.offer(std::move(mesh));
+}
+
+void Import::drop(const std::vector<std::string>& files, Session& session) {
+  dropped_.insert(dropped_.end(), files.begin(), files.end());
+  follow(session);
+}
+
+void Import::follow(Session& session) {
+  if (auto answer = reader_.take()) {
+    reading_ = false;
+    if (answer->error.empty())
+      join(session, std::move(answer->mesh));
+    else
+      refuse(session, answer->error);
+  }
+  if (reading_ || dropped_.empty()) return;
+  path = dropped_.front();
+  dropped_.erase(dropped_.begin());
+  load(session);
+}
+
+void Import::join(Session& session, softbody::MeshSource mesh) {
+  const std::vector<std::string> lines = lines_about(mesh);
+  softbody::Material material = imported_material(mesh.imported->findings.extent);
+  session.add_body(place_above(session.world(), std::move(mesh)), std::move(material));
+  if (!session.notice().empty()) return refuse(session, session.notice());
+  report_ = lines;
+}
+
+}  // namespace app

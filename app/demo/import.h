@@ -1,0 +1,59 @@
+#pragma once
+// Meshes and scenes of the user's own: named or dropped on the window, read beside the demo, reported on.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/demo/background_worker.h"
+#include "app/demo/session.h"
+
+namespace app {
+
+/// Reads a mesh file, for BackgroundWorker.
+struct MeshReader {
+  using Question = softbody::MeshFile;
+  struct Answer {
+    softbody::MeshSource mesh;
+    std::string error;  // empty: the mesh is there
+  };
+  Answer answer(const Question& file, const std::stop_token& stop) const;
+};
+
+/// A soft body of this mesh that keeps its shape: free above the middle of the scene, clear of solids and bodies.
+softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh);
+
+/// What such a body is made of: springs, and shape matching in place of gas, which no concave or open mesh could hold.
+/// It swings and bends as a body of 1 m and 1 kg does, but weighs more if it is larger.
+softbody::Material imported_material(double extent);
+
+class Import {
+ public:
+  static constexpr float least_size = 0.05f, most_size = 20;  // m
+
+  std::string path;      // OBJ or TOML
+  float size = 1;        // m, the largest extent that a mesh is scaled to
+  bool z_is_up = false;  // in the file; else y is
+
+  /// A scene of this path replaces the present one at once; a mesh joins it as soon as it is read.
+  void load(Session& session);
+  /// The same for files dropped on the window, one after another.
+  void drop(const std::vector<std::string>& files, Session& session);
+  /// Once a frame.
+  void follow(Session& session);
+
+  bool busy() const { return reading_; }
+  /// What was found in the last file and done to it, a line each; or why it was refused.
+  const std::vector<std::string>& report() const { return report_; }
+  bool failed() const { return failed_; }
+
+ private:
+  void refuse(Session& session, const std::string& why);
+  void join(Session& session, softbody::MeshSource mesh);
+
+  std::vector<std::string> report_, dropped_;  // dropped_: still to be loaded
+  bool failed_ = false, reading_ = false;
+  BackgroundWorker<MeshReader> reader_;
+};
+
+}  // namespace app

@@ -1,0 +1,217 @@
+#include "app/demo/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+namespace {
+
+std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
+  std::vector<SceneChoice> list;
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    try {
+      const softbody::Scene scene = softbody::find_scene(key, folder);
+      list.push_back({key, scene.name, scene.look_at});
+    } catch (const softbody::SceneError& error) {
+      list.push_back({key, key, error.what()});  // still listed: choosing it says what is wrong
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads, std::string scene_name)
+    : scene_folder_(std::move(scene_folder)),
+      scenes_(list_scenes(scene_folder_)),
+      threads_(threads),
+      paper_(collide::find_method(collide::paper_method)->make()),
+      exact_(collide::find_method(collide::default_method)->make()) {
+  start(scene);
+  scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
+  adopt(std::move(scene));
+}
+
+void Session::adopt(softbody::Scene scene) {
+  scene_ = std::move(scene);
+  solids_ = list_solids(scene_);
+}
+
+void Session::start(const softbody::Scene& scene) {
+  auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+  remember();
+  world_ = std::move(world);
+  begin();
+}
+
+/// The world that is about to be left.
+void Session::remember() {
+  if (!world_) return;
+  world_->release();
+  if (past_.size() == most_past) past_.erase(past_.begin());
+  past_.push_back({std::move(world_), scene_, scene_file_, solids_});
+}
+
+/// Another world has come.
+void Session::begin() {
+  selected_bucket_.reset();
+  selected_body_.reset();
+  history_.clear();
+  notice_.clear();
+  stability_.restart();
+  show_anew();
+}
+
+/// After the world has become another: what was found out about the one before is of no use.
+void Session::show_anew() {
+  select_body(selected_body_);
+  before_last_step_.copy(world_->positions());
+  accumulator_ = 0;
+  step_once_ = false;
+  ++revision_;
+  ++worlds_;
+  comparison_ = {};
+  forget_measurements();
+  surfaces_.restart(revision_);
+}
+
+bool Session::succeeds(const std::function<void()>& change) {
+  try {
+    change();
+    return true;
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+    paused = true;
+    return false;
+  }
+}
+
+void Session::choose_scene(const std::string& key_or_path) {
+  try {
+    softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
+    start(scene);
+    scene_file_ = SceneFile(key_or_path, scene);
+    adopt(std::move(scene));
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
+}
+
+softbody::Scene Session::scene_in_use() const {
+  softbody::Scene scene = scene_;
+  const softbody::Scene& now = world_->scene();
+  scene.gravity = now.gravity;
+  std::ranges::copy(now.materials, scene.materials.begin());
+  put_solids(solids_, scene);
+  scene.method = world_->method().key;
+  scene.contact_surface = now.contact_surface;
+  scene.collision = world_->collision();
+  scene.default_cell_size = world_->uses_default_cell_size();
+  return scene;
+}
+
+void Session::reset() {
+  try {
+    start(scene_in_use());
+  } catch (const std::exception& error) {
+    notice_ = error.what();  // the present world goes on
+  }
+}
+
+void Session::rewind_to(int frame) {
+  stability_.keep_present(*world_);
+  const auto& past = stability_.past();
+  if (past.snapshots().empty()) return;
+  const std::string method(world_->method().key);
+  const softbody::ContactSurface surface = world_->scene().contact_surface;
+  const collide::Settings settings = world_->collision();
+  const bool default_cell_size = world_->uses_default_cell_size();
+  const std::string integrator(world_->integrator().key);
+  const std::optional<int> substeps = world_->substeps();
+  const softbody::Scene in_use = world_->scene();
+  notice_.clear();
+  succeeds([&] {
+    world_->restore(past.snapshots()[past.at(frame)]);
+    if (integrator != world_->integrator().key || substeps != world_->substeps())
+      world_->set_integrator(integrator, substeps);
+    if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
+    keep_world_settings(in_use);
+    if (method != world_->method().key) world_->set_method(method);
+    if (settings != world_->collision() || default_cell_size != world_->uses_default_cell_size())
+      world_->set_collision(settings, default_cell_size);
+  });
+  paused = true;
+  stability_.went_back();
+  show_anew();
+}
+
+void Session::save_scene(const std::filesystem::path& file, const softbody::View& view) {
+  softbody::Scene scene = scene_in_use();
+  scene.view = view;
+  notice_.clear();
+  try {
+    scene_file_ = SceneFile::save(std::move(scene), file);
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
+}
+
+void Session::restore_settings() {
+  set_contact_surface(scene_.contact_surface);
+  set_method(scene_.method);
+  set_collision(scene_.collision, scene_.default_cell_size);
+  set_method(scene_.method);  // again: it may have been too slow with the settings before
+}
+
+namespace {
+
+/// The index of such a material in a list, whatever it is called there; the list's length if there is none.
+std::size_t find_material(const std::vector<softbody::Material>& all, softbody::Material material) {
+  return static_cast<std::size_t>(std::ranges::find_if(all,
+                                                       [&](const softbody::Material& other) {
+                                                         material.name = other.name;
+                                                         return material == other;
+                                                       }) -
+                                  all.begin());
+}
+
+void make_name_new(std::string& name, const std::vector<softbody::Material>& all) {
+  const std::string stem = name;
+  for (int number = 2; std::ranges::count(all, name, &softbody::Material::name) > 0; ++number)
+    name = stem + " " + std::to_string(number);
+}
+
+}  // namespace
+
+void Session::add_body(softbody::BodySource body, softbody::Material material) {
+  notice_.clear();
+  try {
+    const std::size_t known = find_material(scene_.materials, material);
+    body.material = static_cast<int>(known);
+    if (known == scene_.materials.size()) {
+      make_name_new(material.name, scene_.materials);
+      scene_.materials.push_back(std::move(material));
+    }
+    // Also those that came after the past that the world has gone back to.
+    for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
+      world_->add_material(scene_.materials[i]);
+    world_->add(body);
+    scene_.bodies.push_back(std::move(body));
+    stability_.intervened();
+  } catch (const std::exception& error) {
+    notice_ = error.what();
+  }
+  ++revision_;
+}
+
+const std::string& Session::caption() const {
+  static const std::string none;
+  if (world_->bodies().count() > world_->scene().bodies.size()) return none;  // dropped bodies tell another story
+  const std::string* text = &none;
+  for (const softbody::Caption& caption : world_->scene().captions) {
+    if (caption.frame <= world_->frame()) text = &caption.text;
+  }
+  return *text;
+}
+
+}  // namespace app

@@ -1,0 +1,232 @@
+#pragma once
+// The demo's state, without window, drawing or panel: a world, the time that drives it, and what is known about it.
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/demo/compare_worker.h"
+#include "app/demo/ring.h"
+#include "app/demo/scene_file.h"
+#include "app/demo/stability_watch.h"
+#include "app/demo/surface_watch.h"
+#include "app/panel/solid_list.h"
+#include "app/view/drawn_positions.h"
+#include "app/view/overlays.h"
+#include "softbody/world.h"
+
+namespace app {
+
+struct SceneChoice {
+  std::string key, name, look_at;
+};
+
+struct History {
+  Ring frame_ms;  // real time from one advance() to the next
+  Ring detect_ms, solve_ms, contacts, recall;
+  std::vector<Ring> method_ms = std::vector<Ring>(collide::methods().size());  // of the comparison, by method
+  void clear() { *this = {}; }
+};
+
+/// What to compare with the driving method, which is compared with the reference in any case.
+struct CompareChoice {
+  bool on = false;
+  std::vector<bool> methods = std::vector<bool>(collide::methods().size(), true);
+  std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
+};
+
+inline constexpr int many_drops = 20;  // bodies
+
+class Session {
+ public:
+  static constexpr double longest_elapsed = 0.5;  // s of real time that one advance() looks at; the rest is dropped
+  static constexpr int most_steps = 15;           // of one advance()
+  // No further step is begun in one advance() after this much, or this part of the time between pictures.
+  static constexpr double step_budget_ms = 25, step_budget_part = 0.4;
+  static constexpr double slowest = 0.02, fastest = 1.0;
+
+  /// scene_folder: where other scenes are found by their keys. scene_name: what the scene is found by, if not by its
+  /// key. Throws SceneError.
+  Session(softbody::Scene scene, std::filesystem::path scene_folder, int threads, std::string scene_name = "");
+
+  // Time. The world moves in whole frames; advance() is told how much real time has passed.
+  bool paused = false;
+  bool slow_motion = false;
+  double slow_factor = 0.1;  // slowest .. fastest, of real time, in slow motion
+  void advance(double elapsed);
+  /// For recordings, in place of advance(): one step, however long it took, or none.
+  void advance_one(double elapsed, bool step);
+  /// Pauses and does one step with the next advance().
+  void single_step();
+  /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
+  double pace() const { return pace_; }
+
+  /// How far a picture is on the way from the positions before the last step to the present ones, 0 .. 1: below 1 only
+  /// in slow motion, which would jerk otherwise.
+  float between() const;
+  const Positions& before_last_step() const { return before_last_step_; }
+  /// `whole_steps`: without anything between.
+  DrawnPositions drawn_positions(bool whole_steps = false) const;
+
+  // What is in the world.
+  const softbody::World& world() const { return *world_; }
+  const std::vector<SceneChoice>& scenes() const { return scenes_; }
+  /// Loads another scene with its own settings; on an error the present one stays and notice() says why.
+  void choose_scene(const std::string& key_or_path);
+  /// The scene from its start, with the settings in use.
+  void reset();
+  /// The scene with the settings in use: what reset() starts.
+  softbody::Scene scene_in_use() const;
+  /// Writes scene_in_use(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
+  /// written and notice() says why.
+  void save_scene(const std::filesystem::path& file, const softbody::View& view);
+  /// Where the scene came from, or was saved to last.
+  const SceneFile& scene_file() const { return scene_file_; }
+  /// Method and settings as the scene has them.
+  void restore_settings();
+  /// A body joins the world, and the scene, which it belongs to after a reset too. If there is such a material already,
+  /// but for its name, it has that one. On an error no body joins and notice() says why.
+  void add_body(softbody::BodySource body, softbody::Material material);
+  /// The world as it was before the last reset or choice of scene, to the bit; of the last few of them.
+  bool can_undo() const { return !past_.empty(); }
+  void undo();
+
+  // By hand. What a world refuses is told by notice(), and nothing changes.
+  static constexpr double least_throw = 1, most_throw = 25;  // m/s
+  double throw_speed = 8;                                    // m/s
+  bool can_drop() const { return world_->scene().dropper || !world_->scene().bodies.empty(); }
+  void drop(int count = 1);
+  /// direction: of length 1.
+  void throw_body(const glm::dvec3& eye, const glm::dvec3& direction);
+  const std::optional<softbody::BodyId>& selected_body() const { return selected_body_; }
+  void select_body(std::optional<softbody::BodyId> body);
+  void remove_selected();
+  void grab(const softbody::Grab& grab);
+  void pull_to(const glm::dvec3& target);
+  void release();
+  /// In m/s^2, along the direction of the scene's gravity; down, if it has none.
+  void set_gravity(double strength);
+  void set_material(std::size_t index, const softbody::Material& material);
+  const SolidList& solids() const { return solids_; }
+  void set_solids(const SolidList& solids);
+  /// Gravity, materials and solids as the scene has them.
+  void restore_world_settings();
+  /// The scene's sentence for this moment, or empty.
+  const std::string& caption() const;
+
+  /// Pauses when the world blows up.
+  bool guarded = true;
+  const StabilityWatch& stability() const { return stability_; }
+  /// Back to the last snapshot of stability().past() not after this frame, and pauses. The settings in use stay.
+  void rewind_to(int frame);
+
+  // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
+  void set_method(std::string_view key);
+  void next_method();
+  void set_contact_surface(softbody::ContactSurface surface);
+  void next_contact_surface();
+  /// substeps: of the integrator's a frame; none: as many as stability asks for.
+  void set_integrator(std::string_view key, std::optional<int> substeps);
+  void set_collision(const collide::Settings& settings, bool default_cell_size);
+  /// The bucket whose boxes the scene shows: always below the number of buckets.
+  const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
+  void select_bucket(std::optional<std::uint32_t> bucket);
+  /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
+  const collide::Method& shown_method() const;
+  /// They themselves on the current positions, computed once a state when first asked for. Empty where the shown method
+  /// would have to do too much, or fails.
+  const collide::DebugGeometry& debug() const;
+
+  /// Where the exact method looks for contacts on the current positions, if nothing is known from earlier frames.
+  std::vector<collide::DebugGeometry::Box> areas() const;
+
+  // Comparison, by a worker of its own: a few frames old, and its vertices still exist.
+  CompareChoice compare;
+  const CompareReport& comparison() const { return comparison_; }
+  /// Counts the reports, so that a new one is noticed.
+  std::uint64_t comparisons() const { return comparisons_; }
+  /// The index of the driving method, and its row: nullptr until it is measured, or if it cannot be.
+  std::size_t driver() const { return method_index(world_->method().key); }
+  const CompareRow* driver_row() const;
+  /// The index in collide::methods() of the method whose missed contacts are shown.
+  std::size_t misses_of() const { return compare.on ? compare.misses_of.value_or(driver()) : driver(); }
+  /// What the method of choice missed; nullptr if that is not known.
+  const std::vector<collide::Contact>* missed() const;
+
+  /// What the surface oracle says of the last step, while overlays.true_surfaces is on.
+  const SurfaceWatch& surfaces() const { return surfaces_; }
+  /// What pressed on what in the last step; empty unless the contact surface is the surfaces.
+  const std::vector<softbody::SurfaceTouch>& touches() const;
+
+  Overlays overlays;
+  const History& history() const { return history_; }
+  /// Changes whenever anything about the positions or contacts may have changed: not with steps of a world at rest.
+  std::uint64_t revision() const { return revision_; }
+  /// What went wrong last, for the user; empty again after the next successful action.
+  const std::string& notice() const { return notice_; }
+  void set_notice(std::string text) { notice_ = std::move(text); }
+
+ private:
+  /// A world that was left, and its scene as it was loaded.
+  struct Past {
+    std::unique_ptr<softbody::World> world;
+    softbody::Scene scene;
+    SceneFile file;
+    SolidList solids;
+  };
+  static constexpr std::size_t most_past = 4;
+
+  void start(const softbody::Scene& scene);
+  void show_anew();
+  void follow();
+  void keep_world_settings(const softbody::Scene& in_use);
+  void adopt(softbody::Scene scene);
+  void remember();
+  void begin();
+  void run(double elapsed);
+  void step();
+  /// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
+  bool succeeds(const std::function<void()>& change);
+  /// For what a world may refuse: then it is as before, and goes on.
+  void try_change(const std::function<void()>& change);
+  bool affordable(const collide::Method& method, const collide::Settings& settings);
+  collide::DebugGeometry picture_of(collide::Detector& detector) const;
+  Work work_of(const collide::Method& method, const collide::Settings& settings) const;
+  void exchange_comparison();
+  void keep(CompareReport report);
+  Snapshot snapshot() const;
+  void forget_measurements();
+  void follow_pace(double asked, int steps);
+
+  std::filesystem::path scene_folder_;
+  std::vector<SceneChoice> scenes_;
+  int threads_;
+  softbody::Scene scene_;  // as it was loaded: the world's own has the settings in use
+  SceneFile scene_file_;
+  std::unique_ptr<softbody::World> world_;
+  std::vector<Past> past_;  // the latest last
+  std::optional<softbody::BodyId> selected_body_;
+  SolidList solids_;
+  Positions before_last_step_;
+  double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()
+  bool step_once_ = false;
+  double pace_ = 1, asked_ = 0, done_ = 0;  // s within the window of follow_pace()
+  std::uint64_t revision_ = 1, offered_ = 0, first_comparable_ = 0;
+  std::uint64_t worlds_ = 0, comparisons_ = 0;
+  std::optional<std::uint32_t> selected_bucket_;
+  mutable collide::DebugGeometry debug_;
+  std::unique_ptr<collide::Detector> paper_;  // shows its structure where the driving method has none
+  std::unique_ptr<collide::Detector> exact_;  // shows its areas
+  mutable std::uint64_t debug_revision_ = 0;
+  History history_;
+  CompareReport comparison_;
+  mutable std::vector<softbody::SurfaceTouch> touches_;
+  mutable std::uint64_t touches_revision_ = 0;
+  std::string notice_;
+  CompareWorker compare_worker_;
+  SurfaceWatch surfaces_;
+  StabilityWatch stability_;
+};
+
+}  // namespace app

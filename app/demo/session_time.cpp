@@ -1,0 +1,97 @@
+// Session: how the world follows real time.
+
+#include "app/demo/session.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+
+void Session::advance(double elapsed) {
+  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
+  if (step_once_) {
+    step_once_ = false;
+    step();
+  } else if (!paused) {
+    run(elapsed);
+  }
+  follow();
+}
+
+void Session::advance_one(double elapsed, bool one) {
+  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
+  if (one && (!paused || step_once_)) {
+    step_once_ = false;
+    accumulator_ = 0;
+    step();
+  }
+  follow();
+}
+
+/// What is known about the world comes after it.
+void Session::follow() {
+  exchange_comparison();
+  if (overlays.true_surfaces)
+    surfaces_.exchange(*world_, before_last_step_, revision_);
+  else
+    surfaces_.restart(revision_);
+}
+
+void Session::run(double elapsed) {
+  const double frame = world_->frame_time();
+  const double asked = std::clamp(elapsed, 0.0, longest_elapsed) * (slow_motion ? slow_factor : 1.0);
+  accumulator_ += asked;
+  int steps = 0;
+  double spent_ms = 0;
+  const double budget_ms = std::max(step_budget_ms, step_budget_part * 1e3 * elapsed);
+  while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
+    step();
+    accumulator_ -= frame;
+    spent_ms += world_->profile().total_ms;
+    ++steps;
+  }
+  // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
+  if (accumulator_ >= frame) accumulator_ = std::fmod(accumulator_, frame);
+  follow_pace(asked, steps);
+}
+
+void Session::follow_pace(double asked, int steps) {
+  asked_ += asked;
+  done_ += steps * world_->frame_time();
+  const double window = slow_motion ? 0.5 * slow_factor : 0.5;
+  if (asked_ < std::max(window, 4 * world_->frame_time())) return;
+  pace_ = std::min(1.0, done_ / asked_);
+  asked_ = done_ = 0;
+}
+
+float Session::between() const {
+  if (!slow_motion || paused || world_->all_at_rest()) return 1.0f;
+  return static_cast<float>(std::clamp(accumulator_ / world_->frame_time(), 0.0, 1.0));
+}
+
+DrawnPositions Session::drawn_positions(bool whole_steps) const {
+  const Positions& before = before_last_step_;
+  return {world_->positions(), before.x, before.y, before.z, whole_steps ? 1.0f : between()};
+}
+
+void Session::single_step() {
+  paused = true;
+  step_once_ = true;
+}
+
+void Session::step() {
+  before_last_step_.copy(world_->positions());
+  const bool was_at_rest = world_->all_at_rest();
+  const bool alarmed = stability_.alarm().has_value();
+  stability_.before_step(*world_);
+  const bool stepped = succeeds([&] { world_->step(); });
+  if (world_->grabbed()) stability_.intervened();  // a hand brings energy
+  stability_.after_step(*world_, guarded);
+  if (stability_.alarm() && !alarmed) paused = true;
+  if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
+  history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
+  history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
+  history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
+}
+
+}  // namespace app

@@ -1,0 +1,72 @@
+#include "app/demo/stability_watch.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace app {
+namespace {
+
+/// Of springs and gas, in the starting shapes of all bodies.
+softbody::Energy energy_at_start(const softbody::World& world) {
+  softbody::Energy sum, one;
+  const softbody::Prototype* last = nullptr;
+  for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype* p = &world.prototype(b);
+    if (p != last) one = softbody::starting_energy(*p);
+    last = p;
+    sum += one;
+  }
+  return sum;
+}
+
+}  // namespace
+
+void StabilityWatch::before_step(const softbody::World& world) {
+  if (!alarm_) rewind_.keep(world);
+  needed_before_ = world.dynamics().substeps(world.frame_time());
+}
+
+void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
+  const double frame = world.frame_time();
+  // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
+  const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
+  margin_ = taken > 0 ? StepMargin{taken, needed, frame / taken, frame / needed} : StepMargin{};
+  const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
+  if (world.frame() % every != 0) return;
+  const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
+  record(softbody::total(bodies), energy_at_start(world));
+  if (!guarded || alarm_) return;
+  alarm_ = guard_.look(world, bodies);
+  if (!alarm_) good_frame_ = world.frame();
+}
+
+void StabilityWatch::record(const softbody::Measures& all, const softbody::Energy& start) {
+  constexpr double most = 1e30;  // what has blown up is no longer drawn
+  const auto push = [](Ring& ring, double value) {
+    if (std::abs(value) < most) ring.push(static_cast<float>(value));
+  };
+  push(history_.kinetic, all.energies.kinetic);
+  push(history_.elastic, all.energies.elastic - start.elastic);
+  push(history_.gas, all.energies.gas - start.gas);
+  push(history_.gravity, all.energies.gravity);
+  push(history_.total, all.energy - start.deformation());
+  push(history_.least_volume, all.volume_ratio_min);
+  push(history_.most_volume, all.volume_ratio_max);
+  push(history_.strain, all.largest_strain);
+  push(history_.speed, all.max_speed);
+}
+
+void StabilityWatch::restart() { *this = {}; }
+
+void StabilityWatch::went_back() {
+  guard_.restart();
+  alarm_.reset();
+  margin_ = {};
+}
+
+void StabilityWatch::keep_present(const softbody::World& world) {
+  const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
+  if (!alarm_ && !past) rewind_.keep(world);
+}
+
+}  // namespace app

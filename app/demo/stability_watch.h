@@ -1,0 +1,61 @@
+#pragma once
+// What is known of a world's stability while it runs: its past to go back to, an alarm when it blows up, its step
+// against the bound, and how its energies went.
+
+#include "app/demo/guard.h"
+#include "app/demo/rewind.h"
+#include "app/demo/ring.h"
+
+namespace app {
+
+struct StabilityHistory {
+  Ring kinetic, elastic, gas, gravity, total;  // J; springs and gas against the starting shapes
+  Ring least_volume, most_volume;              // over the starting one
+  Ring strain, speed;                          // the largest; m/s
+};
+
+/// Substeps of a frame: those that were taken, and those that the stability bound asks for, of which a fifth is
+/// reserve.
+/// All 0 if nothing moves.
+struct StepMargin {
+  int taken = 0, needed = 0;
+  double substep = 0, bound = 0;  // s
+};
+
+class StabilityWatch {
+ public:
+  /// A larger world is measured every so many frames: one more for every so many vertices.
+  static constexpr std::size_t vertices_a_frame = 50'000;
+
+  /// Around each step of the world; `guarded`: raise an alarm() if it blows up.
+  void before_step(const softbody::World& world);
+  void after_step(const softbody::World& world, bool guarded);
+  /// The user has changed something: energy may have come with it.
+  void intervened() { guard_.restart(); }
+  /// Another world, of which nothing is known.
+  void restart();
+  /// The world has gone back to one of past().
+  void went_back();
+  /// Keeps the present, so that one can come back to it, unless it is an exploded one or belongs to the past.
+  void keep_present(const softbody::World& world);
+
+  const Rewind& past() const { return rewind_; }
+  /// The last frame of past() that was not found bad.
+  int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
+  const std::optional<Alarm>& alarm() const { return alarm_; }
+  const StabilityHistory& history() const { return history_; }
+  const StepMargin& margin() const { return margin_; }
+
+ private:
+  void record(const softbody::Measures& all, const softbody::Energy& start);
+
+  Rewind rewind_;
+  Guard guard_;
+  std::optional<Alarm> alarm_;
+  int good_frame_ = 0;
+  StabilityHistory history_;
+  StepMargin margin_;
+  int needed_before_ = 0;  // substeps, at the end of the last step
+};
+
+}  // namespace app

@@ -1,0 +1,185 @@
+#include "app/demo/status.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "app/view/palette.h"
+
+namespace app {
+namespace {
+
+constexpr double hint_seconds = 20, fade_seconds = 2;
+
+std::string recall_sentence(const Session& session) {
+  const CompareReport& report = session.comparison();
+  if (report.id != 0 && !report.reference) return "Recall not measured: " + report.stands_in;
+  const CompareRow* row = session.driver_row();
+  if (!row) return "Recall: measuring";
+  std::array<char, 32> number{};
+  std::snprintf(number.data(), number.size(), "Recall %.4f   ", rounded_down(row->recall));
+  std::string text = number.data();
+  text += report.true_contacts == 0 ? "no contacts in the frame last measured"
+                                    : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) +
+                                          " contacts missed when last measured";
+  if (!report.stands_in.empty()) text += " (see Compare: V)";
+  return text;
+}
+
+}  // namespace
+
+Light light_of(collide::Coverage coverage) {
+  switch (coverage) {
+    case collide::Coverage::exact:
+      return {light_green, "Green", "this method is exact and misses no contact."};
+    case collide::Coverage::covered:
+      return {light_amber, "Amber", "every box fits a cell; only contacts across cell faces can be missed."};
+    default:
+      return {light_red, "Red", "a box is larger than a cell, so its corners skip cells."};
+  }
+}
+
+std::string whose_structure(const Session& session) {
+  const collide::Method& shown = session.shown_method();
+  if (shown.key == session.world().method().key) return "of the driving method";
+  return "of " + std::string(shown.name) + ", for comparison";
+}
+
+double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
+
+std::string reference_sentence(const CompareReport& report) {
+  if (!report.reference) return report.stands_in.empty() ? "Measuring" : "Not measured: " + report.stands_in;
+  const std::string name(collide::methods()[*report.reference].name);
+  std::string text = "Measured against " + name;
+  return report.stands_in.empty() ? text : text + ": " + report.stands_in;
+}
+
+float draw_status(Widgets& w, Session& session, const SceneArea& area) {
+  const Light light = light_of(session.world().detection().coverage);
+  const float margin = w.px(12);
+  const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
+  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
+  ImGui::SetNextWindowSize({width, 0});
+  ImGui::Begin("Status", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
+  w.dot(light.colour);
+  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
+  w.done("Coverage",
+         "What the method and its settings promise on this frame (§2.2). Green: complete. Amber: the paper's method, "
+         "and every box fits a cell. Red: the paper's method with boxes larger than a cell.");
+  w.line(recall_sentence(session));
+  const std::string against = reference_sentence(session.comparison());
+  w.done("Live recall",
+         ("Found true contacts over all true contacts, of the driving method on a frame of a moment ago, "
+          "counted beside the simulation. " +
+          against)
+             .c_str());
+  draw_step_light(w, session);
+  if (!session.notice().empty()) {
+    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
+    ImGui::TextWrapped("%s", session.notice().c_str());
+    ImGui::PopStyleColor();
+    w.done("Notice", nullptr);
+  }
+  const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
+  ImGui::End();
+  return end;
+}
+
+namespace {
+
+void legend_line(Widgets& w, const glm::vec3& colour, const char* text) {
+  w.chip(colour, ImGui::GetTextLineHeight());
+  ImGui::SameLine();
+  ImGui::TextUnformatted(text);
+}
+
+void strain_scale(const Widgets& w) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float width = w.px(150), height = w.px(10);
+  constexpr int steps = 30;
+  for (int i = 0; i < steps; ++i) {
+    const float x0 = at.x + width * static_cast<float>(i) / steps,
+                x1 = at.x + width * static_cast<float>(i + 1) / steps;
+    const float t = 2 * (static_cast<float>(i) + 0.5f) / steps - 1;
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, at.y}, {x1, at.y + height}, to_imgui(diverging_colour(t)));
+  }
+  ImGui::Dummy({width, height});
+  ImGui::TextDisabled("-20 %%");
+  ImGui::SameLine(width - ImGui::CalcTextSize("+20 %").x + ImGui::GetStyle().WindowPadding.x);
+  ImGui::TextDisabled("+20 %%");
+}
+
+void touches_legend(Widgets& w, const Session& session) {
+  if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
+    ImGui::TextDisabled("no surface contacts: vertices keep the bodies apart");
+    return;
+  }
+  legend_line(w, contact_between_colour, "surface contact between bodies, and its normal");
+  legend_line(w, contact_inside_colour, "surface contact inside one body");
+}
+
+void table_legend(const Session& session) {
+  const collide::DebugGeometry& debug = session.debug();
+  const Overlays& shown = session.overlays;
+  if (shown.boxes) {
+    ImGui::TextUnformatted(debug.boxes.empty() ? "This method builds no boxes" : "Boxes: one colour, one bucket");
+  }
+  if (shown.cells) ImGui::TextUnformatted("Occupied cells in dark blue");
+  ImGui::TextDisabled("%s", whose_structure(session).c_str());
+  if (session.selected_bucket()) {
+    ImGui::Text("Bucket %s: its boxes and cells", grouped(*session.selected_bucket()).c_str());
+  }
+}
+
+}  // namespace
+
+void draw_legends(Widgets& w, const Session& session, const SceneArea& area, float top) {
+  const Overlays& shown = session.overlays;
+  const bool table = shown.boxes || shown.cells || session.selected_bucket();
+  if (!table && !shown.contacts && !shown.springs && !shown.missed && !shown.areas && !shown.touches) return;
+  ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
+  ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  if (table) table_legend(session);
+  if (shown.contacts) {
+    legend_line(w, contact_between_colour, "contact between bodies");
+    legend_line(w, contact_inside_colour, "contact inside one body");
+    legend_line(w, contact_solid_colour, "contact with a solid");
+  }
+  if (shown.touches) touches_legend(w, session);
+  if (shown.missed) legend_line(w, contact_missed_colour, "missed contact");
+  if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
+  if (shown.springs) {
+    ImGui::TextUnformatted("Springs: shorter, longer than at rest");
+    strain_scale(w);
+  }
+  ImGui::End();
+}
+
+namespace {
+
+/// Text on the scene itself, centred, with a light edge that keeps it legible on any colour.
+void text_on_scene(const Widgets& w, const char* text, float y, const SceneArea& area, float alpha) {
+  const ImVec2 size = ImGui::CalcTextSize(text);
+  if (size.x > area.max.x - area.min.x) return;
+  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
+  const ImVec2 pad{w.px(10), w.px(4)};
+  ImDrawList* draw = ImGui::GetBackgroundDrawList();
+  draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
+                      to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
+  draw->AddText(at, to_imgui(glm::vec3(0.15f), alpha), text);
+}
+
+}  // namespace
+
+void draw_caption(Widgets& w, const Session& session, const SceneArea& area, double seconds) {
+  const float line = ImGui::GetTextLineHeight() + w.px(14);
+  const float bottom = area.max.y - w.px(14);
+  if (!session.caption().empty()) text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f);
+  const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
+  if (left <= 0) return;
+  text_on_scene(w, "Drag a body to pull it, drag beside it to turn, B throws a body, F1 for help", bottom - line, area,
+                left);
+}
+
+}  // namespace app

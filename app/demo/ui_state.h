@@ -1,0 +1,30 @@
+#pragma once
+// What the user has opened and asked of the window; the rest of the demo's state is the Session's.
+
+#include <cstddef>
+#include <map>
+#include <string>
+
+#include "app/demo/import.h"
+#include "app/demo/take_away.h"
+
+namespace app {
+
+struct UiState {
+  bool panel = true;
+  bool table = true;   // the hash table's view
+  bool sweep = false;  // error against run time
+  bool help = false;
+  bool reset_camera = false;  // asked for; the main loop does it and clears this
+  bool look_at_body = false;  // the selected one; likewise
+  bool throw_body = false;    // likewise
+  bool quit = false;
+  std::map<std::string, bool> sections;  // of the panel: whether they are open, by their labels
+  softbody::View view;                   // the camera, as a scene file has it
+  TakeAway take_away;
+  Import import;
+  std::string save_as = "scene.toml";   // where the scene is saved to
+  std::size_t material = 0, solid = 0;  // whose values the panel shows
+};
+
+}  // namespace app

@@ -1,0 +1,58 @@
+#include "app/files/contacts_csv.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <cmath>
+
+namespace app {
+namespace {
+
+using collide::Index;
+
+Index body_of(const collide::Bodies& bodies, Index vertex) {
+  const auto next = std::upper_bound(bodies.first.begin(), bodies.first.end(), vertex);
+  return static_cast<Index>(next - bodies.first.begin()) - 1;
+}
+
+/// One line. to_chars, because a frame may have millions of them.
+class Line {
+ public:
+  template <class Integer>
+  void add(Integer number, char after) {
+    end_ = std::to_chars(end_, text_.end(), number).ptr;
+    *end_++ = after;
+  }
+  /// As %.9g, which names a float uniquely.
+  void add_distance(float distance) {
+    end_ = std::to_chars(end_, text_.end(), double{distance}, std::chars_format::general, 9).ptr;
+    *end_++ = '\n';
+  }
+  std::string_view text() const { return {text_.data(), static_cast<std::size_t>(end_ - text_.data())}; }
+
+ private:
+  std::array<char, 128> text_;  // five integers of 20 digits at most and a distance of 16 characters
+  char* end_ = text_.data();
+};
+
+}  // namespace
+
+ContactsCsv::ContactsCsv(const std::filesystem::path& path) : file_(path) {
+  file_.write("frame,vertex_a,vertex_b,body_a,body_b,distance\n");
+}
+
+void ContactsCsv::add(std::size_t number, const collide::Frame& frame, const std::vector<collide::Contact>& contacts) {
+  const auto& [x, y, z, bodies] = frame;
+  for (const auto& [a, b] : contacts) {
+    Line line;
+    line.add(number, ',');
+    line.add(a, ',');
+    line.add(b, ',');
+    line.add(body_of(*bodies, a), ',');
+    line.add(body_of(*bodies, b), ',');
+    line.add_distance(std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b])));
+    file_.write(line.text());
+  }
+}
+
+}  // namespace app

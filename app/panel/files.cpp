@@ -1,0 +1,130 @@
+// The panel's sections of what comes in and what goes out: meshes, scenes, the command line; pictures, recordings,
+// curves.
+
+#include <filesystem>
+
+#include "app/panel/panel.h"
+
+namespace app {
+namespace {
+
+constexpr float label_column = 78, button_width = 62;  // design pixels
+
+/// A field with a button at its right; true if either asks for the action.
+bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
+                       const char* button, const char* button_tooltip) {
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
+  const bool entered = w.text(label, value, hint, tooltip);
+  ImGui::SameLine(0, gap);
+  return w.button(button, button_tooltip, w.px(button_width)) || entered;
+}
+
+void wrapped(const std::string& text, bool failed) {
+  ImGui::PushStyleColor(ImGuiCol_Text,
+                        failed ? ImVec4(0.75f, 0.1f, 0.1f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopStyleColor();
+}
+
+void draw_import(Widgets& w, Session& session, Import& import) {
+  w.row("Open", w.px(label_column));
+  ImGui::BeginDisabled(import.busy());
+  if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
+                        "A Wavefront OBJ file, which joins the scene as a soft body, or a scene file, which replaces "
+                        "it. You can also drop files on the window.",
+                        "Load", "Reads the file."))
+    import.load(session);
+  ImGui::EndDisabled();
+  w.row("Size", w.px(label_column));
+  const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
+  w.slider("Size of meshes", import.size, Import::least_size, Import::most_size, "%.2f m",
+           "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
+           true);
+  ImGui::SameLine();
+  w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
+}
+
+void draw_save(Widgets& w, Session& session, UiState& ui) {
+  w.row("Save as", w.px(label_column));
+  std::error_code ignored;
+  const bool there = std::filesystem::exists(ui.save_as, ignored);
+  if (field_with_button(w, "Scene file", ui.save_as, "scene.toml",
+                        "The scene with all settings in use and the camera as it is: method, levels, buckets, cell "
+                        "size, tolerance, contact surface. Bodies dropped by hand are not in it.",
+                        there ? "Replace###Save" : "Save###Save", "Writes the file."))
+    session.save_scene(ui.save_as, ui.view);
+}
+
+void draw_command(Widgets& w, const Session& session, const UiState& ui) {
+  softbody::Scene used = session.scene_in_use();
+  used.view = ui.view;
+  const SceneFile& file = session.scene_file();
+  const int frame = session.world().frame();
+  w.row("Command", w.px(label_column));
+  ImGui::BeginDisabled(!file.makes(used));
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  const std::string demo = demo_command(file.name(), used), simulate = simulate_command(file.name(), used, frame);
+  if (w.button("Copy", demo.c_str(), width)) ImGui::SetClipboardText(demo.c_str());
+  ImGui::SameLine();
+  if (w.button("Copy simulate", simulate.c_str(), width)) ImGui::SetClipboardText(simulate.c_str());
+  ImGui::EndDisabled();
+  if (!file.makes(used)) wrapped("The scene was changed: save it, so that a command can name it.", false);
+}
+
+void draw_recording(Widgets& w, TakeAway& take_away) {
+  w.row("Record", w.px(label_column));
+  const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
+  ImGui::BeginDisabled(take_away.recording() || take_away.finishing());
+  const auto text = [](std::string_view part) { return std::string(part); };
+  const RecordingKind& now = recording_kinds[take_away.kind];
+  if (w.begin_choices("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
+    for (std::size_t i = 0; i < recording_kinds.size(); ++i) {
+      const RecordingKind& kind = recording_kinds[i];
+      if (w.choice(text(kind.name).c_str(), i == take_away.kind, text(kind.tooltip).c_str())) take_away.kind = i;
+    }
+    ImGui::EndCombo();
+  }
+  ImGui::EndDisabled();
+  ImGui::SameLine(0, gap);
+  ImGui::BeginDisabled(take_away.finishing());
+  if (w.button(take_away.recording() ? "Stop###Record" : "Start###Record",
+               "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
+               "no frame is lost.",
+               w.px(button_width)))
+    take_away.toggle_recording();
+  ImGui::EndDisabled();
+}
+
+}  // namespace
+
+void draw_files(Widgets& w, Session& session, UiState& ui) {
+  draw_import(w, session, ui.import);
+  draw_save(w, session, ui);
+  draw_command(w, session, ui);
+  // Last, so that nothing moves under the mouse.
+  for (const std::string& line : ui.import.report()) wrapped(line, ui.import.failed());
+}
+
+void draw_take_away(Widgets& w, Session& session, UiState& ui) {
+  TakeAway& take_away = ui.take_away;
+  w.row("Folder", w.px(label_column));
+  w.text("Output folder", take_away.folder, "the current one",
+         "Where all of this goes. Names end in the next free number; nothing is overwritten.");
+  w.row("Take", w.px(label_column));
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) take_away.picture_asked = true;
+  ImGui::SameLine();
+  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) take_away.write_curves(session);
+  draw_recording(w, take_away);
+  w.row("", w.px(label_column));
+  w.checkbox("With the panel", take_away.with_panel,
+             "Pictures and videos show the whole window, else the scene alone.");
+  if (!take_away.message().empty()) wrapped(take_away.message(), take_away.failed());
+}
+
+}  // namespace app

@@ -1,0 +1,28 @@
+#pragma once
+// The panel at the left: what one needs first stands first, the rest folds. Numbers never move it.
+
+#include "app/demo/session.h"
+#include "app/demo/ui_state.h"
+#include "app/panel/widgets.h"
+
+namespace app {
+
+inline constexpr float panel_width = 330;  // design pixels
+
+// Ends of the sliders; typed values stay within them too.
+inline constexpr float least_tolerance = 0.005f, most_tolerance = 0.5f;  // m
+inline constexpr float least_cell = 0.02f, most_cell = 5.0f;             // m
+
+/// Draws the panel over the left `panel_width` of the display. Between begin_frame() and end_frame() of the Gui.
+void draw_panel(Widgets& widgets, Session& session, UiState& ui);
+
+// Its sections, each for a window already begun.
+void draw_detection(Widgets& widgets, Session& session, bool table_shown);
+void draw_touch(Widgets& widgets, Session& session, UiState& ui);
+void draw_world(Widgets& widgets, Session& session, UiState& ui);
+void draw_numbers(Widgets& widgets, const Session& session);
+void draw_stability(Widgets& widgets, Session& session);
+void draw_files(Widgets& widgets, Session& session, UiState& ui);      // bring your own, save, reproduce
+void draw_take_away(Widgets& widgets, Session& session, UiState& ui);  // pictures, recordings, curves
+
+}  // namespace app

@@ -1,0 +1,139 @@
+// The panel's section on stability: the way back, and how energies, volumes, strains and speeds went. Its light stands
+// in the status.
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "app/demo/status.h"
+#include "app/panel/panel.h"
+#include "app/view/palette.h"
+
+namespace app {
+namespace {
+
+constexpr float label_column = 108;  // design pixels
+
+template <class... Values>
+std::string text(const char* format, Values... values) {
+  std::array<char, 160> buffer{};
+  std::snprintf(buffer.data(), buffer.size(), format, values...);
+  return buffer.data();
+}
+
+std::string in_numbers(const StepMargin& margin) {
+  if (margin.taken == 0) return "nothing moves, so there is no step to judge";
+  return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3, margin.bound * 1e3);
+}
+
+/// From the first snapshot to the newest; dragging goes there and pauses.
+void draw_past(Widgets& w, Session& session) {
+  const auto& past = session.stability().past().snapshots();
+  const auto frame = session.world().frame();
+  w.row("Go back to", w.px(label_column));
+  ImGui::BeginDisabled(past.empty());
+  int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
+  const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
+  const std::string shown = text("frame %d, %.2f s", frame, frame * session.world().frame_time());
+  if (w.slider("Go back to", place, 0, last, shown.c_str(),
+               "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
+               "the settings in use. Snapshots are dense lately and sparse long ago."))
+    session.rewind_to(past[static_cast<std::size_t>(place)].frame);
+  ImGui::EndDisabled();
+  const double mebi = static_cast<double>(session.stability().past().bytes()) / (1 << 20);
+  w.figure("Snapshots", text("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
+           "Memory is bounded: when it is full, old snapshots are thinned out.");
+}
+
+/// Which integrator, with how many substeps; and which one is at work, if it chooses by itself.
+void draw_integrator(Widgets& w, Session& session) {
+  const softbody::World& world = session.world();
+  const softbody::Integrator& asked = world.integrator();
+  w.row("Integrator", w.px(label_column));
+  if (w.begin_choices("Integrator", std::string(asked.name).c_str(), std::string(asked.summary).c_str())) {
+    for (const softbody::Integrator& i : softbody::integrators())
+      if (w.choice(std::string(i.name).c_str(), &i == &asked, std::string(i.summary).c_str()))
+        session.set_integrator(i.key, world.substeps());
+    ImGui::EndCombo();
+  }
+  bool fixed = world.substeps().has_value();
+  if (w.checkbox("Fixed substeps", fixed,
+                 "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
+                 "up. Else as many as the stability bound asks for."))
+    session.set_integrator(asked.key,
+                           fixed ? std::optional(std::max(1, session.stability().margin().needed)) : std::nullopt);
+  ImGui::BeginDisabled(!fixed);
+  w.row("Substeps", w.px(label_column));
+  int substeps = world.substeps().value_or(std::max(1, world.profile().substeps));
+  if (w.slider("Substeps", substeps, 1, std::max(100, substeps), "%d a frame", "Fewer are faster, until it explodes."))
+    session.set_integrator(asked.key, substeps);
+  ImGui::EndDisabled();
+  if (!asked.automatic) return;
+  const softbody::Dynamics& dynamics = world.dynamics();
+  w.figure("At work", std::string(dynamics.used_integrator().name),
+           std::string("Because ").append(dynamics.why_integrator()).append(".").c_str());
+}
+
+struct Curve {
+  const char* label;
+  Ring StabilityHistory::*ring;
+  const char* format;
+  float least;  // length of the axis
+  const char* unit;
+  glm::vec3 colour;
+};
+constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
+constexpr std::array<Curve, 9> curves{{
+    {"Kinetic", &StabilityHistory::kinetic, "%.3g J", 1, "J of motion", energy_colour},
+    {"Elastic", &StabilityHistory::elastic, "%.3g J", 1, "J in springs and kept shapes, against the start",
+     energy_colour},
+    {"Gas", &StabilityHistory::gas, "%.3g J", 1, "J in the gas and the air outside, against the start", energy_colour},
+    {"Gravity", &StabilityHistory::gravity, "%.4g J", 1, "J above or below the world's origin", energy_colour},
+    {"Total", &StabilityHistory::total, "%.4g J", 1, "J, but for what contacts store", energy_colour},
+    {"Least volume", &StabilityHistory::least_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
+    {"Most volume", &StabilityHistory::most_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
+    {"Strain", &StabilityHistory::strain, "%.3f", 0.1f, "of a spring's resting length, the largest", shape_colour},
+    {"Speed", &StabilityHistory::speed, "%.2f m/s", 1, "m/s of the fastest particle", plain},
+}};
+
+}  // namespace
+
+Light light_of(const StepMargin& margin) {
+  if (margin.taken >= margin.needed) return {light_green, "Green", "the step is within the stability bound."};
+  if (margin.taken >= 0.8 * margin.needed)
+    return {light_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
+  return {light_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
+}
+
+void draw_step_light(Widgets& w, Session& session) {
+  const StepMargin& margin = session.stability().margin();
+  const Light light = light_of(margin);
+  w.dot(light.colour);
+  w.line(std::string(light.name).append(": ").append(in_numbers(margin)));
+  w.done("Step light", text("%s: %s Taken: %d substeps a frame; needed: %d, with a reserve of a fifth.", light.name,
+                            light.sentence, margin.taken, margin.needed)
+                           .c_str());
+  if (!session.stability().alarm()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
+  ImGui::TextWrapped("%s (frame %d).", session.stability().alarm()->what.c_str(), session.stability().alarm()->frame);
+  ImGui::PopStyleColor();
+  w.done("Alarm", nullptr);
+  if (w.button("Rewind to the last good frame", "The world as it was before; then try other settings, or go on."))
+    session.rewind_to(session.stability().last_good_frame());
+}
+
+void draw_stability(Widgets& w, Session& session) {
+  draw_integrator(w, session);
+  w.checkbox("Pause when a body explodes", session.guarded,
+             "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
+             "there could give it, and names it.");
+  draw_past(w, session);
+  const StabilityHistory& history = session.stability().history();
+  for (const Curve& c : curves) {
+    const Ring& ring = history.*c.ring;
+    w.curve(c.label, text(c.format, static_cast<double>(ring.latest())), ring, axis_around(ring, c.least), c.colour,
+            c.unit);
+  }
+}
+
+}  // namespace app

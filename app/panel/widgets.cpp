@@ -1,0 +1,247 @@
+#include "app/panel/widgets.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace app {
+
+const Recorder::Widget* Recorder::find(std::string_view label) const {
+  const auto found = std::ranges::find(widgets, label, &Widget::label);
+  return found == widgets.end() ? nullptr : &*found;
+}
+
+ImU32 to_imgui(const glm::vec3& colour, float alpha) {
+  return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
+}
+
+float axis_end(float most, float least) {
+  float end = least;
+  for (int i = 0; end < most; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
+  return end;
+}
+
+Axis axis_around(const Ring& ring, float least) {
+  const float range = axis_end(ring.largest() - ring.smallest(), least), grid = range / 4;
+  const float bottom = grid * std::floor(ring.smallest() / grid);
+  return {bottom, bottom + range + grid};
+}
+
+void Widgets::done(const char* label, const char* tooltip) {
+  if (recorder_) {
+    const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
+    const std::string_view whole(label);
+    const auto name = whole.rfind("###");  // ImGui's way of a fixed name behind a changing text
+    recorder_->widgets.push_back({std::string(whole.substr(name == whole.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
+                                  ImGui::GetItemRectMax(), enabled});
+  }
+  if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
+  if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) hover_ = {label, 0};
+  hover_.seconds += ImGui::GetIO().DeltaTime;
+  if (hover_.seconds >= Hover::delay) show_tooltip(tooltip);
+}
+
+void Widgets::show_tooltip(const char* text) const {
+  ImGui::BeginTooltip();
+  ImGui::PushTextWrapPos(px(320));
+  ImGui::TextUnformatted(text);
+  ImGui::PopTextWrapPos();
+  ImGui::EndTooltip();
+}
+
+bool Widgets::button(const char* label, const char* tooltip, float width) {
+  const bool pressed = ImGui::Button(label, {width, 0});
+  done(label, tooltip);
+  return pressed;
+}
+
+bool Widgets::radio(const char* label, bool active, const char* tooltip) {
+  const bool pressed = ImGui::RadioButton(label, active);
+  done(label, tooltip);
+  return pressed;
+}
+
+bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
+  const bool changed = ImGui::Checkbox(label, &value);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::section(const char* label, bool open_at_first) {
+  if (const auto kept = sections_.find(label); kept != sections_.end())
+    ImGui::SetNextItemOpen(kept->second, ImGuiCond_Once);
+  const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
+  sections_[label] = open;
+  done(label, nullptr);
+  return open;
+}
+
+namespace {
+
+std::string hidden(const char* label) { return std::string("##") + label; }
+
+/// Sliders write their value over the grab: a pale grab keeps it legible.
+class PaleGrab {
+ public:
+  PaleGrab() {
+    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
+      ImVec4 colour = ImGui::GetStyleColorVec4(which);
+      colour.w = which == ImGuiCol_SliderGrab ? 0.4f : 0.6f;
+      ImGui::PushStyleColor(which, colour);
+    }
+  }
+  ~PaleGrab() { ImGui::PopStyleColor(2); }
+};
+
+constexpr ImGuiSliderFlags kept_inside = ImGuiSliderFlags_AlwaysClamp;
+
+}  // namespace
+
+bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
+  const PaleGrab pale;
+  const bool changed = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
+                     bool logarithmic) {
+  const PaleGrab pale;
+  const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed = ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+                     const char* tooltip) {
+  const PaleGrab pale;
+  const bool changed = ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
+                                           kept_inside | ImGuiSliderFlags_Logarithmic);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::drag(const char* label, glm::dvec3& value, float least, float most, const char* tooltip) {
+  constexpr float metres_a_pixel = 0.01f;
+  std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
+  const bool changed =
+      ImGui::DragFloat3(hidden(label).c_str(), shown.data(), metres_a_pixel, least, most, "%.2f", kept_inside);
+  done(label, tooltip);
+  const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
+  if (usable) value = {shown[0], shown[1], shown[2]};
+  return usable;
+}
+
+bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+                     const char* tooltip) {
+  const bool changed = ImGui::InputScalar(hidden(label).c_str(), ImGuiDataType_U32, &value);
+  value = std::clamp(value, least, most);
+  done(label, tooltip);
+  return changed;
+}
+
+bool Widgets::text(const char* label, std::string& value, const char* hint, const char* tooltip) {
+  std::array<char, 4096> typed{};  // as long as a path may be
+  value.copy(typed.data(), typed.size() - 1);
+  if (ImGui::InputTextWithHint(hidden(label).c_str(), hint, typed.data(), typed.size(),
+                               ImGuiInputTextFlags_AutoSelectAll))
+    value = typed.data();
+  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  done(label, tooltip);
+  return entered;
+}
+
+bool Widgets::begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
+  const bool open = ImGui::BeginCombo(hidden(label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
+  // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
+  if (!open) done(label, tooltip);
+  return open;
+}
+
+bool Widgets::choice(const char* label, bool selected, const char* tooltip) {
+  const bool chosen = ImGui::Selectable(label, selected);
+  done(label, tooltip);
+  return chosen;
+}
+
+void Widgets::row(const char* label, float column) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine(column);
+  ImGui::SetNextItemWidth(-FLT_MIN);
+}
+
+namespace {
+
+void text_in_line(const std::string& text, float place) {
+  const float space = ImGui::GetContentRegionAvail().x;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * place;
+  ImGui::Dummy({space, ImGui::GetTextLineHeight()});
+  ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+}
+
+}  // namespace
+
+void Widgets::line(const std::string& text) { text_in_line(text, 0.0f); }
+void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
+
+void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
+  ImGui::TextDisabled("%s", label);
+  ImGui::SameLine();
+  value(value_text);
+  done(label, tooltip);
+}
+
+void Widgets::chip(const glm::vec3& colour, float line_height) {
+  const float side = ImGui::GetFontSize() * 0.7f;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const float y = at.y + 0.5f * (line_height - side);
+  ImGui::GetWindowDrawList()->AddRectFilled({at.x, y}, {at.x + side, y + side}, to_imgui(colour), px(2));
+  ImGui::Dummy({side, line_height});
+}
+
+void Widgets::dot(const glm::vec3& colour) {
+  const float radius = ImGui::GetFontSize() * 0.36f;
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 centre{at.x + radius, at.y + 0.5f * ImGui::GetTextLineHeight()};
+  ImGui::GetWindowDrawList()->AddCircleFilled(centre, radius, to_imgui(colour), 24);
+  ImGui::Dummy({2 * radius + px(2), ImGui::GetTextLineHeight()});
+  ImGui::SameLine();
+}
+
+void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
+                    const glm::vec3& colour, const char* unit) {
+  constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
+  ImGui::TextDisabled("%s", label);
+  const float end = px(value_end);
+  ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
+  ImGui::TextUnformatted(text.c_str());
+  ImGui::SameLine(end + px(12));
+  sparkline(label, ring, axis, colour, unit);
+}
+
+void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, const glm::vec3& colour,
+                        const char* unit, float width) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
+  ImGui::InvisibleButton(hidden(label).c_str(), size);
+  std::array<char, 96> tip{};
+  std::snprintf(tip.data(), tip.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
+                static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
+  done(label, tip.data());
+
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));
+  std::array<ImVec2, Ring::capacity> points;
+  for (std::size_t i = 0; i < ring.size(); ++i) {
+    const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
+    points[i] = {at.x + x * size.x,
+                 at.y + size.y * (1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f))};
+  }
+  draw->AddPolyline(points.data(), static_cast<int>(ring.size()), to_imgui(colour), ImDrawFlags_None, px(1.25f));
+}
+
+}  // namespace app

@@ -1,0 +1,150 @@
+#include "app/reference/reference_body.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/reference/body_shape.h"
+#include "softbody/solids.h"
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+using softbody::Stage;
+
+/// The ideal gas P V = n below which volume it goes on along its tangent.
+constexpr double tangent_below = 0.1;  // of V0
+
+double absolute_pressure(const softbody::Gas& gas, double volume) {
+  const double touch = tangent_below * gas.rest_volume;
+  if (volume > touch) return gas.amount / volume;
+  return gas.amount / touch + gas.amount / (touch * touch) * (touch - volume);
+}
+
+/// The integral of ambient - pressure from V0.
+double gas_energy(const softbody::Gas& gas, double volume) {
+  const double touch = tangent_below * gas.rest_volume, low = std::min(volume, touch);
+  const double ideal = -gas.amount * std::log(std::max(volume, touch) / gas.rest_volume);
+  const double tangent = (touch - low) * (gas.amount / touch + absolute_pressure(gas, low)) / 2;
+  return gas.ambient * (volume - gas.rest_volume) + ideal + tangent;
+}
+
+/// a + s b for all particles.
+std::vector<dvec3> ahead(const std::vector<dvec3>& a, double s, const std::vector<dvec3>& b) {
+  std::vector<dvec3> sum(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) sum[i] = a[i] + s * b[i];
+  return sum;
+}
+
+}  // namespace
+
+BodyState state_of(const softbody::World& world, softbody::BodyId body) {
+  BodyState state;
+  for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) {
+    const softbody::Particle p = world.dynamics().particle(body, i);
+    state.x.push_back(p.position);
+    state.v.push_back(p.velocity);
+  }
+  return state;
+}
+
+std::string ReferenceBody::missing(const softbody::World& world) {
+  // Detection and sleep move nothing by themselves: a body that sleeps has come to rest.
+  constexpr std::array known{
+      Stage::structural_springs, Stage::bend_springs,  Stage::shear_springs, Stage::gas_pressure, Stage::gravity,
+      Stage::integrate,          Stage::solid_spheres, Stage::ground,        Stage::solid_planes, Stage::solid_boxes,
+      Stage::solid_capsules,     Stage::detect,        Stage::sleep};
+  if (world.scene().bodies.size() != 1) return "several bodies";
+  for (const Stage stage : world.plan().stages)
+    if (std::ranges::find(known, stage) == known.end()) return std::string(softbody::stage_key(stage));
+  return {};
+}
+
+void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state, std::vector<dvec3>& a) const {
+  const dvec3 d = state.x[s.j] - state.x[s.i];
+  const double length = glm::length(d);
+  if (length == 0) return;  // it has no direction
+  const dvec3 n = d / length;
+  const double tension = s.stiffness * (length - s.rest) + s.damping * glm::dot(state.v[s.j] - state.v[s.i], n);
+  a[s.i] += tension / prototype_.particle_mass * n;
+  a[s.j] -= tension / prototype_.particle_mass * n;
+}
+
+void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
+  const auto& faces = prototype_.mesh.triangles;
+  const double gauge = absolute_pressure(prototype_.gas, volume_of(state.x, faces)) - prototype_.gas.ambient;
+  for (const auto& [i, j, k] : faces) {
+    const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
+    for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / prototype_.particle_mass * area;
+  }
+}
+
+std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
+  std::vector<dvec3> a(state.x.size(), scene_.gravity);
+  for (const auto* list : {&prototype_.structural, &prototype_.bend, &prototype_.shear})
+    for (const softbody::Spring& s : *list) add_spring(s, state, a);
+  if (prototype_.has_gas) add_gas(state, a);
+  return a;
+}
+
+/// In the coming h seconds no particle goes deeper than the surface, and none below comes up faster than 1 m/s or a
+/// tenth of its depth a step; Coulomb's friction takes its share of what the surface gives.
+void ReferenceBody::touch_solids(const std::vector<dvec3>& x, std::vector<dvec3>& v, double h) const {
+  softbody::for_each_solid(scene_, [&](const auto& solid) {
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const softbody::SolidSurface s = softbody::surface_at(solid, x[i]);
+      const double gap = s.distance - prototype_.material.thickness;
+      const double least = gap > 0 ? -gap / h : std::min(-0.1 * gap / h, 1.0);
+      const double up = glm::dot(v[i], s.normal);
+      if (up >= least) continue;
+      const dvec3 along = v[i] - up * s.normal;
+      const double slip = glm::length(along), lost = std::min(slip, solid.friction * (least - up));
+      v[i] = least * s.normal + (slip > 0 ? (1 - lost / slip) * along : along);
+    }
+  });
+}
+
+void ReferenceBody::step(BodyState& state, double h) const {
+  const std::vector<dvec3> a1 = accelerations(state);
+  const BodyState s2{ahead(state.x, h / 2, state.v), ahead(state.v, h / 2, a1)};
+  const std::vector<dvec3> a2 = accelerations(s2);
+  const BodyState s3{ahead(state.x, h / 2, s2.v), ahead(state.v, h / 2, a2)};
+  const std::vector<dvec3> a3 = accelerations(s3);
+  const BodyState s4{ahead(state.x, h, s3.v), ahead(state.v, h, a3)};
+  const std::vector<dvec3> a4 = accelerations(s4);
+  std::vector<dvec3> mean(state.x.size());
+  for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (state.v[i] + 2.0 * s2.v[i] + 2.0 * s3.v[i] + s4.v[i]) / 6.0;
+  const std::vector<dvec3> free = mean;
+  touch_solids(state.x, mean, h);
+  for (std::size_t i = 0; i < mean.size(); ++i) {
+    state.x[i] += h * mean[i];
+    state.v[i] += h / 6 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]) + (mean[i] - free[i]);
+  }
+  touch_solids(state.x, state.v, h);
+}
+
+double ReferenceBody::stable_step(const BodyState& state) const {
+  const double k_m =
+      softbody::stiffness_per_mass(prototype_, softbody::measure_surface(state.x, prototype_.mesh.triangles));
+  const double c_m = prototype_.spring_damping_bound / prototype_.particle_mass;
+  return softbody::find_integrator("rk4")->stable_step(k_m, c_m);
+}
+
+double ReferenceBody::energy(const BodyState& state) const {
+  double energy = 0;
+  for (std::size_t i = 0; i < state.x.size(); ++i)
+    energy +=
+        prototype_.particle_mass * (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(scene_.gravity, state.x[i]));
+  for (const auto* list : {&prototype_.structural, &prototype_.bend, &prototype_.shear})
+    for (const softbody::Spring& s : *list) {
+      const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
+      energy += 0.5 * s.stiffness * stretch * stretch;
+    }
+  if (prototype_.has_gas) energy += gas_energy(prototype_.gas, volume_of(state.x, prototype_.mesh.triangles));
+  return energy;
+}
+
+}  // namespace app

@@ -1,0 +1,38 @@
+#pragma once
+// The reference's motion at a step that is shown to be small enough.
+
+#include "app/reference/body_shape.h"
+
+namespace app {
+
+struct Flight {
+  BodyState end{};
+  std::uint64_t steps = 0;
+  bool complete = true;  // false: it would have taken more steps than allowed
+  bool settled = false;  // it was ended early: nothing moves within the body any more
+};
+
+struct FlightLimits {
+  double seconds = 0.5;
+  std::uint64_t steps = 200'000;
+  /// m/s: a body that moves more slowly for a while has settled; one that flies free of gravity and solids, that does
+  /// so in itself. 0: never.
+  double settled_speed = 0;
+};
+
+/// With `fraction` of the stable step, or of that in which some particle goes a tenth of the radius if it is shorter;
+/// both are worked out anew every few steps.
+Flight fly(const ReferenceBody& body, BodyState start, double fraction, const FlightLimits& limits);
+
+struct Reference {
+  BodyState end{};
+  double step = 0;         // s, mean
+  double change = 0;       // R, RMS of the positions when the step was last halved
+  bool converged = false;  // change is within the bound
+  double growth = 0;       // by how much a disturbance of all positions of 1e-8 R has grown, RMS
+};
+
+/// Halves the step until the change is at most `bound` (in R), or the limits are reached.
+Reference find_reference(const ReferenceBody& body, const BodyState& start, double bound, const FlightLimits& limits);
+
+}  // namespace app

@@ -1,0 +1,50 @@
+#include "app/reference/stability_criteria.h"
+
+#include <algorithm>
+
+#include "app/base/text.h"
+
+namespace app {
+
+void StabilityJudge::add(const StabilitySample& s) {
+  StabilityFigures& f = figures_;
+  f.finite = s.finite;
+  if (!s.finite) {
+    f.blew_up = s.time;
+    return;
+  }
+  const double excess = (s.energy - limits_.energy - s.work) / limits_.scale;
+  f.energy = std::max(f.energy, excess);
+  f.speed = std::max(f.speed, s.speed / s.speed_reach);
+  f.extent = std::max(f.extent, s.extent / s.extent_reach);
+  const double depth = s.depth / limits_.radius;
+  constexpr int coming_out = 10;  // frames
+  if (!limits_.begins_inside || s.frame > coming_out) f.transient = std::max(f.transient, depth);
+  if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);
+  f.through = s.through;
+  if (excess > 10) f.blew_up = s.time;
+}
+
+std::vector<std::string> failures(const StabilityFigures& f) {
+  constexpr StabilityBounds b = stability_bounds;
+  if (!f.refused.empty()) return {joined("refused: ", f.refused)};
+  std::vector<std::string> all;
+  const auto check = [&](bool good, const std::string& text) {
+    if (!good) all.push_back(text);
+  };
+  check(f.finite, "not finite");
+  check(f.energy <= b.energy, format("energy + %.2g", f.energy));
+  check(f.speed <= b.speed, format("speed %.2g of what energy can give", f.speed));
+  check(f.extent <= b.extent, format("box %.2g of what energy can draw", f.extent));
+  check(f.transient <= b.transient, format("%.2g R deep in a solid", f.transient));
+  check(f.steady <= b.steady, format("%.2g R deep in a solid in the end", f.steady));
+  check(f.through == 0, format("through a solid: %zu", f.through));
+  if (f.blew_up > 0) all.push_back(format("gave up at %.3g s", f.blew_up));
+  if (!f.reference || f.blew_up > 0) return all;
+  check(f.reference->shape <= b.shape, format("shape off by %.2g R", f.reference->shape));
+  check(f.reference->volume <= b.volume, format("volume off by %.2g %%", 100 * f.reference->volume));
+  check(f.reference->rest <= b.rest, format("moves at %.2g m/s", f.reference->rest));
+  return all;
+}
+
+}  // namespace app

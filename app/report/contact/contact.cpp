@@ -1,0 +1,126 @@
+#include "app/report/contact/contact.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+
+#include "app/files/output_file.h"
+#include "app/report/contact/results.h"
+#include "app/report/detection/recording.h"
+#include "app/report/files.h"
+#include "collide/workers.h"
+
+namespace app {
+namespace {
+
+// The scenes' own tolerance is 0.2 R for spheres: 0.08, 0.16, 0.2 and 0.4 R.
+constexpr std::array tolerances{0.4, 0.8, 1.0, 2.0};
+constexpr std::array speeds{1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0};  // m/s
+constexpr std::array quick_speeds{10.0, 100.0, 1000.0};
+constexpr std::array quick_scenes{"A", "B"};
+
+std::vector<ContactChoice> make_choices(bool quick) {
+  using softbody::ContactSurface;
+  std::vector<ContactChoice> choices{{.surface = ContactSurface::surfaces}};
+  for (const double tolerance : tolerances) {
+    if (quick && tolerance != 1) continue;
+    for (const std::string_view method : {collide::default_method, collide::paper_method})
+      choices.push_back({ContactSurface::vertices, method, tolerance});
+  }
+  return choices;
+}
+
+/// One run that is to be done.
+struct Job {
+  softbody::Scene scene;
+  ContactChoice choice;
+  TrialLimits limits;
+  std::size_t of;  // index of its case
+  ContactTrial done{};
+};
+
+class Plan {
+ public:
+  explicit Plan(const Options& options) : options_(options) {
+    const bool quick = options.report.quick;
+    results.quick = quick;
+    results.command = command_of(options.report);
+    results.limits = quick ? TrialLimits{.frames = 600, .stride = 20, .seconds = 10} : TrialLimits{};
+    results.vertex_frames = quick ? 3'000'000 : 10'000'000;
+    results.choices = make_choices(quick);
+  }
+
+  void add_scene(const softbody::Scene& scene) {
+    const std::uint64_t cost = vertex_count(scene) * static_cast<std::uint64_t>(results.limits.frames);
+    const bool over = cost > results.vertex_frames;
+    add({.key = scene.key, .name = scene.name}, scene, results.limits, over);
+  }
+
+  void add_impact(const Impact& impact, double speed) {
+    const softbody::Scene scene = impact.make(speed);
+    // A second after it got there.
+    const int frames = 60 + static_cast<int>(60 * 0.3 / speed);
+    add({.impact = true, .key = std::string(impact.key), .name = std::string(impact.name), .speed = speed}, scene,
+        {.frames = frames, .stride = 1, .seconds = results.limits.seconds}, false);
+  }
+
+  void run() {
+    collide::Workers workers(options_.report.threads.value_or(options_.threads));
+    std::atomic<std::size_t> next{0};
+    workers.run([&](int thread) {
+      for (std::size_t i = next++; i < jobs_.size(); i = next++) {
+        Job& job = jobs_[i];
+        if (thread == 0)
+          say(job.scene.key + ", " + choice_name(job.choice),
+              static_cast<double>(i) / static_cast<double>(jobs_.size()));
+        job.done = try_contact(std::move(job.scene), job.choice, job.limits);
+      }
+    });
+    for (Job& job : jobs_) results.cases[job.of].trials.push_back(std::move(job.done));
+  }
+
+  ContactResults results;
+
+ private:
+  void add(ContactCase c, const softbody::Scene& scene, const TrialLimits& limits, bool over_budget) {
+    for (const ContactChoice& choice : results.choices) {
+      if (over_budget)
+        c.trials.push_back({.choice = choice, .not_run = "over the budget of vertices times frames"});
+      else
+        jobs_.push_back({scene, choice, limits, results.cases.size()});
+    }
+    results.cases.push_back(std::move(c));
+  }
+
+  const Options& options_;
+  std::vector<Job> jobs_;
+};
+
+void add_impacts(Plan& plan, bool quick) {
+  for (const Impact& impact : impacts()) {
+    for (const double speed : quick ? std::span<const double>(quick_speeds) : std::span<const double>(speeds))
+      plan.add_impact(impact, speed);
+  }
+}
+
+}  // namespace
+
+void report_contact(const Options& options) {
+  const ReportOptions& o = options.report;
+  const std::vector<softbody::Scene> scenes = chosen_scenes(o);
+  prepare_folder(options.out);
+  Plan plan(options);
+  for (const softbody::Scene& scene : scenes) {
+    if (!o.quick || o.scene || std::ranges::count(quick_scenes, scene.key) > 0) plan.add_scene(scene);
+  }
+  if (!o.scene) add_impacts(plan, o.quick);
+  plan.run();
+  const ContactResults& results = plan.results;
+  write_report(options.out, {.csv_name = "contact.csv",
+                             .csv = contact_csv(results),
+                             .markdown_name = "contact.md",
+                             .plots = contact_plots(results),
+                             .markdown = [&](const auto& drawn) { return contact_markdown(results, drawn); }});
+}
+
+}  // namespace app

@@ -1,0 +1,252 @@
+#include "app/report/contact/trial.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/text.h"
+#include "app/base/usage_error.h"
+#include "app/command/options.h"
+#include "app/compare/world_oracle.h"
+#include "app/report/cpu_clock.h"
+#include "app/report/solid_passages.h"
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+double smallest_closed_radius(const softbody::World& world) {
+  double radius = 0;
+  for (collide::Index b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype& p = world.prototype(b);
+    if (p.mesh.closed && (radius == 0 || p.radius < radius)) radius = p.radius;
+  }
+  return radius;
+}
+
+/// A run, and what is seen on the way.
+class Trial {
+ public:
+  Trial(softbody::Scene scene, const TrialLimits& limits, ContactTrial& result)
+      : limits_(limits), result_(result), world_(std::move(scene), {.threads = 1}) {
+    result_.settles = world_.scene().gravity != glm::dvec3(0.0);
+    result_.tolerance = double{world_.collision().tolerance};
+    oracle_.crossings(world_);
+    passages_.look(world_);
+  }
+
+  void run() {
+    const double start = thread_seconds();
+    while (world_.frame() < limits_.frames && result_.finite && !world_.all_at_rest()) {
+      step();
+      if (thread_seconds() - start > limits_.seconds) {
+        result_.not_run = format("over the budget of %g s after %d frames", limits_.seconds, world_.frame());
+        return;
+      }
+    }
+    finish();
+  }
+
+ private:
+  void step() {
+    remember_middles();
+    result_.radius = smallest_closed_radius(world_);
+    const double start = thread_seconds();
+    world_.step();
+    result_.cpu_ms += 1e3 * (thread_seconds() - start);
+    result_.detect_ms += world_.profile().detect_ms;
+    result_.solve_ms += world_.profile().solve_ms;
+    look_for_passages(false);
+    look_into_solids();
+    if (world_.frame() > limits_.frames - last_second) look_at_speeds();
+    if (world_.frame() % limits_.stride == 0) look_for_overlaps();
+  }
+
+  void finish() {
+    look_for_passages(true);
+    look_for_overlaps();
+    result_.frames = world_.frame();
+    result_.bodies = world_.bodies().count();
+    result_.vertices = world_.bodies().vertex_count();
+    result_.asleep = world_.all_at_rest();
+    const double frames = std::max(1, world_.frame());
+    for (double* sum : {&result_.cpu_ms, &result_.detect_ms, &result_.solve_ms}) *sum /= frames;
+    if (result_.penetrations > 0) result_.mean_depth = depths_ / static_cast<double>(result_.penetrations);
+    if (awake_particles_ > 0 && !result_.asleep) result_.jitter = std::sqrt(squares_ / awake_particles_);
+  }
+
+  /// Bodies nearly at rest are looked at again only after they have gone some way.
+  void look_for_passages(bool last) {
+    if (!last && oracle_.moved(world_) < 0.01) return;  // m: the depth bound of the scenes' spheres
+    const std::vector<collide::Crossing> crossings = oracle_.crossings(world_);
+    const auto figures = collide::figures_of(world_.positions(), {}, crossings);
+    result_.passed += passed(crossings);
+    result_.crossed_vertices += figures.crossed_vertices;
+    result_.edge_crossings += figures.edge_crossings;
+  }
+
+  /// Vertices that are on the other side of a surface than before, or right through a body. The straight way from one
+  /// look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for having stayed
+  /// outside, unless the two bodies passed each other by more than the smallest body's radius in the frame.
+  std::size_t passed(const std::vector<collide::Crossing>& crossings) const {
+    std::map<std::pair<collide::Index, collide::Index>, int> balance;  // by vertex and the other body
+    std::set<collide::Index> vertices;
+    for (const collide::Crossing& c : crossings) {
+      if (c.kind != collide::Crossing::Kind::vertex_face) continue;
+      balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
+      if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
+    }
+    for (const auto& [key, sum] : balance) {
+      if (sum != 0) vertices.insert(key.first);
+    }
+    return vertices.size();
+  }
+
+  /// Of a body's middle, in the last step.
+  glm::dvec3 way_of(collide::Index body) const {
+    return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
+  }
+
+  void look_for_overlaps() {
+    const softbody::Measures measures = softbody::measure(world_);
+    result_.finite = result_.finite && measures.finite;
+    result_.solid_depth = std::max(result_.solid_depth, measures.deepest_penetration);
+    const collide::Overlaps overlaps = oracle_.overlaps(world_);
+    const auto figures = collide::figures_of(world_.positions(), overlaps);
+    const auto missed =
+        collide::missed_by(world_.detection().contacts, world_.positions(), surfaces_of(world_), overlaps);
+    ++result_.looks;
+    result_.penetrations += overlaps.penetrations.size();
+    result_.missed += missed.penetrations.size();
+    result_.deepest = std::max(result_.deepest, figures.deepest);
+    depths_ += figures.mean_depth * static_cast<double>(overlaps.penetrations.size());
+    result_.end_depth = figures.deepest;
+    result_.overlapping_pairs = figures.overlapping_pairs;
+    result_.self_intersecting = figures.self_intersecting_bodies;
+  }
+
+  void look_at_speeds() {
+    for (collide::Index b = 0; b < world_.bodies().count(); ++b) {
+      if (world_.body(b).asleep) continue;
+      const collide::Index size = world_.bodies().size(b);
+      for (collide::Index v = 0; v < size; ++v) {
+        const glm::dvec3 velocity = world_.dynamics().particle(b, v).velocity;
+        squares_ += glm::dot(velocity, velocity);
+      }
+      awake_particles_ += size;
+    }
+  }
+
+  void remember_middles() {
+    middles_.clear();
+    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle_of(world_, b));
+  }
+
+  void look_into_solids() {
+    if (!passages_.look(world_)) result_.finite = false;
+    result_.through_solids = passages_.count();
+  }
+
+  static constexpr int last_second = 60;  // frames
+
+  const TrialLimits& limits_;
+  ContactTrial& result_;
+  softbody::World world_;
+  WorldOracle oracle_{1};
+  std::vector<glm::dvec3> middles_;  // of the bodies, before the step
+  SolidPassages passages_;
+  double depths_ = 0, squares_ = 0, awake_particles_ = 0;
+};
+
+// ---- impacts ----
+
+constexpr double ball_radius = 0.5, gap = 0.3;  // m
+
+/// The scene, without gravity and bodies; its first material is what they are made of.
+softbody::Scene empty_scene(const std::string& key) {
+  softbody::Scene scene = softbody::find_scene("A", scene_folder());
+  scene.gravity = glm::dvec3(0.0);
+  scene.ground.reset();
+  scene.spheres.clear();
+  scene.bodies.clear();
+  scene.key = key;
+  return scene;
+}
+
+/// A ball flies down towards the origin, a little off the middle; `top`: of what is there.
+void add_ball(softbody::Scene& scene, double top, double speed) {
+  softbody::BodySource ball;
+  ball.mesh.radius = ball_radius;
+  ball.position = {0.04, top + gap + ball_radius, 0.03};
+  ball.velocity = {0, -speed, 0};
+  scene.bodies.push_back(ball);
+}
+
+softbody::Scene at_sphere(double speed) {
+  softbody::Scene scene = empty_scene("sphere");
+  softbody::BodySource target;
+  target.mesh.radius = ball_radius;
+  target.position = glm::dvec3(0.0);
+  scene.bodies.push_back(target);
+  add_ball(scene, ball_radius, speed);
+  return scene;
+}
+
+softbody::Scene at_solid(double speed) {
+  softbody::Scene scene = empty_scene("solid");
+  scene.spheres.emplace_back();
+  add_ball(scene, scene.spheres.front().radius, speed);
+  return scene;
+}
+
+softbody::Scene at_sheet(double speed) {
+  softbody::Scene scene = empty_scene("sheet");
+  scene.materials.push_back(softbody::find_scene("cloth", scene_folder()).materials.front());
+  softbody::BodySource sheet;
+  sheet.mesh = {.kind = "grid", .columns = 24, .rows = 24, .width = 2, .depth = 2};
+  sheet.material = 1;
+  sheet.position = glm::dvec3(0.0);
+  scene.bodies.push_back(sheet);
+  add_ball(scene, 0, speed);
+  return scene;
+}
+
+constexpr std::array all_impacts{Impact{"sphere", "A sphere thrown at a resting sphere", at_sphere},
+                                 Impact{"solid", "A sphere thrown at the solid sphere", at_solid},
+                                 Impact{"sheet", "A sphere thrown at a hanging sheet", at_sheet}};
+
+}  // namespace
+
+std::span<const Impact> impacts() { return all_impacts; }
+
+std::vector<std::string> ContactTrial::failures() const {
+  std::vector<std::string> all;
+  if (!not_run.empty()) return {not_run};
+  if (!finite) all.push_back("not finite");
+  if (through_solids > 0) all.push_back(format("through a solid: %zu", through_solids));
+  if (radius > 0 && solid_depth > depth_bound * radius)
+    all.push_back(format("%.2g R deep in a solid", solid_depth / radius));
+  if (passed > 0) all.push_back(format("passed: %zu", passed));
+  if (end_depth > depth_bound * radius) all.push_back(format("%.2g R deep at the end", end_depth / radius));
+  if (self_intersecting > 0) all.push_back(format("pierce themselves: %zu", self_intersecting));
+  if (settles && !asleep) all.push_back("awake");
+  return all;
+}
+
+ContactTrial try_contact(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits) {
+  ContactTrial result{.choice = choice};
+  scene.contact_surface = choice.surface;
+  scene.method = choice.method;
+  scene.collision.tolerance *= static_cast<float>(choice.tolerance);
+  try {
+    Trial(std::move(scene), limits, result).run();
+  } catch (const softbody::SceneError& error) {
+    result.not_run = error.what();
+  }
+  return result;
+}
+
+}  // namespace app

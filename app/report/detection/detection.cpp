@@ -1,0 +1,100 @@
+#include "app/report/detection/detection.h"
+
+#include <algorithm>
+
+#include "app/files/output_file.h"
+#include "app/report/detection/csv.h"
+#include "app/report/detection/markdown.h"
+#include "app/report/detection/plots.h"
+#include "app/report/detection/recording.h"
+#include "app/report/files.h"
+
+namespace app {
+namespace {
+
+constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
+
+SweepLimits limits_of(const ReportOptions& options) {
+  if (options.quick) return {.repetitions = 3, .repeat_ms = 50};
+  return {};
+}
+
+StateResult sweep_state(const RecordedState& state, const std::vector<Configuration>& configurations,
+                        const DetectionResults& results, collide::Workers& workers, const std::string& what) {
+  Sweep sweep(state.view(), configurations, results.limits, workers);
+  while (sweep.step()) say(what, sweep.progress());
+  return {state.frame, state.bodies.count(), state.bodies.vertex_count(), sweep.report()};
+}
+
+SceneResult sweep_scene(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
+  SceneResult scene{recording.scene, recording.name, recording.buckets, {}};
+  for (const RecordedState& state : recording.states) {
+    const std::string what = recording.scene + ", frame " + std::to_string(state.frame);
+    scene.states.push_back(sweep_state(state, recording.configurations, results, workers, what));
+  }
+  return scene;
+}
+
+/// The paper's level and the automatic cell, with its 1001 buckets and with the most of the sweep.
+std::vector<Configuration> growth_configurations(std::vector<Configuration> all) {
+  std::erase_if(all, [](const Configuration& c) {
+    const collide::Method& method = method_of(c);
+    const bool level = !method.uses_levels || c.settings.levels == paper_level;
+    const bool hash = !method.uses_hash ||
+                      (c.cell == 1 && (c.settings.buckets == 1001 || c.settings.buckets == sweep_buckets.back()));
+    return !(level && hash);
+  });
+  return all;
+}
+
+SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
+  SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
+  const RecordedState& all = recording.states.front();  // not piled up yet: the middle is as dense as the rest
+  const auto configurations = growth_configurations(recording.configurations);
+  const auto add = [&](const RecordedState& state) {
+    const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
+    growth.states.push_back(sweep_state(state, configurations, results, workers, what));
+  };
+  for (const collide::Index count : growth_bodies) {
+    if (count < all.bodies.count()) add(middle_bodies(all, count));
+  }
+  if (!growth.states.empty()) add(all);
+  return growth;
+}
+
+DetectionResults measure(const Options& options, const std::vector<softbody::Scene>& scenes) {
+  const ReportOptions& o = options.report;
+  DetectionResults results;
+  results.quick = o.quick;
+  results.threads = o.threads.value_or(1);
+  results.limits = limits_of(o);
+  results.command = command_of(o);
+  collide::Workers workers(results.threads);
+  const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
+  const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
+  for (const softbody::Scene& scene : scenes) {
+    const bool largest = bodies(scene) == most_bodies;
+    const bool swept = !o.quick || o.scene || std::ranges::count(paper_scenes, scene.key) > 0;
+    if (!swept && !largest) continue;
+    say(scene.key + ": simulating", 0);
+    const Recording recording = record(scene, plan_recording(vertex_count(scene), o.quick), options.threads);
+    if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
+    if (largest) results.growth = sweep_growth(recording, results, workers);
+  }
+  return results;
+}
+
+}  // namespace
+
+void report_detection(const Options& options) {
+  const std::vector<softbody::Scene> scenes = chosen_scenes(options.report);
+  prepare_folder(options.out);
+  const DetectionResults results = measure(options, scenes);
+  write_report(options.out, {.csv_name = "detection.csv",
+                             .csv = detection_csv(results),
+                             .markdown_name = "report.md",
+                             .plots = detection_plots(results),
+                             .markdown = [&](const auto& drawn) { return detection_markdown(results, drawn); }});
+}
+
+}  // namespace app

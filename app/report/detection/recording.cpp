@@ -1,0 +1,89 @@
+#include "app/report/detection/recording.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/usage_error.h"
+
+namespace app {
+namespace {
+
+constexpr std::uint64_t large = 50'000;  // vertices
+
+RecordedState copy(const softbody::World& world) {
+  RecordedState state{world.frame(), {}, world.bodies()};
+  state.at.copy(world.positions());
+  return state;
+}
+
+glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Index end) {
+  glm::dvec3 sum{0.0};
+  for (collide::Index v = begin; v < end; ++v) sum += glm::dvec3(state.at.x[v], state.at.y[v], state.at.z[v]);
+  return sum / std::max(1.0, static_cast<double>(end - begin));
+}
+
+}  // namespace
+
+RecordingPlan plan_recording(std::uint64_t vertices, bool quick) {
+  const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
+  const auto frames = static_cast<int>(std::clamp<std::uint64_t>(steps / std::max<std::uint64_t>(vertices, 1), 2, 800));
+  if (quick) return {{frames}, vertices < large};
+  if (vertices >= large) return {{std::max(1, frames / 8), frames}, false};
+  return {{frames / 8, frames / 2, frames}, true};
+}
+
+std::uint64_t vertex_count(const softbody::Scene& scene) {
+  std::uint64_t vertices = 0;
+  for (const softbody::BodySource& body : scene.bodies) vertices += body.mesh.vertex_count();
+  return vertices;
+}
+
+Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int threads) {
+  softbody::World world(scene, {.threads = threads});
+  Recording recording{scene.key, scene.name, world.collision().buckets, {}, {}};
+  std::optional<RecordedState> busiest;
+  std::size_t most = 0;
+  for (const int frame : plan.frames) {
+    while (world.frame() < frame) {
+      world.step();
+      const std::size_t contacts = world.detection().contacts.size();
+      if (!plan.busiest || contacts <= most) continue;
+      most = contacts;
+      busiest = copy(world);
+    }
+    recording.states.push_back(copy(world));
+  }
+  if (busiest && std::ranges::find(plan.frames, busiest->frame) == plan.frames.end())
+    recording.states.push_back(std::move(*busiest));
+  std::ranges::sort(recording.states, {}, &RecordedState::frame);
+  if (recording.states.back().bodies.vertex_count() == 0)
+    throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
+                     ", so there is nothing to measure");
+  recording.configurations = sweep_configurations(world);
+  return recording;
+}
+
+RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
+  const collide::Bodies& all = state.bodies;
+  const glm::dvec3 centre = middle(state, 0, all.vertex_count());
+  std::vector<std::pair<double, collide::Index>> nearest;  // the body's distance, and which one
+  for (collide::Index b = 0; b < all.count(); ++b)
+    nearest.emplace_back(glm::distance(middle(state, all.first[b], all.first[b + 1]), centre), b);
+  std::ranges::sort(nearest);
+  nearest.resize(std::min<std::size_t>(count, nearest.size()));
+  std::ranges::sort(nearest, {}, &std::pair<double, collide::Index>::second);
+
+  RecordedState part{state.frame, {}, {}};
+  for (const auto& [distance, b] : nearest) {
+    part.bodies.add(all.shape[b]);
+    for (collide::Index v = all.first[b]; v < all.first[b + 1]; ++v) {
+      part.at.x.push_back(state.at.x[v]);
+      part.at.y.push_back(state.at.y[v]);
+      part.at.z.push_back(state.at.z[v]);
+    }
+  }
+  return part;
+}
+
+}  // namespace app

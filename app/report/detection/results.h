@@ -1,0 +1,64 @@
+#pragma once
+// What `report detection` measures, before it is written as CSV, Markdown and plots.
+
+#include <string>
+#include <vector>
+
+#include "app/compare/sweep.h"
+
+namespace app {
+
+/// A sweep of one recorded state.
+struct StateResult {
+  int frame = 0;
+  collide::Index bodies = 0, vertices = 0;
+  SweepReport sweep;
+};
+
+/// The same configurations on several states.
+struct SceneResult {
+  std::string scene, name;    // its key, and what it calls itself
+  std::uint32_t buckets = 0;  // the scene's own
+  std::vector<StateResult> states;
+};
+
+struct DetectionResults {
+  std::string command;  // to make the report again
+  bool quick = false;
+  int threads = 1;  // of the detectors
+  SweepLimits limits;
+  std::vector<SceneResult> scenes;
+  SceneResult growth;  // piles of more and more bodies, cut out of one state of its scene; no states if it is too small
+};
+
+/// One configuration over all states of a scene.
+struct Mean {
+  Configuration configuration;
+  std::string not_run;                           // why it was not run on one of them, else empty: then all of these
+  double ms = 0, least_ms = 0;                   // means of the states' medians and minima
+  double pair_tests = 0, hashes = 0, boxes = 0;  // means
+  std::size_t contacts = 0, missed = 0, true_contacts = 0;  // sums
+  std::size_t memory = 0;                                   // the most
+
+  double error() const;      // 1 - recall over all states
+  double precision() const;  // likewise
+};
+
+/// As the rows of a state's sweep.
+std::vector<Mean> means(const SceneResult& scene);
+
+/// Of those that were run: the points of a plot of error against run time, and the indices of its Pareto front.
+std::vector<std::size_t> pareto_front(const std::vector<Mean>& means);
+
+/// The paper's scenarios and its level of subdivision (Table 1).
+inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"};
+inline constexpr int paper_level = 3;
+
+inline const collide::Method& method_of(const Configuration& c) { return collide::methods()[c.method]; }
+
+// A setting, or nothing where the method has no use for it.
+std::string levels_of(const Configuration& c);
+std::string buckets_of(const Configuration& c);
+std::string cell_of(const Configuration& c);
+
+}  // namespace app

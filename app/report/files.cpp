@@ -1,0 +1,58 @@
+#include "app/report/files.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+
+#include "app/files/output_file.h"
+#include "app/report/gnuplot.h"
+
+namespace app {
+namespace {
+
+/// File names and contents; empty if they cannot be drawn.
+std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
+  std::vector<std::pair<std::string, std::string>> pictures;
+  try {
+    for (const Plot& plot : plots) {
+      pictures.emplace_back(plot.name + ".svg", draw(plot.script, Picture::svg));
+      pictures.emplace_back(plot.name + ".png", draw(plot.script, Picture::png));
+    }
+  } catch (const std::runtime_error& error) {
+    std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
+    pictures.clear();
+  }
+  return pictures;
+}
+
+}  // namespace
+
+void say(const std::string& what, double progress) {
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
+}
+
+std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
+  const auto scene_named = [](const std::string& name) { return softbody::find_scene(name, scene_folder()); };
+  if (options.scene) return {scene_named(*options.scene)};
+  std::vector<softbody::Scene> scenes;
+  for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));
+  return scenes;
+}
+
+std::string command_of(const ReportOptions& o) {
+  std::string text = "sbcollide report " + o.name;
+  if (o.scene) text.append(" --scene ").append(*o.scene);
+  if (o.quick) text += " --quick";
+  if (o.threads) text.append(" --threads ").append(std::to_string(*o.threads));
+  return text + " --out DIR";
+}
+
+void write_report(const std::filesystem::path& folder, const ReportFiles& files) {
+  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%60s\r", "");
+  const auto pictures = draw_all(files.plots);
+  write_file(folder / files.csv_name, files.csv);
+  for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
+  write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
+}
+
+}  // namespace app

@@ -1,0 +1,35 @@
+#include "app/report/report.h"
+
+#include <algorithm>
+#include <array>
+
+#include "app/report/contact/contact.h"
+#include "app/report/detection/detection.h"
+#include "app/report/solver/solver.h"
+#include "app/report/stability/stability.h"
+
+namespace app {
+namespace {
+
+struct Report {
+  std::string_view name;
+  void (*make)(const Options& options);
+};
+
+/// All there are.
+constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
+                             Report{"solver", report_solver}, Report{"stability", report_stability}};
+
+const Report& find_report(const std::string& name) {
+  const auto found = std::ranges::find(reports, name, &Report::name);
+  if (found != reports.end()) return *found;
+  std::string names;
+  for (const Report& r : reports) names.append(names.empty() ? "" : ", ").append(r.name);
+  throw UsageError("report " + name + ": unknown; use one of: " + names);
+}
+
+}  // namespace
+
+void report(const Options& options) { find_report(options.report.name).make(options); }
+
+}  // namespace app

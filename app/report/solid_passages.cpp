@@ -1,0 +1,50 @@
+#include "app/report/solid_passages.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+bool inside(const softbody::World& world, const glm::dvec3& p) {
+  return softbody::solid_depth(world.scene(), p).depth > 0;
+}
+
+}  // namespace
+
+glm::dvec3 middle_of(const softbody::World& world, collide::Index body) {
+  const collide::Frame at = world.positions();
+  glm::dvec3 sum{0.0};
+  for (collide::Index v = at.bodies->first[body]; v < at.bodies->first[body + 1]; ++v)
+    sum += glm::dvec3(at.x[v], at.y[v], at.z[v]);
+  return sum / static_cast<double>(at.bodies->size(body));
+}
+
+bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from, const glm::dvec3& to,
+                           double radius) const {
+  const int parts = 1 + static_cast<int>(std::min(16 * glm::distance(from, to) / radius, 4000.0));
+  for (int i = 1; i < parts; ++i)
+    if (inside(world, glm::mix(from, to, double(i) / parts))) return true;
+  return false;
+}
+
+bool SolidPassages::look(const softbody::World& world) {
+  bool finite = true;
+  for (collide::Index b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype& p = world.prototype(b);
+    const glm::dvec3 to = middle_of(world, b);
+    if (b == outside_.size()) outside_.push_back(to);
+    const bool known = std::isfinite(glm::distance(outside_[b], to));
+    finite = finite && known;
+    if (!p.mesh.closed || !known || inside(world, to)) continue;
+    count_ += passed(world, outside_[b], to, p.radius);
+    outside_[b] = to;
+  }
+  return finite;
+}
+
+}  // namespace app

@@ -1,0 +1,109 @@
+#include <array>
+
+#include "app/report/solver/results.h"
+#include "app/report/table.h"
+
+namespace app {
+namespace {
+
+constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
+
+std::string introduction(const SolverResults& r) {
+  std::string text = joined("# Solvers: error against run time\n\n`", r.command, "` makes this report.\n\n");
+  text += format("- Every integrator advances each scene by %g s in frames of 1/%.0f s, ", r.seconds, 1 / r.frame_time);
+  text +=
+      "with 1, 2, 4 ... of its steps a frame (XPBD: each has 20 substeps of its own; `auto` chooses its own). Error: "
+      "RMS over the particles of "
+      "the difference to the reference, in radii R, at the end.\n"
+      "- ms: processor time of the thread for whole steps, a simulated second, ";
+  text += format("median of %d repetitions which take turns. ", r.repetitions);
+  text +=
+      "Bodies of one prototype are solved side by side, one a SIMD lane. \"Batch\" is the cost a body of eight bodies, "
+      "a full batch; \"alone\" is one body, which leaves seven lanes empty. Plots show the batch; scenes from files "
+      "have the bodies that they have, and their cost stands under alone.\n"
+      "- Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions "
+      "changed by less than ";
+  text +=
+      format("%g R. Scenes that have what it does not model are held against the world's rk4 in floats.\n", r.bound);
+  text +=
+      "- Growth: by how much a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No solver is "
+      "nearer to the reference than the growth times its rounding.\n"
+      "- Energy: difference to the reference's, in the larger of the energy above balance at the start and m g R. "
+      "Momentum: of the body's own, only where nothing acts from outside. Inner speed: RMS of what is not motion of "
+      "the "
+      "body as a whole; where it starts in balance, this is jitter.\n"
+      "- Order: of the error, observed from step to step; none where errors never fall in a row.\n"
+      "- `solver.csv` has every figure.\n";
+  if (r.quick) text += "- This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.\n";
+  return text + "\n";
+}
+
+std::string optional_text(const std::optional<double>& value) { return value ? format("%.2g", *value) : ""; }
+
+/// The cheapest that is at least so accurate.
+std::string cheapest(const WorkCurve& curve, double bound) {
+  const WorkPoint* best = nullptr;
+  const auto cost = [](const WorkPoint& p) { return p.cpu_batch.value_or(p.cpu_alone); };
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up && p.error <= bound && (!best || cost(p) < cost(*best))) best = &p;
+  return best ? joined(brief(cost(*best)), " (", steps_text(*best), ")") : "";
+}
+
+std::string costs(const SolverCase& c) {
+  Cells names{"integrator", "order"};
+  for (const double bound : bounds) names.push_back(format("%g R", bound));
+  std::string text = joined("ms for an error of at most ... (steps a frame):\n\n", heading(names, 1));
+  for (const WorkCurve& curve : c.curves) {
+    const auto order = curve.order();
+    Cells cells{std::string(curve.integrator->name), order ? format("%.1f", *order) : ""};
+    for (const double bound : bounds) cells.push_back(cheapest(curve, bound));
+    text += line(cells);
+  }
+  return text;
+}
+
+/// The first that did not blow up, and the most accurate.
+std::string details(const SolverCase& c) {
+  std::string text = "\nWith the fewest steps that do not blow up, and with those of the least error:\n\n" +
+                     heading({"integrator", "steps", "alone, ms", "batch, ms", "error, R", "energy", "linear",
+                              "angular", "volume", c.at_rest ? "jitter, m/s" : "inner speed, m/s"},
+                             1);
+  for (const WorkCurve& curve : c.curves) {
+    const WorkPoint *first = nullptr, *best = nullptr;
+    for (const WorkPoint& p : curve.points) {
+      if (p.blew_up) continue;
+      if (!first) first = &p;
+      if (!best || p.error < best->error) best = &p;
+    }
+    if (!first) {
+      text += line({std::string(curve.integrator->name), "", "", "", "blew up", "", "", "", "", ""});
+      continue;
+    }
+    std::vector<const WorkPoint*> shown{first};
+    if (best != first) shown.push_back(best);
+    for (const WorkPoint* p : shown) {
+      text += line({std::string(curve.integrator->name), steps_text(*p), brief(p->cpu_alone),
+                    p->cpu_batch ? brief(*p->cpu_batch) : "", format("%.2g", p->error), format("%.2g", p->energy),
+                    optional_text(p->linear), optional_text(p->angular), optional_text(p->volume),
+                    format("%.2g", p->speed)});
+    }
+  }
+  return text;
+}
+
+}  // namespace
+
+std::string solver_markdown(const SolverResults& results, const std::vector<Plot>& plots) {
+  std::string text = introduction(results);
+  for (const SolverCase& c : results.cases) {
+    text +=
+        joined("## ", c.name, "\n\n", "Reference: ", c.reference,
+               format(", steps of %.3g s on average; halving them changed the positions by %.2g R", c.step, c.change),
+               c.converged ? "" : ", which is not converged: errors below that mean nothing",
+               format(". A disturbance grows %.3g times.\n\n", c.growth));
+    text += joined(costs(c), details(c), picture(plots, solver_plot_name(c)), "\n");
+  }
+  return text;
+}
+
+}  // namespace app

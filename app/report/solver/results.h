@@ -1,0 +1,63 @@
+#pragma once
+// What `report solver` has measured, and what it is written as.
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/report/plot.h"
+#include "softbody/integrators.h"
+
+namespace app {
+
+/// One integrator with so many steps a frame.
+struct WorkPoint {
+  int substeps = 0;                   // 0: it chose them itself
+  double cpu_alone = 0;               // ms of processor time a simulated second a body: one body in a batch of lanes
+  std::optional<double> cpu_batch{};  // the same for a full batch of bodies
+  bool blew_up = false;               // then the rest has no meaning
+  double error = 0;                   // R, RMS of the positions at the end
+  double energy = 0;                  // of the reference's, in the energy scale
+  std::optional<double> linear{}, angular{};  // momentum, of the reference's; only where nothing acts from outside
+  std::optional<double> volume{};             // of the reference's; only closed bodies
+  double speed = 0;                           // m/s, RMS of motion within the bodies at the end: jitter where they rest
+};
+
+/// "8", or "own".
+inline std::string steps_text(const WorkPoint& p) { return p.substeps > 0 ? std::to_string(p.substeps) : "own"; }
+
+struct WorkCurve {
+  const softbody::Integrator* integrator;
+  std::vector<WorkPoint> points{};      // by substeps
+  std::optional<double> order() const;  // observed, of the error; none: no two errors show one
+};
+
+struct SolverCase {
+  std::string key, name;
+  bool at_rest = false;
+  std::string reference;   // what it is
+  double step = 0;         // s, of the reference
+  double change = 0;       // R, when its step was halved
+  bool converged = false;  // change is within the bound
+  double growth = 0;       // of a disturbance
+  std::vector<WorkCurve> curves{};
+};
+
+struct SolverResults {
+  std::string command;
+  bool quick = false;
+  double seconds = 0, frame_time = 0;  // simulated
+  double bound = 0;                    // R, of the reference's change
+  int repetitions = 0;
+  std::vector<SolverCase> cases;
+};
+
+/// A row a point, with a header line. What has no meaning is empty.
+std::string solver_csv(const SolverResults& results);
+/// Error against run time, one a case.
+std::vector<Plot> solver_plots(const SolverResults& results);
+std::string solver_plot_name(const SolverCase& c);
+/// plots: those that lie beside it as NAME.svg and NAME.png.
+std::string solver_markdown(const SolverResults& results, const std::vector<Plot>& plots);
+
+}  // namespace app

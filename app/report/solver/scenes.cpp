@@ -1,0 +1,93 @@
+#include "app/report/solver/scenes.h"
+
+#include <glm/geometric.hpp>
+
+#include "app/base/text.h"
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+
+/// A ball whose gas has a tenth more pressure than it was in balance with, so that it breathes, flies and turns.
+SolverScene free_flight(double stiffness, const std::string& key) {
+  SolverScene s{.key = key, .name = format("Free flight, k = %g N/m", stiffness)};
+  softbody::Material calm = ball_material(stiffness, 0.02);
+  s.scene = lone_scene(calm);
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  for (softbody::Particle& p : start) p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position);
+  s.scene.materials[0].gas_pressure *= 1.1;
+  return s;
+}
+
+/// From rest, a millimetre over the ground: a ball that hit it would be as hard to follow as a thrown die.
+SolverScene on_the_ground() {
+  SolverScene s{.key = "contact-1e3", .name = "Ball let down on the ground, k = 1000 N/m"};
+  s.scene = lone_scene(ball_material(1e3, 0.02));
+  const softbody::Particle lowest =
+      particles_of(softbody::World(s.scene, {.substeps = 1}), 0)[0];  // an icosphere's extent is that of any corner
+  s.scene.gravity = {0, -9.81, 0};
+  s.scene.ground = softbody::Ground{};
+  s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0].thickness + 1e-3;
+  return s;
+}
+
+SolverScene equilibrium(double stiffness, const std::string& key) {
+  SolverScene s{.key = key, .name = format("Equilibrium, k = %g N/m", stiffness), .at_rest = true};
+  s.scene = lone_scene(ball_material(stiffness, 0.02));
+  return s;
+}
+
+/// A sheet falls across a round bar.
+SolverScene cloth() {
+  SolverScene s{.key = "cloth", .name = "Cloth over a bar"};
+  softbody::Material m;
+  m.name = "cloth";
+  m.mass = 0.5;
+  m.structural = {200, 0.1};
+  m.shear = {60, 0.1};
+  m.bend = {1, 0.1};
+  m.rolling_resistance = 0;
+  s.scene = lone_scene(m);
+  s.scene.bodies[0].mesh = {.kind = "grid", .columns = 16, .rows = 16, .width = 1.2, .depth = 1.2};
+  s.scene.gravity = {0, -9.81, 0};
+  s.scene.capsules.push_back({.from = {-100, -0.24, 0.1}, .to = {100, -0.24, 0.1}, .radius = 0.2, .friction = 0.3});
+  return s;
+}
+
+}  // namespace
+
+softbody::Material ball_material(double stiffness, double damping_ratio) {
+  softbody::Material m;
+  m.name = "ball";
+  m.structural = {stiffness, damping_ratio};
+  m.bend = {stiffness / 4, damping_ratio};
+  m.gas_pressure = 1.6 * stiffness;
+  m.rolling_resistance = 0;
+  return m;
+}
+
+softbody::Scene lone_scene(const softbody::Material& material) {
+  softbody::Scene scene;
+  scene.gravity = dvec3(0.0);
+  scene.collision.self_collision = false;
+  scene.sleep.speed = 0;
+  scene.materials = {material};
+  softbody::BodySource& body = scene.bodies.emplace_back();
+  body.position = dvec3(0.0);
+  return scene;
+}
+
+Particles particles_of(const softbody::World& world, softbody::BodyId body) {
+  Particles list;
+  for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
+    list.push_back(world.dynamics().particle(body, i));
+  return list;
+}
+
+std::vector<SolverScene> solver_scenes() {
+  return {free_flight(1e3, "free-1e3"), free_flight(1e6, "free-1e6"), on_the_ground(),
+          equilibrium(1e3, "rest-1e3"), equilibrium(1e6, "rest-1e6"), cloth()};
+}
+
+}  // namespace app

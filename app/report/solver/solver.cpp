@@ -1,0 +1,145 @@
+#include "app/report/solver/solver.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/base/text.h"
+#include "app/base/times.h"
+#include "app/files/output_file.h"
+#include "app/report/files.h"
+#include "app/report/own_steps.h"
+#include "app/report/solver/results.h"
+#include "app/report/solver/trial.h"
+
+namespace app {
+namespace {
+
+constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"};
+
+struct Effort {
+  double seconds;               // of processor time: the steps of a frame are doubled until a run takes longer
+  int repetitions;              // whose median counts
+  std::uint64_t truth_steps;    // at most, of the reference
+  int most_substeps = 1 << 14;  // a frame
+};
+
+/// A point and what it takes to measure it again.
+struct Cell {
+  std::size_t of, curve, point;  // indices
+  int substeps;
+  Times alone{}, batch{};  // a run
+};
+
+class SolverReport {
+ public:
+  SolverReport(const ReportOptions& options, std::vector<SolverScene> scenes)
+      : scenes_(std::move(scenes)), effort_(options.quick ? Effort{0.08, 2, 8'000} : Effort{1, 3, 200'000}) {
+    results.quick = options.quick;
+    results.command = command_of(options);
+    results.seconds = run_.seconds();
+    results.frame_time = run_.frame_time;
+    results.bound = 2e-5;
+    results.repetitions = effort_.repetitions;
+  }
+
+  void run() {
+    for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
+    // One repetition of all after the other: what disturbs the machine for a while disturbs all alike.
+    for (int r = 0; r < effort_.repetitions; ++r) {
+      say("repetition " + std::to_string(r + 1), double(r) / effort_.repetitions);
+      for (Cell& cell : cells_) repeat(cell);
+    }
+    for (const Cell& cell : cells_) take_times(cell);
+  }
+
+  SolverResults results;
+
+ private:
+  void find_errors(std::size_t s) {
+    const SolverScene& scene = scenes_[s];
+    say(scene.key + ": reference", double(s) / double(scenes_.size()));
+    const Truth truth = find_truth(scene, run_, results.bound, effort_.truth_steps);
+    SolverCase c{scene.key,  scene.name,   scene.at_rest,   truth.what,
+                 truth.step, truth.change, truth.converged, truth.growth};
+    for (const softbody::Integrator& integrator : softbody::integrators()) {
+      say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
+      WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
+      double took = 0;
+      const int most = chooses_steps(integrator) ? 1 : effort_.most_substeps;
+      for (int n = 1; n <= most && took < effort_.seconds; n *= 2) {
+        const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
+        took = outcome.finite ? outcome.cpu : 0;
+        WorkPoint point = judge(scene, outcome, truth);
+        if (!chooses_steps(integrator)) point.substeps = n;
+        if (!point.blew_up) cells_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
+        point.cpu_alone = 1e3 * outcome.cpu / run_.seconds() / double(outcome.bodies.size());
+        curve.points.push_back(point);
+      }
+    }
+    results.cases.push_back(std::move(c));
+  }
+
+  void repeat(Cell& cell) {
+    const SolverScene& scene = scenes_[cell.of];
+    const softbody::Integrator& integrator = *results.cases[cell.of].curves[cell.curve].integrator;
+    const auto time = [&](int copies) { return 1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu; };
+    cell.alone.ms.push_back(time(1));
+    if (scene.repeatable) cell.batch.ms.push_back(time(softbody::lanes));
+  }
+
+  void take_times(const Cell& cell) {
+    WorkPoint& point = results.cases[cell.of].curves[cell.curve].points[cell.point];
+    const double bodies = double(scenes_[cell.of].scene.bodies.size());
+    point.cpu_alone = cell.alone.median() / run_.seconds() / bodies;
+    if (!cell.batch.ms.empty()) point.cpu_batch = cell.batch.median() / run_.seconds() / softbody::lanes;
+  }
+
+  std::vector<SolverScene> scenes_;
+  SolverRun run_;
+  Effort effort_;
+  std::vector<Cell> cells_;
+};
+
+std::vector<SolverScene> scenes_for(const ReportOptions& options) {
+  if (options.scene) {
+    const softbody::Scene scene = chosen_scenes(options).front();
+    if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to measure; add a [[body]]");
+    return {{.key = scene.key, .name = scene.name, .scene = scene, .repeatable = false}};
+  }
+  std::vector<SolverScene> scenes = solver_scenes();
+  if (options.quick)
+    std::erase_if(scenes, [](const SolverScene& s) { return std::ranges::count(quick_scenes, s.key) == 0; });
+  return scenes;
+}
+
+}  // namespace
+
+void report_solver(const Options& options) {
+  std::vector<SolverScene> scenes = scenes_for(options.report);
+  prepare_folder(options.out);
+  SolverReport report(options.report, std::move(scenes));
+  report.run();
+  const SolverResults& results = report.results;
+  write_report(options.out, {.csv_name = "solver.csv",
+                             .csv = solver_csv(results),
+                             .markdown_name = "solver.md",
+                             .plots = solver_plots(results),
+                             .markdown = [&](const auto& drawn) { return solver_markdown(results, drawn); }});
+}
+
+/// Between neighbouring errors that are neither floats' last digits nor of another motion: the median.
+std::optional<double> WorkCurve::order() const {
+  constexpr double least = 2e-5, most = 0.3;  // R
+  std::vector<double> orders;
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    const WorkPoint &a = points[i - 1], &b = points[i];
+    if (a.blew_up || b.blew_up || a.error > most || b.error < least) continue;
+    orders.push_back(std::log2(a.error / b.error) / std::log2(double(b.substeps) / a.substeps));
+  }
+  if (orders.empty()) return std::nullopt;
+  std::ranges::sort(orders);
+  return orders[orders.size() / 2];
+}
+
+}  // namespace app

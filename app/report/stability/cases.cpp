@@ -1,0 +1,197 @@
+#include "app/report/stability/cases.h"
+
+#include <array>
+#include <random>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/usage_error.h"
+#include "app/command/options.h"
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+
+constexpr double damping_ratio = 0.1, radius = 0.5;  // m
+constexpr double g = 9.81;                           // m/s^2
+
+/// Without gravity, solids and self-collision.
+StabilityScene lone(double k) { return {.scene = lone_scene(ball_material(k, damping_ratio))}; }
+
+/// The ball's particles, each at place(where it rests).
+template <class Place>
+StabilityScene placed(double k, Place place) {
+  StabilityScene s = lone(k);
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  for (softbody::Particle& p : start) p.position = place(p.position);
+  return s;
+}
+
+StabilityScene stretched(double k) {
+  return placed(k, [](const dvec3& p) { return p * dvec3(10, 1, 1); });
+}
+StabilityScene flattened(double k) {
+  return placed(k, [](const dvec3& p) { return p * dvec3(1, 0, 1); });
+}
+StabilityScene collapsed(double k) {
+  return placed(k, [](const dvec3&) { return dvec3(0.0); });
+}
+StabilityScene nearly_collapsed(double k) {
+  return placed(k, [](const dvec3& p) { return 1e-3 * p; });
+}
+StabilityScene inside_out(double k) {
+  return placed(k, [](const dvec3& p) { return -p; });
+}
+StabilityScene random_vertices(double k) {
+  std::mt19937 random(1);
+  const auto coordinate = [&] { return radius * (2 * double(random()) / double(std::mt19937::max()) - 1); };
+  return placed(k, [&](const dvec3&) {
+    const double x = coordinate(), y = coordinate(), z = coordinate();
+    return dvec3(x, y, z);
+  });
+}
+StabilityScene far_away(double k) {
+  return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); });
+}
+
+/// A ball over the ground; `height` of its middle.
+StabilityScene over_ground(double k, double height) {
+  StabilityScene s = lone(k);
+  s.scene.gravity = {0, -g, 0};
+  s.scene.ground = softbody::Ground{};
+  s.scene.bodies[0].position = {0, height, 0};
+  return s;
+}
+
+/// The radius that gas gives the ball; the mesh itself is smaller.
+double inflated(double k) {
+  return glm::length(particles_of(softbody::World(lone(k).scene, {.substeps = 1}), 0)[0].position);
+}
+
+StabilityScene on_the_ground(double k) { return over_ground(k, inflated(k) + 0.006); }
+StabilityScene long_frame(double k) {
+  StabilityScene s = over_ground(k, 1.5);
+  s.first_frame = 0.5;
+  return s;
+}
+/// Solids push out with at most 1 m/s: from deeper it would not be out within the frames that the criteria allow.
+StabilityScene inside_solid(double k) { return over_ground(k, inflated(k) - 0.15 * radius); }
+
+StabilityScene mass_ratio(double k) {
+  StabilityScene s = on_the_ground(k);
+  s.scene.materials.push_back(s.scene.materials[0]);
+  s.scene.materials[1].mass = 1000;
+  s.scene.bodies.push_back(s.scene.bodies[0]);
+  s.scene.bodies[1].material = 1;
+  s.scene.bodies[1].position.y += 2.5 * inflated(k);
+  return s;
+}
+
+StabilityScene stiffness_ratio(double k) {
+  StabilityScene s = lone(k);
+  s.scene.materials.push_back(ball_material(1e-6 * k, damping_ratio));
+  s.scene.bodies.push_back(s.scene.bodies[0]);
+  s.scene.bodies[1].material = 1;
+  s.scene.bodies[1].position.y = 3 * inflated(k);
+  s.scene.bodies[1].velocity.y = -1;
+  return s;
+}
+
+StabilityScene tiny_mass(double k) {
+  StabilityScene s = placed(k, [](const dvec3& p) { return p * dvec3(1, 0.5, 1); });
+  s.scene.materials[0].mass = 1e-6;
+  return s;
+}
+
+/// At a plate so thin that a frame leads right through it, and so wide that no way leads around it.
+template <int speed>
+StabilityScene impact(double k) {
+  StabilityScene s = lone(k);
+  s.scene.boxes.push_back({.centre = {0, -0.05, 0}, .half_size = {1e3, 0.05, 1e3}});
+  s.scene.bodies[0].position = {0, inflated(k) + 0.3, 0};
+  s.scene.bodies[0].velocity = {0, -speed, 0};
+  return s;
+}
+
+/// In balance with another pressure than it has.
+StabilityScene pressure_times(double k, double factor) {
+  StabilityScene s = placed(k, [](const dvec3& p) { return p; });
+  s.scene.materials[0].gas_pressure *= factor;
+  return s;
+}
+StabilityScene overpressure(double k) { return pressure_times(k, 100); }
+StabilityScene pressure_lost(double k) { return pressure_times(k, 0); }
+
+/// The ball of a mesh in which `spoil` has moved vertices of the triangle 0; flattened to a half.
+template <class Spoil>
+StabilityScene spoilt_mesh(double k, Spoil spoil) {
+  StabilityScene s = lone(k);
+  auto imported = std::make_shared<softbody::ImportedMesh>();
+  imported->mesh = softbody::icosphere(2, radius);
+  const auto [a, b, c] = imported->mesh.triangles[0];
+  spoil(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
+  s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
+  s.scene.materials[0].shape_frequency = 0;
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  for (softbody::Particle& p : start) p.position.y *= 0.5;
+  return s;
+}
+StabilityScene duplicates(double k) {
+  return spoilt_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; });
+}
+StabilityScene degenerate(double k) {
+  return spoilt_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); });
+}
+
+StabilityScene pile(double k) {
+  StabilityScene s{.scene = softbody::find_scene("D", scene_folder())};
+  for (softbody::Material& m : s.scene.materials) {
+    const softbody::Material stiff = ball_material(k, damping_ratio);
+    m.structural = stiff.structural;
+    m.bend = stiff.bend;
+    m.gas_pressure = stiff.gas_pressure;
+    m.ambient_pressure = 0;
+  }
+  return s;
+}
+
+constexpr std::array all_cases{
+    StabilityCase{"rest", "At rest", lone},
+    StabilityCase{"stretched", "Stretched 10 times", stretched},
+    StabilityCase{"flattened", "Flattened", flattened},
+    StabilityCase{"collapsed", "Collapsed to a point", collapsed},
+    StabilityCase{"nearly-collapsed", "Collapsed to a thousandth", nearly_collapsed},
+    StabilityCase{"random", "Random vertices", random_vertices},
+    StabilityCase{"inside-out", "Inside out", inside_out},
+    StabilityCase{"mass-ratio", "1000 kg on 1 kg", mass_ratio},
+    StabilityCase{"stiffness-ratio", "A body hits one 1e6 times as stiff", stiffness_ratio},
+    StabilityCase{"tiny-mass", "Mass 1e-6 kg, half flat", tiny_mass},
+    StabilityCase{"impact-10", "At a thin plate with 10 m/s", impact<10>},
+    StabilityCase{"impact-100", "At a thin plate with 100 m/s", impact<100>},
+    StabilityCase{"impact-1000", "At a thin plate with 1000 m/s", impact<1000>},
+    StabilityCase{"long-frame", "A frame of 0.5 s, falling", long_frame},
+    StabilityCase{"overpressure", "Pressure x 100", overpressure},
+    StabilityCase{"pressure-lost", "Pressure lost", pressure_lost},
+    StabilityCase{"inside-solid", "Begins 0.15 R in the ground", inside_solid},
+    StabilityCase{"on-the-ground", "On the ground", on_the_ground},
+    StabilityCase{"duplicates", "Duplicate vertices, half flat", duplicates},
+    StabilityCase{"degenerate", "Degenerate faces, half flat", degenerate},
+    StabilityCase{"far", "1 km from the origin, half flat", far_away},
+    StabilityCase{"pile", "A pile of 47", pile},
+};
+
+}  // namespace
+
+std::span<const StabilityCase> stability_cases() { return all_cases; }
+
+StabilityScene scaled(softbody::Scene scene, double factor) {
+  for (softbody::Material& m : scene.materials) {
+    for (softbody::SpringLaw* law : {&m.structural, &m.bend, &m.shear}) law->stiffness *= factor;
+    m.gas_pressure *= factor;
+    m.ambient_pressure *= factor;
+  }
+  return {.scene = std::move(scene)};
+}
+
+}  // namespace app

@@ -1,0 +1,153 @@
+#include "app/report/stability/cell.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/report/own_steps.h"
+#include "app/report/solid_passages.h"
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+using softbody::BodyId;
+using softbody::World;
+
+double gas_energy(const softbody::Prototype& p, const Particles& particles) {
+  if (!p.has_gas) return 0;
+  std::vector<dvec3> x;
+  for (const softbody::Particle& q : particles) x.push_back(q.position);
+  return p.gas.energy(volume_of(x, p.mesh.triangles));
+}
+
+/// m, the longest side of the particles' box.
+double extent_of(const Particles& particles) {
+  dvec3 lo = particles[0].position, hi = lo;
+  for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
+  return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
+}
+
+/// A run, frame by frame.
+class Run {
+ public:
+  Run(const StabilityStart& start) : start_(start), judge_(start.limits) {}
+
+  World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
+    World world(
+        start_.scene,
+        {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_for(integrator, 1)});
+    for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
+    if (frame_ == 0) {
+      passages_.look(world);
+      energy_ = softbody::measure(world).energy;
+      bodies_ = world.bodies().count();
+    }
+    return world;
+  }
+
+  void step(World& world) {
+    const double depth_before = softbody::measure(world).deepest_penetration;
+    world.step();
+    ++frame_;
+    time_ += world.frame_time();
+    passages_.look(world);
+    const softbody::Measures m = softbody::measure(world);
+    StabilitySample s{.time = time_,
+                      .frame = frame_,
+                      .finite = m.finite,
+                      .energy = m.energy,
+                      .speed = m.max_speed,
+                      .depth = m.deepest_penetration,
+                      .through = passages_.count()};
+    if (m.finite) add_reach(world, s, depth_before);
+    judge_.add(s);
+  }
+
+  double time() const { return time_; }
+  bool lost() const { return judge_.lost(); }
+  const StabilityFigures& figures() const { return judge_.figures(); }
+
+ private:
+  void add_reach(const World& world, StabilitySample& s, double depth_before) {
+    add_work(world, s, depth_before);
+    s.work = work_;
+    const StabilityLimits& limits = start_.limits;
+    double available = limits.energy + work_ + stability_bounds.energy * limits.scale;  // for all but gravity and gas
+    double gas = 0, lightest = std::numeric_limits<double>::infinity();
+    std::vector<double> extents;
+    for (BodyId b = 0; b < world.bodies().count(); ++b) {
+      const Particles particles = particles_of(world, b);
+      available -= height_energy(world, particles, b);
+      gas += gas_energy(world.prototype(b), particles);
+      lightest = std::min(lightest, world.prototype(b).particle_mass);
+      extents.push_back(extent_of(particles));
+    }
+    const double least = 1e-9 * limits.scale;  // what has flown away has lost all to gravity
+    s.speed_reach = std::sqrt(2 * std::max(available - start_.balance, least) / lightest);
+    s.extent_reach = 1;
+    for (std::size_t b = 0; b < std::min(extents.size(), start_.leash.size()); ++b) {
+      const auto& [length, stiffness] = start_.leash[b];
+      const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
+      if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
+    }
+  }
+
+  /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse. And bodies that join
+  /// bring their energy along.
+  void add_work(const World& world, const StabilitySample& s, double depth_before) {
+    constexpr double push_out = 1;  // m/s
+    if (frame_ > 1 && depth_before <= 0) came_out_ = true;
+    if (start_.limits.begins_inside && !came_out_)
+      for (BodyId b = 0; b < world.bodies().count(); ++b)
+        work_ += push_out * glm::length(world.dynamics().solid_impulse(b));
+    if (world.bodies().count() != bodies_) work_ += std::max(0.0, s.energy - energy_);
+    bodies_ = world.bodies().count();
+    energy_ = s.energy;
+  }
+
+  const StabilityStart& start_;
+  StabilityJudge judge_;
+  SolidPassages passages_;
+  int frame_ = 0;
+  double time_ = 0, work_ = 0, energy_ = 0;
+  bool came_out_ = false;
+  BodyId bodies_ = 0;
+};
+
+AgainstReference compare(const World& world, const StabilityStart& start) {
+  const softbody::Prototype& p = world.prototype(0);
+  const BodyState end = state_of(world, 0);
+  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius, .rest = internal_speed(end)};
+  if (p.mesh.closed)
+    r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.truth.x, p.mesh.triangles) - 1);
+  return r;
+}
+
+}  // namespace
+
+StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
+  try {
+    Run run(start);
+    std::vector<Particles> particles = start.particles;
+    if (start.first_frame > 0) {
+      World world = run.make(start.first_frame, integrator, particles);
+      run.step(world);
+      if (run.lost()) return run.figures();
+      particles = all_particles(world);
+    }
+    World world = run.make(dt, integrator, particles);
+    while (!run.lost() && run.time() < start.limits.seconds - dt / 2) run.step(world);
+    StabilityFigures figures = run.figures();
+    if (start.untold.empty() && !run.lost()) figures.reference = compare(world, start);
+    return figures;
+  } catch (const softbody::SceneError& error) {
+    return {.refused = error.what()};
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,143 @@
+#include "app/report/stability/stability.h"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <functional>
+
+#include "app/files/output_file.h"
+#include "app/report/files.h"
+#include "app/report/stability/cell.h"
+#include "app/report/stability/results.h"
+#include "collide/workers.h"
+
+namespace app {
+namespace {
+
+constexpr std::array stiffnesses{1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};  // N/m
+constexpr std::array factors{1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5};    // of a scene's own
+constexpr std::array quick_stiffnesses{1e1, 1e4, 1e8};
+constexpr std::array quick_factors{1e-1, 1e0, 1e3};
+constexpr std::array quick_cases{"rest", "flattened", "impact-100"};
+
+struct Effort {
+  double seconds;             // simulated
+  std::uint64_t truth_steps;  // at most
+};
+
+/// What is to be run: a case, or the user's scene, at one stiffness.
+struct Job {
+  std::size_t section, row;
+  std::function<StabilityScene()> make;
+  StabilityStart start{};
+};
+
+class StabilityReport {
+ public:
+  explicit StabilityReport(const ReportOptions& options)
+      : effort_(options.quick ? Effort{1, 15'000} : Effort{2, 100'000}) {
+    results.quick = options.quick;
+    results.command = command_of(options);
+    results.seconds = effort_.seconds;
+    results.dts = {1.0 / 30, 1.0 / 60, 1.0 / 240};
+    for (const softbody::Integrator& i : softbody::integrators()) results.integrators.push_back(&i);
+  }
+
+  void add_case(const StabilityCase& c) {
+    results.sections.push_back({std::string(c.key), std::string(c.name), {}});
+    for (const double k : results.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses)
+      add(k, [make = c.make, k] { return make(k); });
+  }
+
+  void add_scene(const softbody::Scene& scene) {
+    results.from_file = true;
+    results.sections.push_back({scene.key, scene.name, {}});
+    for (const double factor : results.quick ? std::span<const double>(quick_factors) : factors)
+      add(factor, [scene, factor] { return scaled(scene, factor); });
+  }
+
+  /// Cells know nothing of each other: they run side by side.
+  void run(collide::Workers& workers) {
+    in_parallel(workers, "reference", jobs_.size(), [&](std::size_t i) { prepare_job(jobs_[i]); });
+    const std::size_t cells = results.integrators.size() * results.dts.size();
+    // The dear ones, stiff and small steps, are not all at the end.
+    in_parallel(workers, "cell", jobs_.size() * cells, [&](std::size_t i) { run_one(jobs_[i / cells], i % cells); });
+    if (results.from_file) return;
+    const auto ks = results.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses;
+    results.steps.assign(results.integrators.size(), std::vector<StableStep>(ks.size()));
+    in_parallel(workers, "largest step", ks.size() * results.integrators.size(), [&](std::size_t i) {
+      const std::size_t which = i / ks.size(), k = i % ks.size();
+      results.steps[which][k] = find_stable_step(*results.integrators[which], ks[k]);
+    });
+  }
+
+  StabilityResults results;
+
+ private:
+  void add(double stiffness, std::function<StabilityScene()> make) {
+    StabilitySection& section = results.sections.back();
+    jobs_.push_back({results.sections.size() - 1, section.rows.size(), std::move(make)});
+    StabilityRow& row = section.rows.emplace_back(StabilityRow{stiffness, {}, {}});
+    for (std::size_t i = 0; i < results.integrators.size(); ++i)
+      for (std::size_t dt = 0; dt < results.dts.size(); ++dt) row.cells.push_back({i, dt});
+  }
+
+  StabilityRow& row_of(const Job& job) { return results.sections[job.section].rows[job.row]; }
+
+  void prepare_job(Job& job) {
+    StabilityRow& row = row_of(job);
+    try {
+      job.start = prepare(job.make(), effort_.seconds);
+      find_truth(job.start, effort_.truth_steps);
+    } catch (const softbody::SceneError& error) {
+      for (StabilityCell& cell : row.cells) cell.figures.refused = error.what();
+    }
+    row.untold = job.start.untold;
+  }
+
+  void run_one(const Job& job, std::size_t index) {
+    StabilityCell& cell = row_of(job).cells[index];
+    if (!cell.figures.refused.empty()) return;
+    cell.figures = run_cell(job.start, *results.integrators[cell.integrator], results.dts[cell.dt]);
+  }
+
+  template <class Task>
+  void in_parallel(collide::Workers& workers, const std::string& what, std::size_t count, Task task) {
+    std::atomic<std::size_t> next{0};
+    workers.run([&](int thread) {
+      for (std::size_t i = next++; i < count; i = next++) {
+        if (thread == 0) say(what + " " + std::to_string(i + 1), double(i) / double(count));
+        task(i);
+      }
+    });
+  }
+
+  Effort effort_;
+  std::vector<Job> jobs_;
+};
+
+}  // namespace
+
+void report_stability(const Options& options) {
+  const ReportOptions& o = options.report;
+  StabilityReport report(o);
+  if (o.scene) {
+    const softbody::Scene scene = chosen_scenes(o).front();
+    if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to judge; add a [[body]]");
+    report.add_scene(scene);
+  } else {
+    for (const StabilityCase& c : stability_cases())
+      if (!o.quick || std::ranges::count(quick_cases, c.key) > 0) report.add_case(c);
+  }
+  prepare_folder(options.out);
+  collide::Workers workers(o.threads.value_or(options.threads));
+  report.run(workers);
+  const StabilityResults& results = report.results;
+  write_report(options.out, {.csv_name = "stability.csv",
+                             .csv = stability_csv(results),
+                             .markdown_name = "stability.md",
+                             .plots = stability_plots(results),
+                             .markdown = [&](const auto& drawn) { return stability_markdown(results, drawn); }});
+}
+
+}  // namespace app

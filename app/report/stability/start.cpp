@@ -1,0 +1,143 @@
+#include "app/report/stability/start.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <queue>
+
+#include <glm/geometric.hpp>
+
+#include "app/base/text.h"
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+using glm::dvec3;
+using softbody::BodyId;
+using softbody::World;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+
+/// J, springs and gas of a prototype in balance.
+double balance_of(const softbody::Prototype& p) {
+  softbody::Scene nowhere;
+  nowhere.gravity = dvec3(0.0);
+  return ReferenceBody(p, nowhere).energy({p.start, std::vector<dvec3>(p.start.size(), dvec3(0.0))});
+}
+
+/// Any two particles are joined by a chain of so many springs at most: twice those from one particle to the farthest.
+/// None if some cannot be reached.
+std::optional<int> longest_chain(const softbody::Prototype& p) {
+  std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
+  for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
+  std::vector<int> far(next.size(), -1);
+  std::queue<softbody::Index> open;
+  far[0] = 0, open.push(0);
+  while (!open.empty()) {
+    const softbody::Index i = open.front();
+    open.pop();
+    for (const softbody::Index j : next[i])
+      if (far[j] < 0) far[j] = far[i] + 1, open.push(j);
+  }
+  const auto [least, most] = std::ranges::minmax(far);
+  return least < 0 ? std::nullopt : std::optional(2 * most);
+}
+
+/// How far the body's springs let it be drawn.
+StabilityStart::Leash leash_of(const softbody::Prototype& p) {
+  const auto chain = longest_chain(p);
+  if (!chain) return {infinite, infinite};
+  double longest = 0, softest = infinite;
+  for (const softbody::Spring& s : p.structural)
+    longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
+  return {*chain * longest, softest / *chain};
+}
+
+/// The world with its bodies where the case wants them.
+World placed(const StabilityScene& from) {
+  World world(from.scene, {.substeps = 1});
+  for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
+  return world;
+}
+
+StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
+  double height = 0, weight = 0, smallest = infinite;
+  for (BodyId b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype& p = world.prototype(b);
+    height += height_energy(world, start.particles[b], b);
+    weight += p.material.mass * 9.81 * p.radius;
+    smallest = std::min(smallest, p.radius);
+  }
+  const softbody::Measures m = softbody::measure(world);
+  return {.energy = m.energy,
+          .scale = std::max(m.energy - height - start.balance, weight),
+          .seconds = start.first_frame + seconds,
+          .radius = smallest,
+          .begins_inside = m.deepest_penetration > 0};
+}
+
+/// By shape and volume.
+bool alike(const ReferenceBody& body, const BodyState& a, const BodyState& b) {
+  constexpr double close = 1e-3;  // R, of volume: a tenth of what is asked of solvers
+  const softbody::Prototype& p = body.prototype();
+  if (!(shape_distance(a.x, b.x) <= close * p.radius)) return false;
+  return !p.mesh.closed || std::abs(volume_of(a.x, p.mesh.triangles) / volume_of(b.x, p.mesh.triangles) - 1) <= close;
+}
+
+}  // namespace
+
+/// J, of gravity on one body, 0 at the origin.
+double height_energy(const World& world, const Particles& particles, BodyId body) {
+  double energy = 0;
+  for (const softbody::Particle& p : particles)
+    energy -= world.prototype(body).particle_mass * glm::dot(world.scene().gravity, p.position);
+  return energy;
+}
+
+std::vector<Particles> all_particles(const World& world) {
+  std::vector<Particles> list;
+  for (BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(particles_of(world, b));
+  return list;
+}
+
+StabilityStart prepare(const StabilityScene& from, double seconds) {
+  const World world = placed(from);
+  StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
+  for (BodyId b = 0; b < s.particles.size(); ++b) {
+    s.balance += balance_of(world.prototype(b));
+    s.leash.push_back(leash_of(world.prototype(b)));
+  }
+  if (!s.particles.empty()) s.balanced = world.prototype(0).start;
+  s.limits = limits_of(world, s, seconds);
+  // The bodies are where they start: no cell has to look for their balance again, unless some come later.
+  if (s.particles.size() == from.scene.bodies.size())
+    for (softbody::Material& m : s.scene.materials) m.start_in_equilibrium = false;
+  return s;
+}
+
+void find_truth(StabilityStart& start, std::uint64_t steps) {
+  World world(start.scene, {.substeps = 1});
+  const auto no = [&](const std::string& why) { start.untold = joined("the reference ", why); };
+  if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
+    return no(joined("does not model ", missing));
+  world.set_particles(0, start.particles[0]);
+  const ReferenceBody body(world.prototype(0), world.scene());
+  const auto flown = [&](double fraction, std::uint64_t most) {
+    return fly(body, state_of(world, 0), fraction,
+               {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
+  };
+  const Flight flight = flown(0.5, steps);
+  const double speed = internal_speed(flight.end);
+  if (!flight.complete) return no("would take too many steps");
+  if (!std::isfinite(speed)) return no("does not stay finite");
+  if (speed > stability_bounds.rest) return no("has not settled by then");
+  const bool free = world.scene().gravity == dvec3(0.0);
+  if (free && shape_distance(flight.end.x, start.balanced) > stability_bounds.shape * body.prototype().radius)
+    return no("does not recover");
+  Flight finer = flown(0.25, 2 * steps);
+  if (!finer.complete || !alike(body, flight.end, finer.end)) return no("does not converge");
+  start.truth = std::move(finer.end);
+}
+
+}  // namespace app

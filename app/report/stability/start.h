@@ -1,0 +1,38 @@
+#pragma once
+// What all cells of one case at one stiffness share: where it starts, what it may do from there, where it must end.
+
+#include "app/reference/reference_run.h"
+#include "app/reference/stability_criteria.h"
+#include "app/report/stability/cases.h"
+
+namespace app {
+
+struct StabilityStart {
+  /// Any two particles of a body are joined by a chain of springs: they can be drawn apart by no more than
+  /// length + sqrt(2 energy / stiffness). Infinite where springs do not join them all.
+  struct Leash {
+    double length, stiffness;  // m, N/m: of the chain at rest
+  };
+
+  softbody::Scene scene;
+  std::vector<Particles> particles;  // that the bodies start with
+  double first_frame = 0;            // s, see StabilityScene
+  StabilityLimits limits{};
+  double balance = 0;                  // J, springs and gas of all bodies in balance
+  std::vector<Leash> leash{};          // a body
+  std::vector<glm::dvec3> balanced{};  // m, the first body's shape in balance
+  BodyState truth{};                   // the reference's end, if untold is empty
+  std::string untold{};                // why no reference judges shape, volume and rest
+};
+
+/// seconds: simulated. Throws SceneError if the scene cannot be.
+StabilityStart prepare(const StabilityScene& scene, double seconds);
+
+/// Fills in truth or untold; steps: of the reference, at most.
+void find_truth(StabilityStart& start, std::uint64_t steps);
+
+std::vector<Particles> all_particles(const softbody::World& world);
+/// J, of gravity on one body, 0 at the origin.
+double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
+
+}  // namespace app

@@ -1,0 +1,75 @@
+#include "app/report/stability/step_map.h"
+
+#include <cmath>
+#include <random>
+
+#include "app/reference/reference_body.h"
+#include "app/report/solver/scenes.h"
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+/// Springs and gas with every mode excited: some of the disturbance is noise.
+class DisturbedBall {
+ public:
+  explicit DisturbedBall(double stiffness) : scene_(lone_scene(ball_material(stiffness, 0.1))) {
+    const softbody::World world(scene_, {.substeps = 1});
+    start_ = particles_of(world, 0);
+    balance_ = softbody::measure(world).energy;
+    std::mt19937 random(1);
+    const auto noise = [&] { return 0.002 * (2 * double(random()) / double(std::mt19937::max()) - 1); };  // m
+    for (softbody::Particle& p : start_) {
+      const double x = noise(), y = noise(), z = noise();
+      p.position = p.position * glm::dvec3(1, 0.97, 1) + glm::dvec3(x, y, z);
+    }
+    scene_.materials[0].start_in_equilibrium = false;
+  }
+
+  bool stable(const softbody::Integrator& integrator, double h) const {
+    softbody::World world = make(integrator, h);
+    const double start = softbody::measure(world).energy, most = start + 0.05 * (start - balance_);
+    for (int i = 0; i < 300; ++i) {
+      world.step();
+      const softbody::Measures m = softbody::measure(world);
+      if (!m.finite || m.energy > most) return false;
+    }
+    return true;
+  }
+
+  double predicted(const softbody::Integrator& integrator) const {
+    const softbody::World world = make(integrator, 1);
+    const softbody::Prototype& p = world.prototype(0);
+    const double k_m =
+        softbody::stiffness_per_mass(p, softbody::measure_surface(state_of(world, 0).x, p.mesh.triangles));
+    return integrator.stable_step(k_m, p.spring_damping_bound / p.particle_mass);
+  }
+
+ private:
+  softbody::World make(const softbody::Integrator& integrator, double h) const {
+    softbody::World world(scene_, {.frame_time = h, .integrator = std::string(integrator.key), .substeps = 1});
+    world.set_particles(0, start_);
+    return world;
+  }
+
+  softbody::Scene scene_;
+  Particles start_;
+  double balance_;
+};
+
+}  // namespace
+
+StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness) {
+  const DisturbedBall ball(stiffness);
+  StableStep s{.stiffness = stiffness, .found = longest_step_tried, .predicted = ball.predicted(integrator)};
+  if (ball.stable(integrator, longest_step_tried)) return s;
+  double good = 1e-8, bad = longest_step_tried;
+  while (bad / good > 1.1) {
+    const double middle = std::sqrt(good * bad);
+    (ball.stable(integrator, middle) ? good : bad) = middle;
+  }
+  s.found = good;
+  return s;
+}
+
+}  // namespace app

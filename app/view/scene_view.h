@@ -1,0 +1,75 @@
+#pragma once
+// Draws a world: bodies, solids, and the overlays over them. The window and the captures share it.
+
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "app/demo/true_surfaces.h"
+#include "app/view/drawn_positions.h"
+#include "app/view/overlays.h"
+#include "engine/renderer.h"
+#include "softbody/world.h"
+
+namespace app {
+
+/// What to draw over the bodies. Pointers may be null; they and the spans must live until draw() returns.
+struct OverlayRequest {
+  Overlays shown;
+  const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the selected bucket
+  std::optional<std::uint32_t> selected_bucket;   // its boxes and cells stand out, and show in any case
+  std::optional<softbody::BodyId> selected_body;  // its outline, as seen from ...
+  glm::vec3 eye{0.0f};                            // ... here
+  std::vector<collide::DebugGeometry::Box> areas;
+  const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
+  std::span<const softbody::SurfaceTouch> touches;        // the same
+  std::span<const SurfaceMark> marks;                     // the same
+};
+
+class SceneView {
+ public:
+  static constexpr std::size_t most_boxes = 20'000;  // of each kind; further ones are not drawn
+  static constexpr float full_strain = 0.2f;         // relative change of length at the ends of the colour scale
+
+  /// Needs a current context. Throws engine::ShaderError.
+  explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
+
+  void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+            const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions);
+  /// Every vertex where it is.
+  void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+            const engine::Viewport& viewport, float pixel_scale) {
+    draw(world, overlays, camera, viewport, pixel_scale, DrawnPositions{.now = world.positions()});
+  }
+
+  /// The scene's own camera, with limits that suit its size.
+  engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
+  /// The other way round: the view that a scene must have for such a camera, to a tenth of a millimetre or degree.
+  static softbody::View view(const engine::Camera& camera, glm::ivec2 size);
+
+ private:
+  struct Bounds {
+    glm::vec3 centre;
+    float radius;
+  };
+  struct UploadedMesh {
+    engine::MeshHandle handle;
+    std::vector<std::uint32_t> indices;
+  };
+
+  void gather_positions(const DrawnPositions& positions);
+  void gather_bodies(const softbody::World& world, bool dimmed);
+  void gather_solids(const softbody::Scene& scene);
+  const UploadedMesh& upload(const softbody::Mesh& mesh);
+  Bounds bounds(const softbody::Scene& scene);
+  double radius(const softbody::MeshSource& source);
+
+  engine::Renderer renderer_;
+  // By contents: worlds come and go, but their meshes are few and mostly the same.
+  std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;
+  std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of meshes seen so far
+  std::vector<glm::vec3> positions_, normals_;
+  engine::FrameData frame_;
+};
+
+}  // namespace app
