@@ -4,8 +4,6 @@ namespace collide {
 
 namespace {
 
-constexpr Index none = ~Index{0};
-
 /// An empty box with the region of a code: one interval of each axis.
 Box box_of(const std::array<Cuts, 3>& cuts, std::uint32_t code, Index body) {
   Box box{{}, {}, body, {0, 0}};
@@ -36,7 +34,8 @@ void Subdivision::build(const Frame& frame, const BodyBoxes& bodies, std::span<c
   workers.run([&](int thread) {
     Thread& own = threads_[static_cast<std::size_t>(thread)];
     own.boxes.clear();
-    own.box_of_code.assign(std::size_t{1} << levels, none);
+    own.codes_in_use.reset(Index{1} << levels);
+    own.of_code.assign(std::size_t{1} << levels, 0);
     const Part part = part_of(which.size(), thread, workers.threads());
     for (std::size_t k = part.begin; k < part.end; ++k) {
       cut_body(own, frame, bodies.box[which[k]], which[k], first_slot_[k]);
@@ -51,25 +50,21 @@ void Subdivision::cut_body(Thread& own, const Frame& frame, const Aabb& box, Ind
   const Index first = frame.bodies->first[body], size = frame.bodies->size(body);
   find_codes(own, frame, first, size);
 
-  const std::size_t first_box = own.boxes.size();
   for (const std::uint32_t code : own.code) {
-    Index& index = own.box_of_code[code];
-    if (index == none) {
-      index = static_cast<Index>(own.boxes.size());
-      own.boxes.push_back(box_of(own.cuts, code, body));
-    }
-    ++own.boxes[index].slots.end;  // for now the number of its vertices
+    own.codes_in_use.add(code / IndexSet::word_size, IndexSet::Word{1} << code % IndexSet::word_size);
+    ++own.of_code[code];
   }
   Index slot = first_slot;
-  for (std::size_t b = first_box; b < own.boxes.size(); ++b) {
-    const Index count = own.boxes[b].slots.end;
-    own.boxes[b].slots = {slot, slot};
-    slot += count;
-  }
-  for (Index v = 0; v < size; ++v) {
-    points_.set(own.boxes[own.box_of_code[own.code[v]]].slots.end++, frame, first + v, body);
-  }
-  for (const std::uint32_t code : own.code) own.box_of_code[code] = none;
+  own.codes_in_use.take_runs(0, [&](Range codes) {
+    for (Index code = codes.begin; code < codes.end; ++code) {
+      const Index count = std::exchange(own.of_code[code], slot);
+      own.boxes.push_back(box_of(own.cuts, code, body));
+      own.boxes.back().slots = {slot, slot + count};
+      slot += count;
+    }
+  });
+  for (Index v = 0; v < size; ++v) points_.set(own.of_code[own.code[v]]++, frame, first + v, body);
+  for (const std::uint32_t code : own.code) own.of_code[code] = 0;
 }
 
 void Subdivision::find_codes(Thread& own, const Frame& frame, Index first, Index size) const {

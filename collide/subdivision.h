@@ -1,10 +1,11 @@
 #pragma once
 // The subdivided bounding boxes of §2.1: every body's box cut at midpoints into 2^levels regions.
-// Memory: empty regions are not kept, so a vertex costs 104 bytes at most whatever the level, and a thread 4 *
+// Memory: empty regions are not kept, so a vertex costs 104 bytes at most whatever the level, and a thread 5 *
 // 2^levels.
 
 #include "collide/body_boxes.h"
 #include "collide/cuts.h"
+#include "collide/index_set.h"
 #include "collide/points.h"
 
 namespace collide {
@@ -18,8 +19,8 @@ struct Box {
 
 class Subdivision {
  public:
-  /// Boxes of the bodies `which`, in their order; within a body in the order in which its vertices enter them. Boxes
-  /// without vertices are left out. Every vertex is in exactly one box.
+  /// Boxes of the bodies `which`, in their order; within a body by their place, x first, so that neighbours are often
+  /// next to each other. Boxes without vertices are left out. Every vertex is in exactly one box.
   void build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels, Workers& workers);
 
   const std::vector<Box>& boxes() const { return boxes_; }
@@ -29,7 +30,8 @@ class Subdivision {
   struct Thread {
     std::vector<Box> boxes;
     std::vector<std::uint32_t> code;  // of each vertex of a body: its interval on each axis, packed
-    std::vector<Index> box_of_code;   // none, but for the body at hand
+    IndexSet codes_in_use;            // empty, but for the body at hand
+    std::vector<Index> of_code;       // 0, but for the body at hand: how many vertices, then the next one's slot
     std::array<Cuts, 3> cuts;
   };
   void cut_body(Thread& own, const Frame& frame, const Aabb& box, Index body, Index first_slot);
