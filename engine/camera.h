@@ -39,6 +39,9 @@ class Camera {
   /// Glides to where a sphere fills half of the viewport, keeping the angles and the limits.
   void glide_to(const glm::vec3& centre, float radius, glm::ivec2 size);
 
+  /// Glides there, within the limits.
+  void glide_to(const Orbit& orbit) { goal_ = clamped(orbit); }
+
   // The three motions, by how far the mouse moved (pixels) or the wheel turned. The camera glides after them.
   void rotate(glm::vec2 pixels, glm::ivec2 size);  // a drag over the viewport's height turns half a circle
   void pan(glm::vec2 pixels, glm::ivec2 size);     // what lies at the target's depth follows the cursor

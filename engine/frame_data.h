@@ -24,6 +24,13 @@ struct MeshDraw {
   glm::vec3 colour{0.8f};
 };
 
+/// Bodies that one looks through, all of one opacity. They cast no shadow.
+struct TranslucentSet {
+  std::vector<MeshDraw> meshes;
+  float opacity = 0.4f;
+  bool hides = true;  // what is behind them, other ones of the set and overlays, as if they were solid
+};
+
 struct Sphere {
   glm::vec3 centre{0.0f};
   float radius = 1.0f;
@@ -89,6 +96,7 @@ struct FrameData {
   // Bodies. `positions` and `normals` (length 1) have equal lengths and must live until draw() returns.
   std::span<const glm::vec3> positions, normals;
   std::vector<MeshDraw> meshes;
+  std::vector<TranslucentSet> translucent;  // in this order, over all that is solid
 
   std::vector<Sphere> spheres;
   std::vector<Capsule> capsules;

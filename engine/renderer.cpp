@@ -124,6 +124,7 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   spheres.draw();
   blocks.draw();
   studio.draw(frame.ground.has_value());
+  bodies.draw_translucent();
   overlays.draw(frame);
 }
 

@@ -28,7 +28,7 @@ void main() {
   vec2 p0 = start.xy / start.w * half_size, p1 = end.xy / end.w * half_size;
   span = length(p1 - p0);
   vec2 direction = span > 1e-4 ? (p1 - p0) / span : vec2(1.0, 0.0);
-  float reach = 0.5 * width + 1.0;
+  float reach = 0.5 * width + 0.5;  // beyond it line.frag covers nothing
   bool at_end = (gl_VertexID & 1) == 1;
   float side = (gl_VertexID & 2) == 2 ? reach : -reach;
   along_across = vec2(at_end ? span + reach : -reach, side);

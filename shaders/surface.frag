@@ -9,6 +9,7 @@ in vec3 world_normal;
 in vec3 bounce;
 in float seen;
 flat in vec3 albedo;
+uniform float opacity = 1.0;
 out vec4 fragment;
 
 float power4(float x) {
@@ -35,5 +36,5 @@ void main() {
   gloss = power4(gloss) * gloss * gloss * gloss;  // to the 28th
   float edge = power4(1.0 - max(dot(normal, to_eye), 0.0));
   colour += vec3(0.10) * gloss * lit * facing + vec3(0.09, 0.10, 0.11) * edge * seen * (0.5 + 0.5 * normal.y);
-  fragment = vec4(dithered(srgb(shoulder(colour))), 1.0);
+  fragment = vec4(dithered(srgb(shoulder(colour))), opacity);
 }

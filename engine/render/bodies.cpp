@@ -75,15 +75,18 @@ void Bodies::check(const FrameData& frame) const {
     throw std::invalid_argument("a frame has " + std::to_string(frame.positions.size()) + " positions but " +
                                 std::to_string(frame.normals.size()) + " normals");
   }
-  for (const MeshDraw& draw : frame.meshes) {
-    const bool known = draw.mesh.index < meshes_.size();
-    const std::size_t end = std::size_t{draw.first_vertex} + draw.vertex_count;
-    if (!known || meshes_[draw.mesh.index].vertex_count != draw.vertex_count || end > frame.positions.size()) {
-      throw std::invalid_argument("a draw of mesh " + std::to_string(draw.mesh.index) + " over vertices " +
-                                  std::to_string(draw.first_vertex) + " to " + std::to_string(end) + " of " +
-                                  std::to_string(frame.positions.size()) + " does not fit");
-    }
-  }
+  for (const MeshDraw& draw : frame.meshes) check(draw, frame);
+  for (const TranslucentSet& set : frame.translucent)
+    for (const MeshDraw& draw : set.meshes) check(draw, frame);
+}
+
+void Bodies::check(const MeshDraw& draw, const FrameData& frame) const {
+  const bool known = draw.mesh.index < meshes_.size();
+  const std::size_t end = std::size_t{draw.first_vertex} + draw.vertex_count;
+  if (known && meshes_[draw.mesh.index].vertex_count == draw.vertex_count && end <= frame.positions.size()) return;
+  throw std::invalid_argument("a draw of mesh " + std::to_string(draw.mesh.index) + " over vertices " +
+                              std::to_string(draw.first_vertex) + " to " + std::to_string(end) + " of " +
+                              std::to_string(frame.positions.size()) + " does not fit");
 }
 
 void Bodies::update(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye,
@@ -91,7 +94,8 @@ void Bodies::update(const FrameData& frame, const Occlusion& occlusion, const gl
   collect(frame, occlusion, eye, pixels_at_one_metre);
   occluder_buffer_.stream(GL_TEXTURE_BUFFER, occlusion.occluders());
   define_texture(occluders_, occluder_buffer_, unit_occluders, GL_RGBA32F);
-  if (frame.meshes.empty()) return;
+  collect_translucent(frame, eye, pixels_at_one_metre);
+  if (frame.positions.empty()) return;
   position_buffer_.stream(GL_TEXTURE_BUFFER, frame.positions);
   define_texture(positions_, position_buffer_, unit_positions, GL_R32F);
   normal_buffer_.stream(GL_TEXTURE_BUFFER, frame.normals);
@@ -116,19 +120,55 @@ void Bodies::collect(const FrameData& frame, const Occlusion& occlusion, const g
   }
 }
 
+void Bodies::collect_translucent(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre) {
+  translucent_.clear();
+  for (const TranslucentSet& set : frame.translucent) {
+    Batches& batches = translucent_.emplace_back(&set, Batches{}).second;
+    for (const MeshDraw& draw : set.meshes) {
+      const glm::vec4 sphere = mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count));
+      const float radius = std::max(sphere.w, 1e-6f), distance = glm::distance(glm::vec3(sphere), eye);
+      const float pixels = pixels_at_one_metre * radius / std::max(distance - radius, 0.1f * radius);
+      const int level = frame.rounded ? level_for(pixels, draw.vertex_count) : 0;
+      batches[{draw.mesh.index, level}].push_back({draw.first_vertex, radius, {}, draw.colour});
+    }
+  }
+}
+
 void Bodies::draw_shadows(const glm::mat4& light_clip) {
   shadow_program_.use();
   shadow_program_.set("light_clip", light_clip);
-  draw_batches(true);
+  draw_batches(batches_, true);
 }
 
 void Bodies::draw() {
   program_.use();
-  draw_batches(false);
+  draw_batches(batches_, false);
 }
 
-void Bodies::draw_batches(bool coarse) {
-  for (const auto& [key, batch] : batches_) {
+void Bodies::draw_translucent() {
+  if (translucent_.empty()) return;
+  program_.use();
+  glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  for (const auto& [set, batches] : translucent_) {
+    if (set->hides) {  // depths first, so that only the nearest is seen
+      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+      draw_batches(batches, false);
+      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
+    }
+    glEnable(GL_BLEND);
+    glDepthFunc(GL_LEQUAL);
+    glDepthMask(GL_FALSE);
+    program_.set("opacity", set->opacity);
+    draw_batches(batches, false);
+    glDepthMask(GL_TRUE);
+    glDepthFunc(GL_LESS);
+    glDisable(GL_BLEND);
+  }
+  program_.set("opacity", 1.0f);
+}
+
+void Bodies::draw_batches(const Batches& batches, bool coarse) {
+  for (const auto& [key, batch] : batches) {
     if (batch.empty()) continue;
     const Mesh& mesh = meshes_[key.first];
     const Level& level = mesh.levels[coarse ? 0 : static_cast<std::size_t>(key.second)];

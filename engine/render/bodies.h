@@ -31,8 +31,12 @@ class Bodies {
   void update(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye, float pixels_at_one_metre);
   void draw_shadows(const glm::mat4& light_clip);
   void draw();
+  /// After all that is solid. They hide one another, and what comes later, as if they were.
+  void draw_translucent();
 
  private:
+  void check(const MeshDraw& draw, const FrameData& frame) const;
+
   struct Instance {
     std::uint32_t first_vertex;
     float radius;
@@ -53,13 +57,15 @@ class Bodies {
                            std::greater<>>;  // by mesh and level, finest first
 
   void collect(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye, float pixels_at_one_metre);
-  void draw_batches(bool coarse);
+  void collect_translucent(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre);
+  void draw_batches(const Batches& batches, bool coarse);
   void describe_instances() const;
 
   Program program_, shadow_program_;
   std::vector<Mesh> meshes_;
   Batches batches_;
-  std::vector<std::pair<float, std::uint32_t>> distances_;  // of each body from the eye
+  std::vector<std::pair<const TranslucentSet*, Batches>> translucent_;  // of the frame at hand
+  std::vector<std::pair<float, std::uint32_t>> distances_;              // of each body from the eye
   Buffer position_buffer_, normal_buffer_, occluder_buffer_, instances_;
   Texture positions_, normals_, occluders_;
 };

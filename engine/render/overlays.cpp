@@ -1,6 +1,9 @@
 #include "engine/render/overlays.h"
 
+#include <algorithm>
+#include <array>
 #include <cstddef>
+#include <tuple>
 
 namespace engine {
 namespace {
@@ -20,15 +23,52 @@ static_assert(sizeof(Line) == 40 && offsetof(Line, colour) == 24);
 static_assert(sizeof(Box) == 40 && offsetof(Box, colour) == 24);
 static_assert(sizeof(Point) == 28 && offsetof(Point, colour) == 12);
 
-void append_edges(std::vector<Line>& edges, const Box& box) {
-  const auto corner = [&](unsigned i) {
-    return glm::vec3((i & 1) ? box.hi.x : box.lo.x, (i & 2) ? box.hi.y : box.lo.y, (i & 4) ? box.hi.z : box.lo.z);
-  };
-  for (unsigned i = 0; i < 8; ++i) {
-    for (unsigned axis = 1; axis < 8; axis <<= 1) {
-      if ((i & axis) == 0) edges.push_back({corner(i), corner(i | axis), box.colour});
-    }
+/// An edge along an axis, from `lo` to `hi` on it; `at` on the two axes after it.
+struct Edge {
+  int axis;
+  std::array<float, 2> at;
+  float lo, hi;
+  glm::vec4 colour;
+
+  bool on_line_of(const Edge& other) const { return axis == other.axis && at == other.at; }
+  Line line() const {
+    Line line{.a = {}, .b = {}, .colour = colour};
+    line.a[axis] = lo;
+    line.b[axis] = hi;
+    for (int i = 0; i < 2; ++i)
+      line.a[(axis + 1 + i) % 3] = line.b[(axis + 1 + i) % 3] = at[static_cast<std::size_t>(i)];
+    return line;
   }
+};
+
+void append_edges(std::vector<Edge>& edges, const Box& box) {
+  for (int axis = 0; axis < 3; ++axis) {
+    const int u = (axis + 1) % 3, v = (axis + 2) % 3;
+    for (const float at_u : {box.lo[u], box.hi[u]})
+      for (const float at_v : {box.lo[v], box.hi[v]})
+        edges.push_back({axis, {at_u, at_v}, box.lo[axis], box.hi[axis], box.colour});
+  }
+}
+
+/// The edges of all boxes. Neighbours share theirs: one is enough, and what goes on in a line is one line. That leaves
+/// a third of those of a grid.
+std::vector<Line> edges_of(const std::vector<Box>& boxes) {
+  std::vector<Edge> edges;
+  edges.reserve(12 * boxes.size());
+  for (const Box& box : boxes) append_edges(edges, box);
+  std::ranges::stable_sort(edges, {}, [](const Edge& e) { return std::tuple(e.axis, e.at, e.lo, e.hi); });
+  std::vector<Edge> merged;
+  for (const Edge& edge : edges) {
+    Edge* last = merged.empty() || !merged.back().on_line_of(edge) ? nullptr : &merged.back();
+    if (last && last->lo <= edge.lo && last->hi >= edge.hi) continue;
+    if (last && last->hi == edge.lo && last->colour == edge.colour)
+      last->hi = edge.hi;
+    else
+      merged.push_back(edge);
+  }
+  std::vector<Line> lines;
+  for (const Edge& edge : merged) lines.push_back(edge.line());
+  return lines;
 }
 
 }  // namespace
@@ -54,9 +94,7 @@ void Overlays::draw(const FrameData& frame) {
   for (const BoxSet& set : frame.boxes) {
     if (set.boxes.empty()) continue;
     draw_faces(set);
-    edges_.clear();
-    for (const Box& box : set.boxes) append_edges(edges_, box);
-    draw_lines(edges_, set.width * frame.pixel_scale, set.hidden);
+    draw_lines(edges_of(set.boxes), set.width * frame.pixel_scale, set.hidden);
   }
   for (const LineSet& set : frame.lines) draw_lines(set.lines, set.width * frame.pixel_scale, set.hidden);
   for (const PointSet& set : frame.points) draw_points(set, frame.pixel_scale);

@@ -22,7 +22,6 @@ class Overlays {
   Program line_program_, point_program_, box_program_;
   VertexArray line_array_, point_array_, box_array_;
   Buffer line_buffer_, point_buffer_, box_buffer_;
-  std::vector<Line> edges_;
 };
 
 }  // namespace engine
