@@ -110,6 +110,7 @@ struct DebugGeometry {
     auto operator<=>(const Cell&) const = default;
   };
   std::vector<Box> boxes;                   // as the method hashes them, or where it looks for contacts
+  std::vector<Index> vertices;              // those that it hashes one by one, if it does
   std::vector<std::uint32_t> box_first{0};  // boxes.size() + 1 offsets into box_bucket
   std::vector<std::uint32_t> box_bucket;    // the buckets that each box is in, in the order it was hashed: the first
                                             // is that of its minimum corner (§2.2)

@@ -33,4 +33,7 @@ std::unique_ptr<Detector> make_bounding_box_grid_hash();
 std::unique_ptr<Detector> make_multi_level_sb();
 std::unique_ptr<Detector> make_multi_level_sb_exact();
 
+/// What debug() of the paper's method shows on a frame, without the search for contacts, which may take far longer.
+DebugGeometry paper_structure(const Frame& frame, const Settings& settings, Workers& workers);
+
 }  // namespace collide

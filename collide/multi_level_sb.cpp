@@ -73,11 +73,16 @@ bool exceeds_cell(const Aabb& box, const glm::vec3& cell) {
 
 class MultiLevelSb final : public Detector {
  public:
-  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+  /// All of a frame but its contacts.
+  void build(const Frame& frame, const Settings& settings, Workers& workers, Result& result) {
     settings_ = settings;
     bodies_.build(frame, result);
     subdivision_.build(frame, bodies_, bodies_.live, settings.levels, workers);  // §2.1
     hash_corners(result);                                                        // §2.2
+  }
+
+  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    build(frame, settings, workers, result);
     search_.begin(frame, settings, subdivision_.points(), workers.threads());
     scattered_.begin(search_, workers.threads());
     table_.prepare_meetings(workers.threads());
@@ -145,5 +150,12 @@ class MultiLevelSb final : public Detector {
 }  // namespace
 
 std::unique_ptr<Detector> make_multi_level_sb() { return std::make_unique<MultiLevelSb>(); }
+
+DebugGeometry paper_structure(const Frame& frame, const Settings& settings, Workers& workers) {
+  MultiLevelSb method;
+  Result unused;
+  method.build(frame, settings, workers, unused);
+  return method.debug();
+}
 
 }  // namespace collide

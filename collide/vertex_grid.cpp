@@ -71,6 +71,7 @@ DebugGeometry VertexGrid::debug() const {
   for (Index slot = 0; slot < points_.size(); ++slot) {
     cells.add(hash.cell(points_.x[slot], points_.y[slot], points_.z[slot]), hash);
   }
+  geometry.vertices = vertex_;
   geometry.cells = cells.take();
   geometry.bucket_load = table_.loads();
   return geometry;

@@ -1,0 +1,85 @@
+#include "app/compare/table_contents.h"
+
+#include <algorithm>
+#include <span>
+
+namespace app {
+namespace {
+
+std::uint64_t pairs_of(std::uint64_t n) { return n * (n - (n > 0)) / 2; }
+
+/// Pairs of equal neighbours' runs: the sum over runs of equal values of the pairs within each.
+template <class Range, class Same>
+std::uint64_t pairs_in_runs(const Range& range, const Same& same) {
+  std::uint64_t pairs = 0;
+  for (auto first = range.begin(); first != range.end();) {
+    const auto end = std::find_if_not(first, range.end(), [&](const auto& other) { return same(*first, other); });
+    pairs += pairs_of(static_cast<std::uint64_t>(end - first));
+    first = end;
+  }
+  return pairs;
+}
+
+/// Of the entries of one bucket.
+Sharing sharing_in(std::span<const TableEntry> entries) {
+  std::vector<collide::Index> items;
+  for (const TableEntry& entry : entries) items.push_back(entry.item);
+  std::ranges::sort(items);
+  const std::uint64_t same = pairs_in_runs(entries, [](auto& a, auto& b) { return a.cell == b.cell; });
+  const std::uint64_t with_itself = pairs_in_runs(items, std::equal_to<>());
+  return {same, pairs_of(entries.size()) - same - with_itself};
+}
+
+}  // namespace
+
+std::array<glm::vec3, 8> corners_of(const collide::DebugGeometry::Box& box) {
+  std::array<glm::vec3, 8> corners;
+  for (unsigned i = 0; i < 8; ++i)
+    corners[i] = {i & 4 ? box.hi.x : box.lo.x, i & 2 ? box.hi.y : box.lo.y, i & 1 ? box.hi.z : box.lo.z};
+  return corners;
+}
+
+const CellGroup* BucketContents::group(const std::optional<Cell>& cell) const {
+  const auto found = std::ranges::find_if(groups, [&](const CellGroup& g) { return cell && g.cell == *cell; });
+  if (found != groups.end()) return &*found;
+  return groups.empty() ? nullptr : &groups.front();
+}
+
+TableContents::TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame,
+                             const collide::Settings& settings)
+    : vertices_(!debug.vertices.empty()) {
+  const collide::CellHash hash(settings);
+  const auto add = [&](const Cell& cell, collide::Index item) { entries_.push_back({hash.bucket(cell), cell, item}); };
+  for (const collide::Index v : debug.vertices) add(hash.cell(frame.x[v], frame.y[v], frame.z[v]), v);
+  for (collide::Index box = 0; box < debug.boxes.size(); ++box)
+    for (const glm::vec3& corner : corners_of(debug.boxes[box])) add(hash.cell(corner.x, corner.y, corner.z), box);
+  std::ranges::sort(entries_);
+  entries_.erase(std::unique(entries_.begin(), entries_.end()), entries_.end());
+  for (auto first = entries_.begin(); first != entries_.end();) {
+    const auto end = std::ranges::find_if_not(first, entries_.end(),
+                                              [&](const TableEntry& other) { return other.bucket == first->bucket; });
+    const Sharing here = sharing_in({first, end});
+    sharing_.same_cell += here.same_cell;
+    sharing_.aliased += here.aliased;
+    first = end;
+  }
+}
+
+BucketContents TableContents::bucket(std::uint32_t number) const {
+  const auto entries = std::ranges::equal_range(entries_, number, {}, &TableEntry::bucket);
+  BucketContents contents{.bucket = number, .vertices = vertices_};
+  std::vector<collide::Index> items;
+  for (const TableEntry& entry : entries) {
+    if (contents.groups.empty() || contents.groups.back().cell != entry.cell)
+      contents.groups.push_back({entry.cell, {}});
+    contents.groups.back().items.push_back(entry.item);
+    items.push_back(entry.item);
+  }
+  std::ranges::stable_sort(contents.groups, std::greater<>(), [](const CellGroup& g) { return g.items.size(); });
+  std::ranges::sort(items);
+  contents.items = static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin());
+  contents.sharing = sharing_in({entries.begin(), entries.end()});
+  return contents;
+}
+
+}  // namespace app
