@@ -10,6 +10,7 @@
 #include "app/demo/preferences.h"
 #include "app/demo/scene_mouse.h"
 #include "app/demo/shortcuts.h"
+#include "app/tour/card.h"
 #include "app/view/scene_view.h"
 #include "engine/context.h"
 #include "engine/gl.h"
@@ -45,10 +46,11 @@ class Pacer {
 
 /// All that a picture of the scene depends on.
 struct PictureKey {
-  std::uint64_t revision = 0, comparison = 0, judgement = 0;
+  std::uint64_t revision = 0, comparison = 0, judgement = 0, tour = 0;
   std::size_t misses_of = 0;
   Overlays overlays;
   std::optional<std::uint32_t> bucket;
+  std::optional<Cell> cell;
   std::optional<softbody::BodyId> selected;
   std::optional<softbody::Grab> grab;
   glm::mat4 view{0.0f};
@@ -108,6 +110,8 @@ class Demo {
     move_camera(viewport, elapsed);
     do_as_asked(viewport);
     draw_scene(viewport);
+    if (const Spotlight* light = ui_.tour.spotlight())
+      draw_labels(light->labels, camera_, viewport.size, Interface::scene_area(ui_, gui_.scale()), gui_.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     gui_.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
@@ -130,9 +134,10 @@ class Demo {
   engine::Viewport scene_viewport() const {
     const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
     const SceneArea area = Interface::scene_area(ui_, gui_.scale());
-    const int left = static_cast<int>(std::lround(area.min.x * ratio.x));
-    const glm::ivec2 size = window_.framebuffer_size();
-    return {{left, 0}, {std::max(size.x - left, 0), size.y}};
+    const auto pixels = [](float at, float factor) { return static_cast<int>(std::lround(at * factor)); };
+    const glm::ivec2 lo(pixels(area.min.x, ratio.x), pixels(area.min.y, ratio.y));
+    const glm::ivec2 hi(pixels(area.max.x, ratio.x), pixels(area.max.y, ratio.y));
+    return {{lo.x, window_.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
   void move_camera(const engine::Viewport& viewport, double elapsed) {
@@ -140,10 +145,21 @@ class Demo {
       shown_scene_ = session_.world().scene().key;
       camera_ = view_.camera(session_.world().scene(), viewport.size);
       ui_.reset_camera = false;
+      before_tour_.reset();
     }
     mouse_.follow(mouse_input(viewport), session_, camera_, viewport.size);
+    frame_tour(viewport);
     if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
+  }
+
+  /// The tour moves the camera, and gives it back.
+  void frame_tour(const engine::Viewport& viewport) {
+    if (ui_.tour.open() && !before_tour_) before_tour_ = camera_.orbit();
+    if (!ui_.tour.open() && before_tour_) camera_.glide_to(*std::exchange(before_tour_, std::nullopt));
+    if (!ui_.tour.take_framing()) return;
+    const Spotlight& light = *ui_.tour.spotlight();
+    camera_.glide_to(light.centre, tour_room * light.radius, viewport.size);
   }
 
   MouseInput mouse_input(const engine::Viewport& viewport) const {
@@ -186,9 +202,11 @@ class Demo {
     return {.revision = session_.revision(),
             .comparison = shown.missed ? session_.comparisons() : 0,
             .judgement = shown.true_surfaces ? session_.surfaces().reports() : 0,
+            .tour = ui_.tour.changes(),
             .misses_of = session_.misses_of(),
             .overlays = shown,
             .bucket = session_.selected_bucket(),
+            .cell = session_.selected_cell(),
             .selected = session_.selected_body(),
             .grab = session_.world().grabbed(),
             .view = camera_.view(),
@@ -199,18 +217,26 @@ class Demo {
   OverlayRequest overlay_request() const {
     OverlayRequest request;
     request.shown = session_.overlays;
-    request.selected_bucket = session_.selected_bucket();
+    request.bucket = session_.bucket();
+    request.bucket_cell = session_.selected_cell();
     request.selected_body = session_.selected_body();
     request.eye = camera_.eye();
-    const bool needs_debug = request.shown.boxes || request.shown.cells || request.selected_bucket;
+    const bool needs_debug = request.shown.boxes || request.shown.cells || request.bucket;
     if (needs_debug) request.debug = &session_.debug();
     if (request.shown.areas) request.areas = session_.areas();
     request.missed = session_.missed();
     if (request.shown.touches) request.touches = session_.touches();
     request.marks = session_.surfaces().report().marks;
+    request.spotlight = ui_.tour.spotlight();
+    const Ghost* ghost = ui_.tour.open() ? nullptr : session_.ghost();
+    if (ghost && !ghost->blown_up()) {
+      request.ghost = &ghost->world();
+      request.ghost_positions = ghost->drawn_positions(whole_steps() ? 1.0f : session_.between());
+    }
     return request;
   }
 
+  static constexpr float tour_room = 0.6f;       // glide_to() leaves half of the picture free: less is enough
   static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
 
   PreferencesFile preferences_;
@@ -223,6 +249,7 @@ class Demo {
   UiState ui_;
   engine::Camera camera_;
   SceneMouse mouse_;
+  std::optional<engine::Orbit> before_tour_;
   std::string shown_scene_;  // the one that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;

@@ -46,6 +46,8 @@ class Import {
   /// What was found in the last file and done to it, a line each; or why it was refused.
   const std::vector<std::string>& report() const { return report_; }
   bool failed() const { return failed_; }
+  /// It has been read.
+  void dismiss_report() { report_.clear(); }
 
  private:
   void refuse(Session& session, const std::string& why);

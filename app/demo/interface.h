@@ -13,7 +13,8 @@ class Interface {
  public:
   static constexpr float least_scene_width = 240;  // design pixels
 
-  /// Where the scene shows, in ImGui units: beside the panel, or behind it where the window is too narrow for both.
+  /// Where the scene shows, in ImGui units: beside the panel, or behind it where the window is too narrow for both; and
+  /// beside or above the card of the tour.
   static SceneArea scene_area(const UiState& ui, float scale);
 
   /// One frame, between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
@@ -24,8 +25,12 @@ class Interface {
 
  private:
   static constexpr float least_height_for_table = 400, margin = 12;  // design pixels; margin: beside the table
+  static constexpr float card_width = 340;                           // of the tour
 
   static bool panel_covers_scene(const UiState& ui, float scale);
+  static bool shows_panel(const UiState& ui, float scale);
+  static SceneArea beside_panel(const UiState& ui, float scale);
+  static SceneArea tour_area(const UiState& ui, float scale);
   void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area, double seconds);
 
   HashView hash_view_;

@@ -61,7 +61,7 @@ fs::path folder_in(const char* variable) {
 
 Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2 size) {
   return {.size = size,
-          .overlays = session.overlays,
+          .overlays = ui.tour.kept_overlays().value_or(session.overlays),
           .panel = ui.panel,
           .table = ui.table,
           .sweep = ui.sweep,

@@ -25,7 +25,6 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
     : scene_folder_(std::move(scene_folder)),
       scenes_(list_scenes(scene_folder_)),
       threads_(threads),
-      paper_(collide::find_method(collide::paper_method)->make()),
       exact_(collide::find_method(collide::default_method)->make()) {
   start(scene);
   scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
@@ -39,17 +38,17 @@ void Session::adopt(softbody::Scene scene) {
 
 void Session::start(const softbody::Scene& scene) {
   auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
-  remember();
+  if (world_) {
+    world_->release();
+    remember({std::move(world_), {}, scene_, scene_file_, solids_});
+  }
   world_ = std::move(world);
   begin();
 }
 
-/// The world that is about to be left.
-void Session::remember() {
-  if (!world_) return;
-  world_->release();
+void Session::remember(Past past) {
   if (past_.size() == most_past) past_.erase(past_.begin());
-  past_.push_back({std::move(world_), scene_, scene_file_, solids_});
+  past_.push_back(std::move(past));
 }
 
 /// Another world has come.
@@ -73,6 +72,7 @@ void Session::show_anew() {
   comparison_ = {};
   forget_measurements();
   surfaces_.restart(revision_);
+  restart_ghost();
 }
 
 bool Session::succeeds(const std::function<void()>& change) {
@@ -197,7 +197,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
       world_->add_material(scene_.materials[i]);
     world_->add(body);
     scene_.bodies.push_back(std::move(body));
-    stability_.intervened();
+    intervened();
   } catch (const std::exception& error) {
     notice_ = error.what();
   }

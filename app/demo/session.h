@@ -6,7 +6,9 @@
 #include <memory>
 #include <optional>
 
+#include "app/compare/table_contents.h"
 #include "app/demo/compare_worker.h"
+#include "app/demo/ghost.h"
 #include "app/demo/ring.h"
 #include "app/demo/scene_file.h"
 #include "app/demo/stability_watch.h"
@@ -14,7 +16,7 @@
 #include "app/panel/solid_list.h"
 #include "app/view/drawn_positions.h"
 #include "app/view/overlays.h"
-#include "softbody/world.h"
+#include "softbody/snapshot.h"
 
 namespace app {
 
@@ -25,6 +27,7 @@ struct SceneChoice {
 struct History {
   Ring frame_ms;  // real time from one advance() to the next
   Ring detect_ms, solve_ms, contacts, recall;
+  Ring ghost;                                                                  // distance(), in radii
   std::vector<Ring> method_ms = std::vector<Ring>(collide::methods().size());  // of the comparison, by method
   void clear() { *this = {}; }
 };
@@ -88,7 +91,7 @@ class Session {
   /// A body joins the world, and the scene, which it belongs to after a reset too. If there is such a material already,
   /// but for its name, it has that one. On an error no body joins and notice() says why.
   void add_body(softbody::BodySource body, softbody::Material material);
-  /// The world as it was before the last reset or choice of scene, to the bit; of the last few of them.
+  /// The world as it was before the last reset, choice of scene or deletion, to the bit; of the last few of them.
   bool can_undo() const { return !past_.empty(); }
   void undo();
 
@@ -121,6 +124,11 @@ class Session {
   /// Back to the last snapshot of stability().past() not after this frame, and pauses. The settings in use stay.
   void rewind_to(int frame);
 
+  /// A second world that goes on from the present state by another integrator, or none. It begins anew whenever hands
+  /// or settings change the one that is shown.
+  void set_ghost(const std::optional<IntegratorChoice>& choice);
+  const Ghost* ghost() const { return ghost_.get(); }
+
   // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
   void set_method(std::string_view key);
   void next_method();
@@ -132,11 +140,19 @@ class Session {
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
   void select_bucket(std::optional<std::uint32_t> bucket);
+  /// What it holds on the current positions; nullptr if none is selected, or its table is not known.
+  const BucketContents* bucket() const;
+  /// The cell of that bucket from which true sharing is seen: the one chosen, or else the fullest.
+  void select_cell(const Cell& cell) { selected_cell_ = cell; }
+  const std::optional<Cell>& selected_cell() const { return selected_cell_; }
+  const TableContents& table() const;
   /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
   const collide::Method& shown_method() const;
-  /// They themselves on the current positions, computed once a state when first asked for. Empty where the shown method
-  /// would have to do too much, or fails.
+  /// They themselves on the current positions, computed once a state when first asked for.
   const collide::DebugGeometry& debug() const;
+  /// Those of the paper's method, whichever drives. Empty while more bodies move than can be looked at for each
+  /// picture.
+  const collide::DebugGeometry& paper() const;
 
   /// Where the exact method looks for contacts on the current positions, if nothing is known from earlier frames.
   std::vector<collide::DebugGeometry::Box> areas() const;
@@ -168,21 +184,29 @@ class Session {
   void set_notice(std::string text) { notice_ = std::move(text); }
 
  private:
-  /// A world that was left, and its scene as it was loaded.
+  /// A world that was left, or the present one as it was; and its scene as it was loaded.
   struct Past {
     std::unique_ptr<softbody::World> world;
+    std::optional<softbody::Snapshot> snapshot;
     softbody::Scene scene;
     SceneFile file;
     SolidList solids;
   };
   static constexpr std::size_t most_past = 4;
+  static constexpr std::uint64_t most_work =
+      1'000'000'000;  // pair tests of a frame in the window's thread: about half a second
+  template <class Value>
+  struct OfRevision {
+    std::uint64_t revision = 0;
+    Value value{};
+  };
 
   void start(const softbody::Scene& scene);
   void show_anew();
   void follow();
   void keep_world_settings(const softbody::Scene& in_use);
   void adopt(softbody::Scene scene);
-  void remember();
+  void remember(Past past);
   void begin();
   void run(double elapsed);
   void step();
@@ -191,13 +215,15 @@ class Session {
   /// For what a world may refuse: then it is as before, and goes on.
   void try_change(const std::function<void()>& change);
   bool affordable(const collide::Method& method, const collide::Settings& settings);
-  collide::DebugGeometry picture_of(collide::Detector& detector) const;
   Work work_of(const collide::Method& method, const collide::Settings& settings) const;
   void exchange_comparison();
   void keep(CompareReport report);
   Snapshot snapshot() const;
   void forget_measurements();
   void follow_pace(double asked, int steps);
+  void intervened();
+  void restart_ghost();
+  void step_ghost();
 
   std::filesystem::path scene_folder_;
   std::vector<SceneChoice> scenes_;
@@ -215,10 +241,12 @@ class Session {
   std::uint64_t revision_ = 1, offered_ = 0, first_comparable_ = 0;
   std::uint64_t worlds_ = 0, comparisons_ = 0;
   std::optional<std::uint32_t> selected_bucket_;
-  mutable collide::DebugGeometry debug_;
-  std::unique_ptr<collide::Detector> paper_;  // shows its structure where the driving method has none
+  std::optional<Cell> selected_cell_;
   std::unique_ptr<collide::Detector> exact_;  // shows its areas
-  mutable std::uint64_t debug_revision_ = 0;
+  // What is shown of the state, each with the revision that it belongs to.
+  mutable OfRevision<collide::DebugGeometry> debug_, paper_;
+  mutable OfRevision<TableContents> table_;
+  mutable OfRevision<BucketContents> bucket_;
   History history_;
   CompareReport comparison_;
   mutable std::vector<softbody::SurfaceTouch> touches_;
@@ -227,6 +255,7 @@ class Session {
   CompareWorker compare_worker_;
   SurfaceWatch surfaces_;
   StabilityWatch stability_;
+  std::unique_ptr<Ghost> ghost_;
 };
 
 }  // namespace app

@@ -6,11 +6,6 @@
 #include <cmath>
 
 namespace app {
-namespace {
-
-constexpr std::uint64_t most_work = 1'000'000'000;  // pair tests of a frame in the window's thread: about half a second
-
-}  // namespace
 
 Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
   Forecast forecast;
@@ -32,6 +27,7 @@ void Session::set_method(std::string_view key) {
   if (!method || key == world_->method().key || !affordable(*method, world_->collision())) return;
   notice_.clear();
   succeeds([&] { world_->set_method(key); });
+  restart_ghost();
   ++revision_;
   select_bucket(selected_bucket_);
   history_.recall.clear();
@@ -53,14 +49,14 @@ void Session::set_contact_surface(softbody::ContactSurface surface) {
   if (surface == world_->scene().contact_surface) return;
   notice_.clear();
   succeeds([&] { world_->set_contact_surface(surface); });
-  stability_.intervened();
+  intervened();
   ++revision_;
 }
 
 void Session::set_integrator(std::string_view key, std::optional<int> substeps) {
   notice_.clear();
   succeeds([&] { world_->set_integrator(key, substeps); });
-  stability_.intervened();
+  intervened();
   ++revision_;
 }
 
@@ -78,53 +74,16 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   if (notice_ = collide::problem(checked); !notice_.empty()) return;
   if (!affordable(world_->method(), checked)) return;
   succeeds([&] { world_->set_collision(checked, default_cell_size); });
-  stability_.intervened();
+  intervened();
   ++revision_;
   select_bucket(selected_bucket_);
   forget_measurements();
-}
-
-void Session::select_bucket(std::optional<std::uint32_t> bucket) {
-  const bool exists = bucket && *bucket < world_->collision().buckets;
-  selected_bucket_ = exists ? bucket : std::nullopt;
-}
-
-const collide::Method& Session::shown_method() const {
-  return world_->method().uses_hash ? world_->method() : *collide::find_method(collide::paper_method);
-}
-
-const collide::DebugGeometry& Session::debug() const {
-  if (debug_revision_ == revision_) return debug_;
-  debug_revision_ = revision_;
-  if (world_->method().uses_hash) return debug_ = world_->detector().debug();
-  constexpr std::uint64_t most = most_work / 30;  // this is for each picture, and drives nothing
-  const bool short_work = work_of(shown_method(), world_->collision()).cost() <= most;
-  return debug_ = short_work ? picture_of(*paper_) : collide::DebugGeometry{};
-}
-
-/// Of a detector of our own. Empty if it runs out of memory, or finds more contacts than it may report.
-collide::DebugGeometry Session::picture_of(collide::Detector& detector) const {
-  try {
-    collide::Workers alone(1);
-    collide::Result unused;
-    detector.forget();
-    detector.detect(world_->positions(), world_->collision(), alone, unused);
-    return detector.debug();
-  } catch (const std::exception&) {
-    return {};
-  }
 }
 
 const std::vector<softbody::SurfaceTouch>& Session::touches() const {
   if (touches_revision_ == revision_) return touches_;
   touches_revision_ = revision_;
   return touches_ = world_->dynamics().surface_contact().touches(world_->bodies());
-}
-
-std::vector<collide::DebugGeometry::Box> Session::areas() const {
-  const collide::Method& exact = *collide::find_method(collide::default_method);
-  if (work_of(exact, world_->collision()).cost() > most_work) return {};
-  return picture_of(*exact_).boxes;
 }
 
 const CompareRow* Session::driver_row() const {

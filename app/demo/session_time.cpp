@@ -47,7 +47,7 @@ void Session::run(double elapsed) {
   while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
-    spent_ms += world_->profile().total_ms;
+    spent_ms += world_->profile().total_ms + (ghost_ ? ghost_->world().profile().total_ms : 0);
     ++steps;
   }
   // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
@@ -85,9 +85,10 @@ void Session::step() {
   const bool alarmed = stability_.alarm().has_value();
   stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });
-  if (world_->grabbed()) stability_.intervened();  // a hand brings energy
+  if (world_->grabbed()) intervened();  // a hand brings energy
   stability_.after_step(*world_, guarded);
   if (stability_.alarm() && !alarmed) paused = true;
+  step_ghost();
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
   history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
   history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));

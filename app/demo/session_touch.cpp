@@ -16,7 +16,7 @@ void Session::select_body(std::optional<BodyId> body) {
 
 void Session::grab(const softbody::Grab& grab) {
   world_->grab(grab);
-  stability_.intervened();
+  intervened();
   ++revision_;
 }
 
@@ -27,7 +27,7 @@ void Session::drop(int count) {
   if (!can_drop()) return;
   notice_.clear();
   succeeds([&] { world_->drop(count); });
-  stability_.intervened();
+  intervened();
   ++revision_;
 }
 
@@ -40,7 +40,7 @@ void Session::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
     else
       notice_ = "there is no room for a body before the camera: turn or move it";
   });
-  stability_.intervened();
+  intervened();
   if (done) ++revision_;
 }
 
@@ -50,9 +50,11 @@ void Session::remove_selected() {
     return;
   }
   notice_.clear();
+  world_->release();
+  remember({nullptr, world_->snapshot(), scene_, scene_file_, solids_});
   succeeds([&] { world_->remove(*selected_body_); });
   selected_body_.reset();
-  stability_.intervened();
+  intervened();
   show_anew();
 }
 
@@ -63,7 +65,7 @@ void Session::try_change(const std::function<void()>& change) {
   } catch (const softbody::SceneError& error) {
     notice_ = error.what();
   }
-  stability_.intervened();
+  intervened();
   ++revision_;
 }
 
@@ -104,12 +106,19 @@ void Session::keep_world_settings(const softbody::Scene& in_use) {
 
 void Session::undo() {
   if (past_.empty()) return;
-  world_ = std::move(past_.back().world);
-  scene_ = std::move(past_.back().scene);
-  scene_file_ = std::move(past_.back().file);
-  solids_ = std::move(past_.back().solids);
+  Past past = std::move(past_.back());
   past_.pop_back();
-  begin();
+  scene_ = std::move(past.scene);
+  scene_file_ = std::move(past.file);
+  solids_ = std::move(past.solids);
+  if (past.world) {
+    world_ = std::move(past.world);
+    return begin();
+  }
+  notice_.clear();
+  succeeds([&] { world_->restore(*past.snapshot); });  // later worlds are gone again: it is the one of the snapshot
+  stability_.went_back();
+  show_anew();
 }
 
 }  // namespace app

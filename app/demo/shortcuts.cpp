@@ -19,7 +19,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_N, GLFW_KEY_PERIOD, "N or .", "Single step", [](Session& s, UiState&) { s.single_step(); }, true},
     Shortcut{GLFW_KEY_S, 0, "S", "Slow motion", [](Session& s, UiState&) { s.slow_motion = !s.slow_motion; }},
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.reset(); }},
-    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo the reset", [](Session& s, UiState&) { s.undo(); }, false,
+    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a reset or deletion", [](Session& s, UiState&) { s.undo(); }, false,
              GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies", [](Session& s, UiState&) { s.drop(many_drops); }, false,
              GLFW_MOD_SHIFT},
@@ -31,6 +31,9 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { s.next_contact_surface(); }},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes", [](Session& s, UiState&) { change_levels(s, -1); }, true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes", [](Session& s, UiState&) { change_levels(s, 1); }, true},
+    Shortcut{GLFW_KEY_G, 0, "G", "Guided tour of the method", [](Session& s, UiState& ui) { ui.tour.toggle(s); }},
+    Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: the step before", [](Session&, UiState& ui) { ui.tour.back(); }},
+    Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: the next step", [](Session&, UiState& ui) { ui.tour.next(); }},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods", [](Session& s, UiState&) { s.compare.on = !s.compare.on; }},
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.table = !ui.table; }},
@@ -38,8 +41,10 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.take_away.picture_asked = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_F1, GLFW_KEY_SLASH, "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
-    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close the help, select nothing",
+    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
              [](Session& s, UiState& ui) {
+               if (ui.list_open) return;  // closes that, and nothing else
+               if (ui.tour.open() && !ui.help) return ui.tour.close(s);
                ui.help = false;
                s.select_body(std::nullopt);
                s.select_bucket(std::nullopt);

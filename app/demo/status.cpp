@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/panel/integrators.h"
+#include "app/panel/light.h"
 #include "app/view/palette.h"
 
 namespace app {
@@ -55,18 +57,13 @@ std::string reference_sentence(const CompareReport& report) {
   return report.stands_in.empty() ? text : text + ": " + report.stands_in;
 }
 
-float draw_status(Widgets& w, Session& session, const SceneArea& area) {
-  const Light light = light_of(session.world().detection().coverage);
+float draw_status(Widgets& w, Session& session, const SceneArea& area, bool& explained) {
   const float margin = w.px(12);
   const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Status", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
-  w.dot(light.colour);
-  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
-  w.done("Coverage",
-         "What the method and its settings promise on this frame (§2.2). Green: complete. Amber: the paper's method, "
-         "and every box fits a cell. Red: the paper's method with boxes larger than a cell.");
+  draw_light(w, session, explained);
   w.line(recall_sentence(session));
   const std::string against = reference_sentence(session.comparison());
   w.done("Live recall",
@@ -127,20 +124,27 @@ void table_legend(const Session& session) {
   }
   if (shown.cells) ImGui::TextUnformatted("Occupied cells in dark blue");
   ImGui::TextDisabled("%s", whose_structure(session).c_str());
-  if (session.selected_bucket()) {
-    ImGui::Text("Bucket %s: its boxes and cells", grouped(*session.selected_bucket()).c_str());
-  }
+}
+
+void bucket_legend(Widgets& w, const Session& session) {
+  ImGui::Text("Bucket %s", grouped(*session.selected_bucket()).c_str());
+  legend_line(w, same_cell_colour, "of the chosen cell");
+  legend_line(w, aliased_colour, "of another cell: aliasing");
 }
 
 }  // namespace
 
-void draw_legends(Widgets& w, const Session& session, const SceneArea& area, float top) {
+void draw_legends(Widgets& w, const Session& session, const SceneArea& area) {
   const Overlays& shown = session.overlays;
-  const bool table = shown.boxes || shown.cells || session.selected_bucket();
-  if (!table && !shown.contacts && !shown.springs && !shown.missed && !shown.areas && !shown.touches) return;
-  ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
+  const bool table = shown.boxes || shown.cells || session.bucket();
+  if (!table && !session.ghost() && !shown.contacts && !shown.springs && !shown.missed && !shown.areas &&
+      !shown.touches)
+    return;
+  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
   ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  if (session.ghost()) draw_ghost_legend(w, session);
   if (table) table_legend(session);
+  if (session.bucket()) bucket_legend(w, session);
   if (shown.contacts) {
     legend_line(w, contact_between_colour, "contact between bodies");
     legend_line(w, contact_inside_colour, "contact inside one body");
@@ -178,8 +182,9 @@ void draw_caption(Widgets& w, const Session& session, const SceneArea& area, dou
   if (!session.caption().empty()) text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f);
   const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
   if (left <= 0) return;
-  text_on_scene(w, "Drag a body to pull it, drag beside it to turn, B throws a body, F1 for help", bottom - line, area,
-                left);
+  text_on_scene(w,
+                "Drag a body to pull it, drag beside it to turn, B throws a body, G explains the method, F1 for help",
+                bottom - line, area, left);
 }
 
 }  // namespace app

@@ -36,10 +36,11 @@ double rounded_down(double share);
 /// "Measured against ...", with the reason if that is not brute force.
 std::string reference_sentence(const CompareReport& report);
 
-/// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends.
-float draw_status(Widgets& widgets, Session& session, const SceneArea& area);
-/// Below `top`.
-void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area, float top);
+/// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends. `explained`:
+/// with what the light's colours mean.
+float draw_status(Widgets& widgets, Session& session, const SceneArea& area, bool& explained);
+/// In the upper left corner of the area.
+void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area);
 /// `seconds`: how long the window has been open; the hint fades out after a while.
 void draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
 

@@ -7,6 +7,7 @@
 
 #include "app/demo/import.h"
 #include "app/demo/take_away.h"
+#include "app/tour/tour.h"
 
 namespace app {
 
@@ -15,13 +16,16 @@ struct UiState {
   bool table = true;   // the hash table's view
   bool sweep = false;  // error against run time
   bool help = false;
+  bool light = false;         // the light of coverage is explained
   bool reset_camera = false;  // asked for; the main loop does it and clears this
   bool look_at_body = false;  // the selected one; likewise
   bool throw_body = false;    // likewise
+  bool list_open = false;     // a list to choose from, in the last frame
   bool quit = false;
   std::map<std::string, bool> sections;  // of the panel: whether they are open, by their labels
   softbody::View view;                   // the camera, as a scene file has it
   TakeAway take_away;
+  Tour tour;
   Import import;
   std::string save_as = "scene.toml";   // where the scene is saved to
   std::size_t material = 0, solid = 0;  // whose values the panel shows

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "app/view/palette.h"
+
 namespace app {
 namespace {
 
@@ -173,7 +175,10 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   if (row.is_reference) {
     grid.text(recall, "reference", true);
   } else {
+    const bool misses_some = found.recall < 1;
+    if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
     grid.text(recall, number("%.4f", rounded_down(found.recall)));
+    if (misses_some) ImGui::PopStyleColor();
     grid.text(precision, number("%.4f", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.name) + ": " + light.sentence +
@@ -213,21 +218,25 @@ void draw_row(Widgets& w, Session& session, Grid& grid, const Row& row, const Sc
   if (drive) session.set_method(row.method.key);
 }
 
-void draw_head(Widgets& w, Grid& grid) {
+void draw_head(Widgets& w, Session& session, Grid& grid) {
   grid.next_line();
   for (std::size_t i = 0; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
     grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
   }
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(3)});
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.compare.on = false;
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(1)});
 }
 
 std::string footing(const Session& session) {
   const CompareReport& report = session.comparison();
   std::string text = reference_sentence(report) + ".";
   if (report.reference) text.append(" ").append(grouped(report.true_contacts)).append(" true contacts.");
-  return text + " One frozen frame, one core, shuffled order.";
+  const collide::Bodies& bodies = session.world().bodies();
+  return joined(text, "  N = ", grouped(bodies.vertex_count()), " vertices, ",
+                grouped(all_pair_tests(bodies, session.world().collision().self_collision)), " pairs.");
 }
 
 }  // namespace
@@ -242,14 +251,16 @@ float draw_compare(Widgets& w, Session& session, const SceneArea& area) {
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::SetNextWindowContentSize({std::max(least, inside), 0});
-  ImGui::Begin("Compare methods###Compare", &session.compare.on,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(5)});
+  ImGui::Begin("Compare methods###Compare", nullptr,
+               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                    ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_HorizontalScrollbar |
                    ImGuiWindowFlags_NoFocusOnAppearing);
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(2)});
+  ImGui::PopStyleVar();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(1)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
   Grid grid(w, ImGui::GetCursorScreenPos().x, std::max(least, inside));
-  draw_head(w, grid);
+  draw_head(w, session, grid);
   const Scale scale = common_scale(session);
   const CompareReport& report = session.comparison();
   const std::size_t driver = session.driver();
@@ -259,9 +270,10 @@ float draw_compare(Widgets& w, Session& session, const SceneArea& area) {
               i == driver, report.reference == i},
              scale);
   }
-  ImGui::Spacing();
   w.line(footing(session));
-  w.done("Compare footing", "What counts as the true contacts, and how the times are taken.");
+  w.done("Compare footing",
+         "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
+         "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
   ImGui::PopStyleVar(2);
   const float top = ImGui::GetWindowPos().y;
   ImGui::End();

@@ -4,6 +4,7 @@
 #include <filesystem>
 
 #include "app/panel/panel.h"
+#include "app/view/palette.h"
 
 namespace app {
 namespace {
@@ -18,15 +19,6 @@ bool field_with_button(Widgets& w, const char* label, std::string& value, const 
   const bool entered = w.text(label, value, hint, tooltip);
   ImGui::SameLine(0, gap);
   return w.button(button, button_tooltip, w.px(button_width)) || entered;
-}
-
-void wrapped(const std::string& text, bool failed) {
-  ImGui::PushStyleColor(ImGuiCol_Text,
-                        failed ? ImVec4(0.75f, 0.1f, 0.1f, 1) : ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopTextWrapPos();
-  ImGui::PopStyleColor();
 }
 
 void draw_import(Widgets& w, Session& session, Import& import) {
@@ -54,7 +46,8 @@ void draw_save(Widgets& w, Session& session, UiState& ui) {
   const bool there = std::filesystem::exists(ui.save_as, ignored);
   if (field_with_button(w, "Scene file", ui.save_as, "scene.toml",
                         "The scene with all settings in use and the camera as it is: method, levels, buckets, cell "
-                        "size, tolerance, contact surface. Bodies dropped by hand are not in it.",
+                        "size, tolerance, contact surface. Bodies dropped or thrown by hand are not in it: the scene "
+                        "runs from its start, and their places need not be free then.",
                         there ? "Replace###Save" : "Save###Save", "Writes the file."))
     session.save_scene(ui.save_as, ui.view);
 }
@@ -67,12 +60,12 @@ void draw_command(Widgets& w, const Session& session, const UiState& ui) {
   w.row("Command", w.px(label_column));
   ImGui::BeginDisabled(!file.makes(used));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  const std::string demo = demo_command(file.name(), used), simulate = simulate_command(file.name(), used, frame);
+  std::string demo = demo_command(file.name(), used), simulate = simulate_command(file.name(), used, frame);
+  if (!file.makes(used)) demo = simulate = "The scene was changed: save it, so that a command can name it.";
   if (w.button("Copy", demo.c_str(), width)) ImGui::SetClipboardText(demo.c_str());
   ImGui::SameLine();
   if (w.button("Copy simulate", simulate.c_str(), width)) ImGui::SetClipboardText(simulate.c_str());
   ImGui::EndDisabled();
-  if (!file.makes(used)) wrapped("The scene was changed: save it, so that a command can name it.", false);
 }
 
 void draw_recording(Widgets& w, TakeAway& take_away) {
@@ -100,14 +93,20 @@ void draw_recording(Widgets& w, TakeAway& take_away) {
   ImGui::EndDisabled();
 }
 
+/// A line of its own whether it says something or not: nothing moves.
+void draw_message(Widgets& w, const TakeAway& take_away) {
+  if (take_away.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
+  w.line(take_away.message());
+  if (take_away.failed()) ImGui::PopStyleColor();
+  w.done("Message", take_away.message().empty() ? nullptr : take_away.message().c_str());
+}
+
 }  // namespace
 
 void draw_files(Widgets& w, Session& session, UiState& ui) {
   draw_import(w, session, ui.import);
   draw_save(w, session, ui);
   draw_command(w, session, ui);
-  // Last, so that nothing moves under the mouse.
-  for (const std::string& line : ui.import.report()) wrapped(line, ui.import.failed());
 }
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {
@@ -124,7 +123,7 @@ void draw_take_away(Widgets& w, Session& session, UiState& ui) {
   w.row("", w.px(label_column));
   w.checkbox("With the panel", take_away.with_panel,
              "Pictures and videos show the whole window, else the scene alone.");
-  if (!take_away.message().empty()) wrapped(take_away.message(), take_away.failed());
+  draw_message(w, take_away);
 }
 
 }  // namespace app

@@ -35,13 +35,17 @@ void overlays_and_mouse(const Widgets& w, float left) {
 }  // namespace
 
 void draw_help(Widgets& w, const SceneArea& area, bool& open) {
-  const ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * (area.min.y + area.max.y)};
+  ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * (area.min.y + area.max.y)};
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const bool narrow = display.x < w.px(2.2f * half_width);
+  if (narrow || display.x - area.min.x < w.px(2.2f * half_width)) middle.x = 0.5f * display.x;
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // it scrolls if it has to
   ImGui::SetNextWindowBgAlpha(1.0f);  // over the table's squares it would be hard to read otherwise
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
-  ImGui::PushTextWrapPos(w.px(1.8f * half_width));
+  ImGui::PushTextWrapPos(narrow ? w.px(half_width) : w.px(1.8f * half_width));
   ImGui::TextUnformatted(
       "Soft spheres fall on a solid sphere. In every frame a detector finds which of their vertices come closer than "
       "the tolerance. With vertex-vertex contact, the paper's, these push the bodies apart; with surface contact faces "
@@ -50,8 +54,11 @@ void draw_help(Widgets& w, const SceneArea& area, bool& open) {
   ImGui::Spacing();
   const float left = ImGui::GetCursorPosX();
   keyboard(w, left);
-  ImGui::SameLine();
-  overlays_and_mouse(w, left + w.px(half_width));
+  if (narrow)
+    ImGui::Spacing();
+  else
+    ImGui::SameLine();
+  overlays_and_mouse(w, narrow ? left : left + w.px(half_width));
   ImGui::Spacing();
   if (w.button("Close", "F1 or Esc closes it too.", w.px(80))) open = false;
   ImGui::End();

@@ -7,11 +7,21 @@ namespace {
 
 constexpr float label_column = 108;  // design pixels
 
+void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  const bool pressed = ImGui::Button("Tour", {width, 0});
+  ImGui::PopStyleColor(3);
+  w.done("Tour", "Five steps show how the method works, on this very frame (G).");
+  if (pressed) ui.tour.toggle(session);
+}
+
 void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const softbody::Scene& scene = session.world().scene();
-  w.row("Scene", w.px(label_column));
-  const float help_width = ImGui::GetFrameHeight();
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - ImGui::GetStyle().ItemInnerSpacing.x);
+  w.row("Scene", w.px(62));
+  const float help_width = ImGui::GetFrameHeight(), tour_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_width - 2 * gap);
   if (w.begin_choices("Scene", scene.name.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
@@ -20,7 +30,9 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
     ImGui::EndCombo();
     if (!chosen.empty()) session.choose_scene(chosen);
   }
-  ImGui::SameLine(0, ImGui::GetStyle().ItemInnerSpacing.x);
+  ImGui::SameLine(0, gap);
+  draw_tour_button(w, session, ui, tour_width);
+  ImGui::SameLine(0, gap);
   if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
@@ -37,7 +49,8 @@ void draw_transport(Widgets& w, Session& session) {
   if (w.button("Reset", "The scene from its start, with the settings below (R).", width)) session.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.can_undo());
-  if (w.button("Undo", "Brings the world back that was there before the last reset or choice of scene (Ctrl+Z).",
+  if (w.button("Undo",
+               "Brings the world back that was there before the last reset, choice of scene or deletion (Ctrl+Z).",
                width))
     session.undo();
   ImGui::EndDisabled();

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "app/demo/status.h"
+#include "app/panel/integrators.h"
 #include "app/panel/panel.h"
 #include "app/view/palette.h"
 
@@ -48,27 +49,10 @@ void draw_past(Widgets& w, Session& session) {
 /// Which integrator, with how many substeps; and which one is at work, if it chooses by itself.
 void draw_integrator(Widgets& w, Session& session) {
   const softbody::World& world = session.world();
-  const softbody::Integrator& asked = world.integrator();
-  w.row("Integrator", w.px(label_column));
-  if (w.begin_choices("Integrator", std::string(asked.name).c_str(), std::string(asked.summary).c_str())) {
-    for (const softbody::Integrator& i : softbody::integrators())
-      if (w.choice(std::string(i.name).c_str(), &i == &asked, std::string(i.summary).c_str()))
-        session.set_integrator(i.key, world.substeps());
-    ImGui::EndCombo();
-  }
-  bool fixed = world.substeps().has_value();
-  if (w.checkbox("Fixed substeps", fixed,
-                 "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
-                 "up. Else as many as the stability bound asks for."))
-    session.set_integrator(asked.key,
-                           fixed ? std::optional(std::max(1, session.stability().margin().needed)) : std::nullopt);
-  ImGui::BeginDisabled(!fixed);
-  w.row("Substeps", w.px(label_column));
-  int substeps = world.substeps().value_or(std::max(1, world.profile().substeps));
-  if (w.slider("Substeps", substeps, 1, std::max(100, substeps), "%d a frame", "Fewer are faster, until it explodes."))
-    session.set_integrator(asked.key, substeps);
-  ImGui::EndDisabled();
-  if (!asked.automatic) return;
+  IntegratorChoice choice{std::string(world.integrator().key), world.substeps()};
+  const int proposed = std::max(session.stability().margin().needed, world.profile().substeps);
+  if (draw_integrator_choice(w, "", choice, proposed)) session.set_integrator(choice.key, choice.substeps);
+  if (!world.integrator().automatic) return;
   const softbody::Dynamics& dynamics = world.dynamics();
   w.figure("At work", std::string(dynamics.used_integrator().name),
            std::string("Because ").append(dynamics.why_integrator()).append(".").c_str());
@@ -124,6 +108,7 @@ void draw_step_light(Widgets& w, Session& session) {
 
 void draw_stability(Widgets& w, Session& session) {
   draw_integrator(w, session);
+  draw_ghost(w, session);
   w.checkbox("Pause when a body explodes", session.guarded,
              "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
              "there could give it, and names it.");

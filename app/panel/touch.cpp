@@ -74,7 +74,8 @@ void draw_touch(Widgets& w, Session& session, UiState& ui) {
   if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
     ui.look_at_body = true;
   ImGui::SameLine();
-  if (w.button("Delete", "Takes the selected body out of the world (Del).", width)) session.remove_selected();
+  if (w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
+    session.remove_selected();
   ImGui::EndDisabled();
 }
 

@@ -42,9 +42,36 @@ void Widgets::done(const char* label, const char* tooltip) {
   if (hover_.seconds >= Hover::delay) show_tooltip(tooltip);
 }
 
+namespace {
+
+/// Beside the window that the last item is in, or above or below a wide one, so that no neighbour is covered.
+ImVec2 tooltip_place(const ImVec2& size, float gap) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin();
+  const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
+  const float right = window.x + extent.x + gap, left = window.x - gap - size.x;
+  const bool wide = extent.x > 0.5f * display.x;
+  const auto inside = [](float at, float length, float whole) {
+    return std::clamp(at, 0.0f, std::max(0.0f, whole - length));
+  };
+  if (!wide && right + size.x <= display.x) return {right, inside(item.y, size.y, display.y)};
+  if (!wide && left >= 0) return {left, inside(item.y, size.y, display.y)};
+  const bool above = window.y + 0.5f * extent.y > 0.5f * display.y;
+  const float y = above ? window.y - gap - size.y : window.y + extent.y + gap;
+  const float beside_item = above ? item.y - gap - size.y : ImGui::GetItemRectMax().y + gap;
+  const bool outside = y >= 0 && y + size.y <= display.y;
+  return {inside(item.x, size.x, display.x), inside(outside ? y : beside_item, size.y, display.y)};
+}
+
+}  // namespace
+
 void Widgets::show_tooltip(const char* text) const {
+  const float wrap = px(320);
+  const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
+  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_place(size, px(6));
+  if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
+  ImGui::SetNextWindowPos(at);
   ImGui::BeginTooltip();
-  ImGui::PushTextWrapPos(px(320));
+  ImGui::PushTextWrapPos(wrap + pad.x);
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
@@ -81,44 +108,70 @@ namespace {
 
 std::string hidden(const char* label) { return std::string("##") + label; }
 
-/// Sliders write their value over the grab: a pale grab keeps it legible.
-class PaleGrab {
+/// Sliders write their value in the middle, where ImGui's own grab would stand in its way.
+class HiddenGrab {
  public:
-  PaleGrab() {
-    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) {
-      ImVec4 colour = ImGui::GetStyleColorVec4(which);
-      colour.w = which == ImGuiCol_SliderGrab ? 0.4f : 0.6f;
-      ImGui::PushStyleColor(which, colour);
-    }
+  HiddenGrab() {
+    for (const ImGuiCol which : {ImGuiCol_SliderGrab, ImGuiCol_SliderGrabActive}) ImGui::PushStyleColor(which, {});
   }
-  ~PaleGrab() { ImGui::PopStyleColor(2); }
+  ~HiddenGrab() { ImGui::PopStyleColor(2); }
 };
 
+/// How far a value is between the ends of a slider, 0 .. 1.
+float place_of(double value, double least, double most, bool logarithmic) {
+  const double place =
+      logarithmic ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
+  return static_cast<float>(std::clamp(place, 0.0, 1.0));
+}
+
+/// A bar and a grab along the lower edge of the last item, below its text. steps: of whole numbers; 0: no steps.
+void mark_slider(float place, float steps, float bar) {
+  const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
+  constexpr float border = 2;  // where ImGui's grab ends
+  const float room = max.x - min.x - 2 * border;
+  const float grab = std::min(room, std::max(ImGui::GetStyle().GrabMinSize, steps > 0 ? room / (steps + 1) : 0));
+  const float left = min.x + border + place * (room - grab);
+  const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
+  ImDrawList* draw = ImGui::GetWindowDrawList();
+  draw->AddRectFilled({min.x + border, max.y - bar}, {left, max.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.35f));
+  draw->AddRectFilled({left, max.y - 2 * bar}, {left + grab, max.y}, colour, bar);
+}
+
+constexpr float slider_bar = 2.5f;  // design pixels
 constexpr ImGuiSliderFlags kept_inside = ImGuiSliderFlags_AlwaysClamp;
 
 }  // namespace
 
 bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
-  const PaleGrab pale;
-  const bool changed = ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
+  const bool changed = [&] {
+    const HiddenGrab hide;
+    return ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
+  }();
+  mark_slider(place_of(value, least, most, false), static_cast<float>(most - least), px(slider_bar));
   done(label, tooltip);
   return changed;
 }
 
 bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const PaleGrab pale;
-  const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
-  const bool changed = ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
+  const bool changed = [&] {
+    const HiddenGrab hide;
+    const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+    return ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
+  }();
+  mark_slider(place_of(double{value}, double{least}, double{most}, logarithmic), 0, px(slider_bar));
   done(label, tooltip);
   return changed;
 }
 
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
-  const PaleGrab pale;
-  const bool changed = ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
-                                           kept_inside | ImGuiSliderFlags_Logarithmic);
+  const bool changed = [&] {
+    const HiddenGrab hide;
+    return ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
+                               kept_inside | ImGuiSliderFlags_Logarithmic);
+  }();
+  mark_slider(place_of(value, least, most, true), 0, px(slider_bar));
   done(label, tooltip);
   return changed;
 }
@@ -157,6 +210,7 @@ bool Widgets::begin_choices(const char* label, const char* preview, const char* 
   const bool open = ImGui::BeginCombo(hidden(label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
   // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
   if (!open) done(label, tooltip);
+  if (open && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
   return open;
 }
 

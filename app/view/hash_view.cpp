@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "app/demo/status.h"
+#include "app/view/bucket_view.h"
 #include "app/view/palette.h"
 
 namespace app {
@@ -128,7 +129,9 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
     draw_legend(w);
     draw_summary(session);
   }
+  const ImVec2 upper_right{area.max.x - margin, ImGui::GetWindowPos().y - w.px(8)};
   ImGui::End();
+  draw_bucket(w, session, upper_right, w.px(HashView::width));
 }
 
 }  // namespace app

@@ -29,12 +29,6 @@ void add_body_boxes(const softbody::World& world, Points positions, engine::Fram
   frame.boxes.push_back(std::move(set));
 }
 
-bool is_in_bucket(const collide::DebugGeometry& debug, std::size_t box, std::uint32_t bucket) {
-  const auto first = debug.box_bucket.begin() + debug.box_first[box];
-  const auto last = debug.box_bucket.begin() + debug.box_first[box + 1];
-  return std::find(first, last, bucket) != last;
-}
-
 /// The bucket that gives a box its colour is that of its minimum corner.
 glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
   return bucket_colour(debug.box_bucket[debug.box_first[box]]);
@@ -42,22 +36,37 @@ glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
 
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
-  engine::BoxSet plain, selected;
-  plain.fill = request.selected_bucket ? 0.0f : 0.05f;
-  selected.width = 2.5f;
-  selected.hidden = 0.6f;
-  selected.fill = 0.22f;
-  const float alpha = request.selected_bucket ? 0.15f : 0.85f;
-  for (std::size_t i = 0; i < debug.boxes.size(); ++i) {
+  engine::BoxSet set;
+  set.fill = request.bucket ? 0.0f : 0.05f;
+  const float alpha = request.bucket ? 0.15f : 0.85f;
+  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::most_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
-    if (request.selected_bucket && is_in_bucket(debug, i, *request.selected_bucket)) {
-      selected.boxes.push_back({lo, hi, glm::vec4(bucket_colour(*request.selected_bucket) * 0.85f, 1.0f)});
-    } else if (request.shown.boxes && plain.boxes.size() < SceneView::most_boxes) {
-      plain.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
+    set.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
+  }
+  frame.boxes.push_back(std::move(set));
+}
+
+/// What is in a bucket, with its cells: those of one cell in one colour, and in another what shares but the bucket.
+void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
+  const CellGroup* reference = request.bucket->group(request.bucket_cell);
+  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .hidden = 0.6f, .fill = 0.22f};
+  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .hidden = 0.5f, .fill = 0.08f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.6f};
+  for (const CellGroup& group : request.bucket->groups) {
+    const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
+    cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
+    for (const collide::Index item : group.items) {
+      if (request.bucket->vertices) {
+        points.points.push_back({positions[item], glm::vec4(colour, 1.0f)});
+      } else {
+        const auto& [lo, hi, body] = request.debug->boxes[item];
+        boxes.boxes.push_back({lo, hi, glm::vec4(colour * 0.9f, 1.0f)});
+      }
     }
   }
-  frame.boxes.push_back(std::move(plain));
-  frame.boxes.push_back(std::move(selected));
+  frame.boxes.push_back(std::move(cells));
+  frame.boxes.push_back(std::move(boxes));
+  frame.points.push_back(std::move(points));
 }
 
 void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
@@ -72,25 +81,12 @@ void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::Fr
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
-  engine::BoxSet plain, selected;
-  plain.width = 1.0f;
-  plain.hidden = 0.12f;
-  plain.fill = 0.05f;
-  selected.width = 2.0f;
-  selected.hidden = 0.5f;
-  selected.fill = 0.10f;
+  engine::BoxSet set{.boxes = {}, .width = 1.0f, .hidden = 0.12f, .fill = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
-    const glm::vec3 index(static_cast<float>(cell.index[0]), static_cast<float>(cell.index[1]),
-                          static_cast<float>(cell.index[2]));
-    const engine::Box box{index * size, (index + 1.0f) * size, glm::vec4(0.20f, 0.27f, 0.36f, 0.6f)};
-    if (cell.bucket == request.selected_bucket) {
-      selected.boxes.push_back({box.lo, box.hi, glm::vec4(0.10f, 0.14f, 0.20f, 0.9f)});
-    } else if (request.shown.cells && plain.boxes.size() < SceneView::most_boxes) {
-      plain.boxes.push_back(box);
-    }
+    if (set.boxes.size() == SceneView::most_boxes) break;
+    set.boxes.push_back(cell_box(cell.index, size, glm::vec4(0.20f, 0.27f, 0.36f, 0.6f)));
   }
-  frame.boxes.push_back(std::move(plain));
-  frame.boxes.push_back(std::move(selected));
+  frame.boxes.push_back(std::move(set));
 }
 
 void add_contact(Points positions, const collide::Contact& contact, const glm::vec3& colour, engine::LineSet& lines,
@@ -162,24 +158,40 @@ void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::Fra
   frame.points.push_back(std::move(points));
 }
 
-void add_springs(const std::vector<softbody::Spring>& springs, Points body, float alpha, engine::LineSet& set) {
+/// Of each vertex of a body, whether a face at it is turned to the eye; of an open one, from which both sides show,
+/// all.
+std::vector<char> vertices_in_sight(const softbody::Prototype& prototype, Points body, const glm::vec3& eye) {
+  const bool closed = prototype.start_volume > 0;
+  std::vector<char> in_sight(body.size(), !closed);
+  if (!closed) return in_sight;
+  for (const auto& [a, b, c] : prototype.mesh.triangles) {
+    if (glm::dot(glm::cross(body[b] - body[a], body[c] - body[a]), eye - body[a]) <= 0) continue;
+    in_sight[a] = in_sight[b] = in_sight[c] = true;
+  }
+  return in_sight;
+}
+
+void add_springs(const std::vector<softbody::Spring>& springs, Points body, const std::vector<char>& in_sight,
+                 float alpha, engine::LineSet& set) {
   for (const softbody::Spring& spring : springs) {
+    if (!in_sight[spring.i] || !in_sight[spring.j]) continue;  // behind its own body: half of all lines
     const glm::vec3 a = body[spring.i], b = body[spring.j];
     const float strain = glm::distance(a, b) / static_cast<float>(spring.rest) - 1.0f;
     set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::full_strain), alpha)});
   }
 }
 
-void add_springs(const softbody::World& world, Points positions, engine::FrameData& frame) {
-  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0.1f};
-  engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0.1f};
+void add_springs(const softbody::World& world, const glm::vec3& eye, Points positions, engine::FrameData& frame) {
+  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
+  engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
-    add_springs(prototype.structural, body, 1.0f, structural);
-    add_springs(prototype.bend, body, 0.45f, others);
-    add_springs(prototype.shear, body, 0.7f, others);
+    const std::vector<char> in_sight = vertices_in_sight(prototype, body, eye);
+    add_springs(prototype.structural, body, in_sight, 1.0f, structural);
+    add_springs(prototype.bend, body, in_sight, 0.45f, others);
+    add_springs(prototype.shear, body, in_sight, 0.7f, others);
   }
   frame.lines.push_back(std::move(others));
   frame.lines.push_back(std::move(structural));
@@ -218,15 +230,19 @@ void add_grab(const softbody::World& world, const softbody::Grab& grab, Points p
 
 }  // namespace
 
+engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& colour) {
+  const glm::vec3 at(static_cast<float>(cell[0]), static_cast<float>(cell[1]), static_cast<float>(cell[2]));
+  return {at * size, (at + 1.0f) * size, colour};
+}
+
 void add_overlays(const softbody::World& world, const OverlayRequest& request, Points positions,
                   engine::FrameData& frame) {
   const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, positions, frame);
+  if (shown.springs) add_springs(world, request.eye, positions, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, frame);
-  if (request.debug && (shown.cells || request.selected_bucket)) {
-    add_cells(request, world.collision().cell_size, frame);
-  }
-  if (request.debug && (shown.boxes || request.selected_bucket)) add_boxes(request, frame);
+  if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
+  if (request.debug && shown.boxes) add_boxes(request, frame);
+  if (request.debug && request.bucket) add_bucket(request, world.collision().cell_size, positions, frame);
   if (shown.areas) add_areas(request.areas, frame);
   if (shown.contacts) add_contacts(world, positions, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);

@@ -5,6 +5,9 @@
 
 namespace app {
 
+/// A cell of the grid with cells of this size, as §2.2 counts them.
+engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& colour);
+
 /// Adds the overlays asked for. `positions`: one a vertex of the world.
 void add_overlays(const softbody::World& world, const OverlayRequest& request, std::span<const glm::vec3> positions,
                   engine::FrameData& frame);

@@ -45,27 +45,49 @@ const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
 }
 
 void SceneView::gather_positions(const DrawnPositions& positions) {
-  positions_.resize(positions.size());
-  for (std::size_t i = 0; i < positions_.size(); ++i) positions_[i] = positions[i];
+  for (std::size_t i = 0; i < positions.size(); ++i) positions_.push_back(positions[i]);
 }
 
-void SceneView::gather_bodies(const softbody::World& world, bool dimmed) {
+std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& world, std::uint32_t first) {
   normals_.resize(positions_.size());
   const collide::Bodies& bodies = world.bodies();
+  std::vector<engine::MeshDraw> draws;
   const UploadedMesh* mesh = nullptr;
   const softbody::Prototype* last = nullptr;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
     if (&prototype != last) mesh = &upload(prototype.mesh);
     last = &prototype;
-    const std::uint32_t first = bodies.first[b], count = bodies.size(b);
-    engine::smooth_normals(mesh->indices, std::span(positions_).subspan(first, count),
-                           std::span(normals_).subspan(first, count));
-    const glm::vec3 colour = body_colour(b);
-    frame_.meshes.push_back({mesh->handle, first, count, dimmed ? glm::mix(colour, glm::vec3(0.86f), 0.6f) : colour});
+    const std::uint32_t begin = first + bodies.first[b], count = bodies.size(b);
+    engine::smooth_normals(mesh->indices, std::span(positions_).subspan(begin, count),
+                           std::span(normals_).subspan(begin, count));
+    draws.push_back({mesh->handle, begin, count, {}});
   }
-  frame_.positions = positions_;
-  frame_.normals = normals_;
+  return draws;
+}
+
+void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions& positions) {
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  gather_positions(positions);
+  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f};
+  for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
+  frame_.translucent.push_back(std::move(set));
+}
+
+/// Bodies that the spotlight does not name are but hinted at, and those that it does may be looked into.
+void SceneView::apply(const Spotlight& spotlight) {
+  engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
+      others{.meshes = {}, .opacity = 0.12f, .hides = false};
+  std::vector<engine::MeshDraw> solid;
+  for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
+    engine::MeshDraw& draw = frame_.meshes[b];
+    const bool is_named = std::ranges::count(spotlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
+    if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
+    (!is_named ? others.meshes : spotlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+  }
+  frame_.meshes = std::move(solid);
+  frame_.translucent.push_back(std::move(named));
+  frame_.translucent.push_back(std::move(others));
 }
 
 void SceneView::gather_solids(const softbody::Scene& scene) {
@@ -92,9 +114,17 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
   // Overlays carry meaning in their colours, so the bodies step back.
-  const bool dimmed = overlays.shown.any() || overlays.selected_bucket;
+  const bool dimmed = overlays.shown.any() || overlays.bucket;
+  positions_.clear();
   gather_positions(positions);
-  gather_bodies(world, dimmed);
+  frame_.meshes = gather_bodies(world, 0);
+  for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b)
+    frame_.meshes[b].colour = dimmed ? glm::mix(body_colour(b), glm::vec3(0.86f), 0.6f) : body_colour(b);
+  const auto vertices = positions_.size();
+  if (overlays.ghost) gather_ghost(*overlays.ghost, overlays.ghost_positions);
+  frame_.positions = positions_;
+  frame_.normals = normals_;
+  if (overlays.spotlight) apply(*overlays.spotlight);
   frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
 
   const softbody::Scene& scene = world.scene();
@@ -103,7 +133,12 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
 
-  add_overlays(world, overlays, positions_, frame_);
+  add_overlays(world, overlays, std::span(positions_).first(vertices), frame_);
+  if (overlays.spotlight) {
+    std::ranges::copy(overlays.spotlight->boxes, std::back_inserter(frame_.boxes));
+    std::ranges::copy(overlays.spotlight->lines, std::back_inserter(frame_.lines));
+    std::ranges::copy(overlays.spotlight->points, std::back_inserter(frame_.points));
+  }
   renderer_.draw(camera, viewport, frame_);
 }
 

@@ -5,9 +5,11 @@
 #include <map>
 #include <optional>
 
+#include "app/compare/table_contents.h"
 #include "app/demo/true_surfaces.h"
 #include "app/view/drawn_positions.h"
 #include "app/view/overlays.h"
+#include "app/view/spotlight.h"
 #include "engine/renderer.h"
 #include "softbody/world.h"
 
@@ -16,14 +18,18 @@ namespace app {
 /// What to draw over the bodies. Pointers may be null; they and the spans must live until draw() returns.
 struct OverlayRequest {
   Overlays shown;
-  const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the selected bucket
-  std::optional<std::uint32_t> selected_bucket;   // its boxes and cells stand out, and show in any case
+  const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the bucket
+  const BucketContents* bucket = nullptr;         // its entries and cells stand out, and show in any case ...
+  std::optional<Cell> bucket_cell;                // ... those of this cell apart from others
   std::optional<softbody::BodyId> selected_body;  // its outline, as seen from ...
   glm::vec3 eye{0.0f};                            // ... here
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
   std::span<const softbody::SurfaceTouch> touches;        // the same
   std::span<const SurfaceMark> marks;                     // the same
+  const Spotlight* spotlight = nullptr;                   // shows, and all else steps back
+  const softbody::World* ghost = nullptr;                 // another world with the same bodies, to look through
+  DrawnPositions ghost_positions;
 };
 
 class SceneView {
@@ -58,7 +64,10 @@ class SceneView {
   };
 
   void gather_positions(const DrawnPositions& positions);
-  void gather_bodies(const softbody::World& world, bool dimmed);
+  /// How to draw the bodies whose vertices, gathered last, begin at `first`; their colours are still to be set.
+  std::vector<engine::MeshDraw> gather_bodies(const softbody::World& world, std::uint32_t first);
+  void gather_ghost(const softbody::World& ghost, const DrawnPositions& positions);
+  void apply(const Spotlight& spotlight);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);

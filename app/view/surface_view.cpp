@@ -80,18 +80,18 @@ void draw_missed(Widgets& w, const Session& session) {
 
 }  // namespace
 
-float draw_true_surfaces(Widgets& w, const Session& session, const SceneArea& area, float top) {
-  if (!session.overlays.true_surfaces) return top;
-  ImGui::SetNextWindowPos({area.min.x + w.px(12), top + w.px(8)});
+SceneArea draw_true_surfaces(Widgets& w, const Session& session, const SceneArea& area) {
+  if (!session.overlays.true_surfaces) return area;
+  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
   ImGui::SetNextWindowSize({w.px(width), 0});
   ImGui::Begin("True surfaces###Figures", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
   draw_state(w, session);
   draw_overlaps(w, session.surfaces().report().figures);
   draw_crossings(w, session.surfaces().report().figures, session.surfaces().sums());
   draw_missed(w, session);
-  const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
+  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
   ImGui::End();
-  return end;
+  return {{end - w.px(4), area.min.y}, area.max};
 }
 
 }  // namespace app

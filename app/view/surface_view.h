@@ -5,8 +5,8 @@
 
 namespace app {
 
-/// Draws the figures at the left of the area below `top`, while overlays.true_surfaces is on, and returns where they
-/// end: what else stands there has to stay below. Between begin_frame() and end_frame() of the Gui.
-float draw_true_surfaces(Widgets& widgets, const Session& session, const SceneArea& area, float top);
+/// Draws the figures in the upper left corner of the area, while overlays.true_surfaces is on, and returns what is left
+/// of it at their right. Between begin_frame() and end_frame() of the Gui.
+SceneArea draw_true_surfaces(Widgets& widgets, const Session& session, const SceneArea& area);
 
 }  // namespace app

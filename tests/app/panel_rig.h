@@ -32,6 +32,23 @@ class PanelRig {
     for (int i = 0; i < count; ++i) frame();
   }
 
+  void resize(int width, int height) {
+    input_.display_size = {width, height};
+    frames(3);
+  }
+  void press_escape() {
+#if IMGUI_VERSION_NUM >= 18700
+    const auto escape = [](bool down) { ImGui::GetIO().AddKeyEvent(ImGuiKey_Escape, down); };
+#else
+    ImGui::GetIO().KeyMap[ImGuiKey_Escape] = 1;
+    const auto escape = [](bool down) { ImGui::GetIO().KeysDown[1] = down; };
+#endif
+    escape(true);
+    frames(2);
+    escape(false);
+    frames(2);
+  }
+
   void move(float x, float y) {
     input_.mouse = {x, y};
     frames(2);

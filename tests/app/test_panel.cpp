@@ -6,6 +6,8 @@
 #include "app/panel/panel.h"
 #include "tests/app/panel_rig.h"
 
+#include <GLFW/glfw3.h>
+
 namespace app {
 namespace {
 
@@ -73,6 +75,7 @@ TEST(Panel, TheFiguresOfTheTrueSurfacesComeAndMoveNothing) {
 TEST(Panel, GoesBackByASlider) {
   PanelRig rig;
   rig.click("Detection");  // folded, so that all has room
+  rig.click("Numbers");
   rig.click("Stability");
   rig.frames(60);
   const int frame = rig.session.world().frame();
@@ -128,6 +131,59 @@ TEST(Panel, EnablesWhatIsShownOrComparedThoughTheMethodHasNoUseForIt) {
     EXPECT_TRUE(enabled());
     *shown = false;
     EXPECT_FALSE(enabled());
+  }
+}
+
+TEST(Panel, TooltipsStandBesideThePanel) {
+  PanelRig rig;
+  for (const char* label : {"Pause", "Tolerance", "Contacts", "Detect"}) {
+    const auto [name, min, max, enabled] = rig.widget(label);
+    rig.move(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
+    rig.frames(40);  // it rests
+    EXPECT_GE(rig.widget("Tooltip").min.x, panel_width) << label;
+    EXPECT_LE(rig.widget("Tooltip").max.x, 1280) << label;
+  }
+}
+
+TEST(Panel, TooltipsOfTheComparisonStandAboveIt) {
+  PanelRig rig;
+  rig.session.compare.on = true;
+  rig.frames(3);
+  const Recorder::Widget head = rig.widget("Column Method"), row = rig.widget("Drive Grid Hash");
+  rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
+  rig.frames(40);
+  EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
+}
+
+TEST(Panel, EscapeClosesAnOpenListAndNothingElse) {
+  PanelRig rig;
+  rig.click("Method");
+  EXPECT_TRUE(rig.ui.list_open);
+  rig.session.select_body(0);
+  press(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  rig.press_escape();
+  EXPECT_FALSE(rig.ui.list_open);
+  EXPECT_TRUE(rig.session.selected_body());
+  EXPECT_EQ(rig.session.world().method().key, collide::default_method);
+  press(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  EXPECT_FALSE(rig.session.selected_body());
+}
+
+TEST(Panel, TheTourFitsSmallWindows) {
+  PanelRig rig;
+  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    rig.ui.tour.start(rig.session);
+    rig.frames(3);
+    for (const char* label : {"Back", "Next", "Close tour"}) {
+      const Recorder::Widget button = rig.widget(label);
+      EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
+      EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
+    }
+    const SceneArea scene = Interface::scene_area(rig.ui, 1);
+    EXPECT_GT(scene.max.x - scene.min.x, 200);
+    EXPECT_GT(scene.max.y - scene.min.y, 150);
+    rig.ui.tour.close(rig.session);
   }
 }
 

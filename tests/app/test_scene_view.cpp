@@ -64,7 +64,8 @@ TEST_F(SceneViewTest, ASelectedBucketShowsWithoutAnyOverlay) {
   OverlayRequest request;
   const auto plain = picture(request);
   request.debug = &session_.debug();
-  request.selected_bucket = request.debug->box_bucket.at(0);
+  session_.select_bucket(request.debug->box_bucket.at(0));
+  request.bucket = session_.bucket();
   EXPECT_NE(picture(request), plain);
 }
 

@@ -103,6 +103,27 @@ TEST(Undo, BringsTheWorldBackToTheBitAndItGoesOnAsIfNothingHadBeen) {
   EXPECT_EQ(session.world().state_hash(), undisturbed.world().state_hash());
 }
 
+TEST(Undo, BringsADeletedBodyBackToTheBit) {
+  Session session(touching_pair(), {}, 1);
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  const std::uint64_t before = session.world().state_hash();
+  const int frame = session.world().frame();
+  session.select_body(0);
+  session.remove_selected();
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  session.reset();  // undone first
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 1u);
+  EXPECT_EQ(session.world().frame(), frame + 10);
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_EQ(session.world().frame(), frame);
+  EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_FALSE(session.can_undo());
+  session.advance(tick);
+  EXPECT_TRUE(session.notice().empty());
+}
+
 TEST(Undo, GoesBackOverSeveralResetsAndKeepsTheirSolids) {
   Session session(touching_pair(), {}, 1);
   std::vector<std::uint64_t> hashes;

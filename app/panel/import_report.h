@@ -1,0 +1,12 @@
+#pragma once
+// What was found in a file and done to it, beside the panel, so that it moves nothing there.
+
+#include "app/demo/import.h"
+#include "app/demo/status.h"
+
+namespace app {
+
+/// Draws the last import's report, if any, in the lower left corner of the area, until it is closed.
+void draw_import_report(Widgets& widgets, Import& import, const SceneArea& area);
+
+}  // namespace app
