@@ -41,6 +41,7 @@ void Dynamics::set_plan(const Plan& plan) {
   has_gravity_ = plan.has(Stage::gravity);
   has_restitution_ = plan.has(Stage::restitution);
   has_surface_ = plan.has(Stage::surface_contact);
+  has_solid_features_ = plan.has(Stage::solid_features);
   self_contact_ = scene_.collision.self_collision;
   if (!has_surface_) surface_.clear();
   if (!plan.has(Stage::contact_response)) shield_.pairs.clear();

@@ -11,6 +11,7 @@
 #include "softbody/plan.h"
 #include "softbody/prototype.h"
 #include "softbody/shield.h"
+#include "softbody/solid_features.h"
 #include "softbody/surface_contact.h"
 
 namespace softbody {
@@ -33,7 +34,8 @@ struct Batch {
   alignas(32) std::array<float, lanes> moves{};     // 1: integrated; 0: asleep, held or an empty lane
   LaneVector impulse{};                             // N s, of solids along their normals, in the last advance()
   alignas(32) std::array<float, lanes> returned{};  // N s, the part of these impulses that restitution gives back
-  std::vector<SolidArguments> near_solids;          // for the frame at hand
+  std::vector<SolidArguments> near_solids;          // for the frame at hand ...
+  std::vector<SolidFeature> solid_features;         // ... and what of the bodies may meet them between vertices
 
   std::size_t particles() const { return prototype->mesh.vertices.size(); }
 };
@@ -186,6 +188,10 @@ class Dynamics {
   void contacts(int thread, float h, float since_start);
   void surface_contacts(int thread, float h, float since_start);
   void solids(Batch& batch, float h);
+  bool particles_on_solids(Batch& batch, float h, bool again);
+  void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
+  bool solid_features(Batch& batch, float h);
+  bool solid_feature(Batch& batch, SolidFeature& feature, float h);
   void structural_springs(Batch& batch);
   void bend_springs(Batch& batch);
   void shear_springs(Batch& batch);
@@ -254,7 +260,7 @@ class Dynamics {
   std::vector<std::map<std::shared_ptr<const Prototype>, ImplicitWork>> implicit_work_;
   Shield shield_;
   SurfaceContact surface_;
-  bool has_surface_ = false, self_contact_ = false;
+  bool has_surface_ = false, self_contact_ = false, has_solid_features_ = false;
   std::vector<float> since_found_;  // s, as each thread counts them
   double found_ = 0;                // s before the end of the frame, when surface_ was found; 0: not yet
   const collide::Bodies* vertices_ = nullptr;

@@ -11,6 +11,7 @@
 namespace softbody::body {
 
 SB_INLINE double square_root(double v) { return std::sqrt(v); }
+SB_INLINE float square_root(float v) { return std::sqrt(v); }
 
 template <class V>
 SB_INLINE V square_root(V v) {

@@ -87,6 +87,12 @@ const char* rebound(const Facts& f) {
                                                                                 : "no material has a rebound speed";
 }
 
+const char* solid_features(const Facts& f) {
+  if (f.scene.contact_surface == ContactSurface::vertices) return "the vertices keep off the solids";
+  const bool flat = f.scene.spheres.empty() && f.scene.boxes.empty() && f.scene.capsules.empty();
+  return flat ? "no solid is round or sharp" : nullptr;
+}
+
 const char* rolling(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to roll on";
   return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
@@ -120,6 +126,7 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
     {Stage::solid_planes, "solid-planes", planes},
     {Stage::solid_boxes, "solid-boxes", boxes},
     {Stage::solid_capsules, "solid-capsules", capsules},
+    {Stage::solid_features, "solid-features", solid_features},
     {Stage::internal_damping, "internal-damping", damping},
     {Stage::rebound_damping, "rebound-damping", rebound},
     {Stage::rolling_resistance, "rolling-resistance", rolling},

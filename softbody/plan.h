@@ -29,6 +29,7 @@ enum class Stage {
   solid_planes,
   solid_boxes,
   solid_capsules,
+  solid_features,
   internal_damping,
   rebound_damping,
   rolling_resistance,

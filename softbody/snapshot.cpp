@@ -18,7 +18,10 @@ std::size_t DynamicsState::bytes() const {
 
 DynamicsState Dynamics::save() const {
   DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), grab_};
-  for (Batch& b : state.batches) b.near_solids.clear();  // they point into the batch that they were copied from
+  for (Batch& b : state.batches) {  // for one frame only, and they point into the batch that they were copied from
+    b.near_solids.clear();
+    b.solid_features.clear();
+  }
   return state;
 }
 

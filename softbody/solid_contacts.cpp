@@ -11,23 +11,29 @@
 
 namespace softbody {
 
-/// Each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a groove: they
-/// take turns until what is left is slow, or for so long (Gauss and Seidel).
+/// Particles, and where it is asked for also what lies between them, which may push particles back.
 void Dynamics::solids(Batch& b, float h) {
+  if (particles_on_solids(b, h, false) && has_solid_features_ && solid_features(b, h)) particles_on_solids(b, h, true);
+}
+
+/// Each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a groove: they
+/// take turns until what is left is slow, or for so long (Gauss and Seidel). False if there is no solid near.
+bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
   constexpr int most_passes = 8;
   constexpr float slack = 1e-4f;  // m/s
-  bool again = true;
-  for (int pass = 0; again && pass < most_passes; ++pass) {
-    unsigned acted = 0;
-    again = false;
+  unsigned acted = again ? ~0u : 0;
+  for (int pass = 0; pass < most_passes; ++pass) {
+    bool more = false;
     for (SolidArguments& s : b.near_solids) {
       s.h = h;
-      s.slack = pass ? slack : 0;
+      s.slack = pass || again ? slack : 0;
       const unsigned now = kernels_.solid(s, at(x_, b), at(v_, b));
-      again = again || (acted & now) || (pass && now);
+      more = more || (acted & now) || (pass && now);
       acted |= now;
     }
+    if (!more) break;
   }
+  return !b.near_solids.empty();
 }
 
 /// Which solids the bodies of a batch may touch in the coming frame, by their boxes and how far they may move: a
@@ -36,6 +42,7 @@ void Dynamics::prepare_solids(Batch& b, double seconds) {
   Extent e;
   kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
   b.near_solids.clear();
+  b.solid_features.clear();
   for_each_solid(scene_, [&](const auto& solid) { prepare_solid(b, e, seconds, solid); });
 }
 
@@ -65,6 +72,13 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
   s.impulse = {b.impulse.x, b.impulse.y, b.impulse.z};
   s.returned = b.returned.data();
   if (has_restitution_) s.before = at(std::as_const(before_), b);
+  if (!has_solid_features_) return;
+  const std::vector<SolidBone> bones = bones_of(solid);
+  for (int l = 0; l < b.used; ++l) {
+    if (b.moves[std::size_t(l)] == 0) continue;
+    const double far = reach(b, e, l, seconds);
+    find_solid_features(b, l, bones, {bone_radius(solid) + thickness, far / seconds, far});
+  }
 }
 
 double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {

@@ -92,6 +92,7 @@ TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
                        "solid-planes",
                        "solid-boxes",
                        "solid-capsules",
+                       "solid-features",
                        "internal-damping",
                        "rebound-damping",
                        "rolling-resistance",

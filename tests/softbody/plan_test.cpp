@@ -83,7 +83,8 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
   EXPECT_EQ(left_out,
             (std::vector{Stage::surface_contact, Stage::shear_springs, Stage::shape_matching, Stage::grab,
-                         Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules}));
+                         Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules,
+                         Stage::solid_features}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.
@@ -141,6 +142,14 @@ const Idle idle_stages[]{
     {"capsules", Stage::solid_capsules, nothing,
      [](Scene& s) {
        s.capsules = {{.from = {3000, 0, 0}, .to = {3000, 1, 0}}};
+     }},
+    {"features", Stage::solid_features,
+     [](Scene& s) {
+       s.spheres = {{.centre = {3000, 0, 0}}};
+     },
+     [](Scene& s) {
+       s.contact_surface = ContactSurface::surfaces;
+       s.spheres = {{.centre = {3000, 0, 0}}};
      }},
     {"restitution", Stage::restitution, nothing,
      [](Scene& s) {

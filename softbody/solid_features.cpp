@@ -1,0 +1,176 @@
+// Dynamics: contacts of faces and edges with solids, where these are round or sharp.
+
+#include "softbody/solid_features.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "collide/closest_features.h"
+#include "softbody/dynamics.h"
+#include "softbody/surface_vectors.h"
+
+namespace softbody {
+
+std::vector<SolidBone> bones_of(const SolidSphere& sphere) { return {{sphere.centre, sphere.centre}}; }
+std::vector<SolidBone> bones_of(const SolidPlane&) { return {}; }
+std::vector<SolidBone> bones_of(const SolidCapsule& c) { return {{c.from, c.from}, {c.to, c.to}, {c.from, c.to}}; }
+
+std::vector<SolidBone> bones_of(const SolidBox& box) {
+  std::vector<SolidBone> bones;
+  const auto out_of = [&](unsigned corner, int axis) { return (corner >> axis & 1 ? 1.0 : -1.0) * box.axes[axis]; };
+  for (unsigned corner = 0; corner < 8; ++corner) {
+    glm::dvec3 at = box.centre, out(0.0);
+    for (int axis = 0; axis < 3; ++axis) {
+      at += box.half_size[axis] * out_of(corner, axis);
+      out += out_of(corner, axis);
+    }
+    bones.push_back({at, at, out});
+    for (int axis = 0; axis < 3; ++axis) {
+      if (corner >> axis & 1) continue;
+      bones.push_back({at, at + 2 * box.half_size[axis] * box.axes[axis], out - out_of(corner, axis)});
+    }
+  }
+  return bones;
+}
+
+namespace {
+
+/// Where the balls round the two overlap.
+bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const glm::vec3& to, float reach) {
+  glm::vec3 middle(0.0f);
+  for (const glm::vec3& c : corners) middle += c / static_cast<float>(corners.size());
+  float radius = 0;
+  for (const glm::vec3& c : corners) radius = std::max(radius, glm::length(c - middle));
+  const glm::vec3 along = to - from;
+  const float square = glm::dot(along, along);
+  const float t = square > 0 ? std::clamp(glm::dot(middle - from, along) / square, 0.0f, 1.0f) : 0.0f;
+  return glm::length(middle - from - t * along) <= radius + reach;
+}
+
+/// A body's face and a solid's point, or two edges: where they are closest to each other.
+struct Meeting {
+  std::array<float, 3> weight{};  // of the body's corners
+  glm::vec3 point{0.0f};          // m, on the body
+  glm::vec3 apart;                // m, from the bone to it
+  glm::vec3 across;               // normal to both, of either sign and any length
+  bool inner;                     // on the border of neither
+};
+
+Meeting meet(const SolidFeature& f, std::span<const glm::vec3> x) {
+  Meeting m;
+  const bool face = x.size() == 3;
+  const collide::Closest c =
+      face ? collide::closest_vertex_face(f.from, x[0], x[1], x[2]) : collide::closest_edges(x[0], x[1], f.from, f.to);
+  std::copy_n(face ? c.weight + 1 : c.weight, x.size(), m.weight.begin());
+  for (std::size_t k = 0; k < x.size(); ++k) m.point += m.weight[k] * x[k];
+  m.apart = face ? -c.apart : c.apart;
+  m.across = face ? normal_of(x[0], x[1], x[2]) : glm::cross(x[1] - x[0], f.to - f.from);
+  m.inner = c.inner;
+  return m;
+}
+
+/// How far apart the two are: as seen from a round solid, which has the bone inside. A box has it on its surface, so
+/// there it is along what is normal to both, also where they have crossed. Nothing where others are closer.
+std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const Meeting& m, const SolidShape<float>& shape,
+                                       const glm::vec3& place) {
+  const auto* box = std::get_if<BoxShape<float>>(&shape);
+  if (!box) {
+    const glm::vec3 d = m.point - place;
+    return std::visit([&](const auto& s) { return body::surface_at(s, body::Vec<float>{d.x, d.y, d.z}); }, shape);
+  }
+  if (!m.inner || glm::dot(m.across, m.across) == 0) return std::nullopt;
+  glm::vec3 n = glm::normalize(m.across);
+  if (glm::dot(n, f.out) < 0) n = -n;
+  for (const body::Vec<float>& a : box->axes) {  // it points away from all of the box's sides that meet in the bone
+    const glm::vec3 axis(a.x, a.y, a.z);
+    if (glm::dot(n, axis) * glm::dot(f.out, axis) < 0) return std::nullopt;
+  }
+  return SurfaceAt<float>{glm::dot(m.apart, n) - box->radius, {n.x, n.y, n.z}};
+}
+
+}  // namespace
+
+void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone> bones, const Approach& approach) {
+  const glm::dvec3 origin = bodies_[b.body[std::size_t(lane)]].origin;
+  const Field<const float> x = at(std::as_const(x_), b);
+  const auto position = [&](std::uint32_t v) { return read(x, std::size_t(v) * lanes + std::size_t(lane)); };
+  const collide::Surface& surface = *b.prototype->surface;
+  for (const SolidBone& bone : bones) {
+    SolidFeature found{.lane = lane,
+                       .solid = b.near_solids.size() - 1,
+                       .vertices = {},
+                       .from = glm::vec3(bone.from - origin),
+                       .to = glm::vec3(bone.to - origin),
+                       .out = glm::vec3(bone.out),
+                       .grown = float(approach.grown),
+                       .speed = float(approach.speed)};
+    const auto add = [&](const auto& features) {
+      for (const auto& feature : features) {
+        std::array<glm::vec3, 3> corners{};
+        std::transform(feature.begin(), feature.end(), corners.begin(), position);
+        if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to,
+                      float(approach.grown + approach.reach)))
+          continue;
+        found.vertices.fill(SolidFeature::no_vertex);
+        std::copy(feature.begin(), feature.end(), found.vertices.begin());
+        b.solid_features.push_back(found);
+      }
+    };
+    bone.point() ? add(surface.triangles()) : add(surface.edges());
+  }
+}
+
+/// One after another. True if any acted.
+bool Dynamics::solid_features(Batch& b, float h) {
+  bool acted = false;
+  for (SolidFeature& f : b.solid_features) {
+    f.far -= f.speed * h;
+    if (f.far <= 0) acted = solid_feature(b, f, h) || acted;
+  }
+  return acted;
+}
+
+/// By the law of the particles' own contacts (respond() in kernel_bodies.h), on the closest point: an impulse there
+/// goes to the corners by their weights.
+bool Dynamics::solid_feature(Batch& b, SolidFeature& f, float h) {
+  constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
+  const std::size_t corners = f.vertices[2] == SolidFeature::no_vertex ? 2 : 3, lane = std::size_t(f.lane);
+  const Field<float> v = at(v_, b);
+  std::array<std::size_t, 3> slot{};
+  std::array<glm::vec3, 3> x{};
+  for (std::size_t k = 0; k < corners; ++k) {
+    slot[k] = std::size_t(f.vertices[k]) * lanes + lane;
+    x[k] = read(at(std::as_const(x_), b), slot[k]);
+  }
+  const Meeting m = meet(f, std::span(x).first(corners));
+  f.far = 0.5f * (glm::length(m.apart) - f.grown);  // half: single particles may be faster than was foreseen
+  if (*std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return false;
+  const SolidArguments& s = b.near_solids[f.solid];
+  const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
+  if (!surface) return false;
+
+  const glm::vec3 n(surface->normal.x, surface->normal.y, surface->normal.z);
+  glm::vec3 velocity(0.0f);
+  float square = 0;
+  for (std::size_t k = 0; k < corners; ++k) {
+    velocity += m.weight[k] * read(v, slot[k]);
+    square += m.weight[k] * m.weight[k];
+  }
+  const float gap = surface->distance, normal_speed = glm::dot(velocity, n);
+  const float target = gap > 0 ? -gap / h : std::min(-0.1f * gap / h, 1.0f);
+  const float change = target - normal_speed;
+  if (!(change > 0)) return false;
+  const glm::vec3 tangential = velocity - normal_speed * n;
+  const float slip = glm::length(tangential);
+  const glm::vec3 lost =
+      std::min(s.friction * change, slip) / std::max(slip, std::numeric_limits<float>::min()) * tangential;
+  for (std::size_t k = 0; k < corners; ++k) softbody::add(v, slot[k], m.weight[k] / square * (change * n - lost));
+  const float impulse = s.mass / square * change;
+  s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
+  return true;
+}
+
+}  // namespace softbody

@@ -1,0 +1,96 @@
+// Faces and edges of bodies against solids that are smaller than a face, or sharp.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+
+#include "softbody/solids.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Of the points of all faces, on a grid over each, to the solids; m.
+double least_distance(const World& world) {
+  constexpr int cuts = 12;
+  double least = std::numeric_limits<double>::infinity();
+  for (BodyId body = 0; body < world.bodies().count(); ++body) {
+    for (const Triangle& t : world.prototype(body).mesh.triangles) {
+      std::array<glm::dvec3, 3> c;
+      for (std::size_t k = 0; k < 3; ++k) c[k] = world.dynamics().particle(body, t[k]).position;
+      for (int i = 0; i <= cuts; ++i) {
+        for (int j = 0; i + j <= cuts; ++j) {
+          const glm::dvec3 p = (double(i) * c[0] + double(j) * c[1] + double(cuts - i - j) * c[2]) / double(cuts);
+          for_each_solid(world.scene(), [&](const auto& s) { least = std::min(least, surface_at(s, p).distance); });
+        }
+      }
+    }
+  }
+  return least;
+}
+
+struct Case {
+  const char* name;
+  void (*put)(Scene&);
+};
+
+class SolidFeatures : public testing::TestWithParam<Case> {
+ protected:
+  /// A ball with the solid just below it, which it falls on and stays upon or rolls off.
+  static double deepest(ContactSurface surface) {
+    Scene scene = lone_body(gas_ball(), {0, -2, 0});
+    scene.gravity = {0, -9.81, 0};
+    scene.bodies[0].position = {0.03, 0.55, 0.02};
+    scene.contact_surface = surface;
+    GetParam().put(scene);
+    World world(scene, {});
+    double least = std::numeric_limits<double>::infinity();
+    for (int frame = 0; frame < 60; ++frame) {
+      world.step();
+      least = std::min(least, least_distance(world));
+    }
+    EXPECT_TRUE(measure(world).finite);
+    return -least;
+  }
+};
+
+TEST_P(SolidFeatures, StayOutOfFacesBetweenTheVertices) {
+  const double vertices_alone = deepest(ContactSurface::vertices);
+  EXPECT_GT(vertices_alone, 0.008) << "between vertices there is room for it";
+  EXPECT_LT(deepest(ContactSurface::surfaces), 0.001);
+}
+
+SolidBox box(const glm::dvec3& half, const glm::dvec3& x, const glm::dvec3& y) {
+  const glm::dvec3 u = glm::normalize(x), w = glm::normalize(glm::cross(u, y));
+  SolidBox b;
+  b.half_size = half;
+  b.axes = {u, glm::cross(w, u), w};
+  return b;
+}
+
+const Case cases[]{
+    {"SmallSphere", [](Scene& s) { s.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1}}; }},
+    {"Rod", [](Scene& s) { s.capsules = {{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}}; }},
+    {"Spike", [](Scene& s) { s.capsules = {{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}}; }},
+    {"Edge",
+     [](Scene& s) {
+       s.boxes = {box({0.4, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})};
+       s.boxes[0].centre = {0, -0.6, 0};
+     }},
+    {"Corner",
+     [](Scene& s) {
+       s.boxes = {box({0.3, 0.3, 0.3}, {1, 1.4, 0}, {-1, 1, 1})};
+       s.boxes[0].centre = {0, -0.55, 0};
+     }},
+    {"Plate",
+     [](Scene& s) {
+       s.boxes = {box({1, 0.5, 0.01}, {1, 0, 0.3}, {0, 1, 0})};
+       s.boxes[0].centre = {0, -0.55, 0};
+     }},
+};
+INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
+                         [](const auto& c) { return std::string(c.param.name); });
+
+}  // namespace
+}  // namespace softbody::test
