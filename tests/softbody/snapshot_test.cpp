@@ -64,7 +64,7 @@ TEST_P(Snapshots, ContinueToTheBit) {
 TEST(Snapshot, OfTheSceneOfAMillionFacesContinuesToTheBit) {
   const Scene scene = find_scene("drop-3000", SBCOLLIDE_SCENES);
   World world(scene, {.threads = 2});
-  run(world, 40);
+  run(world, 20);
   EXPECT_FALSE(world.detection().contacts.empty());
   expect_the_same_again(world, scene, 1);
 }
