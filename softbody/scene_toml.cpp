@@ -8,6 +8,7 @@
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "softbody/limits.h"
 #include "softbody/obj_file.h"
 #include "softbody/scene.h"
 #include "softbody/toml_table.h"
@@ -16,7 +17,6 @@ namespace softbody {
 namespace {
 
 constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
-constexpr std::uint64_t max_particles = 4'000'000;
 
 SpringLaw read_springs(Table table, SpringLaw law) {
   law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);

@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vector_relational.hpp>
 
+#include "softbody/limits.h"
 #include "softbody/measures.h"
 #include "softbody/world_state.h"
 
@@ -16,6 +17,15 @@ namespace softbody {
 void World::State::replan() {
   plan = make_plan(scene, prototypes.all(), visitors);
   dynamics.set_plan(plan);
+}
+
+/// For so many more bodies.
+void World::State::check_room(const Prototype& p, std::size_t number) const {
+  const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
+  if (particles <= max_particles) return;
+  throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
+                   " more bodies: " + std::to_string(particles) + " particles (at most " +
+                   std::to_string(max_particles) + "); take bodies out first");
 }
 
 void World::State::joined(std::size_t number) {
@@ -80,6 +90,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
 BodyId World::drop(int count) {
   State& s = *state_;
   Dropper dropper = s.dropper();
+  s.check_room(*s.prototypes.of(dropper.body), std::size_t(count));
   // Many would pile up to a tower: they fall side by side.
   if (count > 1) dropper.spread = std::max(dropper.spread, 4 * s.prototypes.of(dropper.body)->radius);
   for (int i = 0; i < count; ++i) s.drop(dropper);
@@ -90,7 +101,9 @@ BodyId World::drop(int count) {
 BodyId World::add(const BodySource& source) {
   State& s = *state_;
   PrototypeSet more = s.prototypes;
-  s.check_stability(*more.add(source, s.scene.materials));
+  const auto& p = more.add(source, s.scene.materials);
+  s.check_room(*p, 1);
+  s.check_stability(*p);
   s.prototypes = std::move(more);
   const BodyId id = s.add(source, source.position);
   s.joined(1);

@@ -33,6 +33,7 @@ struct World::State {
   bool implicit_in_reserve(const Prototype& p) const;
   double substeps(const Prototype& p, float thickness) const;
   void check_stability(const Prototype& p) const;
+  void check_room(const Prototype& p, std::size_t number) const;
   void joined(std::size_t number);  // bodies, by hand
   Dropper dropper() const;          // the scene's, or one over its first body
   void drop(const Dropper& dropper);

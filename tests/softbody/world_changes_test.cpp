@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/limits.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody {
@@ -285,6 +286,21 @@ std::uint64_t hash_after_much(int threads) {
 }
 
 TEST(Changes, DoNotDependOnTheNumberOfThreads) { EXPECT_EQ(hash_after_much(1), hash_after_much(3)); }
+
+TEST(Changes, MoreParticlesThanAMachineHoldsAreRefusedAndTheWorldGoesOn) {
+  World world(pile(10), {});
+  const auto before = world.bodies().count();
+  try {
+    world.drop(1 + int(max_particles / world.prototype(0).mesh.vertices.size()));
+    FAIL() << "they have joined";
+  } catch (const SceneError& error) {
+    EXPECT_NE(std::string(error.what()).find("at most 4000000"), std::string::npos) << error.what();
+  }
+  EXPECT_EQ(world.bodies().count(), before);
+  test::run(world, 1);
+  world.drop();
+  EXPECT_EQ(world.bodies().count(), before + 1);
+}
 
 }  // namespace
 }  // namespace softbody
