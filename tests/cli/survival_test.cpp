@@ -1,0 +1,83 @@
+// Full disks, places that cannot be written to, and a sudden end: what was saved before stays whole.
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/cli/process.h"
+#include "tests/full_disk.h"
+
+namespace cli::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A command that writes into a folder, and the file that it writes there first.
+struct Writer {
+  std::string name;
+  std::vector<std::string> arguments;  // the folder, or the file in it, comes last
+  std::string file;
+  bool names_file = false;  // the last argument is the file
+};
+
+std::vector<Writer> writers() {
+  const std::string mesh = std::string(SBCOLLIDE_SCENES) + "/../meshes/star.obj";
+  std::vector<Writer> list{
+      {"objects", {"simulate", "--scene", "A", "--frames", "1", "--obj-every", "1", "--out"}, "rest_0001.obj"},
+      {"contacts", {"detect", mesh, "--tolerance", "0.9", "--contacts"}, "contacts.csv", true}};
+  if (SBCOLLIDE_GRAPHICS)
+    list.push_back(
+        {"picture", {"simulate", "--frames", "1", "--capture", "1", "--size", "64x64", "--out"}, "frame_0001.png"});
+  return list;
+}
+
+class Survival : public testing::TestWithParam<Writer> {
+ protected:
+  Outcome write_to(const fs::path& folder) const {
+    std::vector<std::string> arguments = GetParam().arguments;
+    arguments.push_back(GetParam().names_file ? folder / GetParam().file : folder);
+    return run(arguments);
+  }
+};
+
+TEST_P(Survival, AFullDiskIsSaidAndChangesNothing) {
+  const TemporaryFolder folder;
+  folder.write(GetParam().file, "saved before");
+  const tests::FullDisk full;
+  const Outcome o = write_to(folder.path());
+  EXPECT_EQ(o.status, 2) << o.err;
+  EXPECT_NE(o.err.find(GetParam().file + ": cannot be written: "), std::string::npos) << o.err;
+  EXPECT_EQ(read_file(folder.path() / GetParam().file), "saved before");
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{GetParam().file}) << "nothing half written is left";
+}
+
+/// Not even root writes to /proc.
+TEST_P(Survival, APlaceThatTakesNoFilesIsSaid) {
+  const Outcome o = write_to("/proc");
+  EXPECT_EQ(o.status, 2);
+  EXPECT_NE(o.err.find("/proc"), std::string::npos) << o.err;
+  EXPECT_NE(o.err.find("cannot be written"), std::string::npos) << o.err;
+}
+
+INSTANTIATE_TEST_SUITE_P(Writers, Survival, testing::ValuesIn(writers()),
+                         [](const auto& writer) { return writer.param.name; });
+
+TEST(SuddenEnd, LeavesNoHalfFileUnderItsName) {
+  const TemporaryFolder folder;
+  const fs::path out = folder.path() / "out";
+  const std::string script = "'" SBCOLLIDE_PROGRAM "' simulate --scene D --frames 100000 --obj-every 1 --out '" +
+                             out.string() + "' & child=$!; until [ -e '" + out.string() +
+                             "/frame_0020.obj' ]; do kill -0 $child || exit 1; done; kill -9 $child";
+  ASSERT_EQ(std::system(("{ " + script + "; } 2>/dev/null").c_str()), 0);
+  int files = 0;
+  for (const std::string& name : file_names(out)) {
+    if (!name.starts_with("frame_") || !name.ends_with(".obj")) continue;
+    const std::string text = read_file(out / name), last = text.substr(text.rfind("\nf ") + 1);
+    EXPECT_TRUE(last.starts_with("f ") && last.ends_with('\n')) << name << " ends with: " << last;
+    ++files;
+  }
+  EXPECT_GE(files, 20);
+}
+
+}  // namespace
+}  // namespace cli::test
