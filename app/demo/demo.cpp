@@ -7,6 +7,7 @@
 
 #include "app/demo/canvas.h"
 #include "app/demo/interface.h"
+#include "app/demo/overlay_request.h"
 #include "app/demo/preferences.h"
 #include "app/demo/scene_mouse.h"
 #include "app/demo/shortcuts.h"
@@ -182,19 +183,13 @@ class Demo {
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
     canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      view_.draw(session_.world(), overlay_request(), camera_, whole, key.scale,
-                 session_.drawn_positions(whole_steps()));
+      view_.draw(session_.world(), overlay_request(session_, ui_, camera_), camera_, whole, key.scale,
+                 session_.drawn_positions(whole_steps(session_)));
     });
     drawn_ = key;
     canvas_.show(viewport.origin);
     const glm::ivec2 size = window_.framebuffer_size();
     glViewport(0, 0, size.x, size.y);
-  }
-
-  /// Boxes, cells and the like are of the present state: then so are the bodies.
-  bool whole_steps() const {
-    const Overlays& shown = session_.overlays;
-    return shown.boxes || shown.cells || shown.areas || session_.selected_bucket();
   }
 
   PictureKey picture_key() const {
@@ -211,29 +206,7 @@ class Demo {
             .grab = session_.world().grabbed(),
             .view = camera_.view(),
             .scale = std::max(window_.content_scale(), window_.pixel_ratio()),
-            .between = whole_steps() ? 1.0f : session_.between()};
-  }
-
-  OverlayRequest overlay_request() const {
-    OverlayRequest request;
-    request.shown = session_.overlays;
-    request.bucket = session_.bucket();
-    request.bucket_cell = session_.selected_cell();
-    request.selected_body = session_.selected_body();
-    request.eye = camera_.eye();
-    const bool needs_debug = request.shown.boxes || request.shown.cells || request.bucket;
-    if (needs_debug) request.debug = &session_.debug();
-    if (request.shown.areas) request.areas = session_.areas();
-    request.missed = session_.missed();
-    if (request.shown.touches) request.touches = session_.touches();
-    request.marks = session_.surfaces().report().marks;
-    request.spotlight = ui_.tour.spotlight();
-    const Ghost* ghost = ui_.tour.open() ? nullptr : session_.ghost();
-    if (ghost && !ghost->blown_up()) {
-      request.ghost = &ghost->world();
-      request.ghost_positions = ghost->drawn_positions(whole_steps() ? 1.0f : session_.between());
-    }
-    return request;
+            .between = whole_steps(session_) ? 1.0f : session_.between()};
   }
 
   static constexpr float tour_room = 0.6f;       // glide_to() leaves half of the picture free: less is enough

@@ -1,0 +1,186 @@
+#include "tests/soak/actions.h"
+
+#include <array>
+#include <fstream>
+
+#include "collide/methods.h"
+#include "softbody/integrators.h"
+
+namespace soak {
+namespace {
+
+using app::Session;
+
+void method(DemoRig& demo, Dice& dice) {
+  demo.session.set_method(collide::methods()[dice.pick(collide::methods().size())].key);
+}
+
+void contact_surface(DemoRig& demo, Dice&) { demo.session.next_contact_surface(); }
+
+/// With steps that may be far too few: then it blows up, and the demo must say so.
+void integrator(DemoRig& demo, Dice& dice) {
+  const auto all = softbody::integrators();
+  const std::optional<int> substeps = dice.heads() ? std::nullopt : std::optional(1 << dice.pick(6));
+  demo.session.set_integrator(all[dice.pick(all.size())].key, substeps);
+}
+
+void automatic_integrator(DemoRig& demo, Dice&) {
+  demo.session.set_integrator(softbody::default_integrator, std::nullopt);
+}
+
+/// Its ends, and what is in between.
+template <class T>
+T end_or_between(Dice& dice, T least, T most) {
+  const std::size_t which = dice.pick(4);
+  if (which == 0) return least;
+  return which == 1 ? most : static_cast<T>(dice.between(double(least), double(most)));
+}
+
+void detection(DemoRig& demo, Dice& dice) {
+  collide::Settings s = demo.session.world().collision();
+  const bool automatic = dice.heads();
+  switch (dice.pick(5)) {
+    case 0:
+      s.levels = end_or_between(dice, 0, collide::max_levels);
+      break;
+    case 1:
+      s.buckets = end_or_between(dice, 1u, collide::max_buckets);
+      break;
+    case 2:
+      s.cell_size = glm::vec3(float(end_or_between(dice, 1e-3, 1e3)));
+      break;
+    case 3:
+      s.tolerance = float(end_or_between(dice, 0.0, 0.3));
+      break;
+    default:
+      s.self_collision = !s.self_collision;
+  }
+  demo.session.set_collision(s, automatic);
+}
+
+void drop(DemoRig& demo, Dice& dice) { demo.session.drop(dice.heads() ? 1 : app::many_drops); }
+
+void throw_body(DemoRig& demo, Dice& dice) {
+  demo.session.throw_speed = end_or_between(dice, Session::least_throw, Session::most_throw);
+  const engine::Ray ray = demo.middle();
+  demo.session.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+}
+
+void remove(DemoRig& demo, Dice& dice) {
+  const auto count = demo.session.world().bodies().count();
+  if (count > 0) demo.session.select_body(static_cast<softbody::BodyId>(dice.pick(count)));
+  demo.session.remove_selected();
+}
+
+/// Wherever it is: on a body, beside all, on the panel.
+void mouse(DemoRig& demo, Dice& dice) {
+  const glm::vec2 size(demo.input.display_size);
+  demo.input.mouse = {float(dice.between(0, size.x)), float(dice.between(0, size.y))};
+  demo.input.buttons = {dice.heads(), dice.pick(8) == 0, false};
+  demo.input.wheel = float(dice.between(-2, 2));
+}
+
+void gravity(DemoRig& demo, Dice& dice) { demo.session.set_gravity(end_or_between(dice, 0.0, 30.0)); }
+
+void material(DemoRig& demo, Dice& dice) {
+  const auto& all = demo.session.world().scene().materials;
+  if (all.empty()) return;
+  const std::size_t index = dice.pick(all.size());
+  softbody::Material m = all[index];
+  switch (dice.pick(5)) {
+    case 0:
+      m.mass = end_or_between(dice, 0.01, 100.0);
+      break;
+    case 1:
+      m.structural.stiffness = end_or_between(dice, 0.0, 1e6);
+      break;
+    case 2:
+      m.structural.damping_ratio = end_or_between(dice, 0.0, 2.0);
+      break;
+    case 3:
+      m.gas_pressure = end_or_between(dice, 0.0, 2e5);
+      break;
+    default:
+      m.friction = end_or_between(dice, 0.0, 2.0);
+  }
+  demo.session.set_material(index, m);
+}
+
+void solids(DemoRig& demo, Dice& dice) {
+  app::SolidList list = demo.session.solids();
+  if (list.empty()) return;
+  app::SolidEntry& one = list[dice.pick(list.size())];
+  one.on = !one.on;
+  demo.session.set_solids(list);
+}
+
+void reset(DemoRig& demo, Dice&) { demo.session.reset(); }
+void undo(DemoRig& demo, Dice&) { demo.session.undo(); }
+void as_the_scene_has_it(DemoRig& demo, Dice&) {
+  demo.session.restore_settings();
+  demo.session.restore_world_settings();
+}
+
+void rewind(DemoRig& demo, Dice& dice) {
+  const auto& past = demo.session.stability().past().snapshots();
+  if (past.empty()) return;
+  demo.session.rewind_to(past[dice.pick(past.size())].frame);
+  demo.session.paused = false;
+}
+
+void save(DemoRig& demo, Dice&) { demo.session.save_scene(demo.ui.save_as, demo.ui.view); }
+void picture(DemoRig& demo, Dice&) { demo.ui.take_away.picture_asked = true; }
+void curves(DemoRig& demo, Dice&) { demo.ui.take_away.write_curves(demo.session); }
+
+/// A tetrahedron of any size; every other time something is wrong with the file.
+void import_mesh(DemoRig& demo, Dice& dice) {
+  constexpr std::array faces{"f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", "f 1 2 9\n", "f 1 2 3\nf 1 2 4\nf 1 2 4\n",
+                             "f 1 2\n", "f 1 2 3\nv nan 0 0\n"};
+  const std::string file = demo.ui.take_away.folder + "/mesh.obj";
+  std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+                      << faces[dice.heads() ? 0 : 1 + dice.pick(faces.size() - 1)];
+  demo.ui.import.size = float(dice.between(0.2, 1));
+  demo.ui.import.drop({file}, demo.session);
+}
+
+void resize(DemoRig& demo, Dice& dice) { demo.resize({end_or_between(dice, 1, 900), end_or_between(dice, 1, 700)}); }
+
+void view(DemoRig& demo, Dice& dice) {
+  for (const app::OverlayRow& row : app::overlay_table) demo.session.overlays.*row.shown = dice.pick(4) == 0;
+  demo.ui.panel = dice.heads();
+  demo.ui.table = dice.heads();
+  demo.ui.help = dice.pick(8) == 0;
+  demo.ui.sweep = dice.heads();
+  demo.session.compare.on = dice.heads();
+  demo.session.select_bucket(dice.pick(1001));
+  demo.restart_camera();
+}
+
+constexpr std::array table{Action{"method", method},
+                           Action{"contact surface", contact_surface},
+                           Action{"integrator", integrator},
+                           Action{"automatic integrator", automatic_integrator},
+                           Action{"detection", detection},
+                           Action{"drop", drop},
+                           Action{"throw", throw_body},
+                           Action{"remove", remove},
+                           Action{"mouse", mouse},
+                           Action{"gravity", gravity},
+                           Action{"material", material},
+                           Action{"solids", solids},
+                           Action{"reset", reset},
+                           Action{"undo", undo},
+                           Action{"as the scene has it", as_the_scene_has_it},
+                           Action{"rewind", rewind},
+                           Action{"save", save},
+                           Action{"picture", picture},
+                           Action{"curves", curves},
+                           Action{"import", import_mesh},
+                           Action{"resize", resize},
+                           Action{"view", view}};
+
+}  // namespace
+
+std::span<const Action> actions() { return table; }
+
+}  // namespace soak

@@ -1,0 +1,43 @@
+#include "tests/soak/demo_rig.h"
+
+#include <utility>
+
+#include "app/demo/overlay_request.h"
+#include "engine/resources.h"
+
+namespace soak {
+
+DemoRig::DemoRig(const std::filesystem::path& scenes, const std::filesystem::path& folder)
+    : view_(engine::find_folder("shaders")), session(softbody::find_scene("drop", scenes), scenes, 2) {
+  ui.take_away.folder = ui.import.path = folder.string();
+  ui.save_as = (folder / "saved.toml").string();
+  restart_camera();
+}
+
+void DemoRig::resize(glm::ivec2 size) {
+  input.display_size = size;
+  target_ = engine::Framebuffer(size, 0);
+}
+
+void DemoRig::frame(bool draw) {
+  if (ui.take_away.recording())
+    session.advance_one(input.seconds, ui.take_away.may_step());
+  else
+    session.advance_one(input.seconds, true);
+  target_.bind();
+  gui_.begin_frame(input);
+  interface_.draw(session, ui, gui_.scale(), 10);
+  const bool over_scene = !gui_.wants_mouse();
+  mouse_.follow(app::read_mouse({}, over_scene), session, camera_, input.display_size);
+  camera_.advance(input.seconds);
+  if (draw)
+    canvas_.update(input.display_size, true, false, [this](const engine::Viewport& whole) {
+      view_.draw(session.world(), app::overlay_request(session, ui, camera_), camera_, whole, 1,
+                 session.drawn_positions(app::whole_steps(session)));
+    });
+  target_.bind();
+  gui_.end_frame();
+  ui.take_away.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
+}
+
+}  // namespace soak

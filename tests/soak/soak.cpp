@@ -1,0 +1,146 @@
+// The demo under a restless user: every simulated second one random change, the same ones every time. It must stay
+// finite or say that it is not, hold what it has and no more, and do no more work in a frame than it promises.
+
+#include <GL/glew.h>
+
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <cstring>
+#include <stdexcept>
+#include <vector>
+
+#include "softbody/measures.h"
+#include "tests/soak/actions.h"
+#include "tests/soak/resources.h"
+#include "tests/temporary_folder.h"
+
+namespace soak {
+namespace {
+
+constexpr int frames_a_second = 60;
+constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
+constexpr int warm_up_seconds = 60;
+constexpr int many_bodies = 150;             // with more the scene begins anew, as frames would last too long
+constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
+
+// What a frame may cost, in counted work.
+constexpr int most_substeps = softbody::World::max_substeps;
+constexpr std::uint64_t most_pair_tests = 1'000'000'000;  // Session's own bound for the method that drives
+
+[[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
+
+class Soak {
+ public:
+  Soak(const std::filesystem::path& scenes, const std::filesystem::path& folder, std::uint32_t seed)
+      : demo_(scenes, folder), dice_(seed) {}
+
+  void run(const std::string& scene, int seconds) {
+    begin(scene);
+    if (demo_.session.world().bodies().vertex_count() > large_scene) seconds = (seconds + 59) / 60;
+    Resources warm;
+    for (int second = 0; second < seconds; ++second) {
+      change(scene);
+      for (int i = 0; i < frames_a_second; ++i) frame(i % picture_every == 0);
+      if (second % warm_up_seconds == warm_up_seconds - 1) compare(warm, scene);
+    }
+    std::printf("%-10s %4d s, %llu frames so far: at most %d substeps and %llu pair tests; %s\n", scene.c_str(),
+                seconds, static_cast<unsigned long long>(frames_), substeps_,
+                static_cast<unsigned long long>(pair_tests_), describe(resources()).c_str());
+    std::fflush(stdout);
+  }
+
+  const std::string& last() const { return last_; }
+  int explosions() const { return explosions_; }
+
+ private:
+  void begin(const std::string& scene) {
+    demo_.session.choose_scene(scene);
+    if (demo_.session.world().scene().key != scene) fail("the scene cannot be loaded: " + demo_.session.notice());
+    demo_.session.paused = false;
+    demo_.restart_camera();
+  }
+
+  void change(const std::string& scene) {
+    const Action& action = actions()[dice_.pick(actions().size())];
+    last_ = std::string(action.name);
+    demo_.input.buttons = {};
+    demo_.input.wheel = 0;
+    action.act(demo_, dice_);
+    if (demo_.session.world().bodies().count() > many_bodies || dice_.pick(100) == 0) begin(scene);
+    demo_.session.paused = false;
+    demo_.ui.quit = false;
+  }
+
+  void frame(bool draw) {
+    app::Session& session = demo_.session;
+    demo_.frame(draw);
+    ++frames_;
+    const softbody::World& world = session.world();
+    substeps_ = std::max(substeps_, world.profile().substeps);
+    pair_tests_ = std::max(pair_tests_, world.detection().counters.pair_tests);
+    if (substeps_ > most_substeps) fail("a frame took " + std::to_string(substeps_) + " substeps");
+    if (pair_tests_ > most_pair_tests) fail("a frame took " + std::to_string(pair_tests_) + " pair tests");
+    if (const GLenum error = glGetError()) fail("OpenGL error " + std::to_string(error));
+    if (session.stability().alarm()) return recover();
+    if (!softbody::measure(world).finite) fail("not finite, and no alarm");
+  }
+
+  /// As the panel offers it. What is chosen too coarse may blow up; what the program chooses by itself may not.
+  void recover() {
+    app::Session& session = demo_.session;
+    const softbody::World& world = session.world();
+    ++explosions_;
+    if (!session.paused) fail("it blew up and went on");
+    if (world.integrator().automatic && !softbody::measure(world).finite)
+      fail("not finite with the automatic integrator: " + session.stability().alarm()->what);
+    session.set_integrator(softbody::default_integrator, std::nullopt);
+    session.rewind_to(session.stability().last_good_frame());
+    if (!softbody::measure(world).finite) fail("the last good frame is not finite");
+    session.paused = false;
+  }
+
+  /// At the same state each time: the first of the scene.
+  void compare(Resources& warm, const std::string& scene) {
+    begin(scene);
+    const Resources now = resources();
+    if (warm.megabytes == 0) warm = now;
+    if (now.megabytes > 1.2 * warm.megabytes + 32 || now.descriptors > warm.descriptors + 2 ||
+        now.gl_objects > warm.gl_objects + 64)
+      fail("it grows: " + describe(warm) + ", then " + describe(now));
+  }
+
+  DemoRig demo_;
+  Dice dice_;
+  std::string last_ = "nothing";
+  int substeps_ = 0, explosions_ = 0;
+  std::uint64_t frames_ = 0, pair_tests_ = 0;
+};
+
+int run(int seconds, std::vector<std::string> scenes) {
+  const std::filesystem::path folder = SBCOLLIDE_SCENES;
+  if (scenes.empty()) scenes = softbody::scene_keys(folder);
+  const tests::TemporaryFolder out;
+  Soak soak(folder, out.path(), 1);
+  try {
+    for (const std::string& scene : scenes) soak.run(scene, seconds);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "after the change \"%s\": %s\n", soak.last().c_str(), error.what());
+    return 1;
+  }
+  std::printf("nothing found; steps that were too coarse blew up %d times, each time with an alarm\n",
+              soak.explosions());
+  return 0;
+}
+
+}  // namespace
+}  // namespace soak
+
+int main(int argc, char** argv) {
+  int seconds = 0;
+  if (argc < 2 || std::from_chars(argv[1], argv[1] + std::strlen(argv[1]), seconds).ec != std::errc{} || seconds < 1) {
+    std::fprintf(stderr, "usage: %s SIMULATED_SECONDS [SCENE...]\n", argv[0]);
+    return 2;
+  }
+  return soak::run(seconds, {argv + 2, argv + argc});
+}
