@@ -183,7 +183,7 @@ class Demo {
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
     canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      view_.draw(session_.world(), overlay_request(session_, ui_, camera_), camera_, whole, key.scale,
+      view_.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, key.scale,
                  session_.drawn_positions(whole_steps(session_)));
     });
     drawn_ = key;

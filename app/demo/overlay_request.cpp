@@ -7,13 +7,12 @@ bool whole_steps(const Session& session) {
   return shown.boxes || shown.cells || shown.areas || session.selected_bucket();
 }
 
-OverlayRequest overlay_request(const Session& session, const UiState& ui, const engine::Camera& camera) {
+OverlayRequest overlay_request(const Session& session, const UiState& ui) {
   OverlayRequest request;
   request.shown = session.overlays;
   request.bucket = session.bucket();
   request.bucket_cell = session.selected_cell();
   request.selected_body = session.selected_body();
-  request.eye = camera.eye();
   const bool needs_debug = request.shown.boxes || request.shown.cells || request.bucket;
   if (needs_debug) request.debug = &session.debug();
   if (request.shown.areas) request.areas = session.areas();

@@ -11,6 +11,6 @@ namespace app {
 bool whole_steps(const Session& session);
 
 /// Of what is chosen now; good until the next step.
-OverlayRequest overlay_request(const Session& session, const UiState& ui, const engine::Camera& camera);
+OverlayRequest overlay_request(const Session& session, const UiState& ui);
 
 }  // namespace app

@@ -9,9 +9,10 @@ namespace {
 
 constexpr float label_column = 108;  // design pixels
 
-/// "Auto", or "Runge-Kutta 4, 8 substeps".
+/// "Auto (Semi-implicit Euler)", or "Runge-Kutta 4, 8 substeps".
 std::string in_words(const softbody::World& world) {
   std::string text(world.integrator().name);
+  if (world.integrator().automatic) text.append(" (").append(world.dynamics().used_integrator().name).append(")");
   if (const auto substeps = world.substeps())
     text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
   return text;

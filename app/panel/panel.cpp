@@ -140,7 +140,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   draw_progress(w, session);
   draw_touch(w, session, ui);
   ImGui::Spacing();
-  if (w.section("Detection", true)) draw_detection(w, session, ui.table);
+  if (w.section("Detection", true)) draw_detection(w, session, ui.table || ui.tour.open());
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("World", false)) draw_world(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session);

@@ -181,15 +181,23 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
   }
 }
 
-void add_springs(const softbody::World& world, const glm::vec3& eye, Points positions, engine::FrameData& frame) {
+/// Whether a body is so large on the screen that springs other than along its edges can be told from these.
+bool is_near(const softbody::Prototype& prototype, Points body, const Sight& sight) {
+  constexpr float least = 20;  // pixels, of an edge
+  const float edge = static_cast<float>(prototype.mean_edge);
+  return edge * sight.pixels_at_one_metre > least * glm::distance(body.front(), sight.eye);
+}
+
+void add_springs(const softbody::World& world, const Sight& sight, Points positions, engine::FrameData& frame) {
   engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
   engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(prototype, body, eye);
+    const std::vector<char> in_sight = vertices_in_sight(prototype, body, sight.eye);
     add_springs(prototype.structural, body, in_sight, 1.0f, structural);
+    if (!is_near(prototype, body, sight)) continue;
     add_springs(prototype.bend, body, in_sight, 0.45f, others);
     add_springs(prototype.shear, body, in_sight, 0.7f, others);
   }
@@ -235,10 +243,10 @@ engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& c
   return {at * size, (at + 1.0f) * size, colour};
 }
 
-void add_overlays(const softbody::World& world, const OverlayRequest& request, Points positions,
+void add_overlays(const softbody::World& world, const OverlayRequest& request, const Sight& sight, Points positions,
                   engine::FrameData& frame) {
   const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, request.eye, positions, frame);
+  if (shown.springs) add_springs(world, sight, positions, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, frame);
   if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
@@ -248,7 +256,7 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, P
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.touches) add_touches(world, request.touches, positions, frame);
   if (shown.true_surfaces) add_marks(request.marks, positions, frame);
-  if (request.selected_body) add_outline(world, *request.selected_body, request.eye, positions, frame);
+  if (request.selected_body) add_outline(world, *request.selected_body, sight.eye, positions, frame);
   if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
 }
 

@@ -42,7 +42,9 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
      &Overlays::cells},
     {"contacts", "Contacts", '4',
      "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).", &Overlays::contacts},
-    {"springs", "Springs", '5', "The springs of every body, coloured by their strain: shorter or longer than at rest.",
+    {"springs", "Springs", '5',
+     "The springs of every body, coloured by their strain: shorter or longer than at rest. From far away only those "
+     "along edges: come closer to see all.",
      &Overlays::springs},
     {"missed", "Missed contacts", '6',
      "Contacts that brute force finds and the driving method does not. Only the literal method can miss any.",

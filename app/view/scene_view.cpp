@@ -74,10 +74,12 @@ void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions&
   frame_.translucent.push_back(std::move(set));
 }
 
-/// Bodies that the spotlight does not name are but hinted at, and those that it does may be looked into.
+/// Bodies that the spotlight does not name are but hinted at, the fainter the more there are to look through; those
+/// that it does may be looked into.
 void SceneView::apply(const Spotlight& spotlight) {
+  const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
   engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
-      others{.meshes = {}, .opacity = 0.12f, .hides = false};
+      others{.meshes = {}, .opacity = hint, .hides = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
@@ -133,7 +135,8 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_.bounds_centre = around.centre;
   frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
 
-  add_overlays(world, overlays, std::span(positions_).first(vertices), frame_);
+  const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
+  add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
   if (overlays.spotlight) {
     std::ranges::copy(overlays.spotlight->boxes, std::back_inserter(frame_.boxes));
     std::ranges::copy(overlays.spotlight->lines, std::back_inserter(frame_.lines));

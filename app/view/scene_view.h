@@ -21,8 +21,7 @@ struct OverlayRequest {
   const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the bucket
   const BucketContents* bucket = nullptr;         // its entries and cells stand out, and show in any case ...
   std::optional<Cell> bucket_cell;                // ... those of this cell apart from others
-  std::optional<softbody::BodyId> selected_body;  // its outline, as seen from ...
-  glm::vec3 eye{0.0f};                            // ... here
+  std::optional<softbody::BodyId> selected_body;  // its outline shows
   std::vector<collide::DebugGeometry::Box> areas;
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
   std::span<const softbody::SurfaceTouch> touches;        // the same

@@ -265,5 +265,63 @@ TEST_F(RendererTest, DrawsThatDoNotFitAreRefused) {
   EXPECT_THROW(renderer.add_mesh(mesh.triangles, 11), std::invalid_argument);
 }
 
+TEST_F(RendererTest, TranslucentBodiesLetThroughWhatIsBehindAndCastNoShadow) {
+  const Mesh mesh = icosahedron();
+  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
+  std::vector<glm::vec3> positions = mesh.positions;
+  for (glm::vec3& p : positions) p = middle + 0.5f * p;
+  const Image empty = picture();
+  frame.positions = positions;
+  frame.normals = mesh.positions;
+  const auto redness = [&](const Image& image) {
+    const glm::ivec3 c = colour(image, middle);
+    return 2 * c.r - c.g - c.b;
+  };
+  int before = redness(empty);
+  for (const float opacity : {0.2f, 0.5f, 1.0f}) {
+    frame.translucent = {{{{handle, 0, 12, red_sphere.colour}}, opacity}};
+    const Image image = picture();
+    EXPECT_GT(redness(image), before + 20) << opacity;
+    before = redness(image);
+    int differing = 0;  // outside the body nothing changes, its shadow included
+    for (int x = 0; x < size.x; ++x) differing += image.at(x, size.y - 20) != empty.at(x, size.y - 20);
+    EXPECT_EQ(differing, 0);
+  }
+}
+
+TEST_F(RendererTest, OfTranslucentBodiesOnlyThoseThatHideCoverOthers) {
+  const Mesh mesh = icosahedron();
+  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
+  std::vector<glm::vec3> positions, normals;
+  camera.set_orbit({middle, 5.0f, 0.0f, 0.0f});
+  for (const float z : {0.5f, -0.5f}) {  // one behind the other
+    for (const glm::vec3& p : mesh.positions) {
+      positions.push_back(middle + 0.4f * p + glm::vec3(0, 0, z));
+      normals.push_back(p);
+    }
+  }
+  frame.positions = positions;
+  frame.normals = normals;
+  const MeshDraw front{handle, 0, 12, red_sphere.colour}, back{handle, 12, 12, glm::vec3(0.1f, 0.1f, 0.9f)};
+  const auto blue = [&](const std::vector<MeshDraw>& meshes, bool hides) {
+    frame.translucent = {{meshes, 0.4f, hides}};
+    const glm::ivec3 c = colour(picture(), middle + glm::vec3(0, 0, 0.5f));
+    return c.b - c.g;
+  };
+  EXPECT_EQ(blue({front, back}, true), blue({front}, true));
+  EXPECT_GT(blue({front, back}, false), blue({front}, false) + 10);
+}
+
+TEST_F(RendererTest, EdgesThatBoxesShareAreDrawnOnce) {
+  const Box box{middle - 0.5f, middle + 0.5f, glm::vec4(0, 0, 1, 0.5f)};
+  const auto with = [&](std::vector<Box> boxes) {
+    frame.boxes = {{std::move(boxes), 2.0f, 0.2f, 0.0f}};
+    return picture().rgba;
+  };
+  EXPECT_EQ(with({box, box, box}), with({box}));
+  const Box right{box.lo + glm::vec3(1, 0, 0), box.hi + glm::vec3(1, 0, 0), box.colour};
+  EXPECT_NE(with({box, right}), with({box}));
+}
+
 }  // namespace
 }  // namespace engine

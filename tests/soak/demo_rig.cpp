@@ -32,7 +32,7 @@ void DemoRig::frame(bool draw) {
   camera_.advance(input.seconds);
   if (draw)
     canvas_.update(input.display_size, true, false, [this](const engine::Viewport& whole) {
-      view_.draw(session.world(), app::overlay_request(session, ui, camera_), camera_, whole, 1,
+      view_.draw(session.world(), app::overlay_request(session, ui), camera_, whole, 1,
                  session.drawn_positions(app::whole_steps(session)));
     });
   target_.bind();
