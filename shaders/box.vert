@@ -10,6 +10,7 @@ void main() {
   int face = gl_VertexID / 6, corner = gl_VertexID % 6;
   int axis = face >> 1;
   ivec2 uv = ivec2(corner == 1 || corner == 2 || corner == 4, corner == 2 || corner == 4 || corner == 5);
+  if ((face & 1) == 0) uv = uv.yx;  // counter-clockwise from outside
   vec3 at;
   at[axis] = float(face & 1);
   at[(axis + 1) % 3] = float(uv.x);
