@@ -66,7 +66,8 @@ TableContents::TableContents(const collide::DebugGeometry& debug, const collide:
 }
 
 BucketContents TableContents::bucket(std::uint32_t number) const {
-  const auto entries = std::ranges::equal_range(entries_, number, {}, &TableEntry::bucket);
+  const auto first = std::ranges::lower_bound(entries_, number, {}, &TableEntry::bucket);
+  const std::span entries(first, std::ranges::upper_bound(first, entries_.end(), number, {}, &TableEntry::bucket));
   BucketContents contents{.bucket = number, .vertices = vertices_};
   std::vector<collide::Index> items;
   for (const TableEntry& entry : entries) {
@@ -78,7 +79,7 @@ BucketContents TableContents::bucket(std::uint32_t number) const {
   std::ranges::stable_sort(contents.groups, std::greater<>(), [](const CellGroup& g) { return g.items.size(); });
   std::ranges::sort(items);
   contents.items = static_cast<std::size_t>(std::unique(items.begin(), items.end()) - items.begin());
-  contents.sharing = sharing_in({entries.begin(), entries.end()});
+  contents.sharing = sharing_in(entries);
   return contents;
 }
 
