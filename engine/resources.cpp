@@ -25,14 +25,14 @@ bool is_folder(const fs::path& path) {
 fs::path find_folder(std::string_view name) {
   if (const char* data = std::getenv("SBCOLLIDE_DATA"); data != nullptr && *data != '\0') {
     // Whoever sets it means it: falling back to another folder would hide the mistake.
-    if (const fs::path folder = fs::path(data) / name; is_folder(folder)) return folder;
+    if (fs::path folder = fs::path(data) / name; is_folder(folder)) return folder;
     throw ResourceError("SBCOLLIDE_DATA=" + std::string(data) + " has no folder '" + std::string(name) +
                         "': set it to the folder that holds shaders/ and assets/, or unset it");
   }
   const fs::path here = executable_folder();
   std::string tried;
   for (const fs::path& base : {here, here / "../share/sbcollide", fs::path(SBCOLLIDE_SOURCE_DIR)}) {
-    const fs::path folder = (base / name).lexically_normal();
+    fs::path folder = (base / name).lexically_normal();
     if (is_folder(folder)) return folder;
     tried += (tried.empty() ? "" : ", ") + folder.string();
   }

@@ -93,7 +93,7 @@ std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector
   }
   if (bodies.size() != mass_.size() || looks_.empty()) begin(world, bodies.size());
   const Look now = sum_up(bodies);
-  const std::optional<Alarm> alarm = looks_.empty() ? std::nullopt : judge(now, bodies, world.frame());
+  std::optional<Alarm> alarm = looks_.empty() ? std::nullopt : judge(now, bodies, world.frame());
   looks_.push_back(now);
   if (looks_.size() > memory) looks_.pop_front();
   body_energy_.clear();

@@ -81,10 +81,9 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   const World world(drop_scene(), {});
   std::vector<Stage> left_out;
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
-  EXPECT_EQ(left_out,
-            (std::vector{Stage::surface_contact, Stage::shear_springs, Stage::shape_matching, Stage::grab,
-                         Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules,
-                         Stage::solid_features}));
+  EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, Stage::shear_springs, Stage::shape_matching, Stage::grab,
+                                   Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules,
+                                   Stage::solid_features}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.

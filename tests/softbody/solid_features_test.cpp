@@ -70,9 +70,18 @@ SolidBox box(const glm::dvec3& half, const glm::dvec3& x, const glm::dvec3& y) {
 }
 
 const Case cases[]{
-    {"SmallSphere", [](Scene& s) { s.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1}}; }},
-    {"Rod", [](Scene& s) { s.capsules = {{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}}; }},
-    {"Spike", [](Scene& s) { s.capsules = {{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}}; }},
+    {"SmallSphere",
+     [](Scene& s) {
+       s.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1}};
+     }},
+    {"Rod",
+     [](Scene& s) {
+       s.capsules = {{.from = {-1, -0.1, 0.3}, .to = {1, -0.1, -0.2}, .radius = 0.05}};
+     }},
+    {"Spike",
+     [](Scene& s) {
+       s.capsules = {{.from = {0, -1, 0}, .to = {0, -0.07, 0}, .radius = 0.03}};
+     }},
     {"Edge",
      [](Scene& s) {
        s.boxes = {box({0.4, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})};

@@ -1,0 +1,74 @@
+#!/usr/bin/env bash
+# What takes longer than a commit should wait: other compilers and builds, sanitizers, coverage, long soaks and fuzzing.
+# Usage: tests/checks.sh NAME...     with names of the list below, or all
+#   ci-clang   clang++, warnings are errors, all tests
+#   headless   without any graphics package, all tests
+#   asan       address and undefined-behaviour sanitizers, all tests
+#   tsan       thread sanitizer, all tests
+#   coverage   lines of collide/ and softbody/ that their tests run: at least 95 %, what is missing by file and line
+#   soak       ten simulated minutes of every scene, changed at random every second, with the sanitizers of asan
+#   fuzz       five minutes of every fuzz target
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
+all=(ci-clang headless asan tsan coverage soak fuzz)
+
+usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
+
+build_for_coverage() { build coverage test_collide -DBUILD_TESTING=ON && build coverage test_softbody; }
+
+run_for_coverage() {
+  cd "$root/build/coverage"
+  find . -name '*.gcda' -delete  # of an earlier run
+  bin/test_collide --gtest_brief=1 && bin/test_softbody --gtest_brief=1
+}
+
+report_coverage() {
+  cd "$root"
+  gcovr --root . --object-directory build/coverage --filter collide/ --filter softbody/ --exclude-throw-branches \
+    --fail-under-line 95 --sort-percentage build/coverage
+}
+
+coverage() {
+  install_missing gcovr
+  step "coverage: build" build_for_coverage && step "coverage: tests" run_for_coverage && step "coverage" report_coverage
+}
+
+run_soak() {
+  cd "$root/build/asan"
+  bin/soak 600
+}
+
+soak() { step "soak: build" build asan soak -DBUILD_TESTING=ON && step "soak" run_soak; }
+
+# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build.
+run_fuzzer() {
+  cd "$root/build/fuzz"
+  mkdir -p "found/$1"
+  "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 -artifact_prefix="found/$1/" -print_final_stats=1 \
+    "found/$1" "$root/tests/fuzz/corpus/$1"
+}
+
+fuzz() {
+  install_missing clang
+  step "fuzz: build" build fuzz all -DBUILD_TESTING=ON || return
+  local target
+  for target in "$root"/tests/fuzz/corpus/*/; do
+    target=$(basename "$target")
+    step "fuzz: $target" run_fuzzer "$target" || true
+  done
+}
+
+check() {
+  case $1 in
+    ci-clang) install_missing clang && build_and_test ci-clang ;;
+    headless | asan | tsan) build_and_test "$1" ;;
+    coverage | soak | fuzz) "$1" ;;
+    *) usage ;;
+  esac
+}
+
+[ $# -gt 0 ] || usage
+[ "$*" != all ] || set -- "${all[@]}"
+install_missing "${test_packages[@]}"
+for name in "$@"; do check "$name" || true; done
+finish

@@ -1,0 +1,41 @@
+# Shared by tests/run.sh and tests/checks.sh: parts that all run though one fails, and a table of what they took at the
+# end. Source it.
+
+. "$(dirname "${BASH_SOURCE[0]}")/../app/setup.sh"
+
+test_packages=("${program_packages[@]}" libgtest-dev xvfb xauth xdotool)
+step_table=""
+failed_steps=0
+
+# step NAME COMMAND...: runs it and notes how long it took and whether it went well; its status is the command's.
+step() {
+  local name=$1 begin=$SECONDS status=0
+  shift
+  say "== $name"
+  ("$@") || status=$?
+  local verdict=passed
+  [ $status -eq 0 ] || verdict=FAILED
+  failed_steps=$((failed_steps + (status != 0)))
+  step_table+=$(printf '%-18s %5d s  %s' "$name" $((SECONDS - begin)) "$verdict")$'\n'
+  return $status
+}
+
+# The table, and the script's exit status.
+finish() {
+  printf '\n%s%-18s %5d s\n' "$step_table" "all" $SECONDS
+  [ $failed_steps -eq 0 ] || exit 1
+}
+
+# run_tests PRESET [CTEST OPTION...]: what is built there, with a display of its own for the tests with a window, whether
+# there is a screen or not.
+run_tests() {
+  local preset=$1
+  shift
+  cd "$root"
+  xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24" ctest --preset "$preset" --parallel "$(nproc)" "$@"
+}
+
+# build_and_test PRESET: two steps.
+build_and_test() {
+  step "$1: build" build "$1" all -DBUILD_TESTING=ON && step "$1: tests" run_tests "$1"
+}
