@@ -77,7 +77,11 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
   for (int l = 0; l < b.used; ++l) {
     if (b.moves[std::size_t(l)] == 0) continue;
     const double far = reach(b, e, l, seconds);
-    find_solid_features(b, l, bones, {bone_radius(solid) + thickness, far / seconds, far});
+    find_solid_features(b, l, bones,
+                        {bone_radius(solid) + thickness,
+                         far / seconds,
+                         far,
+                         {glm::vec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::vec3(e.hi.x[l], e.hi.y[l], e.hi.z[l])}});
   }
 }
 

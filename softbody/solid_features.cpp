@@ -107,6 +107,7 @@ void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone
                        .out = glm::vec3(bone.out),
                        .grown = float(approach.grown),
                        .speed = float(approach.speed)};
+    if (!may_meet(approach.box, found.from, found.to, float(approach.grown + approach.reach))) continue;
     const auto add = [&](const auto& features) {
       for (const auto& feature : features) {
         std::array<glm::vec3, 3> corners{};

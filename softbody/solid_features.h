@@ -27,9 +27,10 @@ inline double bone_radius(const SolidBox&) { return 0; }
 inline double bone_radius(const SolidCapsule& capsule) { return capsule.radius; }
 /// How near to the bones a body is in a frame.
 struct Approach {
-  double grown;  // m, from the bones to where the body is kept
-  double speed;  // m/s, with which it may come
-  double reach;  // m, that it may go
+  double grown;                  // m, from the bones to where the body is kept
+  double speed;                  // m/s, with which it may come
+  double reach;                  // m, that it may go
+  std::array<glm::vec3, 2> box;  // m, its two ends, from the body's origin
 };
 
 /// A face or edge of a body that may meet a bone in the coming frame.
