@@ -92,9 +92,9 @@ int Dynamics::substeps(double seconds) const {
 }
 
 /// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver, contact
-/// included, is worth about as much as 400 explicit substeps of the same body.
+/// included, is worth about as much as 150 explicit substeps of the same body.
 void Dynamics::choose(double seconds) {
-  constexpr double implicit_worth = 400;
+  constexpr double implicit_worth = 150;
   integrator_ = find_integrator("semi-implicit-euler");
   const Bound b = bound(seconds);
   if (seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : implicit_worth * b.fewest)) {

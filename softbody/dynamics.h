@@ -227,6 +227,7 @@ class Dynamics {
   std::array<bool, lanes> find_planes(const Batch& batch, ImplicitWork& work, double h) const;
   std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
   void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
+  void straighten_spin(const Batch& batch, ImplicitWork& work, const ImplicitProblem& second, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first);
   void resist(BodyId id, double seconds);

@@ -12,11 +12,11 @@ namespace {
 /// One body in lane 0 of the double-precision kernels.
 class Relaxation {
  public:
-  explicit Relaxation(const Prototype& p) : prototype_(p), size_(p.mesh.vertices.size() * lanes) {
+  Relaxation(const Prototype& p, const std::vector<glm::dvec3>& from) : prototype_(p), size_(from.size() * lanes) {
     for (auto* field : {&x_, &v_, &f_})
       for (auto& component : *field) component.assign(size_, 0.0);
-    for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i)
-      for (int k = 0; k < 3; ++k) x_[k][i * lanes] = p.mesh.vertices[i][k];
+    for (std::size_t i = 0; i < from.size(); ++i)
+      for (int k = 0; k < 3; ++k) x_[k][i * lanes] = from[i][k];
     for (const auto* list : {&p.structural, &p.bend, &p.shear})
       for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, 0.0});
     for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
@@ -92,8 +92,8 @@ class Relaxation {
 
 }  // namespace
 
-std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype) {
-  Relaxation relaxation(prototype);
+std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::vector<glm::dvec3>& from) {
+  Relaxation relaxation(prototype, from);
   const double scale = (prototype.spring_stiffness_bound + std::abs(prototype.gas.ambient) * prototype.radius +
                         prototype.material.gas_pressure * prototype.radius) *
                        prototype.radius;

@@ -5,9 +5,9 @@
 
 namespace softbody {
 
-/// Brings prototype.mesh into balance by dynamic relaxation with kinetic damping, in double precision, and returns the
-/// positions. Uses the springs and the gas of the prototype, which must be filled in, and no other force.
-/// Throws SceneError that names the material if the body does not come to rest.
-std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype);
+/// Brings the vertices `from` into balance by dynamic relaxation with kinetic damping, in double precision, and returns
+/// the positions. Uses the springs and the gas of the prototype, which must be filled in, and no other force. Throws
+/// SceneError that names the material if the body does not come to rest.
+std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::vector<glm::dvec3>& from);
 
 }  // namespace softbody

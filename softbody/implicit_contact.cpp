@@ -11,6 +11,18 @@
 
 namespace softbody {
 
+/// The prediction ends where the first particle meets its plane: beyond, it would start far inside the solid.
+void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
+  PerLane part;
+  part.fill(1.0);
+  for (const PlaneContact& c : *p.planes) {
+    const double along = glm::dot(read(x_, c.at) - read(*p.x, c.at), c.normal);
+    if (along < c.need) part[c.at % lanes] = std::min(part[c.at % lanes], std::max(0.0, c.need / along));
+  }
+  for (std::size_t i = 0; i < 3 * stride_; ++i)
+    if (part[i % lanes] < 1) x_[i] = (*p.x)[i] + part[i % lanes] * (x_[i] - (*p.x)[i]);
+}
+
 /// Brings the contact forces up to date with the positions, and these with the forces' changes.
 void ImplicitSolver::press(const ImplicitProblem& p) {
   direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move

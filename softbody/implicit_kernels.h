@@ -6,24 +6,72 @@
 
 namespace softbody::body {
 
+/// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
+SB_INLINE void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+  using V = Lane<double>;
+  const std::size_t w = run.columns;
+  const double* v = f.value.data() + run.value;
+  double* own = z + run.first * lanes;
+  for (std::size_t j = 0; j < w; ++j, v += w) {
+    V sum = load(own + j * lanes);
+    for (std::size_t i = 0; i < j; ++i) sum -= v[i] * load(own + i * lanes);
+    store(own + j * lanes, v[j] * sum);
+  }
+  const std::uint32_t* row = f.row.data() + run.below;
+  std::size_t r = 0;
+  for (; r + 1 < run.rows; r += 2, v += 2 * w) {
+    double *below = z + row[r] * lanes, *next = z + row[r + 1] * lanes;
+    V a = load(below), b = load(next);
+    for (std::size_t i = 0; i < w; ++i) {
+      const V known = load(own + i * lanes);
+      a -= v[i] * known;
+      b -= v[w + i] * known;
+    }
+    store(below, a);
+    store(next, b);
+  }
+  if (r == run.rows) return;
+  V a = load(z + row[r] * lanes);
+  for (std::size_t i = 0; i < w; ++i) a -= v[i] * load(own + i * lanes);
+  store(z + row[r] * lanes, a);
+}
+
+/// Likewise for the transpose, once what stands after the run is known.
+SB_INLINE void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+  using V = Lane<double>;
+  const std::size_t w = run.columns;
+  const double *diagonal = f.value.data() + run.value, *below = diagonal + w * w;
+  const std::uint32_t* row = f.row.data() + run.below;
+  double* own = z + run.first * lanes;
+  std::size_t j = 0;
+  for (; j + 1 < w; j += 2) {
+    V a = load(own + j * lanes), b = load(own + (j + 1) * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) {
+      const V known = load(z + row[r] * lanes);
+      a -= below[r * w + j] * known;
+      b -= below[r * w + j + 1] * known;
+    }
+    store(own + j * lanes, a);
+    store(own + (j + 1) * lanes, b);
+  }
+  if (j < w) {
+    V a = load(own + j * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) a -= below[r * w + j] * load(z + row[r] * lanes);
+    store(own + j * lanes, a);
+  }
+  for (j = w; j-- > 0;) {
+    V sum = load(own + j * lanes);
+    for (std::size_t i = j + 1; i < w; ++i) sum -= diagonal[i * w + j] * load(own + i * lanes);
+    store(own + j * lanes, diagonal[j * w + j] * sum);
+  }
+}
+
 /// Solves L L^T x = b in place for all lanes, x = b at first; `z` is room for as much.
 SB_INLINE void substitute(const CholeskyFactor& f, double* x, double* z) {
-  using V = Lane<double>;
   const std::size_t n = f.place.size();
   for (std::size_t i = 0; i < n; ++i) store(z + f.place[i] * lanes, load(x + i * lanes));
-  for (std::size_t c = 0; c < n; ++c) {
-    const V known = f.inverse_diagonal[c] * load(z + c * lanes);
-    store(z + c * lanes, known);
-    for (std::uint32_t e = f.first[c]; e < f.first[c + 1]; ++e) {
-      double* below = z + f.row[e] * lanes;
-      store(below, load(below) - f.value[e] * known);
-    }
-  }
-  for (std::size_t c = n; c-- > 0;) {
-    V sum = load(z + c * lanes);
-    for (std::uint32_t e = f.first[c]; e < f.first[c + 1]; ++e) sum -= f.value[e] * load(z + f.row[e] * lanes);
-    store(z + c * lanes, f.inverse_diagonal[c] * sum);
-  }
+  for (const CholeskyFactor::Run& run : f.runs) substitute_forward(f, run, z);
+  for (std::size_t i = f.runs.size(); i-- > 0;) substitute_back(f, f.runs[i], z);
   for (std::size_t i = 0; i < n; ++i) store(x + i * lanes, load(z + f.place[i] * lanes));
 }
 
@@ -77,7 +125,7 @@ SB_INLINE void add_scaled(std::size_t count, const double* times, const double* 
 /// y += times * a, a the same for all lanes.
 SB_INLINE void add_scaled_shared(std::size_t count, const double* times, const double* a, double* y) {
   const Lane<double> t = load(times);
-  for (std::size_t i = 0; i < count; ++i) store(y + i * lanes, load(y + i * lanes) + t * a[i]);
+  for (std::size_t i = 0; i < count; ++i) store(y + i * lanes, load(y + i * lanes) + a[i] * t);
 }
 
 SB_INLINE void inner_product_shared(std::size_t count, const double* a, const double* b, double* result) {

@@ -66,18 +66,6 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   for (double& r : reach_) r = p.prototype.radius + std::sqrt(r / double(particles_));
 }
 
-/// The prediction ends where the first particle meets its plane: beyond, it would start far inside the solid.
-void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
-  PerLane part;
-  part.fill(1.0);
-  for (const PlaneContact& c : *p.planes) {
-    const double along = glm::dot(read(x_, c.at) - read(*p.x, c.at), c.normal);
-    if (along < c.need) part[c.at % lanes] = std::min(part[c.at % lanes], std::max(0.0, c.need / along));
-  }
-  for (std::size_t i = 0; i < 3 * stride_; ++i)
-    if (part[i % lanes] < 1) x_[i] = (*p.x)[i] + part[i % lanes] * (x_[i] - (*p.x)[i]);
-}
-
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
   for (std::size_t l = 0; l < lanes; ++l) {
     glm::dmat3 covariance(0.0);
@@ -168,6 +156,17 @@ void ImplicitSolver::apply_matrix(const ImplicitProblem& p, Lanes& q) {
     kernels_.add_scaled_shared(3 * particles_, along.data(), p.matrix.gas_response().data(), q.data());
   }
   kernels_.turn(particles_, rotation_, false, field(q));
+}
+
+/// Thrice, as the two stages' response to a spin falls off with less stiffness: 1 - 3 s + ..., s = A^-1 m / h^2.
+void ImplicitSolver::keep_stiff(const ImplicitProblem& p, Lanes& q) {
+  PerLane inertia;
+  inertia.fill(-p.prototype.particle_mass / (p.h * p.h));
+  for (int i = 0; i < 3; ++i) {
+    direction_ = q;
+    apply_matrix(p, direction_);
+    add_scaled(inertia, direction_, q);
+  }
 }
 
 /// Nocedal's two loops (1980): direction = -H gradient.

@@ -64,6 +64,9 @@ class ImplicitSolver {
 
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
+  /// Leaves of a field what the body's stiffness resists within a step: q - (A^-1 m / h^2)^2 q, as the last solve has
+  /// A.
+  void keep_stiff(const ImplicitProblem& problem, Lanes& q);
   bool converged(int lane) const { return converged_[std::size_t(lane)]; }
   int iterations() const { return iterations_; }  // of the last solve
 
@@ -115,7 +118,7 @@ class ImplicitSolver {
 struct ImplicitWork {
   ImplicitWork(const Prototype& prototype, const Kernels& kernels);
   ImplicitSolver solver;
-  Lanes x, v, stage_x, stage_v, end_x, end_v;
+  Lanes x, v, stage_x, stage_v, end_x, end_v, missing;
   std::vector<PlaneContact> planes;
   std::vector<LinearShield> shields;
 };

@@ -6,14 +6,14 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/dynamics.h"
+#include "softbody/implicit_energy.h"
+#include "softbody/implicit_stages.h"
 #include "softbody/integrator_steps.h"
 #include "softbody/rigid_motion.h"
 #include "softbody/solids.h"
 
 namespace softbody {
 namespace {
-
-const double stage = 1 - std::sqrt(0.5);  // gamma of Alexander's method: the length of both its stages over h
 
 ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, const glm::dvec3& gravity,
                            ImplicitWork& work) {
@@ -35,7 +35,7 @@ void Dynamics::prepare_implicit(float h) {
     const auto& p = b->prototype;
     for (int thread = 0; thread < active_threads_; ++thread)
       implicit_work_[std::size_t(thread)].try_emplace(p, *p, kernels_);
-    for (const double length : {double(h), stage * double(h)}) {
+    for (const double length : {double(h), implicit_stage * double(h)}) {
       const auto of_p = [&](const MatrixOf& m) { return m.prototype == p; };
       const auto known =
           std::find_if(matrices_.begin(), matrices_.end(), [&](const MatrixOf& m) { return of_p(m) && m.h == length; });
@@ -145,7 +145,7 @@ void Dynamics::keep_momentum(const Batch& b, ImplicitWork& work, const std::arra
 
 /// end_x and end_v of the two stages; which lanes have converged.
 std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork& work, double h) const {
-  const double length = stage * h;
+  const double length = implicit_stage * h;
   work.planes.clear();
   work.shields.clear();
   ImplicitProblem problem =
@@ -154,20 +154,22 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork
   const Lanes& first = work.solver.solve(problem);
   for (std::size_t i = 0; i < first.size(); ++i) {
     const double v = (first[i] - work.x[i]) / length;
-    work.stage_x[i] = work.x[i] + (1 - stage) * h * v;
-    work.stage_v[i] = work.v[i] + (1 - stage) / stage * (v - work.v[i]);
+    work.stage_x[i] = work.x[i] + (1 - implicit_stage) * h * v;
+    work.stage_v[i] = work.v[i] + (1 - implicit_stage) / implicit_stage * (v - work.v[i]);
   }
   for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
   problem.x = &work.stage_x;
   problem.v = &work.stage_v;
   work.end_x = work.solver.solve(problem);
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
+  straighten_spin(b, work, problem, h);
   for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
   return converged;
 }
 
 void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
   const double h = double(step);
+  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
   ImplicitWork& work = implicit_work_[std::size_t(thread)].at(b.prototype);
   const std::size_t stride = b.particles() * lanes;
   for (std::size_t k = 0; k < 3; ++k)
@@ -193,14 +195,15 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       first_order[l] = first_order[l] || !converged[l];
     }
     keep_momentum(b, work, free, h);
+    for (std::size_t l = 0; l < lanes; ++l)
+      first_order[l] = first_order[l] || (b.moves[l] > 0 && gains_energy(*b.prototype, work, l, gravity));
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
   }
   for (std::size_t l = 0; l < lanes; ++l) any_first = any_first || (first_order[l] && b.moves[l] > 0);
   if (any_first) {
-    ImplicitProblem problem =
-        problem_of(b, implicit_matrix(b, h), h, has_gravity_ ? scene_.gravity : glm::dvec3(0.0), work);
+    ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, gravity, work);
     work.end_x = work.solver.solve(problem);
     for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.x[i]) / h;
     std::array<bool, lanes> apart{};

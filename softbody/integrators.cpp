@@ -26,11 +26,14 @@ constexpr double safety = 0.8;
 constexpr double longest = 1e9;  // s, where nothing swings
 
 /// |1 + h s| <= 1: h <= gamma / omega^2, and 2 / |s| if overdamped. What is hardly damped grows at every step: then by
-/// no more than a factor of e in energy a second.
+/// no more than a factor of e in energy a second. Modes that tension and gas stiffen, too, have less damping for their
+/// stiffness than the springs alone: two thirds, as measured on balls of any stiffness.
 double explicit_euler_step(double k_m, double c_m) {
+  constexpr double least_damped = 2.0 / 3;
   const FastestMode mode(k_m, c_m);
   if (mode.rate() <= 0) return safety * longest;
-  return safety * std::min(mode.omega2 > 0 ? std::max(mode.gamma, 1.0) / mode.omega2 : longest, 2 / mode.rate());
+  const double damped = least_damped * mode.gamma;
+  return safety * std::min(mode.omega2 > 0 ? std::max(damped, 1.0) / mode.omega2 : longest, 2 / mode.rate());
 }
 
 /// The region of stability holds the left half of the disc of this radius (its border meets the real axis at -2.785 and

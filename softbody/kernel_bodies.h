@@ -21,6 +21,18 @@ SB_INLINE void store(Real* p, Lane<Real> v) {
   std::memcpy(p, &v, sizeof v);
 }
 
+SB_INLINE DoubleLane load(const double* p) {
+  DoubleLane v;
+  std::memcpy(&v.lo, p, sizeof v.lo);
+  std::memcpy(&v.hi, p + lanes / 2, sizeof v.hi);
+  return v;
+}
+
+SB_INLINE void store(double* p, const DoubleLane& v) {
+  std::memcpy(p, &v.lo, sizeof v.lo);
+  std::memcpy(p + lanes / 2, &v.hi, sizeof v.hi);
+}
+
 template <class Real>
 SB_INLINE Vec<Lane<Real>> load(Field<const Real> f, std::size_t at) {
   return {load(f.x + at), load(f.y + at), load(f.z + at)};

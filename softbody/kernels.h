@@ -79,13 +79,18 @@ struct SolidArguments {
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution
 };
 
-/// Of a matrix A with P A P^T = L L^T: L by columns, without its diagonal.
+/// Of a matrix A with P A P^T = L L^T: L by runs of columns whose entries below the run lie in the same rows, each run
+/// a dense block, so that nothing is looked up for each entry.
 struct CholeskyFactor {
+  struct Run {
+    std::uint32_t first, columns;  // the unknowns first, first + 1, ...
+    std::uint32_t below, rows;     // its rows below it: so many, from row[below] on
+    std::size_t value;             // its entries: (columns + rows) rows of `columns` each, from value[value] on
+  };
   std::vector<std::uint32_t> place;  // of unknown i in the factor's order
-  std::vector<std::uint32_t> first;  // unknowns + 1 offsets into row and value
+  std::vector<Run> runs;
   std::vector<std::uint32_t> row;
-  std::vector<double> value;
-  std::vector<double> inverse_diagonal;
+  std::vector<double> value;  // of the diagonal the inverse
 };
 
 struct Extent {

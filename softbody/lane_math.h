@@ -1,12 +1,9 @@
 #pragma once
-// Arithmetic that reads the same for one value a lane and for a plain double: V is either. Inlined everywhere, so that
-// it is compiled for the instruction set of its caller.
+// Arithmetic that reads the same for one value a lane and for a plain double: V is either.
 
 #include <cmath>
 
 #include "softbody/lanes.h"
-
-#define SB_INLINE [[gnu::always_inline]] inline
 
 namespace softbody::body {
 
@@ -20,9 +17,18 @@ SB_INLINE V square_root(V v) {
   return r;
 }
 
+SB_INLINE DoubleLane square_root(DoubleLane v) {
+  for (int l = 0; l < 4; ++l) v.lo[l] = std::sqrt(v.lo[l]), v.hi[l] = std::sqrt(v.hi[l]);
+  return v;
+}
+
 template <class V>
 SB_INLINE V larger(V a, V b) {
   return a > b ? a : b;
+}
+
+SB_INLINE DoubleLane larger(const DoubleLane& a, const DoubleLane& b) {
+  return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi};
 }
 
 template <class V>

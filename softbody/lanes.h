@@ -12,6 +12,27 @@ namespace softbody {
 
 inline constexpr int lanes = 8;
 
+/// Inlined everywhere, so that it is compiled for the instruction set of its caller.
+#define SB_INLINE [[gnu::always_inline]] inline
+
+/// Eight doubles as two vectors that registers hold: a wider one compilers keep in memory, several times as slow.
+struct DoubleLane {
+  typedef double Half __attribute__((vector_size(4 * sizeof(double))));
+  Half lo, hi;
+
+  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, const DoubleLane& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, const DoubleLane& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  SB_INLINE friend DoubleLane operator*(const DoubleLane& a, const DoubleLane& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, const DoubleLane& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, double b) { return {a.lo + b, a.hi + b}; }
+  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, double b) { return {a.lo - b, a.hi - b}; }
+  SB_INLINE friend DoubleLane operator*(double a, const DoubleLane& b) { return {a * b.lo, a * b.hi}; }
+  SB_INLINE friend DoubleLane operator/(double a, const DoubleLane& b) { return {a / b.lo, a / b.hi}; }
+  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, double b) { return {a.lo / b, a.hi / b}; }
+  SB_INLINE DoubleLane& operator+=(const DoubleLane& b) { return *this = *this + b; }
+  SB_INLINE DoubleLane& operator-=(const DoubleLane& b) { return *this = *this - b; }
+};
+
 template <class Real>
 struct LaneOf;
 template <>
@@ -20,7 +41,7 @@ struct LaneOf<float> {
 };
 template <>
 struct LaneOf<double> {
-  typedef double Vector __attribute__((vector_size(lanes * sizeof(double))));
+  using Vector = DoubleLane;
 };
 template <class Real>
 using Lane = typename LaneOf<Real>::Vector;

@@ -155,7 +155,7 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const 
   if (p->mesh.closed) p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
   give_material(*p, source, material);
 
-  p->start = material.start_in_equilibrium && p->has_gas ? find_equilibrium(*p) : p->mesh.vertices;
+  p->start = material.start_in_equilibrium && p->has_gas ? find_equilibrium(*p, p->mesh.vertices) : p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
   const std::vector<glm::vec3> rest(p->mesh.vertices.begin(), p->mesh.vertices.end());
   p->surface = std::make_shared<collide::Surface>(static_cast<Index>(rest.size()), p->mesh.triangles);

@@ -62,30 +62,36 @@ double World::State::substeps(const Prototype& p, float thickness) const {
 }
 
 /// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
-bool World::State::implicit_in_reserve(const Prototype& p) const {
-  const auto small = [](const Prototype& one) { return one.mesh.vertices.size() <= Dynamics::most_implicit_particles; };
-  return find_integrator(options.integrator)->automatic && !plan.has(Stage::surface_contact) && small(p) &&
-         std::all_of(prototypes.all().begin(), prototypes.all().end(), [&](const auto& one) { return small(*one); });
+bool World::State::implicit_in_reserve(const PrototypeSet& all, const Plan& with) const {
+  return find_integrator(options.integrator)->automatic && !with.has(Stage::surface_contact) &&
+         std::all_of(all.all().begin(), all.all().end(),
+                     [](const auto& one) { return one->mesh.vertices.size() <= Dynamics::most_implicit_particles; });
 }
 
 /// As the options have it.
 void World::State::set_integrator() {
-  for (const auto& p : prototypes.all()) check_stability(*p);
+  check_stability(prototypes, plan);
   dynamics.set_integrator(*find_integrator(options.integrator));
   dynamics.set_substeps(options.substeps);
 }
 
-void World::State::check_stability(const Prototype& p) const {
+/// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.
+void World::State::check_stability(const PrototypeSet& all, const Plan& with) const {
+  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
+  for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
+}
+
+void World::State::check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const {
   const auto particles = p.mesh.vertices.size();
   if (find_integrator(options.integrator)->implicit && particles > Dynamics::most_implicit_particles)
     throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
                      " vertices has too large a matrix for implicit steps (at most " +
                      std::to_string(Dynamics::most_implicit_particles) + " vertices); choose another integrator");
   if (options.substeps) return;
-  const double steps = substeps(p, shield);
+  const double steps = substeps(p, contacts ? shield : 0);
   if (steps <= max_substeps) return;
-  const bool wide = substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
-  if (!wide && implicit_in_reserve(p)) return;
+  const bool wide = contacts && substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
+  if (!wide && implicit_in_reserve) return;
   std::ostringstream text;
   text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
   if (wide)
@@ -227,7 +233,7 @@ void World::set_contact_surface(ContactSurface surface) {
   const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
   s.replan();
   try {  // for surfaces there are no implicit steps in reserve
-    for (const auto& p : s.prototypes.all()) s.check_stability(*p);
+    s.check_stability(s.prototypes, s.plan);
   } catch (const SceneError&) {
     s.scene.contact_surface = before;
     s.replan();

@@ -53,7 +53,7 @@ class World {
 
   // Changes by hand, between frames. Each detects again where contacts may be others.
   /// Adds bodies at the scene's dropper, or else above its first body, each above whatever is in the way; several are
-  /// spread more widely than one. Returns the last.
+  /// spread more widely than one. Returns the last. Throws SceneError, and adds none, as construction does.
   BodyId drop(int count = 1);
   /// Adds a body of any mesh, now and free, whatever the source says of frames. Throws SceneError as construction does.
   BodyId add(const BodySource& source);

@@ -28,6 +28,14 @@ void World::State::check_room(const Prototype& p, std::size_t number) const {
                    std::to_string(max_particles) + "); take bodies out first");
 }
 
+/// Throws SceneError if so many more must not come: two bodies touch, and for their surfaces a stiff one has no
+/// implicit steps in reserve, which alone it had.
+void World::State::check_company(const PrototypeSet& all, std::size_t number) const {
+  Visitors more = visitors;
+  more.bodies += number;
+  check_stability(all, make_plan(scene, all.all(), more));
+}
+
 void World::State::joined(std::size_t number) {
   visitors.bodies += number;
   replan();
@@ -89,6 +97,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
 
 BodyId World::drop(int count) {
   State& s = *state_;
+  s.check_company(s.prototypes, std::size_t(count));
   Dropper dropper = s.dropper();
   s.check_room(*s.prototypes.of(dropper.body), std::size_t(count));
   // Many would pile up to a tower: they fall side by side.
@@ -101,9 +110,8 @@ BodyId World::drop(int count) {
 BodyId World::add(const BodySource& source) {
   State& s = *state_;
   PrototypeSet more = s.prototypes;
-  const auto& p = more.add(source, s.scene.materials);
-  s.check_room(*p, 1);
-  s.check_stability(*p);
+  s.check_room(*more.add(source, s.scene.materials), 1);
+  s.check_company(more, 1);
   s.prototypes = std::move(more);
   const BodyId id = s.add(source, source.position);
   s.joined(1);
@@ -176,7 +184,7 @@ void World::set_material(std::size_t index, const Material& material) {
   State& s = *state_;
   PrototypeSet changed = s.prototypes;
   changed.set_material(int(index), material);
-  for (const auto& p : changed.all()) s.check_stability(*p);
+  s.check_stability(changed, s.plan);
   for (std::size_t i = 0; i < changed.all().size(); ++i) {
     const auto &from = s.prototypes.all()[i], &to = changed.all()[i];
     if (from != to) s.dynamics.replace(from, to);

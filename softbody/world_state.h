@@ -30,10 +30,12 @@ struct World::State {
   void set_integrator();
   void wake_near(BodyId body);
   void replan();
-  bool implicit_in_reserve(const Prototype& p) const;
+  bool implicit_in_reserve(const PrototypeSet& all, const Plan& with) const;
   double substeps(const Prototype& p, float thickness) const;
-  void check_stability(const Prototype& p) const;
   void check_room(const Prototype& p, std::size_t number) const;
+  void check_stability(const PrototypeSet& all, const Plan& with) const;
+  void check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const;
+  void check_company(const PrototypeSet& all, std::size_t number) const;
   void joined(std::size_t number);  // bodies, by hand
   Dropper dropper() const;          // the scene's, or one over its first body
   void drop(const Dropper& dropper);

@@ -101,7 +101,7 @@ TEST(Equilibrium, OfASoftSkinIsNearlyTheVolumeAtAmbientPressure) {
 TEST(Equilibrium, IsNeverNotANumber) {
   Prototype broken = *make_prototype({}, gas_ball());
   broken.mesh.vertices[7].y = std::nan("");
-  EXPECT_THROW(find_equilibrium(broken), SceneError);
+  EXPECT_THROW(find_equilibrium(broken, broken.mesh.vertices), SceneError);
 }
 
 TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {

@@ -26,6 +26,15 @@ Scene ball_above_ground(double stiffness, double height) {
   return scene;
 }
 
+/// In lane 0: x = A^-1 x, the gas by Sherman and Morrison.
+void solve(const ImplicitMatrix& a, Lanes& x) {
+  Lanes room(x.size());
+  kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
+  double along = 0;
+  for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
+  for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];
+}
+
 TEST(ImplicitMatrix, ComplianceIsTheInverse) {
   for (const bool closed : {true, false}) {
     MeshSource source;
@@ -39,12 +48,9 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
     ASSERT_EQ(a.turns(), closed);
     // A unit force on one particle, through the factor and Sherman-Morrison, as a solve has it.
     const Index j = n / 2;
-    Lanes x((closed ? 3 : 1) * n * lanes), room(x.size());
+    Lanes x((closed ? 3 : 1) * n * lanes);
     x[j * lanes] = 1;
-    kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
-    double along = 0;
-    for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
-    for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];
+    solve(a, x);
     for (Index i = 0; i < n; ++i) {
       const glm::dmat3 c = a.compliance(i, j), back = a.compliance(j, i);
       EXPECT_NEAR(c[0][0], x[i * lanes], 1e-12);
@@ -54,6 +60,61 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
       }
     }
     EXPECT_GT(glm::determinant(a.compliance(j, j)), 0);
+  }
+}
+
+TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
+  constexpr double h = 1e-2, tiny = 1e-6;
+  Material m = gas_ball();
+  m.structural = {1e4, 0};
+  m.bend = {2e3, 0};
+  m.start_in_equilibrium = false;  // it finds the balance itself
+  const auto p = make_prototype({}, m);
+  const ImplicitMatrix a(*p, h);
+  const std::size_t n = p->mesh.vertices.size();
+  std::vector<glm::dvec3> ahead = a.shape(), back = ahead, d(n);
+  std::mt19937 random(1);
+  for (std::size_t i = 0; i < n; ++i) {
+    for (int k = 0; k < 3; ++k) d[i][k] = uniform(random, -1, 1);
+    ahead[i] += tiny * d[i], back[i] -= tiny * d[i];
+  }
+  const auto after = forces(*p, ahead), before = forces(*p, back);
+  Lanes x(3 * n * lanes);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      x[(k * n + i) * lanes] = p->particle_mass / (h * h) * d[i][int(k)] - (after[i] - before[i])[int(k)] / (2 * tiny);
+  solve(a, x);
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(x[(k * n + i) * lanes], d[i][int(k)], 1e-4);
+}
+
+TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
+  Material m = gas_ball();
+  m.structural = {1e9, 0.1};
+  m.mass = 1e-12;
+  const ImplicitMatrix a(*make_prototype({}, m), 0.5);
+  EXPECT_TRUE(std::isfinite(glm::determinant(a.compliance(1, 1))));
+}
+
+/// Where its particles go on chords of their circles, their velocities still have to be tangents.
+TEST(Implicit, AStiffBodySpinsAsOnePiece) {
+  Material m = gas_ball();
+  m.structural = {1e7, 0.1};
+  m.bend = {2.5e6, 0.1};
+  m.gas_pressure = 1.6e7;
+  World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = "implicit", .substeps = 1});
+  const glm::dvec3 spin(3, 18, -5);  // rad/s
+  std::vector<Particle> particles;
+  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i) {
+    const glm::dvec3 place = world.dynamics().particle(0, i).position;
+    particles.push_back({place, glm::cross(spin, place)});
+  }
+  world.set_particles(0, particles);
+  run(world, 120);
+  const Motion whole = motion(world, 0);
+  for (Index i = 0; i < particles.size(); ++i) {
+    const Particle q = world.dynamics().particle(0, i);
+    EXPECT_NEAR(glm::dot(q.velocity, glm::normalize(q.position - whole.centre)), 0, 0.01) << "m/s outwards, of 9";
   }
 }
 

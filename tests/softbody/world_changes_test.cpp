@@ -262,6 +262,23 @@ TEST(Changes, SolidsMoveComeAndGo) {
   EXPECT_LT(test::motion(world, 0).centre.y, low - 4);
 }
 
+/// Alone the body takes implicit steps, which contact of the surfaces would deny to it.
+TEST(Changes, RefuseCompanyToABodyTooStiffForSurfaceContact) {
+  Material stiff = test::gas_ball();
+  stiff.structural = {1e10, 0.1};
+  Scene scene = test::lone_body(stiff);
+  scene.contact_surface = ContactSurface::surfaces;
+  World world(scene, {});
+  test::run(world, 2);
+  EXPECT_THROW(world.drop(), SceneError);
+  EXPECT_THROW(world.throw_body({0, 9, 0}, {0, 5, 0}), SceneError);
+  EXPECT_THROW(world.add(scene.bodies[0]), SceneError);
+  EXPECT_EQ(world.bodies().count(), 1u);
+  EXPECT_FALSE(world.plan().has(Stage::surface_contact));
+  test::run(world, 2);
+  EXPECT_TRUE(measure(world).finite);
+}
+
 /// All that hands can do, one after another.
 std::uint64_t hash_after_much(int threads) {
   World world(pile(10), {.threads = threads});

@@ -1,0 +1,61 @@
+#include "softbody/implicit_energy.h"
+
+#include <glm/geometric.hpp>
+
+namespace softbody {
+namespace {
+
+/// One lane of a field.
+struct LaneView {
+  const Lanes& field;
+  std::size_t lane, stride;
+  glm::dvec3 operator[](std::size_t i) const {
+    const std::size_t at = i * lanes + lane;
+    return {field[at], field[at + stride], field[at + 2 * stride]};
+  }
+};
+
+double spring_energy(const Prototype& p, const LaneView& x) {
+  double energy = 0;
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *list) {
+      const double longer = glm::distance(x[s.i], x[s.j]) - s.rest;
+      energy += s.stiffness / 2 * longer * longer;
+    }
+  return energy;
+}
+
+double volume_of(const Prototype& p, const LaneView& x) {
+  double six = 0;
+  const glm::dvec3 from = x[0];
+  for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));
+  return six / 6;
+}
+
+/// J that the gas loses. By Simpson's rule: a logarithm has not the same last digits on all processors.
+double gas_work(const Prototype& p, double from, double to) {
+  const auto gauge = [&p](double volume) { return p.gas.pressure(volume) - p.gas.ambient; };
+  return (to - from) / 6 * (gauge(from) + 4 * gauge((from + to) / 2) + gauge(to));
+}
+
+}  // namespace
+
+bool gains_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity) {
+  constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
+  if (!p.goal.empty()) return false;
+  const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
+  const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
+  const LaneView v{work.v, lane, stride}, end_v{work.end_v, lane, stride};
+  double before = 0, after = 0, fallen = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    before += p.particle_mass / 2 * glm::dot(v[i], v[i]);
+    after += p.particle_mass / 2 * glm::dot(end_v[i], end_v[i]);
+    fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
+  }
+  const double elastic = spring_energy(p, x);
+  double gain = after - before - fallen + spring_energy(p, end_x) - elastic;
+  if (p.has_gas) gain -= gas_work(p, volume_of(p, x), volume_of(p, end_x));
+  return gain > share * (before + after) + rounding * elastic;
+}
+
+}  // namespace softbody
