@@ -36,6 +36,8 @@ double longest_step(const ReferenceBody& body, const BodyState& s) {
   return std::min(body.stable_step(s), 0.1 * body.prototype().radius / fastest(s));
 }
 
+}  // namespace
+
 BodyState disturbed(BodyState s, double size) {
   std::mt19937 random(1);
   // Not by std::uniform_real_distribution, which is another one in each library.
@@ -43,8 +45,6 @@ BodyState disturbed(BodyState s, double size) {
   for (glm::dvec3& p : s.x) p += size * glm::dvec3(either_way(), either_way(), either_way());
   return s;
 }
-
-}  // namespace
 
 Flight fly(const ReferenceBody& body, BodyState s, double fraction, const FlightLimits& limits) {
   Flight flight;

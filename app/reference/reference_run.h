@@ -24,6 +24,9 @@ struct FlightLimits {
 /// both are worked out anew every few steps.
 Flight fly(const ReferenceBody& body, BodyState start, double fraction, const FlightLimits& limits);
 
+/// Every position moved by up to `size` (m) an axis, by fixed random numbers.
+BodyState disturbed(BodyState state, double size);
+
 struct Reference {
   BodyState end{};
   double step = 0;         // s, mean

@@ -43,7 +43,7 @@ std::vector<std::string> failures(const StabilityFigures& f) {
   if (!f.reference || f.blew_up > 0) return all;
   check(f.reference->shape <= b.shape, format("shape off by %.2g R", f.reference->shape));
   check(f.reference->volume <= b.volume, format("volume off by %.2g %%", 100 * f.reference->volume));
-  check(f.reference->rest <= b.rest, format("moves at %.2g m/s", f.reference->rest));
+  check(f.reference->rest <= b.rest, format("moves by %.2g m/s too fast", f.reference->rest));
   return all;
 }
 

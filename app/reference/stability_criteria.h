@@ -34,7 +34,7 @@ struct StabilitySample {
 struct AgainstReference {
   double shape = 0;   // R, RMS once moved and turned to fit
   double volume = 0;  // of the reference's; 0 for what holds none
-  double rest = 0;    // m/s, RMS of the motion within the body
+  double rest = 0;    // m/s, RMS of the motion within the body, above the reference's
 };
 
 struct StabilityFigures {

@@ -95,7 +95,7 @@ TEST(StabilityCriteria, NothingGoesThroughASolid) {
 TEST(StabilityCriteria, TheEndIsHeldAgainstTheReference) {
   StabilityFigures f = run([](StabilitySample&) {});
   f.reference = AgainstReference{.shape = 0.02, .volume = 0.03, .rest = 0.004};
-  EXPECT_EQ(fault(f), "shape off by 0.02 R;volume off by 3 %;moves at 0.004 m/s;");
+  EXPECT_EQ(fault(f), "shape off by 0.02 R;volume off by 3 %;moves by 0.004 m/s too fast;");
   f.reference.reset();
   EXPECT_EQ(fault(f), "") << "without a reference the rest decides";
 }

@@ -122,7 +122,8 @@ class Run {
 AgainstReference compare(const World& world, const StabilityStart& start) {
   const softbody::Prototype& p = world.prototype(0);
   const BodyState end = state_of(world, 0);
-  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius, .rest = internal_speed(end)};
+  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius,
+                     .rest = std::max(0.0, internal_speed(end) - internal_speed(start.truth))};
   if (p.mesh.closed)
     r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.truth.x, p.mesh.triangles) - 1);
   return r;

@@ -30,10 +30,11 @@ std::string introduction(const StabilityResults& r) {
       b.transient, b.steady);
   text += format("and at the end shape (RMS, moved and turned to fit) is within %g R, volume within %g %% and ",
                  b.shape, 100 * b.volume);
-  text += format("motion within the body below %g m/s of a reference's.\n", b.rest);
+  text += format("motion within the body no more than %g m/s above a reference's.\n", b.rest);
   text +=
       "- Reference: RK4 in double, written apart from the solvers, settled, back in its shape (where nothing but "
-      "springs and gas acts), and unchanged within 0.1 % when its step is halved. Where there is none, the case is "
+      "springs and gas acts), and unchanged within 0.1 % when its step is halved or its start disturbed by 1e-7 R. "
+      "Where there is none, the case is "
       "marked * with the reason below its table, and judged on the rest.\n"
       "- `stability.csv` has every figure of every cell.\n";
   if (r.quick) text += "- This is the quick report: fewer cases and stiffnesses, and half the time.\n";
