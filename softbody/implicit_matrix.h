@@ -1,11 +1,11 @@
 #pragma once
-// The matrix that implicit steps share: mass over h^2 plus the stiffness and damping of a prototype's springs at its
-// starting shape, factored once for a step length and used by all bodies of the prototype.
+// The matrix that implicit steps share: mass over h^2 plus the stiffness and damping of a prototype at its shape in
+// balance, factored once for a step length and used by all bodies of the prototype.
 //
-// A closed body deforms little where it is stiff, so its matrix, turned with it, is nearly the true one: a spring is
-// k n n^T + k max(0, 1 - L0 / L) (1 - n n^T) along its direction n. An open sheet folds; there each spring is k times
-// the identity, as in projective dynamics (Bouaziz et al. 2014), which no direction exceeds, and the three components
-// fall apart. The gas is one more direction, the gradient of the volume, by Sherman and Morrison's formula.
+// A closed body deforms little where it is stiff, so its matrix, turned with it, is nearly the true one, or if that is
+// not positive definite, its springs along their directions and pulling across them. An open sheet folds; there each
+// spring is k times the identity, as in projective dynamics (Bouaziz et al. 2014), which no direction exceeds. How gas
+// is compressed is one more direction, the gradient of the volume, by Sherman and Morrison's formula.
 
 #include "softbody/kernels.h"
 #include "softbody/prototype.h"
