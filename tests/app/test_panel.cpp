@@ -134,59 +134,6 @@ TEST(Panel, EnablesWhatIsShownOrComparedThoughTheMethodHasNoUseForIt) {
   }
 }
 
-TEST(Panel, TooltipsStandBesideThePanel) {
-  PanelRig rig;
-  for (const char* label : {"Pause", "Tolerance", "Contacts", "Detect"}) {
-    const auto [name, min, max, enabled] = rig.widget(label);
-    rig.move(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
-    rig.frames(40);  // it rests
-    EXPECT_GE(rig.widget("Tooltip").min.x, panel_width) << label;
-    EXPECT_LE(rig.widget("Tooltip").max.x, 1280) << label;
-  }
-}
-
-TEST(Panel, TooltipsOfTheComparisonStandAboveIt) {
-  PanelRig rig;
-  rig.session.compare.on = true;
-  rig.frames(3);
-  const Recorder::Widget head = rig.widget("Column Method"), row = rig.widget("Drive Grid Hash");
-  rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
-  rig.frames(40);
-  EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
-}
-
-TEST(Panel, EscapeClosesAnOpenListAndNothingElse) {
-  PanelRig rig;
-  rig.click("Method");
-  EXPECT_TRUE(rig.ui.list_open);
-  rig.session.select_body(0);
-  press(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
-  rig.press_escape();
-  EXPECT_FALSE(rig.ui.list_open);
-  EXPECT_TRUE(rig.session.selected_body());
-  EXPECT_EQ(rig.session.world().method().key, collide::default_method);
-  press(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
-  EXPECT_FALSE(rig.session.selected_body());
-}
-
-TEST(Panel, TheTourFitsSmallWindows) {
-  PanelRig rig;
-  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
-    rig.resize(size.x, size.y);
-    rig.ui.tour.start(rig.session);
-    rig.frames(3);
-    for (const char* label : {"Back", "Next", "Close tour"}) {
-      const Recorder::Widget button = rig.widget(label);
-      EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
-      EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
-    }
-    const SceneArea scene = Interface::scene_area(rig.ui, 1);
-    EXPECT_GT(scene.max.x - scene.min.x, 200);
-    EXPECT_GT(scene.max.y - scene.min.y, 150);
-    rig.ui.tour.close(rig.session);
-  }
-}
-
 TEST(Panel, ShowsWhatTheExactMethodSkips) {
   PanelRig rig;
   for (const collide::SkipKind& kind : collide::skip_kinds)
@@ -340,58 +287,6 @@ TEST(Panel, AClickOnManyBucketsSelectsTheFullest) {
                view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
   ASSERT_TRUE(rig.session.selected_bucket());
   EXPECT_EQ(loads[*rig.session.selected_bucket()], loads[used]);
-}
-
-TEST(Panel, NothingMovesWhileNumbersChange) {
-  PanelRig rig;
-  rig.frames(5);
-  const auto before = rig.recorder.widgets;
-  for (int i = 0; i < 90; ++i) {
-    rig.frame();
-    ASSERT_EQ(rig.recorder.widgets.size(), before.size());
-    for (std::size_t w = 0; w < before.size(); ++w) {
-      const auto &then = before[w], &now = rig.recorder.widgets[w];
-      ASSERT_EQ(now.label, then.label);
-      ASSERT_TRUE(now.min.x == then.min.x && now.min.y == then.min.y && now.max.x == then.max.x &&
-                  now.max.y == then.max.y)
-          << now.label << " moved";
-    }
-  }
-  EXPECT_GT(rig.session.world().frame(), 90);
-}
-
-TEST(Panel, FoldsItsSections) {
-  PanelRig rig;
-  ASSERT_TRUE(rig.recorder.find("Tolerance"));
-  rig.click("Detection");
-  EXPECT_FALSE(rig.recorder.find("Tolerance"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));  // the light stays
-}
-
-TEST(Panel, HidesAndShowsWithEverythingElseInPlace) {
-  PanelRig rig;
-  rig.ui.panel = false;
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Pause"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));
-  EXPECT_TRUE(rig.recorder.find("Live recall"));
-  EXPECT_LT(rig.widget("Coverage").min.x, 100);
-}
-
-TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
-  const ImVec2 one = PanelRig().widget("Pause").max;
-  const ImVec2 two = PanelRig(2).widget("Pause").max;
-  EXPECT_NEAR(two.x, 2 * one.x, 8);
-  EXPECT_NEAR(two.y, 2 * one.y, 8);
-}
-
-TEST(Panel, TheHelpOpensAndCloses) {
-  PanelRig rig;
-  rig.click("?");
-  rig.frames(2);
-  ASSERT_TRUE(rig.ui.help);
-  rig.click("Close");
-  EXPECT_FALSE(rig.ui.help);
 }
 
 TEST(Shortcuts, DoWhatTheHelpSays) {
