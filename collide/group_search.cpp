@@ -134,15 +134,17 @@ void GroupSearch::find_self(Thread& own, Index body) {
   const Run vertices = run(body);
   const SelfReference* reference = references_.of(body);
   const SelfRisk risk = reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfRisk{};
-  if (!risk.proven || !risk.odd.empty()) own.whole.take(vertices, first);
-  if (!risk.proven) own.tree.within(own.whole, body, own.group);
+  if (!risk.proven) {
+    own.whole.take(vertices, first);
+    own.tree.within(own.whole, body, own.group);
+  }
   for (const auto& [i, j] : risk.pairs) {
     if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
         distance2_) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index odd : risk.odd) contacts_of(own.whole, odd, distance2_, own.words, own.group);
+  for (const Index odd : risk.odd) contacts_of(vertices, first, odd, distance2_, own.words, own.group);
   own.unfolded += risk.proven && risk.odd.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
   if (!own.group.empty()) tidy_self(own, body);

@@ -18,28 +18,24 @@ namespace collide {
 namespace HWY_NAMESPACE {
 namespace {
 
-/// One bit a vertex: bits come in by the block, in order. The words must have room for whole blocks.
+/// One bit a vertex: bits come in by the block, in order. The words must have room for whole blocks, and one more.
 class BitWriter {
  public:
-  explicit BitWriter(std::uint64_t* words) : at_(reinterpret_cast<std::uint8_t*>(words)) {}
+  explicit BitWriter(std::uint64_t* words) : at_(words) {}
   HWY_INLINE void add(std::uint64_t bits) {
-    if constexpr (lanes == 16) {
-      const auto half = static_cast<std::uint16_t>(bits);
-      std::memcpy(at_, &half, 2);
-      at_ += 2;
-    } else if constexpr (lanes == 8) {
-      *at_++ = static_cast<std::uint8_t>(bits);
-    } else {
-      *at_ = static_cast<std::uint8_t>(used_ == 0 ? bits : *at_ | bits << used_);
-      used_ = (used_ + lanes) % 8;
-      at_ += used_ == 0;
-    }
+    word_ |= bits << used_;
+    used_ += lanes;
+    if (used_ == 64) end();
   }
-  /// Fills the last word up.
-  HWY_INLINE void end() { std::memset(at_ + (used_ > 0), 0, 8); }
+  HWY_INLINE void end() {
+    *at_++ = word_;
+    word_ = 0;
+    used_ = 0;
+  }
 
  private:
-  std::uint8_t* at_;
+  std::uint64_t* at_;
+  std::uint64_t word_ = 0;
   Index used_ = 0;
 };
 
@@ -52,38 +48,16 @@ HWY_INLINE void for_bits(const std::uint64_t* words, Index bits, const Visit& vi
   }
 }
 
-/// The numbers of the set bits, ascending. Eight at a time whether they are there or not, for how many there are is
-/// what a processor cannot foresee; then eight zeros. Returns how many.
-HWY_INLINE Index list_bits(const std::uint64_t* words, Index bits, Index* list) {
-  Index size = 0;
-  for (Index first = 0; first < bits; first += 64) {
-    std::uint64_t word = *words++;
-    const auto count = static_cast<Index>(std::popcount(word));
-    Index* to = list + size;
-    for (Index done = 0; done < count || done == 0; done += 8) {
-      for (Index k = 0; k < 8; ++k) {
-        *to++ = first + static_cast<Index>(std::countr_zero(word));
-        word &= word - 1;
-      }
-    }
-    size += count;
-  }
-  std::fill_n(list + size, 8, 0);
-  return size;
-}
-
-/// Picks the vertices of a list by list_bits().
+/// Picks the listed vertices.
 HWY_INLINE void pick(const Run& run, Index first, const Index* list, Index size, Picked& picked) {
   float *const x = picked.x.data(), *const y = picked.y.data(), *const z = picked.z.data();
   Index* const vertex = picked.vertex.data();
-  for (Index k = 0; k < size; k += 8) {
-    for (Index step = 0; step < 8; ++step) {
-      const Index v = list[k + step];
-      x[k + step] = run.x[v];
-      y[k + step] = run.y[v];
-      z[k + step] = run.z[v];
-      vertex[k + step] = first + v;
-    }
+  for (Index k = 0; k < size; ++k) {
+    const Index v = list[k];
+    x[k] = run.x[v];
+    y[k] = run.y[v];
+    z[k] = run.z[v];
+    vertex[k] = first + v;
   }
   const V nothing = all(std::numeric_limits<float>::quiet_NaN());
   for (float* end : {x + size, y + size, z + size}) hn::StoreU(nothing, Floats(), end);
@@ -93,24 +67,23 @@ HWY_INLINE void pick(const Run& run, Index first, const Index* list, Index size,
 /// Appends the contacts of some vertices of a run, by their numbers, with picked ones of another body.
 HWY_INLINE void find_contacts(const Run& a, Index first_a, const Index* list_a, Index size_a, const Picked& b,
                               float tolerance2, std::vector<std::uint64_t>& words, std::vector<Contact>& contacts) {
-  Index shift = 4;  // each vertex of a takes 2^shift bits
+  Index shift = std::countr_zero(lanes);  // each vertex of a takes 2^shift bits
   while (Index{1} << shift < b.size) ++shift;
   const Index row = Index{1} << shift;
   const std::size_t needed = (std::size_t{size_a} * row) / 64 + 2;
   if (HWY_UNLIKELY(words.size() < needed)) words.resize(needed);
 
   const float *const bx = b.x.data(), *const by = b.y.data(), *const bz = b.z.data();
-  const V limit = all(tolerance2);
+  const V first_x = load(bx), first_y = load(by), first_z = load(bz), limit = all(tolerance2);
   BitWriter bits(words.data());
   for (Index i = 0; i < size_a; ++i) {
     const V x = all(a.x[list_a[i]]), y = all(a.y[list_a[i]]), z = all(a.z[list_a[i]]);
-    for (Index j = 0; j < row; j += lanes) {
-      if (HWY_UNLIKELY(j >= b.size)) {
-        bits.add(0);
-        continue;
-      }
-      const V d2 = squared_length(hn::Sub(x, load(bx + j)), hn::Sub(y, load(by + j)), hn::Sub(z, load(bz + j)));
-      bits.add(bits_of(Floats(), hn::Lt(d2, limit)));
+    const auto close = [&](V at_x, V at_y, V at_z) HWY_ATTR {
+      return bits_of(Floats(), hn::Lt(squared_length(hn::Sub(x, at_x), hn::Sub(y, at_y), hn::Sub(z, at_z)), limit));
+    };
+    bits.add(close(first_x, first_y, first_z));
+    for (Index j = lanes; j < row; j += lanes) {
+      bits.add(HWY_LIKELY(j < b.size) ? close(load(bx + j), load(by + j), load(bz + j)) : 0);
     }
   }
   bits.end();
@@ -126,7 +99,6 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
     return hn::Add(hn::Add(hn::Mul(nx, load(at.x + i)), hn::Mul(ny, load(at.y + i))), hn::Mul(nz, load(at.z + i)));
   };
   float* const along_a = scratch.along_a.data() + lanes;
-  std::uint64_t* const words = scratch.words.data();
   Copy copy_a, copy_b;
   const Run at_a = readable(a, copy_a), at_b = readable(b, copy_b);
   V front = all(-std::numeric_limits<float>::infinity());
@@ -137,30 +109,27 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   });
   const V limit_b = all(most(front) + slab.reach);
   V back = all(std::numeric_limits<float>::infinity());
-  BitWriter bits_b(words);
+  Index* const list = scratch.list.data();
+  ListWriter list_b(list);
   for_blocks(b.size, [&](std::ptrdiff_t i, Index skip) HWY_ATTR {
     const V p = along(at_b, i);
     back = hn::Min(back, p);
-    bits_b.add(bits_of(Floats(), hn::Le(p, limit_b)) >> skip);
+    list_b.add(hn::Le(p, limit_b), i, skip);
   });
-  bits_b.end();
   const float back_b = least(back);
   if (!(back_b <= hn::GetLane(limit_b))) return {};
-  Index* const list = scratch.list.data();
-  pick(b, first_b, list, list_bits(words, b.size, list), scratch.near_b);
+  pick(b, first_b, list, list_b.size(), scratch.near_b);
 
   const V limit_a = all(back_b - slab.reach);
-  BitWriter bits_a(words);
-  for_blocks(a.size, [&](std::ptrdiff_t i, Index skip)
-                         HWY_ATTR { bits_a.add(bits_of(Floats(), hn::Ge(load(along_a + i), limit_a)) >> skip); });
-  bits_a.end();
-  const Index size_a = list_bits(words, a.size, list);
-  const std::uint64_t tests = std::uint64_t{size_a} * scratch.near_b.size;
+  ListWriter list_a(list);
+  for_blocks(a.size,
+             [&](std::ptrdiff_t i, Index skip) HWY_ATTR { list_a.add(hn::Ge(load(along_a + i), limit_a), i, skip); });
+  const std::uint64_t tests = std::uint64_t{list_a.size()} * scratch.near_b.size;
   if (tests > most_tests) {
-    pick(a, first_a, list, size_a, scratch.near_a);
+    pick(a, first_a, list, list_a.size(), scratch.near_a);
     return {tests, false};
   }
-  find_contacts(a, first_a, list, size_a, scratch.near_b, tolerance2, scratch.words, contacts);
+  find_contacts(a, first_a, list, list_a.size(), scratch.near_b, tolerance2, scratch.words, contacts);
   return {tests, true};
 }
 
@@ -202,11 +171,19 @@ void ContactsWithin(const Picked& set, float tolerance2, std::size_t most, Words
   }
 }
 
-void ContactsOf(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
-  if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
-  close_bits(set.x[i], set.y[i], set.z[i], set, 0, tolerance2, words.data());
+void ContactsOf(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  if (words.size() < run.size / 64 + 2) words.resize(run.size / 64 + 2);
+  Copy copy;
+  const Run at = readable(run, copy);
+  const V x = all(run.x[i]), y = all(run.y[i]), z = all(run.z[i]), limit = all(tolerance2);
+  BitWriter bits(words.data());
+  for_blocks(run.size, [&](std::ptrdiff_t j, Index skip) HWY_ATTR {
+    const V d2 = squared_length(hn::Sub(x, load(at.x + j)), hn::Sub(y, load(at.y + j)), hn::Sub(z, load(at.z + j)));
+    bits.add(bits_of(Floats(), hn::Lt(d2, limit)) >> skip);
+  });
+  bits.end();
   words[i / 64] &= ~(std::uint64_t{1} << i % 64);
-  for_bits(words.data(), set.size, [&](Index bit) HWY_ATTR { contacts.push_back({set.vertex[i], set.vertex[bit]}); });
+  for_bits(words.data(), run.size, [&](Index bit) HWY_ATTR { contacts.push_back({first + i, first + bit}); });
 }
 
 }  // namespace
@@ -252,8 +229,8 @@ void contacts_within(const Picked& set, float tolerance2, std::size_t most, Word
   HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, most, words, contacts);
 }
 
-void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
-  HWY_DYNAMIC_DISPATCH(ContactsOf)(set, i, tolerance2, words, contacts);
+void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+  HWY_DYNAMIC_DISPATCH(ContactsOf)(run, first, i, tolerance2, words, contacts);
 }
 
 void Picked::reserve(Index count) {

@@ -66,9 +66,10 @@ Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
 /// std::length_error once there are more than `most` pairs.
 void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
                       std::vector<Contact>& contacts);
-/// The same for all pairs of one set, i before j; and for all pairs of its vertex i with another.
+/// The same for all pairs of one set, i before j.
 void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
                      std::vector<Contact>& contacts);
-void contacts_of(const Picked& set, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
+/// The same for all pairs of vertex i of a run, whose first has the number `first`, with another.
+void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
 
 }  // namespace collide

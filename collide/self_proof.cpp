@@ -124,14 +124,12 @@ SelfRisk SelfReference::at_risk(const Run& body, const Bound& bound, Scratch& sc
     const auto end = std::upper_bound(distance_.begin(), distance_.end(), round_up(needed));
     return {true, std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin())), {}};
   }
-  scratch.odd.clear();
+  if (scratch.odd.size() < body.size + most_lanes) scratch.odd.resize(body.size + most_lanes);
   constexpr double largest = std::numeric_limits<float>::max();  // an infinite residual is never allowed
   const auto allowed2 = static_cast<float>(std::min(allowed * allowed * (1 - 1e-6), largest));
-  for (Index v = 0; v < body.size; ++v) {
-    if (!(scratch.residual2[v] <= allowed2)) scratch.odd.push_back(v);
-  }
-  if (scratch.odd.size() > body.size / 8) return {};
-  return {true, pairs_, scratch.odd};
+  const Index odd = list_above(scratch.residual2, allowed2, scratch.odd.data());
+  if (odd > body.size / 8) return {};
+  return {true, pairs_, std::span(scratch.odd).first(odd)};
 }
 
 void SelfReferences::update(const Frame& frame, std::span<const Index> live, float reach) {

@@ -7,6 +7,7 @@
 #define COLLIDE_SIMD_LANES_H
 #endif
 
+#include <array>
 #include <cmath>
 
 #include <hwy/highway.h>
@@ -67,6 +68,48 @@ template <class Vector>
 HWY_INLINE Vector squared_length(Vector x, Vector y, Vector z) {  // as squared_distance()
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
+
+/// The numbers of the set bits of each byte, ascending, one after another.
+constexpr auto numbers_of_bits = [] {
+  std::array<std::array<std::uint8_t, 8>, 256> table{};
+  for (std::size_t bits = 0; bits < table.size(); ++bits) {
+    std::size_t size = 0;
+    for (std::uint8_t bit = 0; bit < 8; ++bit) {
+      if (bits >> bit & 1) table[bits][size++] = bit;
+    }
+  }
+  return table;
+}();
+
+/// Lists what it is given by the block. Writes whole blocks: there must be room for one behind the list.
+class ListWriter {
+ public:
+  explicit ListWriter(Index* list) : list_(list) {}
+  /// The numbers of those lanes of the mask that come up for the first time (see for_blocks()), if the first lane has
+  /// the number `first`.
+  HWY_INLINE void add(M mask, std::ptrdiff_t first, Index skip) {
+    if (skip != 0) mask = hn::AndNot(hn::FirstN(Floats(), skip), mask);
+    hn::StoreU(hn::Add(first_lanes(mask), hn::Set(Numbers(), static_cast<Index>(first))), Numbers(), list_ + size_);
+    size_ += static_cast<Index>(hn::CountTrue(Floats(), mask));
+  }
+  Index size() const { return size_; }
+
+ private:
+  using Numbers = hn::RebindToUnsigned<Floats>;
+  using Bytes = hn::Rebind<std::uint8_t, Numbers>;
+
+  HWY_INLINE hn::Vec<Numbers> first_lanes(M mask) const {
+    if constexpr (lanes > 8) {
+      return hn::Compress(lane_, hn::RebindMask(Numbers(), mask));
+    } else {  // without an instruction for it
+      return hn::PromoteTo(Numbers(), hn::LoadU(Bytes(), numbers_of_bits[bits_of(Floats(), mask)].data()));
+    }
+  }
+
+  hn::Vec<Numbers> lane_ = hn::Iota(Numbers(), 0);
+  Index* list_;
+  Index size_ = 0;
+};
 
 HWY_INLINE float least(V v) { return hn::GetLane(hn::MinOfLanes(Floats(), v)); }
 HWY_INLINE float most(V v) { return hn::GetLane(hn::MaxOfLanes(Floats(), v)); }

@@ -98,6 +98,13 @@ AffineFit FitAffine(const Run& body, const Run& reference, const std::array<floa
   return fit;
 }
 
+Index ListAbove(const float* values, Index size, float limit, Index* list) {
+  ListWriter above(list);
+  for_blocks(size, [&](std::ptrdiff_t i, Index skip)
+                       HWY_ATTR { above.add(hn::Not(hn::Le(load(values + i), all(limit))), i, skip); });
+  return above.size();
+}
+
 float FarthestMove(const Run& run, const Run& before) {
   Copy copy_now, copy_before;
   const Run at = readable(run, copy_now), was = readable(before, copy_before);
@@ -126,6 +133,7 @@ namespace collide {
 
 HWY_EXPORT(BoundOf);
 HWY_EXPORT(FitAffine);
+HWY_EXPORT(ListAbove);
 HWY_EXPORT(FarthestMove);
 
 Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
@@ -133,6 +141,10 @@ Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2) {
   return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
+}
+
+Index list_above(std::span<const float> values, float limit, Index* list) {
+  return HWY_DYNAMIC_DISPATCH(ListAbove)(values.data(), static_cast<Index>(values.size()), limit, list);
 }
 
 float farthest_move(const Run& run, const Run& before) { return HWY_DYNAMIC_DISPATCH(FarthestMove)(run, before); }

@@ -41,6 +41,10 @@ struct AffineFit {
 AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
+/// The numbers of those values that are not at most the limit, ascending; returns how many. The list has room for
+/// most_lanes more than there are values, of which there are at least so many.
+Index list_above(std::span<const float> values, float limit, Index* list);
+
 /// How far any vertex is from where it was, in m, rounded up: 0 if none has moved at all, infinity if some coordinate
 /// is not finite now or was not.
 float farthest_move(const Run& run, const Run& before);

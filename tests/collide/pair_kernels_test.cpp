@@ -58,7 +58,7 @@ TEST_P(PairKernels, ContactsAreThoseOfPlainLoops) {
         if (pair.a == i && pair.b != i) of_one.push_back(pair);
       }
       contacts_.clear();
-      contacts_of(picked(set, 0), i, 0.25f, words_, contacts_);
+      contacts_of(set.run(), 0, i, 0.25f, words_, contacts_);
       EXPECT_EQ(contacts_, of_one);
     }
   }

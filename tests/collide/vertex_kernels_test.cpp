@@ -136,6 +136,22 @@ TEST_P(VertexKernels, MovesAreBoundsOfTheFarthest) {
   EXPECT_GE(farthest_move(least.run(), zero.run()), 1e-45f) << "though its square vanishes";
 }
 
+TEST_P(VertexKernels, ListsWhatIsAboveALimit) {
+  for (const Index size : {16u, 17u, 31u, 64u, 101u}) {
+    for (const float limit : {-2.0f, -0.5f, 0.0f, 0.9f, 2.0f}) {
+      std::vector<float> values = Points3(random_points(random_, size, -1, 1)).x;
+      values[size / 2] = nan;
+      values[size / 3] = limit;
+      std::vector<Index> above, list(size + most_lanes);
+      for (Index v = 0; v < size; ++v) {
+        if (!(values[v] <= limit)) above.push_back(v);
+      }
+      list.resize(list_above(values, limit, list.data()));
+      EXPECT_EQ(list, above) << size << ", " << limit;
+    }
+  }
+}
+
 INSTANTIATE_TEST_SUITE_P(Targets, VertexKernels, testing::ValuesIn(targets()), target_name);
 
 }  // namespace
