@@ -47,7 +47,7 @@ class CornerHash {
     }
   }
 
-  std::array<std::uint32_t, 8> buckets(const Box& box) const {
+  std::array<std::uint32_t, 8> buckets(const SubdividedBox& box) const {
     Sides<std::uint32_t> sides;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const std::size_t low = box.interval[axis];
@@ -94,7 +94,7 @@ class MultiLevelSb final : public Detector {
     DebugGeometry geometry;
     const CellHash hash(settings_);
     CellList cells;
-    for (const Box& box : subdivision_.boxes()) {
+    for (const SubdividedBox& box : subdivision_.boxes()) {
       geometry.boxes.push_back({box.region.lo, box.region.hi, box.body});
       for_each_corner(indices_of(box.region, hash), [&](auto x, auto y, auto z) { cells.add({x, y, z}, hash); });
     }
@@ -109,7 +109,7 @@ class MultiLevelSb final : public Detector {
     bool exceeded = false;
     table_.clear();
     end_of_body_.resize(bodies_.box.size());
-    const std::vector<Box>& boxes = subdivision_.boxes();
+    const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
     for (std::size_t next = 0; next < boxes.size();) {
       const Index body = boxes[next].body;
       const CornerHash corners(bodies_.box[body], settings_.levels, hash);
@@ -127,7 +127,7 @@ class MultiLevelSb final : public Detector {
   }
 
   void test_boxes(int thread, int threads) {
-    const std::vector<Box>& boxes = subdivision_.boxes();
+    const std::vector<SubdividedBox>& boxes = subdivision_.boxes();
     const bool self = settings_.self_collision;
     for (auto a = static_cast<Index>(thread); a < boxes.size(); a += static_cast<Index>(threads)) {
       scattered_.start(thread, boxes[a].slots, self);  // a box meets itself, too

@@ -5,8 +5,8 @@ namespace collide {
 namespace {
 
 /// An empty box with the region of a code: one interval of each axis.
-Box box_of(const std::array<Cuts, 3>& cuts, std::uint32_t code, Index body) {
-  Box box{{}, {}, body, {0, 0}};
+SubdividedBox box_of(const std::array<Cuts, 3>& cuts, std::uint32_t code, Index body) {
+  SubdividedBox box{{}, {}, body, {0, 0}};
   for (int axis = 0; axis < 3; ++axis) {
     const Cuts& along = cuts[static_cast<std::size_t>(axis)];
     const std::uint32_t interval = code & ((1u << along.depth) - 1);

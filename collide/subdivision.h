@@ -10,7 +10,7 @@
 
 namespace collide {
 
-struct Box {
+struct SubdividedBox {
   Aabb region;                             // between the cuts, not refitted to the vertices
   std::array<std::uint8_t, 3> interval{};  // of the body's Cuts on each axis
   Index body;
@@ -23,12 +23,12 @@ class Subdivision {
   /// next to each other. Boxes without vertices are left out. Every vertex is in exactly one box.
   void build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels, Workers& workers);
 
-  const std::vector<Box>& boxes() const { return boxes_; }
+  const std::vector<SubdividedBox>& boxes() const { return boxes_; }
   const Points& points() const { return points_; }  // box by box
 
  private:
   struct Thread {
-    std::vector<Box> boxes;
+    std::vector<SubdividedBox> boxes;
     std::vector<std::uint32_t> code;  // of each vertex of a body: its interval on each axis, packed
     IndexSet codes_in_use;            // empty, but for the body at hand
     std::vector<Index> of_code;       // 0, but for the body at hand: how many vertices, then the next one's slot
@@ -38,7 +38,7 @@ class Subdivision {
   void find_codes(Thread& own, const Frame& frame, Index first, Index size) const;
 
   int levels_ = 0;
-  std::vector<Box> boxes_;
+  std::vector<SubdividedBox> boxes_;
   Points points_;
   std::vector<Index> first_slot_;  // of each of the bodies
   std::vector<Thread> threads_;

@@ -22,7 +22,7 @@ class Boxes {
     Subdivision subdivision;
     bodies.build(state.frame(), result);
     subdivision.build(state.frame(), bodies, bodies.live, settings.levels, workers);
-    for (const Box& box : subdivision.boxes()) {
+    for (const SubdividedBox& box : subdivision.boxes()) {
       for (Index slot = box.slots.begin; slot < box.slots.end; ++slot) {
         of_vertex_[subdivision.points().vertex[slot]] = vertices_.size();
       }

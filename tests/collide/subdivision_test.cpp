@@ -9,7 +9,7 @@
 namespace collide::test {
 namespace {
 
-std::vector<Box> boxes_of(const State& state, int levels, Points* points = nullptr) {
+std::vector<SubdividedBox> boxes_of(const State& state, int levels, Points* points = nullptr) {
   Workers workers(2);
   Result result;
   BodyBoxes bodies;
@@ -54,7 +54,7 @@ TEST(Subdivision, CutsACubeIntoItsOctants) {
   const std::array<std::size_t, 4> expected{1, 2, 4, 8};
   for (int levels = 0; levels < 4; ++levels)
     EXPECT_EQ(boxes_of(state, levels).size(), expected[static_cast<std::size_t>(levels)]);
-  const Box first = boxes_of(state, 3)[0];
+  const SubdividedBox first = boxes_of(state, 3)[0];
   EXPECT_EQ(first.region.lo, glm::vec3(0));
   EXPECT_EQ(first.region.hi, glm::vec3(0.5f));
 }
@@ -68,10 +68,10 @@ TEST(Subdivision, PutsEveryVertexIntoOneBoxThatHoldsIt) {
     for (const Index body : left_out) expected -= state.bodies.size(body);
     for (int levels = 0; levels <= max_levels; ++levels) {
       Points points;
-      const std::vector<Box> boxes = boxes_of(state, levels, &points);
+      const std::vector<SubdividedBox> boxes = boxes_of(state, levels, &points);
       std::set<Index> seen;
       Index slot = 0;
-      for (const Box& box : boxes) {
+      for (const SubdividedBox& box : boxes) {
         ASSERT_EQ(box.slots.begin, slot) << named.name;
         ASSERT_LT(box.slots.begin, box.slots.end) << named.name << ": an empty box";
         for (; slot < box.slots.end; ++slot) {
@@ -95,8 +95,8 @@ TEST(Subdivision, PutsEveryVertexIntoOneBoxThatHoldsIt) {
 TEST(Subdivision, IsTheRecursionOfMidpoints) {
   const State state = named_states()[0].make();
   Points points;
-  const std::vector<Box> boxes = boxes_of(state, 7, &points);
-  for (const Box& box : boxes) {
+  const std::vector<SubdividedBox> boxes = boxes_of(state, 7, &points);
+  for (const SubdividedBox& box : boxes) {
     const Index v = points.vertex[box.slots.begin];
     const glm::vec3 p(state.x[v], state.y[v], state.z[v]);
     Aabb region = boxes_of(state, 0)[box.body].region;
