@@ -9,6 +9,8 @@
 #include <limits>
 #include <set>
 
+#include <glm/geometric.hpp>
+
 #include "collide/reach.h"
 #include "states.h"
 
@@ -27,6 +29,7 @@ struct Body {
 std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt19937& random) {
   const float by = uniform(random, 0, 1);
   const glm::vec3 stretch = random_points(random, 1, 0.1f, 2)[0];
+  const glm::vec3 aslant = glm::normalize(random_points(random, 1, 0.1f, 1)[0]);
   const std::size_t dent = random() % points.size();
   const glm::vec3 towards = points[random() % points.size()];
   for (std::size_t v = 0; v < points.size(); ++v) {
@@ -38,8 +41,8 @@ std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt
       case 1:  // stretched and squeezed
         p *= stretch;
         break;
-      case 2:  // flattened
-        p.y *= 0.3f * by;
+      case 2:  // flattened, aslant
+        p -= (1 - 0.3f * by) * glm::dot(p, aslant) * aslant;
         break;
       case 3:  // inside out
         p *= -stretch;
