@@ -27,4 +27,9 @@ std::string gl_description() {
   return text(GL_RENDERER) + ", OpenGL " + text(GL_VERSION);
 }
 
+bool draws_in_software() {
+  const std::string driver = gl_description();
+  return driver.find("llvmpipe") != driver.npos || driver.find("softpipe") != driver.npos;
+}
+
 }  // namespace engine

@@ -18,4 +18,7 @@ void load_gl();
 /// Name and version of the current context's driver, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ...".
 std::string gl_description();
 
+/// Whether that driver computes pictures on the processor, so that every pixel counts.
+bool draws_in_software();
+
 }  // namespace engine

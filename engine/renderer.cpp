@@ -66,7 +66,15 @@ struct Renderer::Passes {
 };
 
 void Renderer::Passes::find_casters(const FrameData& frame) {
-  casters.assign(occlusion.spheres().begin(), occlusion.spheres().end());
+  casters.clear();
+  for (std::size_t i = 0; i < frame.meshes.size(); ++i) {
+    const glm::vec3 centre(occlusion.spheres()[i]);
+    const MeshDraw& draw = frame.meshes[i];
+    const bool finite = occlusion.spheres()[i].w > 0;
+    if (finite)
+      casters.emplace_back(centre, reach(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+  }
+  for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
   for (const Capsule& c : frame.capsules)
     casters.emplace_back(0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to) + c.radius);
   for (const Block& b : frame.blocks) {

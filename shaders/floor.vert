@@ -1,12 +1,9 @@
 #version 330 core
-// One corner of a grid of cells on the floor, counted row by row by gl_VertexID. Cells side by side compute their
-// common corners in the same way, so that no pixel falls between them.
 #include "frame.glsl"
-uniform vec4 cells;        // least x and z; size of a cell
-uniform int corners;  // a row
+layout(location = 0) in vec2 place;  // x, z
 out vec2 ground;
 
 void main() {
-  ground = cells.xy + cells.zw * vec2(gl_VertexID % corners, gl_VertexID / corners);
-  gl_Position = frame.clip_from_world * vec4(ground.x, frame.floor_map.w, ground.y, 1.0);
+  ground = place;
+  gl_Position = frame.clip_from_world * vec4(place.x, frame.floor_map.w, place.y, 1.0);
 }

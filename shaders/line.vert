@@ -1,12 +1,13 @@
 #version 330 core
-// A line as a rectangle that faces the screen, with room for round ends and a soft edge.
+// A line with room for round ends and a soft edge: a rectangle that faces the screen, or its axis alone, which the
+// driver then makes wide.
 #include "frame.glsl"
 layout(location = 0) in vec3 a;
 layout(location = 1) in vec3 b;
 layout(location = 2) in vec4 colour;
 uniform float width;
-noperspective out vec2 along_across;  // pixels from a, and from the line
-flat out float span;                  // pixels from a to b
+uniform float sides;  // 1 for a rectangle, 0 for its axis
+flat out vec4 ends;   // a and b on the screen, pixels
 flat out vec4 line_colour;
 
 void main() {
@@ -26,13 +27,14 @@ void main() {
 
   vec2 half_size = 0.5 * frame.viewport.zw;
   vec2 p0 = start.xy / start.w * half_size, p1 = end.xy / end.w * half_size;
-  span = length(p1 - p0);
+  ends = vec4(p0, p1) + vec4(half_size + frame.viewport.xy, half_size + frame.viewport.xy);
+  float span = length(p1 - p0);
   vec2 direction = span > 1e-4 ? (p1 - p0) / span : vec2(1.0, 0.0);
   float reach = 0.5 * width + 0.5;  // beyond it line.frag covers nothing
   bool at_end = (gl_VertexID & 1) == 1;
   float side = (gl_VertexID & 2) == 2 ? reach : -reach;
-  along_across = vec2(at_end ? span + reach : -reach, side);
-  vec2 pixel = p0 + direction * along_across.x + vec2(-direction.y, direction.x) * side;
+  float along = at_end ? span + reach : -reach;
+  vec2 pixel = p0 + direction * along + vec2(-direction.y, direction.x) * side * sides;
   vec4 clip = at_end ? end : start;
   gl_Position = vec4(pixel / half_size * clip.w, clip.zw);
 }

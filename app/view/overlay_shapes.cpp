@@ -14,9 +14,11 @@ namespace {
 
 using Points = std::span<const glm::vec3>;
 
-void add_body_boxes(const softbody::World& world, Points positions, engine::FrameData& frame) {
+/// `tinted`: else their edges alone, where faces of other boxes tint the same.
+void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
+  if (!tinted) set.fill = 0;
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     glm::vec3 lo(std::numeric_limits<float>::max()), hi(std::numeric_limits<float>::lowest());
@@ -84,7 +86,7 @@ void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::Fra
   engine::BoxSet set{.boxes = {}, .width = 1.0f, .hidden = 0.12f, .fill = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
     if (set.boxes.size() == SceneView::most_boxes) break;
-    set.boxes.push_back(cell_box(cell.index, size, glm::vec4(0.20f, 0.27f, 0.36f, 0.6f)));
+    set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
   }
   frame.boxes.push_back(std::move(set));
 }
@@ -247,7 +249,7 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
                   engine::FrameData& frame) {
   const Overlays& shown = request.shown;
   if (shown.springs) add_springs(world, sight, positions, frame);
-  if (shown.body_boxes) add_body_boxes(world, positions, frame);
+  if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
   if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
   if (request.debug && request.bucket) add_bucket(request, world.collision().cell_size, positions, frame);

@@ -25,9 +25,9 @@ void FloorCells::update(std::span<const glm::vec4> spheres, const Place& floor, 
   const glm::vec2 stretch = glm::sqrt(1.0f + slant * slant);
   for (const glm::vec4& sphere : spheres) {
     const float height = sphere.y - floor.height;
-    if (height + 1.5f * sphere.w < 0.0f) continue;
+    if (height + sphere.w < 0.0f) continue;
     const glm::vec2 foot(sphere.x, sphere.z), shadow = foot - slant * height;
-    const glm::vec2 half = 1.5f * sphere.w * stretch + soft;
+    const glm::vec2 half = sphere.w * stretch + soft;
     add_shadow({shadow - half, shadow + half}, floor);
     if (height > sky_height * sphere.w) continue;
     shaded_ = together(shaded_, {foot - sky_reach * sphere.w, foot + sky_reach * sphere.w});

@@ -22,14 +22,14 @@ struct FloorArea {
 /// Where spheres hide part of the sky from the floor, and cells for where they cast shadows on it.
 class FloorCells {
  public:
-  static constexpr int side = 24;
+  static constexpr int side = 80;
   struct Place {
     glm::vec2 centre;  // x, z; cells lie at most `reach` m away from it
     float reach;
     float height;
   };
 
-  /// Takes shadows to be half as large again as the spheres and then `soft` m.
+  /// Takes shadows to reach `soft` m beyond those of the spheres.
   void update(std::span<const glm::vec4> spheres, const Place& floor, const glm::vec3& to_light, float soft);
 
   const FloorArea& shaded() const { return shaded_; }

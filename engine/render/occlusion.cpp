@@ -9,11 +9,11 @@
 namespace engine {
 namespace {
 
-constexpr float reach = 1.2f;  // a sphere more of its radii from a surface than this hides nothing (occlusion.glsl)
+constexpr float darkening = 1.2f;  // a sphere more of its radii from a surface than this hides nothing (occlusion.glsl)
 
 // A receiver may bulge beyond its mean radius.
 bool darkens(const glm::vec4& occluder, const glm::vec4& receiver) {
-  return glm::distance(glm::vec3(occluder), glm::vec3(receiver)) < 1.5f * receiver.w + (1.0f + reach) * occluder.w;
+  return glm::distance(glm::vec3(occluder), glm::vec3(receiver)) < 1.5f * receiver.w + (1.0f + darkening) * occluder.w;
 }
 
 bool finite(const glm::vec4& sphere) {
@@ -30,6 +30,15 @@ glm::vec4 mean_sphere(std::span<const glm::vec3> positions) {
   for (const glm::vec3& position : positions) radius += glm::distance(position, centre);
   const glm::vec4 sphere(centre, radius / count);
   return finite(sphere) ? sphere : glm::vec4(0.0f);
+}
+
+float reach(const glm::vec3& centre, std::span<const glm::vec3> positions) {
+  float squared = 0.0f;
+  for (const glm::vec3& position : positions) {
+    const glm::vec3 from = position - centre;
+    squared = std::max(squared, glm::dot(from, from));
+  }
+  return std::sqrt(squared);
 }
 
 void Occlusion::update(const FrameData& frame) {
@@ -64,7 +73,7 @@ void Occlusion::find_neighbours() {
   for (const glm::vec4& sphere : spheres_) largest = std::max(largest, sphere.w);
   for (std::size_t i = 0; i < order_.size(); ++i) {
     const std::uint32_t a = order_[i];
-    const float far = spheres_[a].x + (2.5f + reach) * std::max(largest, spheres_[a].w);
+    const float far = spheres_[a].x + (2.5f + darkening) * std::max(largest, spheres_[a].w);
     for (std::size_t j = i + 1; j < order_.size() && spheres_[order_[j]].x < far; ++j) {
       const std::uint32_t b = order_[j];
       if (darkens(spheres_[a], spheres_[b])) pairs_.push_back({b, a});

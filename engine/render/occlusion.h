@@ -19,6 +19,9 @@ struct Range {
 /// The middle of a body's vertices, and their mean distance from it.
 glm::vec4 mean_sphere(std::span<const glm::vec3> positions);
 
+/// The largest distance of a position from the centre.
+float reach(const glm::vec3& centre, std::span<const glm::vec3> positions);
+
 class Occlusion {
  public:
   /// Spheres of `frame`: first those of its meshes, then its solid ones, in their order.

@@ -3,7 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <tuple>
+
+#include "engine/context.h"
 
 namespace engine {
 namespace {
@@ -74,7 +77,8 @@ std::vector<Line> edges_of(const std::vector<Box>& boxes) {
 }  // namespace
 
 Overlays::Overlays(const std::filesystem::path& shaders)
-    : line_program_(shaders, "line.vert", "line.frag"),
+    : axes_alone_(draws_in_software()),
+      line_program_(shaders, "line.vert", "line.frag"),
       point_program_(shaders, "point.vert", "point.frag"),
       box_program_(shaders, "box.vert", "box.frag") {
   const auto set_up = [](const VertexArray& array, const Buffer& buffer, GLuint vectors, std::size_t item_size) {
@@ -85,6 +89,9 @@ Overlays::Overlays(const std::filesystem::path& shaders)
   set_up(line_array_, line_buffer_, 2, sizeof(Line));
   set_up(point_array_, point_buffer_, 1, sizeof(Point));
   set_up(box_array_, box_buffer_, 2, sizeof(Box));
+  if (!axes_alone_) return;
+  line_array_.bind();
+  for (GLuint attribute = 0; attribute < 3; ++attribute) glVertexAttribDivisor(attribute, 0);
 }
 
 void Overlays::draw(const FrameData& frame) {
@@ -104,10 +111,22 @@ void Overlays::draw(const FrameData& frame) {
 
 void Overlays::draw_lines(std::span<const Line> lines, float width, float hidden) {
   if (lines.empty()) return;
-  line_buffer_.stream(GL_ARRAY_BUFFER, lines);
   line_program_.use();
   line_program_.set("width", width);
-  draw_items(line_program_, line_array_, lines.size(), hidden);
+  line_program_.set("sides", axes_alone_ ? 0.0f : 1.0f);
+  line_array_.bind();
+  const auto count = static_cast<GLsizei>(lines.size());
+  if (axes_alone_) {
+    ends_.clear();
+    for (const Line& line : lines) ends_.insert(ends_.end(), 2, line);
+    line_buffer_.stream(GL_ARRAY_BUFFER, std::span<const Line>(ends_));
+    // A line's width is counted along one axis of the screen, which is least across a diagonal.
+    glLineWidth((width + 1.0f) * std::numbers::sqrt2_v<float>);
+    draw_twice(line_program_, hidden, [&] { glDrawArrays(GL_LINES, 0, 2 * count); });
+  } else {
+    line_buffer_.stream(GL_ARRAY_BUFFER, lines);
+    draw_twice(line_program_, hidden, [&] { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count); });
+  }
 }
 
 void Overlays::draw_points(const PointSet& set, float scale) {
@@ -115,15 +134,18 @@ void Overlays::draw_points(const PointSet& set, float scale) {
   point_buffer_.stream(GL_ARRAY_BUFFER, std::span(set.points));
   point_program_.use();
   point_program_.set("diameter", set.diameter * scale);
-  draw_items(point_program_, point_array_, set.points.size(), set.hidden);
+  point_array_.bind();
+  const auto count = static_cast<GLsizei>(set.points.size());
+  draw_twice(point_program_, set.hidden, [&] { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count); });
 }
 
-void Overlays::draw_items(const Program& program, const VertexArray& array, std::size_t count, float hidden) {
-  array.bind();
+/// Faint where something is in front, then in full where nothing is.
+template <class Draw>
+void Overlays::draw_twice(const Program& program, float hidden, const Draw& draw) {
   const auto pass = [&](GLenum depth_test, float opacity) {
     glDepthFunc(depth_test);
     program.set("opacity", opacity);
-    glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, static_cast<GLsizei>(count));
+    draw();
   };
   if (hidden > 0.0f) pass(GL_GREATER, hidden);
   pass(GL_LEQUAL, 1.0f);

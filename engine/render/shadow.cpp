@@ -16,7 +16,7 @@ glm::vec4 LightView::reach_of(std::span<const glm::vec4> spheres) const {
   glm::vec2 least(1.0f), greatest(0.0f);
   for (const glm::vec4& sphere : spheres) {
     const glm::vec2 middle(from_world * glm::vec4(glm::vec3(sphere), 1.0f));
-    const float margin = (1.5f * sphere.w / texel + 8.0f) / static_cast<float>(ShadowMap::size);
+    const float margin = (sphere.w / texel + 8.0f) / static_cast<float>(ShadowMap::size);
     least = glm::min(least, middle - margin);
     greatest = glm::max(greatest, middle + margin);
   }

@@ -14,7 +14,7 @@ namespace engine {
 struct LightView {
   glm::mat4 clip_from_world;  // of the light
   glm::mat4 texture_from_world() const;
-  /// The part of the map that the shadows of these spheres, half as large again, can fall on: least and greatest x, y.
+  /// The part of the map that the shadows of what is in these spheres can fall on: least and greatest x, y.
   glm::vec4 reach_of(std::span<const glm::vec4> spheres) const;
   float texel;  // m
 };

@@ -1,7 +1,6 @@
 #pragma once
 // The floor and the backdrop.
 
-#include <cstdint>
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
@@ -26,15 +25,12 @@ class Studio {
 
  private:
   void draw_floor() const;
-  void draw_shadowed_cells() const;
-  void draw_square(const Program& program, const FloorArea& area, float behind) const;
 
   Program open_, shaded_, shadowed_, backdrop_;
   VertexArray empty_, array_;
-  Buffer indices_;
+  Buffer buffer_;
   FloorCells cells_;
-  std::vector<std::uint16_t> corners_;  // of the triangles of the cells with shadows
-  FloorCells::Place floor_{};
+  std::vector<glm::vec2> corners_;  // x, z of triangles: all of the floor, what is shaded, what has shadows
 };
 
 }  // namespace engine
