@@ -21,11 +21,11 @@ class BackgroundWorker {
 
   BackgroundWorker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-  /// True if an offer would be taken now. After an answer the worker rests for twice as long as that took, so that it
-  /// never takes more than a third of a core from the simulation and the drawing.
-  bool ready() const {
+  /// True if an offer would be taken now. After an answer the worker rests for so many times as long as that took: with
+  /// 2 it never takes more than a third of a core from the simulation and the drawing.
+  bool ready(int rests = 2) const {
     const std::scoped_lock lock(mutex_);
-    return !busy_ && !waiting_ && Clock::now() >= rest_until_;
+    return !busy_ && !waiting_ && Clock::now() >= answered_ + rests * took_;
   }
 
   /// Takes the question, or drops it if another one is waiting or being answered. Never waits for an answer.
@@ -61,7 +61,8 @@ class BackgroundWorker {
       lock.lock();
       done_ = std::move(answer);
       busy_ = false;
-      rest_until_ = end + 2 * (end - start);
+      answered_ = end;
+      took_ = end - start;
     }
   }
 
@@ -70,7 +71,8 @@ class BackgroundWorker {
   std::optional<Question> waiting_;
   std::optional<Answer> done_;
   bool busy_ = false;
-  Clock::time_point rest_until_;
+  Clock::time_point answered_;
+  Clock::duration took_{};
   std::jthread thread_;  // last: started after, joined before all else
 };
 

@@ -59,11 +59,6 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
-bool draws_in_software() {
-  const std::string driver = engine::gl_description();
-  return driver.find("llvmpipe") != driver.npos || driver.find("softpipe") != driver.npos;
-}
-
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
@@ -73,7 +68,7 @@ class Demo {
                  .samples = 0}),
         gui_(window_),
         view_(engine::find_folder("shaders")),
-        canvas_(!draws_in_software()),
+        canvas_(!engine::draws_in_software()),
         session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
@@ -110,9 +105,10 @@ class Demo {
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
     do_as_asked(viewport);
+    clear_window();
     draw_scene(viewport);
     if (const Spotlight* light = ui_.tour.spotlight())
-      draw_labels(light->labels, camera_, viewport.size, Interface::scene_area(ui_, gui_.scale()), gui_.scale());
+      draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), gui_.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     gui_.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
@@ -134,7 +130,7 @@ class Demo {
 
   engine::Viewport scene_viewport() const {
     const ImVec2 ratio = ImGui::GetIO().DisplayFramebufferScale;
-    const SceneArea area = Interface::scene_area(ui_, gui_.scale());
+    const SceneArea area = interface_.scene_area();
     const auto pixels = [](float at, float factor) { return static_cast<int>(std::lround(at * factor)); };
     const glm::ivec2 lo(pixels(area.min.x, ratio.x), pixels(area.min.y, ratio.y));
     const glm::ivec2 hi(pixels(area.max.x, ratio.x), pixels(area.max.y, ratio.y));
@@ -145,13 +141,22 @@ class Demo {
     if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
       shown_scene_ = session_.world().scene().key;
       camera_ = view_.camera(session_.world().scene(), viewport.size);
+      fitted_ = viewport.size;
       ui_.reset_camera = false;
       before_tour_.reset();
     }
+    refit(viewport.size);
     mouse_.follow(mouse_input(viewport), session_, camera_, viewport.size);
     frame_tour(viewport);
     if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
+  }
+
+  /// The scene keeps its extent when what stands beside it comes or goes. During the tour it is framed otherwise.
+  void refit(glm::ivec2 size) {
+    if (ui_.tour.open() || before_tour_ || size.x <= 0 || size.y <= 0) return;
+    if (fitted_.x > 0 && fitted_ != size) SceneView::refit(camera_, fitted_, size);
+    fitted_ = size;
   }
 
   /// The tour moves the camera, and gives it back.
@@ -178,6 +183,14 @@ class Demo {
       look_at(*session_.selected_body(), session_, camera_, viewport.size);
   }
 
+  /// To what stands beside the scene.
+  static void clear_window() {
+    const ImVec4 colour = dock_colour();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glClearColor(colour.x, colour.y, colour.z, 1.0f);
+    glClear(GL_COLOR_BUFFER_BIT);
+  }
+
   void draw_scene(const engine::Viewport& viewport) {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
@@ -188,8 +201,6 @@ class Demo {
     });
     drawn_ = key;
     canvas_.show(viewport.origin);
-    const glm::ivec2 size = window_.framebuffer_size();
-    glViewport(0, 0, size.x, size.y);
   }
 
   PictureKey picture_key() const {
@@ -223,6 +234,7 @@ class Demo {
   engine::Camera camera_;
   SceneMouse mouse_;
   std::optional<engine::Orbit> before_tour_;
+  glm::ivec2 fitted_{0};     // the scene's size that camera_ suits
   std::string shown_scene_;  // the one that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;

@@ -79,6 +79,9 @@ bool Session::succeeds(const std::function<void()>& change) {
   try {
     change();
     return true;
+  } catch (const softbody::SceneError& error) {
+    notice_ = error.what();
+    return false;
   } catch (const std::exception& error) {
     notice_ = error.what();
     paused = true;

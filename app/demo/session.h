@@ -210,12 +210,14 @@ class Session {
   void begin();
   void run(double elapsed);
   void step();
-  /// False if a detector refused (too many contacts for the memory, say): then the world waits, and notice() says why.
+  /// False if it failed, as notice() says: a refusal changes nothing, all else (a detector's memory, say) pauses.
   bool succeeds(const std::function<void()>& change);
   /// For what a world may refuse: then it is as before, and goes on.
   void try_change(const std::function<void()>& change);
   bool affordable(const collide::Method& method, const collide::Settings& settings);
   Work work_of(const collide::Method& method, const collide::Settings& settings) const;
+  /// How long those who work beside the demo rest, in times of their work: longer while the pictures come late.
+  int rests() const;
   void exchange_comparison();
   void keep(CompareReport report);
   Snapshot snapshot() const;

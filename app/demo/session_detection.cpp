@@ -101,7 +101,7 @@ const std::vector<collide::Contact>* Session::missed() const {
 void Session::exchange_comparison() {
   if (auto report = compare_worker_.take(); report && report->id >= first_comparable_) keep(std::move(*report));
   // A world at rest has nothing new for the recall, but times want to be taken again and again.
-  if ((offered_ == revision_ && !compare.on) || !compare_worker_.ready()) return;
+  if ((offered_ == revision_ && !compare.on) || !compare_worker_.ready(rests())) return;
   offered_ = revision_;
   compare_worker_.offer(snapshot());
 }

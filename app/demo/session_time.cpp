@@ -32,9 +32,14 @@ void Session::advance_one(double elapsed, bool one) {
 void Session::follow() {
   exchange_comparison();
   if (overlays.true_surfaces)
-    surfaces_.exchange(*world_, before_last_step_, revision_);
+    surfaces_.exchange(*world_, before_last_step_, revision_, rests());
   else
     surfaces_.restart(revision_);
+}
+
+int Session::rests() const {
+  constexpr float late_ms = 25;  // fewer than 40 pictures a second
+  return history_.frame_ms.median(15) > late_ms ? 10 : 2;
 }
 
 void Session::run(double elapsed) {

@@ -92,38 +92,39 @@ void legend_line(Widgets& w, const glm::vec3& colour, const char* text) {
 }
 
 void strain_scale(const Widgets& w) {
+  ImGui::TextDisabled("-20 %%");
+  ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float width = w.px(150), height = w.px(10);
+  const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
   constexpr int steps = 30;
   for (int i = 0; i < steps; ++i) {
     const float x0 = at.x + width * static_cast<float>(i) / steps,
                 x1 = at.x + width * static_cast<float>(i + 1) / steps;
     const float t = 2 * (static_cast<float>(i) + 0.5f) / steps - 1;
-    ImGui::GetWindowDrawList()->AddRectFilled({x0, at.y}, {x1, at.y + height}, to_imgui(diverging_colour(t)));
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, top}, {x1, top + height}, to_imgui(diverging_colour(t)));
   }
   ImGui::Dummy({width, height});
-  ImGui::TextDisabled("-20 %%");
-  ImGui::SameLine(width - ImGui::CalcTextSize("+20 %").x + ImGui::GetStyle().WindowPadding.x);
+  ImGui::SameLine();
   ImGui::TextDisabled("+20 %%");
 }
 
 void touches_legend(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
-    ImGui::TextDisabled("no surface contacts: vertices keep the bodies apart");
+    ImGui::TextDisabled("no surface contacts: F switches them on");
     return;
   }
   legend_line(w, contact_between_colour, "surface contact between bodies, and its normal");
   legend_line(w, contact_inside_colour, "surface contact inside one body");
 }
 
-void table_legend(const Session& session) {
+void table_legend(Widgets& w, const Session& session, bool of_which_method) {
   const collide::DebugGeometry& debug = session.debug();
   const Overlays& shown = session.overlays;
   if (shown.boxes) {
     ImGui::TextUnformatted(debug.boxes.empty() ? "This method builds no boxes" : "Boxes: one colour, one bucket");
   }
-  if (shown.cells) ImGui::TextUnformatted("Occupied cells in dark blue");
-  ImGui::TextDisabled("%s", whose_structure(session).c_str());
+  if (shown.cells) legend_line(w, cell_colour, "occupied cell");
+  if (of_which_method) ImGui::TextDisabled("%s", whose_structure(session).c_str());
 }
 
 void bucket_legend(Widgets& w, const Session& session) {
@@ -134,16 +135,16 @@ void bucket_legend(Widgets& w, const Session& session) {
 
 }  // namespace
 
-void draw_legends(Widgets& w, const Session& session, const SceneArea& area) {
+bool has_legend(const Session& session) {
   const Overlays& shown = session.overlays;
-  const bool table = shown.boxes || shown.cells || session.bucket();
-  if (!table && !session.ghost() && !shown.contacts && !shown.springs && !shown.missed && !shown.areas &&
-      !shown.touches)
-    return;
-  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
-  ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  return shown.boxes || shown.cells || session.bucket() || session.ghost() || shown.contacts || shown.springs ||
+         shown.missed || shown.areas || shown.touches;
+}
+
+void draw_legend(Widgets& w, const Session& session, bool of_which_method) {
+  const Overlays& shown = session.overlays;
   if (session.ghost()) draw_ghost_legend(w, session);
-  if (table) table_legend(session);
+  if (shown.boxes || shown.cells || session.bucket()) table_legend(w, session, of_which_method);
   if (session.bucket()) bucket_legend(w, session);
   if (shown.contacts) {
     legend_line(w, contact_between_colour, "contact between bodies");
@@ -157,6 +158,13 @@ void draw_legends(Widgets& w, const Session& session, const SceneArea& area) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");
     strain_scale(w);
   }
+}
+
+void draw_legend_plate(Widgets& w, const Session& session, const SceneArea& area) {
+  if (!has_legend(session)) return;
+  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
+  ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  draw_legend(w, session, true);
   ImGui::End();
 }
 

@@ -3,14 +3,9 @@
 // the overlays, the caption of the moment, and hints for newcomers.
 
 #include "app/demo/session.h"
-#include "app/panel/widgets.h"
+#include "app/panel/dock.h"
 
 namespace app {
-
-/// The part of the display that shows the scene, in ImGui units.
-struct SceneArea {
-  ImVec2 min, max;
-};
 
 /// Of what stands over the scene without a frame to drag it by.
 inline constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
@@ -39,8 +34,12 @@ std::string reference_sentence(const CompareReport& report);
 /// The light, its sentence and the recall; below it the session's notice(), if any. Returns where it ends. `explained`:
 /// with what the light's colours mean.
 float draw_status(Widgets& widgets, Session& session, const SceneArea& area, bool& explained);
-/// In the upper left corner of the area.
-void draw_legends(Widgets& widgets, const Session& session, const SceneArea& area);
+/// What the colours of the overlays mean; has_legend(): whether any that is shown needs it. `of_which_method`: also
+/// whose boxes and cells are shown.
+bool has_legend(const Session& session);
+void draw_legend(Widgets& widgets, const Session& session, bool of_which_method);
+/// The same, if any, over the scene in the upper left corner of the area.
+void draw_legend_plate(Widgets& widgets, const Session& session, const SceneArea& area);
 /// `seconds`: how long the window has been open; the hint fades out after a while.
 void draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
 

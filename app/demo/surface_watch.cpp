@@ -19,9 +19,9 @@ StepCopy copy_step(const softbody::World& world, const Positions& before, std::u
 
 }  // namespace
 
-void SurfaceWatch::exchange(const softbody::World& world, const Positions& before, std::uint64_t revision) {
+void SurfaceWatch::exchange(const softbody::World& world, const Positions& before, std::uint64_t revision, int rests) {
   if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
-  if (offered_ == revision || !worker_.ready()) return;
+  if (offered_ == revision || !worker_.ready(rests)) return;
   offered_ = revision;
   worker_.offer(copy_step(world, before, revision));
 }

@@ -15,8 +15,8 @@ struct CrossingSums {
 class SurfaceWatch {
  public:
   /// Takes the report that is ready, if any, and offers the present state if it was not yet. before: positions before
-  /// the last step; revision: names the state, ascending.
-  void exchange(const softbody::World& world, const Positions& before, std::uint64_t revision);
+  /// the last step; revision: names the state, ascending; rests: as BackgroundWorker::ready().
+  void exchange(const softbody::World& world, const Positions& before, std::uint64_t revision, int rests);
   /// Begins anew: nothing is known, and reports of states before this revision are dropped.
   void restart(std::uint64_t revision);
 

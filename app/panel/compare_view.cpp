@@ -41,7 +41,15 @@ constexpr std::array<Column, column_count> columns{{
     {"Latest times", 0, false, "The last measurements, oldest at the left, all on one axis."},
     {"Misses", 56, true, "Whose missed contacts the overlay shows (key 6); the driver's at first."},
 }};
-constexpr float least_plot = 70, column_gap = 10;  // design pixels
+constexpr float least_plot = 70, column_gap = 10;                    // design pixels
+constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
+
+/// Design pixels that all columns take.
+float least_inside() {
+  float least = least_plot;
+  for (const Column& column : columns) least += column.width;
+  return least;
+}
 
 /// Where columns begin and end, in screen coordinates, and the line that is being drawn.
 class Grid {
@@ -214,7 +222,7 @@ void draw_row(Widgets& w, Session& session, Grid& grid, const Row& row, const Sc
                 grid.right(plot) - grid.left(plot));
   }
   draw_switches(w, session, grid, row);
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(1)});
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
   if (drive) session.set_method(row.method.key);
 }
 
@@ -227,7 +235,7 @@ void draw_head(Widgets& w, Session& session, Grid& grid) {
   }
   ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
   if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.compare.on = false;
-  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(1)});
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
 }
 
 std::string footing(const Session& session) {
@@ -241,23 +249,21 @@ std::string footing(const Session& session) {
 
 }  // namespace
 
-float draw_compare(Widgets& w, Session& session, const SceneArea& area) {
-  if (!session.compare.on) return area.max.y;
-  const float margin = w.px(12);
+float compare_height(float width, float scale) {
+  const float line = ImGui::GetFontSize() + (2 * frame_padding + row_gap) * scale;
+  const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < least_inside() * scale;
+  return static_cast<float>(collide::methods().size() + 1) * line + ImGui::GetFontSize() + 2 * window_padding * scale +
+         (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+}
+
+void draw_compare(Widgets& w, Session& session, const SceneArea& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  float least = w.px(least_plot);
-  for (const Column& column : columns) least += w.px(column.width);
-  const float width = area.max.x - area.min.x - 2 * margin, inside = width - 2 * style.WindowPadding.x;
-  ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({width, 0});
+  const float least = w.px(least_inside()), inside = area.max.x - area.min.x - 2 * style.WindowPadding.x;
   ImGui::SetNextWindowContentSize({std::max(least, inside), 0});
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(5)});
-  ImGui::Begin("Compare methods###Compare", nullptr,
-               ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_HorizontalScrollbar |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
+  begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
   ImGui::PopStyleVar();
-  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(1)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
   Grid grid(w, ImGui::GetCursorScreenPos().x, std::max(least, inside));
   draw_head(w, session, grid);
@@ -275,9 +281,7 @@ float draw_compare(Widgets& w, Session& session, const SceneArea& area) {
          "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
          "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
   ImGui::PopStyleVar(2);
-  const float top = ImGui::GetWindowPos().y;
-  ImGui::End();
-  return top;
+  end_dock();
 }
 
 }  // namespace app

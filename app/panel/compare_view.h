@@ -5,8 +5,9 @@
 
 namespace app {
 
-/// Draws the comparison along the lower edge of the area, while it is switched on, and returns the upper end of it:
-/// what else stands in the area has to stay above. Between begin_frame() and end_frame() of the Gui.
-float draw_compare(Widgets& widgets, Session& session, const SceneArea& area);
+/// ImGui units that it needs, in an area of this width.
+float compare_height(float width, float scale);
+/// Draws the comparison in the area. Between begin_frame() and end_frame() of the Gui.
+void draw_compare(Widgets& widgets, Session& session, const SceneArea& area);
 
 }  // namespace app

@@ -123,18 +123,11 @@ void draw_plan(Widgets& w, const softbody::World& world) {
 
 }  // namespace
 
-void draw_panel(Widgets& w, Session& session, UiState& ui) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize;
-  ImGui::SetNextWindowPos({0, 0});
-  ImGui::SetNextWindowSize({w.px(panel_width), display.y});
+void draw_panel(Widgets& w, Session& session, UiState& ui, const SceneArea& area, bool opaque) {
   // The same width with and without a scrollbar, so that folding a section moves nothing sideways.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
-  constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
-                                     ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);  // it stands at the window's edge
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::Begin("Panel", nullptr, fixed);
+  begin_dock("Panel", area, opaque);
   draw_scene(w, session, ui);
   draw_transport(w, session);
   draw_progress(w, session);
@@ -148,8 +141,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui) {
   if (w.section("Files", false)) draw_files(w, session, ui);
   if (w.section("Take away", false)) draw_take_away(w, session, ui);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
-  ImGui::End();
-  ImGui::PopStyleVar(2);
+  end_dock();
 }
 
 }  // namespace app

@@ -3,7 +3,7 @@
 
 #include "app/demo/session.h"
 #include "app/demo/ui_state.h"
-#include "app/panel/widgets.h"
+#include "app/panel/dock.h"
 
 namespace app {
 
@@ -13,8 +13,9 @@ inline constexpr float panel_width = 330;  // design pixels
 inline constexpr float least_tolerance = 0.005f, most_tolerance = 0.5f;  // m
 inline constexpr float least_cell = 0.02f, most_cell = 5.0f;             // m
 
-/// Draws the panel over the left `panel_width` of the display. Between begin_frame() and end_frame() of the Gui.
-void draw_panel(Widgets& widgets, Session& session, UiState& ui);
+/// Draws the panel over the area, `panel_width` wide; `opaque`: as begin_dock(). Between begin_frame() and end_frame()
+/// of the Gui.
+void draw_panel(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area, bool opaque);
 
 // Its sections, each for a window already begun.
 void draw_detection(Widgets& widgets, Session& session, bool table_shown);

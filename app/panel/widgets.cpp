@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstring>
 
 namespace app {
 
@@ -218,6 +219,16 @@ bool Widgets::choice(const char* label, bool selected, const char* tooltip) {
   const bool chosen = ImGui::Selectable(label, selected);
   done(label, tooltip);
   return chosen;
+}
+
+bool Widgets::heading(const char* label, const char* tooltip) {
+  ImGui::Spacing();
+  ImGui::AlignTextToFramePadding();
+  const char* id = std::strstr(label, "###");
+  ImGui::TextUnformatted(label, id);
+  const float side = ImGui::GetFrameHeight();
+  ImGui::SameLine(ImGui::GetContentRegionMax().x - side);
+  return button(joined("x###Close ", id ? id + 3 : label).c_str(), tooltip, side);
 }
 
 void Widgets::row(const char* label, float column) {

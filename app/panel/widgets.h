@@ -59,6 +59,8 @@ class Widgets {
   bool button(const char* label, const char* tooltip, float width = 0);
   bool radio(const char* label, bool active, const char* tooltip);
   bool checkbox(const char* label, bool& value, const char* tooltip);
+  /// The title of a part that can be closed; true if its cross is clicked, whose label is "Close " and the title's.
+  bool heading(const char* label, const char* tooltip);
   /// A section that folds; true if it is open.
   bool section(const char* label, bool open_at_first);
   bool slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip);

@@ -57,16 +57,10 @@ std::string bodies_of(const CellGroup& group, const BucketContents& bucket, cons
   return text;
 }
 
-void draw_bucket(Widgets& w, Session& session, const ImVec2& lower_right, float width) {
+void draw_bucket(Widgets& w, Session& session) {
   const BucketContents* bucket = session.bucket();
-  if (!bucket) return;
-  ImGui::SetNextWindowPos(lower_right, ImGuiCond_Always, {1, 1});
-  ImGui::SetNextWindowSize({width, 0});
-  bool open = true;
   const std::string title = joined("Bucket ", grouped(bucket->bucket), "###Bucket");
-  ImGui::Begin(title.c_str(), &open,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing);
+  const bool close = w.heading(title.c_str(), "Releases the bucket (Esc).");
   const std::size_t cells = bucket->groups.size();
   w.figure(count_of(bucket->items, *bucket).c_str(), joined(std::to_string(cells), cells == 1 ? " cell" : " cells"),
            "What is in the bucket, and the different cells that it comes from (§2.2).");
@@ -78,8 +72,7 @@ void draw_bucket(Widgets& w, Session& session, const ImVec2& lower_right, float 
                 "Pairs that meet in this bucket: in one cell, as neighbours should, and of different cells, which the "
                 "modulo put together. Aliased pairs cost tests and find nothing that is near (§2.2).");
   draw_meetings(w, "Whole table", session.table().sharing(), "The same, summed over all buckets.");
-  ImGui::End();
-  if (!open) session.select_bucket(std::nullopt);
+  if (close) session.select_bucket(std::nullopt);
 }
 
 }  // namespace app

@@ -6,9 +6,8 @@
 
 namespace app {
 
-/// A window of this width (ImGui units) with its lower right corner there, while a bucket is selected; its cross
-/// releases the bucket. Between begin_frame() and end_frame() of the Gui.
-void draw_bucket(Widgets& widgets, Session& session, const ImVec2& lower_right, float width);
+/// Draws the selected bucket, whose contents must be known, into the current window; its cross releases the bucket.
+void draw_bucket(Widgets& widgets, Session& session);
 
 /// "body 3", "bodies 0, 3 and 7", "bodies 0, 3 and 12 more": of the entries of one cell.
 std::string bodies_of(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,

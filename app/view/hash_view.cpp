@@ -5,13 +5,12 @@
 #include <cmath>
 
 #include "app/demo/status.h"
-#include "app/view/bucket_view.h"
 #include "app/view/palette.h"
 
 namespace app {
 namespace {
 
-constexpr float grid_height = 170, least_square = 4;  // design pixels
+constexpr float grid_height = 160, least_square = 4;  // design pixels
 
 constexpr const char* grid_tooltip_end = "Click: show its boxes in the scene. Click again or Esc: release.";
 
@@ -100,23 +99,17 @@ void HashView::draw_legend(Widgets& w) const {
 }
 
 void HashView::draw_summary(const Session& session) const {
-  ImGui::TextDisabled("%s %s", grouped(grid_.buckets).c_str(), grid_.buckets == 1 ? "bucket" : "buckets");
-  std::string note = " ";  // the line stays, so that the window does not change its height
-  if (grid_.per_square > 1) note = "each square: the fullest of " + grouped(grid_.per_square);
+  std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
   if (std::ranges::all_of(squares_, [](const Square& square) { return square.load == 0; }))
-    note = "none used at this cell size";
-  ImGui::TextDisabled("%s", note.c_str());
+    text += ", none used at this cell size";
+  else if (grid_.per_square > 1)
+    text += ", a square: the fullest of " + grouped(grid_.per_square);
+  ImGui::TextDisabled("%s", text.c_str());
   ImGui::TextDisabled("%s", whose_structure(session).c_str());
 }
 
-void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
-  const float margin = w.px(12);
-  ImGui::SetNextWindowPos({area.max.x - margin, area.max.y - margin}, ImGuiCond_Always, {1, 1});
-  ImGui::SetNextWindowSize({w.px(HashView::width), 0});
-  ImGui::Begin("Hash table", &open,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
+void HashView::draw(Widgets& w, Session& session, bool& open) {
+  if (w.heading("Hash table", "Closes the hash table (T).")) open = false;
   const float room = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.debug().bucket_load.empty()) {
     ImGui::Dummy({room, 0.4f * height});
@@ -129,9 +122,6 @@ void HashView::draw(Widgets& w, Session& session, const SceneArea& area, bool& o
     draw_legend(w);
     draw_summary(session);
   }
-  const ImVec2 upper_right{area.max.x - margin, ImGui::GetWindowPos().y - w.px(8)};
-  ImGui::End();
-  draw_bucket(w, session, upper_right, w.px(HashView::width));
 }
 
 }  // namespace app

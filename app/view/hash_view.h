@@ -2,7 +2,6 @@
 // The hash table itself: one square a bucket, its load as colour. A click shows the bucket's boxes in the scene.
 
 #include "app/demo/session.h"
-#include "app/demo/status.h"
 #include "app/panel/hash_grid.h"
 #include "app/panel/widgets.h"
 
@@ -10,10 +9,8 @@ namespace app {
 
 class HashView {
  public:
-  static constexpr float width = 276;  // design pixels
-
-  /// Draws the view in the lower right corner of the area; `open` becomes false when it is closed.
-  void draw(Widgets& widgets, Session& session, const SceneArea& area, bool& open);
+  /// Draws the view into the current window; `open` becomes false when it is closed.
+  void draw(Widgets& widgets, Session& session, bool& open);
 
   /// Where the squares of the last frame were; tests aim by it.
   const HashGrid& grid() const { return grid_; }

@@ -179,6 +179,12 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   return camera;
 }
 
+void SceneView::refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to) {
+  engine::Orbit orbit = camera.orbit();
+  orbit.distance *= static_cast<float>(step_back(to) / step_back(from));
+  camera.set_orbit(orbit);
+}
+
 softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {
   const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4; };
   const engine::Orbit& orbit = camera.orbit();

@@ -51,6 +51,8 @@ class SceneView {
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
   /// The other way round: the view that a scene must have for such a camera, to a tenth of a millimetre or degree.
   static softbody::View view(const engine::Camera& camera, glm::ivec2 size);
+  /// The camera steps back or closer, so that a picture of another size holds as much.
+  static void refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to);
 
  private:
   struct Bounds {

@@ -8,8 +8,6 @@
 namespace app {
 namespace {
 
-constexpr float width = 292;  // design pixels
-
 std::string millimetres(double metres) {
   std::array<char, 32> buffer{};
   std::snprintf(buffer.data(), buffer.size(), "%.2f mm", metres * 1e3);
@@ -80,18 +78,11 @@ void draw_missed(Widgets& w, const Session& session) {
 
 }  // namespace
 
-SceneArea draw_true_surfaces(Widgets& w, const Session& session, const SceneArea& area) {
-  if (!session.overlays.true_surfaces) return area;
-  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
-  ImGui::SetNextWindowSize({w.px(width), 0});
-  ImGui::Begin("True surfaces###Figures", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize);
+void draw_true_surfaces(Widgets& w, const Session& session) {
   draw_state(w, session);
   draw_overlaps(w, session.surfaces().report().figures);
-  draw_crossings(w, session.surfaces().report().figures, session.surfaces().sums());
   draw_missed(w, session);
-  const float end = ImGui::GetWindowPos().x + ImGui::GetWindowWidth();
-  ImGui::End();
-  return {{end - w.px(4), area.min.y}, area.max};
+  if (w.section("Passages", false)) draw_crossings(w, session.surfaces().report().figures, session.surfaces().sums());
 }
 
 }  // namespace app

@@ -1,12 +1,12 @@
 #pragma once
 // The surface oracle's figures of the step last judged.
 
-#include "app/demo/status.h"
+#include "app/demo/session.h"
+#include "app/panel/widgets.h"
 
 namespace app {
 
-/// Draws the figures in the upper left corner of the area, while overlays.true_surfaces is on, and returns what is left
-/// of it at their right. Between begin_frame() and end_frame() of the Gui.
-SceneArea draw_true_surfaces(Widgets& widgets, const Session& session, const SceneArea& area);
+/// Draws the figures into the current window, those asked for least often in a section that folds.
+void draw_true_surfaces(Widgets& widgets, const Session& session);
 
 }  // namespace app

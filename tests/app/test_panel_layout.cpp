@@ -55,10 +55,30 @@ TEST(Panel, TheTourFitsSmallWindows) {
       EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
       EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
     }
-    const SceneArea scene = Interface::scene_area(rig.ui, 1);
+    const SceneArea scene = rig.interface.scene_area();
     EXPECT_GT(scene.max.x - scene.min.x, 200);
     EXPECT_GT(scene.max.y - scene.min.y, 150);
     rig.ui.tour.close(rig.session);
+  }
+}
+
+TEST(Panel, NothingCoversTheMiddleOfTheSceneWithAllShown) {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1600, 1000)}) {
+    PanelRig rig;
+    for (const OverlayRow& row : overlay_table) rig.session.overlays.*row.shown = true;
+    rig.session.compare.on = true;
+    rig.resize(size.x, size.y);
+    const SceneArea scene = rig.interface.scene_area();
+    const float width = scene.max.x - scene.min.x, height = scene.max.y - scene.min.y;
+    EXPECT_GE(width, 0.5f * static_cast<float>(size.x));
+    EXPECT_GE(height, 0.75f * static_cast<float>(size.y));
+    for (const char* label : {"Buckets of the table", "Judged frame", "Drive Multi-Level SB"})
+      ASSERT_TRUE(rig.recorder.find(label)) << label;
+    for (const auto& [label, min, max, enabled] : rig.recorder.widgets) {
+      const bool beside = max.x <= scene.min.x || min.x >= scene.max.x || min.y >= scene.max.y;
+      const bool at_the_top = max.y <= scene.min.y + 0.25f * height;
+      EXPECT_TRUE(beside || at_the_top) << label << " covers the scene";
+    }
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/limits.h"
 #include "tests/app/hands.h"
 
 namespace app {
@@ -28,6 +29,14 @@ TEST(Hands, AThrowWithoutRoomIsRefused) {
   session.throw_body({0, 50, 0}, {0, 0, 1});
   EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_NE(session.notice().find("room"), std::string::npos);
+  EXPECT_FALSE(session.paused);
+}
+
+TEST(Hands, ADropThatIsRefusedDoesNotPause) {
+  Session session(touching_pair(), {}, 1);
+  session.drop(1 + static_cast<int>(softbody::max_particles / session.world().prototype(0).mesh.vertices.size()));
+  EXPECT_NE(session.notice().find("no room"), std::string::npos) << session.notice();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_FALSE(session.paused);
 }
 
