@@ -43,19 +43,17 @@ glm::vec3 Dynamics::contact_normal(const ShieldPair& pair, Index vertex_a, Index
   return glm::length(apart) > 0.5f ? glm::normalize(apart) : between;  // surfaces that face the same way tell nothing
 }
 
-void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
-                            const std::vector<collide::Contact>& contacts, float shield) {
-  shield_.thickness = shield;
-  pairs_before_.swap(shield_.pairs);
-  shield_.pairs.clear();
-  contacts_of_.assign(vertex_body.size(), 0);
-  const auto still = [&](const collide::Contact& c) {
-    return !bodies_[vertex_body[c.a]].moves() && !bodies_[vertex_body[c.b]].moves();
+/// contacts_of: as many zeros as vertices.
+void Dynamics::find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
+                          std::vector<ShieldPair>& pairs) const {
+  const auto& [vertices, vertex_body, contacts] = seen;
+  const auto still = [this, bodies = vertex_body](const collide::Contact& c) {
+    return !bodies_[bodies[c.a]].moves() && !bodies_[bodies[c.b]].moves();
   };
   for (const collide::Contact& c : contacts) {
     if (still(c)) continue;
-    ++contacts_of_[c.a];
-    ++contacts_of_[c.b];
+    ++contacts_of[c.a];
+    ++contacts_of[c.b];
   }
   for (const collide::Contact& c : contacts) {
     if (still(c)) continue;
@@ -70,14 +68,31 @@ void Dynamics::set_contacts(const collide::Bodies& vertices, std::span<const Bod
                     .offset = glm::vec3(bodies_[a].origin - bodies_[b].origin),
                     .normal = {},
                     .stiffness = float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
-                                       double(std::max(contacts_of_[c.a], contacts_of_[c.b]))),
+                                       double(std::max(contacts_of[c.a], contacts_of[c.b]))),
                     .friction = float(std::sqrt(ma.friction * mb.friction))};
     pair.normal = contact_normal(pair, va, vb);
-    shield_.pairs.push_back(pair);
+    pairs.push_back(pair);
   }
+}
+
+void Dynamics::set_contacts(const SeenContacts& seen, float shield) {
+  shield_.thickness = shield;
+  pairs_before_.swap(shield_.pairs);
+  shield_.pairs.clear();
+  contacts_of_.assign(seen.vertex_body.size(), 0);
+  find_pairs(seen, contacts_of_, shield_.pairs);
   shield_.inherit(pairs_before_);
   shield_.force.resize(shield_.pairs.size());
   shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
+}
+
+double Dynamics::shield_energy(const SeenContacts& seen, float shield) const {
+  Shield at_hand;
+  at_hand.thickness = shield;
+  std::vector<std::uint32_t> contacts_of(seen.vertex_body.size(), 0);
+  find_pairs(seen, contacts_of, at_hand.pairs);
+  at_hand.inherit(shield_.pairs);
+  return at_hand.energy({x_[0].data(), x_[1].data(), x_[2].data()});
 }
 
 /// Wakes sleepers that a body comes near in the coming frame which is faster than twice the speed of sleep: who sleeps

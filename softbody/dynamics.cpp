@@ -91,13 +91,30 @@ int Dynamics::substeps(double seconds) const {
   return int(std::min(most_substeps, std::ceil(std::max(b.fewest, seconds / b.step))));
 }
 
+/// m/s: how fast the fastest swing goes on by what is lost where positions are rounded to floats; `step` is its bound.
+double Dynamics::tremble(double step) const {
+  constexpr double rounding = 1.0 / (1 << 24);
+  double farthest = 0;
+  for (const Batch* b : moving_) {
+    Extent e;
+    kernels_.extent(b->particles(), at(x_, *b), at(v_, *b), e);
+    for (int l = 0; l < b->used; ++l)
+      for (const LaneVector* corner : {&e.lo, &e.hi})
+        farthest = std::max(
+            {farthest, double(std::abs(corner->x[l])), double(std::abs(corner->y[l])), double(std::abs(corner->z[l]))});
+  }
+  return rounding * farthest * 1.6 / step;  // the bound is 0.8 (2 / omega), or less
+}
+
 /// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver, contact
-/// included, is worth about as much as 150 explicit substeps of the same body.
+/// included, is worth about as much as 150 explicit substeps of the same body. But what explicit substeps cannot bring
+/// to rest is left to the other.
 void Dynamics::choose(double seconds) {
-  constexpr double implicit_worth = 150;
+  constexpr double implicit_worth = 150, rest = 1e-3;  // rest: m/s
   integrator_ = find_integrator("semi-implicit-euler");
   const Bound b = bound(seconds);
-  if (seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : implicit_worth * b.fewest)) {
+  const bool cheaper = seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : implicit_worth * b.fewest);
+  if (cheaper && tremble(b.step) <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
   } else if (has_surface_) {
     why_ = "contact of the true surfaces wants short steps";
@@ -106,7 +123,8 @@ void Dynamics::choose(double seconds) {
     why_ = "a body has too many particles for implicit steps";
   } else {
     integrator_ = find_integrator("implicit");
-    why_ = "so stiff that implicit steps are cheaper than explicit substeps";
+    why_ = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
+                   : "so stiff that implicit steps are cheaper than explicit substeps";
   }
 }
 

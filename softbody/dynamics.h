@@ -76,6 +76,13 @@ struct Quantity {
 inline constexpr Quantity positions{0}, velocities{1}, forces{2};
 constexpr Quantity scratch(int i) { return {3 + i}; }
 
+/// What a detector has found.
+struct SeenContacts {
+  const collide::Bodies& vertices;
+  std::span<const BodyId> vertex_body;  // the body of each vertex
+  const std::vector<collide::Contact>& contacts;
+};
+
 class Dynamics {
  public:
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
@@ -106,8 +113,9 @@ class Dynamics {
   void put_to_sleep(BodyId body, bool asleep);
 
   /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.
-  void set_contacts(const collide::Bodies& vertices, std::span<const BodyId> vertex_body,
-                    const std::vector<collide::Contact>& contacts, float shield);
+  void set_contacts(const SeenContacts& seen, float shield);
+  /// J, what these contacts would have stored of bodies that move, see Shield::energy().
+  double shield_energy(const SeenContacts& seen, float shield) const;
 
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
@@ -207,6 +215,8 @@ class Dynamics {
   double fastest(const Batch& batch) const;  // m/s, of its particles
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
+  void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
+                  std::vector<ShieldPair>& pairs) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
   void find_surface_contacts(double left);
   void wake_what_is_hit(double seconds);
@@ -220,6 +230,7 @@ class Dynamics {
     double fewest;  // substeps that keep up with the fastest body near a solid
   };
   Bound bound(double seconds) const;
+  double tremble(double step) const;
   void choose(double seconds);
   void resize_scratch();
   void prepare_implicit(float h);

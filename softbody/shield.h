@@ -54,6 +54,8 @@ struct Shield {
 
   /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
+  /// J: the work of the undamped push along n until each pair is out of sight, and what the friction springs hold.
+  double energy(Field<const float> x) const;
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
     float spring, damper;                // along n

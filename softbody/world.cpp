@@ -157,7 +157,7 @@ void World::step() {
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
   if (s.plan.has(Stage::contact_response)) {
     s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
-    s.dynamics.set_contacts(s.bodies, s.vertex_body, s.result.contacts, s.shield);
+    s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
   }
   s.profile.substeps = s.dynamics.advance(s.options.frame_time);
   s.dynamics.finish_frame(s.options.frame_time);
@@ -254,6 +254,12 @@ std::span<const BodyId> World::vertex_body() const { return state_->vertex_body;
 const Profile& World::profile() const { return state_->profile; }
 std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
 const Dynamics& World::dynamics() const { return state_->dynamics; }
+
+double World::shield_energy() const {
+  const State& s = *state_;
+  if (!s.plan.has(Stage::contact_response)) return 0;
+  return s.dynamics.shield_energy({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+}
 
 std::vector<SolidContact> World::solid_contacts() const {
   constexpr double hair = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding

@@ -9,7 +9,7 @@ namespace app {
 
 /// Fixed at the start.
 struct StabilityLimits {
-  double energy = 0;           // J, at the start
+  double energy = 0;           // J, at the start, of all that a sample counts
   double scale = 0;            // J, max(E0 - E_eq, m g R) of the scene
   double seconds = 0;          // that the run takes
   double radius = 0;           // m, R of the smallest body

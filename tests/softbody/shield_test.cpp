@@ -57,6 +57,26 @@ TEST(Shield, PushesAwayAlongItsNormalByItsLaw) {
     }
 }
 
+TEST(Shield, StoresTheWorkOfItsPush) {
+  for (const double from : {-0.04, 0.0, 0.03})
+    for (const double across : {0.0, 0.03}) {
+      double work = 0;
+      constexpr double step = 1e-5;
+      for (double s = from + step / 2; s < 0.1; s += step) work += step * force({across, s, 0}, glm::dvec3(0.0)).y;
+      const Pair pair({across, from, 0});
+      EXPECT_NEAR(pair.shield.energy(pair.x.field()), work, 1e-4 * work + 1e-9) << from << " " << across;
+    }
+  const Pair apart({0, 0.11, 0});
+  EXPECT_EQ(apart.shield.energy(apart.x.field()), 0);
+}
+
+TEST(Shield, StoresWhatItsFrictionSpringsHold) {
+  Pair pair({0, 0.05, 0}, 1);
+  const double before = pair.shield.energy(std::as_const(pair.x).field());
+  pair.force({0.01, 0, 0}, 0.1);  // a stretch of 1 mm
+  EXPECT_NEAR(pair.shield.energy(std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6, 1e-8);
+}
+
 TEST(Shield, FadesOutWhereTheDetectorLosesSight) {
   EXPECT_NEAR(force({0, 0.0999, 0}, glm::dvec3(0.0)).y, 0, 1e-4);
   EXPECT_EQ(force({0, 0.1001, 0}, glm::dvec3(0.0)).y, 0);

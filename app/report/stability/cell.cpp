@@ -44,7 +44,7 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      energy_ = softbody::measure(world).energy;
+      energy_ = softbody::measure(world).energy + world.shield_energy();
       bodies_ = world.bodies().count();
     }
     return world;
@@ -60,7 +60,7 @@ class Run {
     StabilitySample s{.time = time_,
                       .frame = frame_,
                       .finite = m.finite,
-                      .energy = m.energy,
+                      .energy = m.energy + world.shield_energy(),
                       .speed = m.max_speed,
                       .depth = m.deepest_penetration,
                       .through = passages_.count()};

@@ -19,8 +19,9 @@ std::string introduction(const StabilityResults& r) {
       "Named integrators take exactly one step of their own a frame (of XPBD's it has 20 substeps): where they blow up "
       "is the finding. Only `auto` chooses its steps.\n"
       "- A cell passes if: everything is finite; ";
+  text += "energy, of motion, springs, gas, gravity and the shields between bodies, ";
   text += format(
-      "energy never exceeds that of the start and work from outside by more than %g max(E0 - E_eq, m g R); the fastest "
+      "never exceeds that of the start and work from outside by more than %g max(E0 - E_eq, m g R); the fastest "
       "particle and the longest box stay within what this energy can give; ",
       b.energy);
   text += format(
