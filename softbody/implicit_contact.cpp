@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -10,6 +11,92 @@
 #include "softbody/implicit_solver.h"
 
 namespace softbody {
+namespace {
+
+/// A contact that presses or is passed.
+struct Active {
+  PlaneContact* contact;
+  glm::dvec3 moved;        // m, in this step
+  glm::dvec3 before;       // N
+  glm::dvec3 change{0.0};  // N, in a sweep
+  glm::dvec3 search{0.0};  // N
+};
+
+/// The forces between some particles of one body and their planes, by projected Gauss-Seidel.
+class ForceSweeps {
+ public:
+  /// compliance: m/N, of i to a force on j at i * n + j.
+  ForceSweeps(std::vector<Active>& active, std::vector<glm::dmat3> compliance)
+      : active_(active), compliance_(std::move(compliance)) {}
+
+  /// Until no force's change moves its particle by more than `enough` m. Returns how far one has at most. As few
+  /// particles of a stiff body move together, plain sweeps would hardly converge: they are the gradient of a nonlinear
+  /// conjugate gradient method (Silcowitz, Niebe and Erleben 2010).
+  double run(double enough) {
+    constexpr int most_sweeps = 600;
+    double most = 0, before = 0;
+    for (int s = 1;; ++s) {
+      const double moved = sweep();
+      most = std::max(most, moved);
+      if (moved <= enough || s == most_sweeps) return most;
+      double square = 0;
+      for (const Active& a : active_) square += glm::dot(a.change, a.change);
+      follow(before > 0 ? square / before : 0);
+      before = square;
+    }
+  }
+
+ private:
+  double sweep() {
+    double most = 0;
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      Active& a = active_[i];
+      const PlaneContact& c = *a.contact;
+      const glm::dmat3& own = compliance_[i * active_.size() + i];
+      const double gives = glm::dot(c.normal, own * c.normal), along = glm::dot(a.moved, c.normal);
+      const double before = glm::dot(c.force, c.normal), press = std::max(0.0, before + (c.need - along) / gives);
+      // Across, the mean of the two other principal compliances.
+      const double gives_across = 0.5 * (own[0][0] + own[1][1] + own[2][2] - gives);
+      glm::dvec3 drag = c.force - before * c.normal - (a.moved - along * c.normal) / gives_across;
+      if (const double size = glm::length(drag), limit = c.friction * press; size > limit) drag *= limit / size;
+      a.change = press * c.normal + drag - c.force;
+      add(i, a.change);
+      most = std::max(most, glm::length(own * a.change));
+    }
+    return most;
+  }
+
+  /// Goes on by `share` of the way that led here; from anew where that is no descent.
+  void follow(double share) {
+    for (std::size_t i = 0; i < active_.size(); ++i) {
+      const glm::dvec3 on = share < 1 ? share * active_[i].search : glm::dvec3(0.0);
+      if (on != glm::dvec3(0.0)) add(i, on);
+      active_[i].search = share < 1 ? on + active_[i].change : glm::dvec3(0.0);
+    }
+  }
+
+  void add(std::size_t i, const glm::dvec3& force) {
+    const std::size_t n = active_.size();
+    active_[i].contact->force += force;
+    for (std::size_t j = 0; j < n; ++j) active_[j].moved += compliance_[j * n + i] * force;
+  }
+
+  std::vector<Active>& active_;
+  std::vector<glm::dmat3> compliance_;
+};
+
+}  // namespace
+
+/// Of a particle that has moved by u: the force held and, while springs lead, one on what is left to correct.
+glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const {
+  if (!contact_springs_) return c.force;
+  const double k = p.matrix.contact_stiffness(), along = glm::dot(u, c.normal), held = glm::dot(c.force, c.normal);
+  const double press = std::max(0.0, held + k * (c.need - along));
+  if (press <= 0) return glm::dvec3(0.0);
+  const glm::dvec3 drag = c.force - held * c.normal - k * (u - along * c.normal);
+  const double size = glm::length(drag), limit = c.friction * press;
+  return press * c.normal + (size > limit ? drag * (limit / size) : drag);
+}
 
 /// The prediction ends where the first particle meets its plane: beyond, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
@@ -23,37 +110,75 @@ void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
     if (part[i % lanes] < 1) x_[i] = (*p.x)[i] + part[i % lanes] * (x_[i] - (*p.x)[i]);
 }
 
-/// Brings the contact forces up to date with the positions, and these with the forces' changes.
-void ImplicitSolver::press(const ImplicitProblem& p) {
-  direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move
-  double most = 0;
-  std::vector<PlaneContact>& planes = *p.planes;
-  for (std::size_t first = 0; first < planes.size();) {
-    std::size_t end = first;
-    while (end < planes.size() && planes[end].at % lanes == planes[first].at % lanes) ++end;
-    most = std::max(most, press_lane(p, std::span(planes).subspan(first, end - first)));
-    first = end;
+/// Rounds that each leave a fraction of the error where the matrix says what the body does. Returns in which lanes they
+/// have come to an end.
+std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
+  constexpr int most_rounds = 30, look_every = 4;
+  const double enough = 1e-7 * p.prototype.radius;
+  contact_springs_ = false;
+  std::array<bool, lanes> held{}, lost{};
+  PerLane limit;
+  limit.fill(std::numeric_limits<double>::infinity());
+  for (int round = 0; round < most_rounds; ++round) {
+    minimise(p, iterations_of_round);
+    const PerLane moved = press(p);
+    bool open = false;
+    for (std::size_t l = 0; l < lanes; ++l) {
+      held[l] = !lost[l] && converged_[l] && moved[l] <= enough;
+      lost[l] = lost[l] || (!held[l] && !(moved[l] < limit[l]));
+      if (round % look_every == 0 && moved[l] > 0) limit[l] = moved[l];
+      open = open || !(held[l] || lost[l]);
+    }
+    if (!open) break;
   }
-  if (most <= 0) return;
-  apply_matrix(p, direction_);
-  PerLane once;
-  once.fill(1.0);
-  add_scaled(once, direction_, x_);
+  return held;
 }
 
-/// Projected Gauss-Seidel over the contacts of one lane that press or are passed. Adds the changes of their forces to
-/// direction_; returns how far these have moved a particle at most, in m.
+/// Robust rather than exact: what they end with need not be where all is in balance.
+void ImplicitSolver::lead_by_springs(const ImplicitProblem& p) {
+  constexpr int most_rounds = 8;
+  contact_springs_ = true;
+  for (int round = 0; round < most_rounds; ++round) {
+    press(p);
+    const bool settled = minimise(p, iterations_of_round);
+    double most = 0;
+    for (PlaneContact& c : *p.planes) {
+      const glm::dvec3 force = contact_force(p, c, read(x_, c.at) - read(*p.x, c.at));
+      most = std::max(most, glm::length(force - c.force));
+      c.force = force;
+    }
+    if (settled && most <= 1e-7 * p.prototype.radius * p.matrix.contact_stiffness()) break;
+  }
+}
+
+/// Brings the contact forces up to date with the positions, and these with the forces' changes. Returns how far these
+/// have moved a particle at most, in m.
+ImplicitSolver::PerLane ImplicitSolver::press(const ImplicitProblem& p) {
+  PerLane moved{}, once;
+  direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move
+  std::vector<PlaneContact>& planes = *p.planes;
+  for (std::size_t first = 0; first < planes.size();) {
+    const std::size_t lane = planes[first].at % lanes;
+    std::size_t end = first;
+    while (end < planes.size() && planes[end].at % lanes == lane) ++end;
+    moved[lane] = press_lane(p, std::span(planes).subspan(first, end - first));
+    first = end;
+  }
+  if (std::ranges::max(moved) <= 0) return moved;
+  apply_matrix(p, direction_);
+  once.fill(1.0);
+  add_scaled(once, direction_, x_);
+  return moved;
+}
+
+/// The forces of one lane's contacts that press or are passed. Adds their changes to direction_; returns how far these
+/// have moved a particle at most, in m.
 double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneContact> all) {
   const std::size_t lane = all.front().at % lanes;
   glm::dmat3 rotation(1.0);
   if (p.matrix.turns())
     for (int c = 0; c < 3; ++c)
       for (int r = 0; r < 3; ++r) rotation[c][r] = rotation_[3 * c + r][lane];
-  struct Active {
-    PlaneContact* contact;
-    glm::dvec3 moved;   // m, in this step
-    glm::dvec3 before;  // N
-  };
   std::vector<Active> active;
   for (PlaneContact& c : all) {
     const glm::dvec3 moved = read(x_, c.at) - read(*p.x, c.at);
@@ -61,7 +186,7 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
   }
   const std::size_t n = active.size();
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square
-  if (n > most_active) return 0;
+  if (n > most_active) return contact_springs_ ? 0 : std::numeric_limits<double>::infinity();
   std::vector<glm::dmat3> compliance(n * n);
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
@@ -69,29 +194,9 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
       compliance[i * n + j] =
           rotation * p.matrix.compliance(Index(active[i].contact->at / lanes), Index(active[j].contact->at / lanes)) *
           back;
-  const double enough = 1e-9 * p.prototype.radius;
-  double most = 0;
-  for (int sweep = 0; sweep < most_sweeps; ++sweep) {
-    double largest = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-      PlaneContact& c = *active[i].contact;
-      const glm::dmat3& own = compliance[i * n + i];
-      const double gives = glm::dot(c.normal, own * c.normal), along = glm::dot(active[i].moved, c.normal);
-      const double before = glm::dot(c.force, c.normal), press = std::max(0.0, before + (c.need - along) / gives);
-      // Across, the mean of the two other principal compliances.
-      const double gives_across = 0.5 * (own[0][0] + own[1][1] + own[2][2] - gives);
-      glm::dvec3 drag = c.force - before * c.normal - (active[i].moved - along * c.normal) / gives_across;
-      if (const double size = glm::length(drag), limit = c.friction * press; size > limit) drag *= limit / size;
-      const glm::dvec3 change = press * c.normal + drag - c.force;
-      c.force += change;
-      for (std::size_t j = 0; j < n; ++j) active[j].moved += compliance[j * n + i] * change;
-      largest = std::max(largest, glm::length(own * change));
-    }
-    most = std::max(most, largest);
-    if (largest <= enough) break;
-  }
+  const double most = ForceSweeps(active, std::move(compliance)).run(1e-9 * p.prototype.radius);
   // So far the matrix says nothing of a body that is crushed: then the springs of contact_force() have to do.
-  const bool trusted = most <= p.prototype.radius;
+  const bool trusted = !contact_springs_ || most <= p.prototype.radius;
   for (const Active& a : active) {
     if (!trusted) a.contact->force = a.before;
     add(direction_, a.contact->at, a.contact->force - a.before);

@@ -1,5 +1,7 @@
 #include "softbody/implicit_energy.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
 
 namespace softbody {
@@ -40,7 +42,22 @@ double gas_work(const Prototype& p, double from, double to) {
 
 }  // namespace
 
-bool gains_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity) {
+double contact_work(const ImplicitWork& work, std::size_t lane) {
+  const std::size_t stride = work.x.size() / 3;
+  const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
+  double sum = 0;
+  for (const PlaneContact& c : work.planes)  // they push out, and friction takes
+    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * std::max(0.0, c.need);
+  for (const LinearShield& s : work.shields) {
+    if (s.at % lanes != lane) continue;
+    const glm::dvec3 moved = end_x[s.at / lanes] - x[s.at / lanes];
+    sum += std::max(0.0, glm::dot(s.after(moved), moved));
+  }
+  return sum;
+}
+
+bool gains_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
+                  double contact_work) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
   if (!p.goal.empty()) return false;
   const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
@@ -53,7 +70,7 @@ bool gains_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane
     fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
   }
   const double elastic = spring_energy(p, x);
-  double gain = after - before - fallen + spring_energy(p, end_x) - elastic;
+  double gain = after - before - fallen - contact_work + spring_energy(p, end_x) - elastic;
   if (p.has_gas) gain -= gas_work(p, volume_of(p, x), volume_of(p, end_x));
   return gain > share * (before + after) + rounding * elastic;
 }

@@ -114,16 +114,6 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
       g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
-/// Of a particle that has moved by u: the force held and a spring on what is left to correct.
-glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const {
-  const double k = p.matrix.contact_stiffness(), along = glm::dot(u, c.normal), held = glm::dot(c.force, c.normal);
-  const double press = std::max(0.0, held + k * (c.need - along));
-  if (press <= 0) return glm::dvec3(0.0);
-  const glm::dvec3 drag = c.force - held * c.normal - k * (u - along * c.normal);
-  const double size = glm::length(drag), limit = c.friction * press;
-  return press * c.normal + (size > limit ? drag * (limit / size) : drag);
-}
-
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, read(x, c.at) - read(*p.x, c.at)));
   for (const LinearShield& s : *p.shields) add(f, s.at, s.after(read(x, s.at) - read(*p.x, s.at)));
@@ -274,17 +264,17 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
     minimise(p, most_iterations);
     return x_;
   }
-  for (int round = 0; round < most_rounds; ++round) {
-    press(p);
-    const bool settled = minimise(p, iterations_of_round);
-    double most = 0;
-    for (PlaneContact& c : *p.planes) {
-      const glm::dvec3 force = contact_force(p, c, read(x_, c.at) - read(*p.x, c.at));
-      most = std::max(most, glm::length(force - c.force));
-      c.force = force;
-    }
-    if (settled && most <= 1e-7 * p.prototype.radius * p.matrix.contact_stiffness()) break;
-  }
+  const std::array<bool, lanes> held = hold_forces(p);
+  if (std::ranges::find(held, false) == held.end()) return x_;
+  const Lanes found = x_;
+  const std::vector<PlaneContact> forces = *p.planes;
+  for (PlaneContact& c : *p.planes) c.force = glm::dvec3(0.0);
+  predict(p);
+  lead_by_springs(p);
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (held[i % lanes]) x_[i] = found[i];
+  for (std::size_t i = 0; i < forces.size(); ++i)
+    if (held[forces[i].at % lanes]) (*p.planes)[i] = forces[i];
   return x_;
 }
 

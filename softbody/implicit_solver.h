@@ -8,8 +8,9 @@
 // passes the minimum along its direction is shortened by the secant of the slopes, so that no energy, and no logarithm
 // of it, is needed. Contact with solids is implicit, too (Otaduy et al. 2009, "Implicit contact handling for deformable
 // objects"): rounds of this solve with the contact forces held, and of projected Gauss-Seidel for these forces,
-// Coulomb's cone included, on the compliance that the matrix gives the touching particles. Other bodies' shields enter
-// to first order.
+// Coulomb's cone included, on the compliance that the matrix gives the touching particles. A body that is crushed is
+// not what the matrix says; there springs between particles and planes lead the rounds. Other bodies' shields enter to
+// first order.
 
 #include <array>
 #include <functional>
@@ -73,8 +74,7 @@ class ImplicitSolver {
  private:
   using PerLane = std::array<double, lanes>;
   static constexpr std::size_t history = 6;
-  static constexpr int most_iterations = 40, most_rounds = 8, iterations_of_round = 12, most_halvings = 6;
-  static constexpr int most_sweeps = 60;  // of Gauss-Seidel
+  static constexpr int most_iterations = 40, iterations_of_round = 12, most_halvings = 6;
 
   Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
@@ -89,7 +89,9 @@ class ImplicitSolver {
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
-  void press(const ImplicitProblem& p);
+  std::array<bool, lanes> hold_forces(const ImplicitProblem& p);
+  void lead_by_springs(const ImplicitProblem& p);
+  PerLane press(const ImplicitProblem& p);
   double press_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
   bool minimise(const ImplicitProblem& p, int iterations);
   void direction(const ImplicitProblem& p);
@@ -110,6 +112,7 @@ class ImplicitSolver {
   std::size_t remembered_ = 0, newest_ = 0;
   PerLane step_{}, reach_{};  // reach: m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][lanes];
+  bool contact_springs_ = false;  // while they lead
   std::array<bool, lanes> converged_{};
   int iterations_ = 0;
 };

@@ -7,6 +7,7 @@
 
 #include "softbody/dynamics.h"
 #include "softbody/implicit_energy.h"
+#include "softbody/implicit_planes.h"
 #include "softbody/implicit_stages.h"
 #include "softbody/integrator_steps.h"
 #include "softbody/rigid_motion.h"
@@ -56,7 +57,7 @@ const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const 
           })->matrix;
 }
 
-/// The planes of near solids before each particle that may come near its plane in this step; which lanes touch one.
+/// The planes of near solids before each particle; which lanes meet one by what moves them at the start.
 std::array<bool, lanes> Dynamics::find_planes(const Batch& b, ImplicitWork& work, double h) const {
   std::array<bool, lanes> touches{};
   const std::size_t n = b.particles() * lanes;
@@ -79,9 +80,6 @@ std::array<bool, lanes> Dynamics::find_planes(const Batch& b, ImplicitWork& work
         touches[lane] = touches[lane] || meets;
         work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need});
       }
-    // Bodies deform: once one particle touches, all are watched.
-    if (!touches[lane])
-      while (!work.planes.empty() && work.planes.back().at % lanes == lane) work.planes.pop_back();
   }
   return touches;
 }
@@ -195,20 +193,30 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       first_order[l] = first_order[l] || !converged[l];
     }
     keep_momentum(b, work, free, h);
-    for (std::size_t l = 0; l < lanes; ++l)
-      first_order[l] = first_order[l] || (b.moves[l] > 0 && gains_energy(*b.prototype, work, l, gravity));
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
+    const std::array<bool, lanes> behind = behind_planes(work);
+    for (std::size_t l = 0; l < lanes; ++l)
+      first_order[l] =
+          first_order[l] || behind[l] || (b.moves[l] > 0 && gains_energy(*b.prototype, work, l, gravity, 0));
   }
   for (std::size_t l = 0; l < lanes; ++l) any_first = any_first || (first_order[l] && b.moves[l] > 0);
   if (any_first) {
+    std::erase_if(work.planes, [&](const PlaneContact& c) { return !first_order[c.at % lanes]; });
     ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, gravity, work);
     work.end_x = work.solver.solve(problem);
     for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.x[i]) / h;
-    std::array<bool, lanes> apart{};
-    for (std::size_t l = 0; l < lanes; ++l) apart[l] = first_order[l] && !solid[l];
+    std::array<bool, lanes> apart = first_order;
+    for (const PlaneContact& c : work.planes)
+      if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
     keep_momentum(b, work, apart, h);
+    clear_planes(work, h);
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (first_order[l] && b.moves[l] > 0 &&
+          (!keeps_balance(*b.prototype, work, l, h, gravity) ||
+           gains_energy(*b.prototype, work, l, gravity, contact_work(work, l))))
+        stop_as_one(work, l, h, gravity);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (first_order[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
     for (const PlaneContact& c : work.planes) {
