@@ -6,11 +6,11 @@
 
 #include <glm/geometric.hpp>
 
+#include "collide/closest_shares.h"
+
 namespace collide {
 
 namespace {
-
-constexpr float slight = 1e-6f;  // squared sine of an angle below which a face is a line, and edges are parallel
 
 const Closest& nearer(const Closest& a, const Closest& b) {
   return glm::dot(b.apart, b.apart) < glm::dot(a.apart, a.apart) ? b : a;
@@ -23,46 +23,21 @@ Closest closest_vertex_face(const glm::vec3& p, const glm::vec3& a, const glm::v
     const float u = 1 - v - w;
     return {{1, u, v, w}, p - (u * a + v * b + w * c), inner};
   };
-  const auto share = [](float part, float whole) { return whole > 0 ? std::clamp(part / whole, 0.0f, 1.0f) : 0.0f; };
-  const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c;
-  const float d1 = glm::dot(ab, ap), d2 = glm::dot(ac, ap);
-  if (d1 <= 0 && d2 <= 0) return at(0, 0, false);
-  const float d3 = glm::dot(ab, bp), d4 = glm::dot(ac, bp);
-  if (d3 >= 0 && d4 <= d3) return at(1, 0, false);
-  const float d5 = glm::dot(ab, cp), d6 = glm::dot(ac, cp);
-  if (d6 >= 0 && d5 <= d6) return at(0, 1, false);
-  const auto on_ab = [&] { return at(share(d1, d1 - d3), 0, false); };
-  const auto on_ac = [&] { return at(0, share(d2, d2 - d6), false); };
-  const auto on_bc = [&] {
-    const float w = share(d4 - d3, (d4 - d3) + (d5 - d6));
-    return at(1 - w, w, false);
-  };
+  const glm::vec3 ab = b - a, ac = c - a, ap = p - a, bp = p - b, cp = p - c, n = glm::cross(ab, ac);
+  const FaceShares m = face_shares(glm::dot(ab, ap), glm::dot(ac, ap), glm::dot(ab, bp), glm::dot(ac, bp),
+                                   glm::dot(ab, cp), glm::dot(ac, cp));
   // In a sliver rounding decides between the sides and the inside: its sides are close enough to all of it.
-  if (const glm::vec3 n = glm::cross(ab, ac); glm::dot(n, n) <= slight * glm::dot(ab, ab) * glm::dot(ac, ac))
-    return nearer(nearer(on_ab(), on_ac()), on_bc());
-  const float vc = d1 * d4 - d3 * d2;
-  if (vc <= 0 && d1 >= 0 && d3 <= 0) return on_ab();
-  const float vb = d5 * d2 - d1 * d6;
-  if (vb <= 0 && d2 >= 0 && d6 <= 0) return on_ac();
-  const float va = d3 * d6 - d5 * d4;
-  if (va <= 0 && d4 - d3 >= 0 && d5 - d6 >= 0) return on_bc();
-  const float sum = va + vb + vc;
-  return at(vb / sum, vc / sum, true);
+  if (!m.corner && glm::dot(n, n) <= slight * glm::dot(ab, ab) * glm::dot(ac, ac))
+    return nearer(nearer(at(m.along_ab, 0, false), at(0, m.along_ac, false)), at(1 - m.along_bc, m.along_bc, false));
+  return at(m.v, m.w, m.inner);
 }
 
 Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s) {
   const glm::vec3 d1 = q - p, d2 = s - r, between = p - r;
-  const float a = glm::dot(d1, d1), e = glm::dot(d2, d2), f = glm::dot(d2, between), c = glm::dot(d1, between),
-              b = glm::dot(d1, d2);
-  const auto within = [](float part, float whole) { return whole > 0 ? std::clamp(part / whole, 0.0f, 1.0f) : 0.0f; };
-  const float denominator = a * e - b * b;
-  const bool parallel = denominator <= slight * a * e;
-  float along = parallel ? 0.0f : std::clamp((b * f - c * e) / denominator, 0.0f, 1.0f);
-  float across = within(b * along + f, e);
-  along = within(b * across - c, a);
-  const auto inside = [](float t) { return t > 0 && t < 1; };
-  const glm::vec3 apart = between + along * d1 - across * d2;
-  return {{1 - along, along, 1 - across, across}, apart, !parallel && inside(along) && inside(across)};
+  const EdgeShares m = edge_shares(glm::dot(d1, d1), glm::dot(d1, d2), glm::dot(d1, between), glm::dot(d2, d2),
+                                   glm::dot(d2, between));
+  const glm::vec3 apart = between + m.along * d1 - m.across * d2;
+  return {{1 - m.along, m.along, 1 - m.across, m.across}, apart, m.inner};
 }
 
 bool inside(const glm::vec3& point, const Surface& surface, const Run& at) {

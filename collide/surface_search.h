@@ -2,41 +2,27 @@
 // Candidates for the contact of surfaces: which vertices and faces, and which edges and edges, can come within reach of
 // each other while bodies move on for a while. The same stages as the exact detector: boxes per body, bodies whose
 // boxes are near, midpoint cuts of the area where two of them overlap (§2.1, §5); what is boxed here is features, swept
-// over their motion, so that nothing fast slips through.
+// over their motion, so that nothing fast slips through. A body that strays is foreseen anew, alone with its
+// neighbours; all others' candidates stay.
 //
 // Why nothing is lost, as long as no vertex strays from its straight path x + v t by more than its body's slack (see
 // holds()): seen from the frame of reference that moves with body b's mean velocity u_b, a vertex of body a stays
-// within the box spanned by 0 and (v - u_a) T, plus that spanned by 0 and (u_a - u_b) T, around x, grown by the slack.
-// Boxes are grown by the body's skin instead, so that features that come within the sum of their bodies' (skin - slack)
-// of each other have boxes that overlap: they are candidates.
+// within the box spanned by 0 and (v - u_a) T, plus that spanned by where a is seen from b first and last, around x,
+// grown by the slack. Boxes are grown by the body's skin instead, so that features that come within the sum of their
+// bodies' (skin - slack) of each other have boxes that overlap: they are candidates.
 //   Within a body, let v_i = u + w x r_i + s_i for any u and w. Then |x_i + v_i t - x_j - v_j t| >= |(1 + t [w]) (r_i -
 // r_j)| - t |s_i| - t |s_j|, and the first is at least |r_i - r_j|, since w x r is normal to r: turning brings nothing
 // closer. Turned back by 1 + t [w], the strain s t is off by t |w| times itself at most: boxes swept over s T and grown
 // by that and the skin overlap if the features come within reach.
 
-#include <span>
 #include <utility>
 #include <vector>
 
-#include "collide/box_pairs.h"
-#include "collide/closest_features.h"
+#include "collide/feature_pairs.h"
+#include "collide/swept_body.h"
 #include "collide/workers.h"
 
 namespace collide {
-
-/// What moves, seen at one instant: one value a vertex, over all bodies.
-struct Motion {
-  Frame positions;                    // m
-  std::span<const float> vx, vy, vz;  // m/s
-};
-
-struct SurfaceBody {
-  const Surface* surface = nullptr;
-  float skin = 0;      // m: reach and slack
-  float slack = 0;     // m
-  float edge = 0;      // m, the mean at rest
-  bool moves = false;  // pairs of which neither does are left out
-};
 
 /// Two features by their local numbers.
 struct FeaturePair {
@@ -45,13 +31,15 @@ struct FeaturePair {
   auto key() const { return std::pair(a, b); }
 };
 
-/// The candidates of two bodies, or of one with itself (a == b), as places in SurfaceSearch::features().
+/// The candidates of two bodies, or of one with itself (a == b), as places in SurfaceSearch::features(). There may be
+/// none, if one of the bodies may be wholly inside the other.
 struct SurfacePair {
   Index a, b;                 // a <= b
   std::uint32_t vertex_face;  // vertex of a, face of b: from here
   std::uint32_t face_vertex;  // vertex of b, face of a; none if a == b
   std::uint32_t edge_edge;    // edge of a, edge of b (the greater second if a == b)
   std::uint32_t end;
+  auto bodies() const { return std::pair(a, b); }
 };
 
 class SurfaceSearch {
@@ -59,80 +47,75 @@ class SurfaceSearch {
   /// Finds all candidates of the coming `seconds`, bodies ascending and features ascending within their range. Bodies
   /// that are not finite are left out. self: also within bodies. Throws std::length_error beyond most_features.
   void find(const Motion& motion, std::span<const SurfaceBody> bodies, float seconds, bool self, Workers& workers);
+  /// `elapsed` seconds later: finds those of bodies that are due anew. bodies: theirs may have changed; motion: that of
+  /// others is not looked at.
+  void renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, Workers& workers);
   void clear();
 
-  const std::vector<SurfacePair>& pairs() const { return pairs_; }
-  const std::vector<FeaturePair>& features() const { return features_; }
-  std::uint64_t unfolded() const { return unfolded_; }  // bodies that cannot touch themselves: no self pass
-  /// Puts features() and stray() of an earlier search back, one stray a body; pairs() are none until the next find().
-  void recall(std::vector<FeaturePair> features, std::span<const float> strays);
+  const std::vector<SurfacePair>& pairs() const { return now_.pairs; }
+  const std::vector<FeaturePair>& features() const { return now_.features; }
+  /// Those before the last find() or renew().
+  const std::vector<FeaturePair>& features_before() const { return before_.features; }
+  /// How a body's motion bore out what was foreseen.
+  struct Past {
+    float stray;   // m
+    float lasted;  // s, until the end of what find() was asked for
+  };
+  Past past(Index body) const { return {swept_[body].stray(), end_ - swept_[body].begin()}; }
+  /// Puts features() and past() of an earlier search back, one a body; pairs() are none until the next find().
+  void recall(std::vector<FeaturePair> features, std::span<const Past> past);
 
-  /// Whether the candidates are still complete `elapsed` seconds after find(), with the bodies where they are now.
-  bool holds(const Frame& now, float elapsed);
-  /// m: how far a vertex of a body has strayed from its straight path, at the most in any holds() since find().
-  float stray(Index body) const { return swept_[body].stray; }
+  /// Whether the candidates are still complete `elapsed` seconds after find(), with the bodies where they are now, and
+  /// will be for the seconds `ahead`.
+  bool holds(const Frame& now, float elapsed, float ahead = 0);
+  float foreseen() const { return foreseen_; }  // s after find(): until then all bodies' motion is
+  /// A body as it was foreseen last, and how far it has strayed from that, at the most in any holds() since.
+  const SweptBody& body(Index body) const { return swept_[body]; }
 
   /// m/s: a bound of the relative speed of a pair's vertices during the motion that was foreseen.
   float speed(const SurfacePair& pair) const;
-  /// Where a body's vertices were seen by find().
-  Run run(Index body) const;
 
   static constexpr std::size_t most_features = std::size_t{1} << 27;
 
  private:
-  struct Swept {
-    bool live = false;
-    glm::vec3 velocity{0.0f};  // mean, m/s
-    float spread = 0;          // m: how far a vertex may get from where the mean velocity takes it
-    float strain = 0;          // m: the same from where the body's rigid motion takes it
-    glm::vec3 centre{0.0f};    // m
-    glm::vec3 spin{0.0f};      // 1/s, about the centre
-    float stray = 0;           // m
-    Aabb box;                  // of all its vertices, seen from the body
-    Aabb world;                // the same seen from the world
-    BoxList vertices, faces, edges;
+  struct Candidates {
+    std::vector<SurfacePair> pairs;
+    std::vector<FeaturePair> features;
   };
   struct alignas(64) Thread {
     BoxPairs search;
     BoxList vertices_a, faces_a, edges_a, vertices_b, faces_b, edges_b;
     BoxList vertices, faces, edges;  // of one body at rest
-    std::vector<SurfacePair> pairs;
     std::vector<ItemPair> found;
-    std::vector<FeaturePair> features;
-    std::uint64_t unfolded = 0;
+    FeaturePairs meeting;
+    Candidates candidates;
   };
-  void sweep_body(Index body);
-  void find_pair(Thread& own, SurfacePair& pair);
-  void find_self(Thread& own, SurfacePair& pair);
-  /// Of two features: how far apart, m^2, and how fast their corners pass each other, (m/s)^2.
-  struct Meeting {
-    float distance2, speed2;
-  };
-  Meeting vertex_face(Index a, Index vertex, Index b, const Triangle& face) const;
-  Meeting edge_edge(Index a, const Edge& one, Index b, const Edge& two) const;
+  void search(const Motion& motion, Workers& workers);
+  void find_near();
+  void find_candidates(Thread& own, const ItemPair& bodies);
+  void find_pair(Thread& own, SurfacePair& pair) const;
+  void find_self(Thread& own, SurfacePair& pair) const;
+  void stay(Thread& own, SurfacePair& pair) const;
+  void gather();
+  void keep_vertices_on_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
+  void keep_edges(Thread& own, const SurfacePair& pair) const;
   template <std::size_t n, std::size_t m>
   float fastest(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const;
-  template <class Meet>
-  void keep(Thread& own, const SurfacePair& pair, const Meet& meet);
-  glm::vec3 at(Index body, Index v) const;
-  glm::vec3 velocity(Index body, Index v) const;
-  glm::vec3 strain_velocity(Index body, Index v) const;
-  void gather();
-  bool star_shaped(Index body) const;
-  void find_near();
+  template <class Speed>
+  void keep(Thread& own, const SurfacePair& pair, const Speed& speed2) const;
+  glm::vec3 at(Index body, Index v) const { return swept_[body].at(v, time_); }
 
-  Motion motion_{};
   std::span<const SurfaceBody> bodies_;
-  float seconds_ = 0;
-  std::array<std::vector<float>, 3> start_, velocity_;
-  std::vector<Swept> swept_;
+  bool self_ = false;
+  float time_ = 0, end_ = 0, foreseen_ = 0;  // s after find()
+  std::vector<SweptBody> swept_;
+  std::vector<char> anew_;    // bodies that are foreseen anew
+  std::vector<char> needed_;  // of these, and of those near them: whose features' boxes are
+  std::vector<char> boxed_;   // bodies that have them
   std::vector<Index> order_;
   std::vector<ItemPair> near_;  // bodies; a == b: with itself
-  std::vector<char> needed_;
   std::vector<Thread> threads_;
-  std::vector<SurfacePair> pairs_;
-  std::vector<FeaturePair> features_;
-  std::uint64_t unfolded_ = 0;
+  Candidates now_, before_;
 };
 
 }  // namespace collide

@@ -99,7 +99,8 @@ double Dynamics::shield_energy(const SeenContacts& seen, float shield) const {
 /// through a hit stands like a wall.
 void Dynamics::wake_what_is_hit(double seconds) {
   if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.moves(); })) return;
-  find_surface_contacts(seconds);
+  if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.asleep; })) return;
+  find_surface_contacts(seconds, seconds);
   for (const collide::SurfacePair& pair : surface_.search().pairs())
     for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (!bodies_[sleeper].asleep || !bodies_[by].moves() || fastest(by) <= 2 * scene_.sleep.speed) continue;
@@ -108,14 +109,30 @@ void Dynamics::wake_what_is_hit(double seconds) {
     }
 }
 
-/// Finds the candidates of surface contact for the rest of the frame, unless those at hand still hold.
-void Dynamics::find_surface_contacts(double left) {
+/// Of h seconds, that the candidates at hand may be taken for, if they hold: one at least.
+int Dynamics::foreseen_substeps(double left, double h) const {
+  const double seconds = double(surface_.search().foreseen()) - (found_ - left);
+  return std::max(1, int(std::min(seconds / h + 1e-3, 1e6)));
+}
+
+/// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those that
+/// are left of the frame.
+void Dynamics::find_surface_contacts(double left, double ahead) {
   const std::size_t n = vertices_->vertex_count();
   for (auto* components : {&seen_, &velocity_})
     for (auto& c : *components) c.resize(n);
   world_positions(seen_[0], seen_[1], seen_[2]);
   const collide::Frame now{seen_[0], seen_[1], seen_[2], vertices_};
-  if (found_ > 0 && surface_.holds(now, float(found_ - left))) return;
+  const auto elapsed = float(found_ - left);
+  if (found_ > 0 && surface_.holds(now, elapsed, float(ahead))) return;
+  for (BodyId id = 0; id < bodies_.size(); ++id)
+    for (Index v = 0; v < vertices_->size(id); ++v)
+      for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(bodies_[id], v)];
+  const collide::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
+  if (found_ > 0) {
+    surface_.renew(motion, elapsed, float(ahead), workers_);
+    return;
+  }
   found_ = left;
   since_found_.assign(std::size_t(workers_.threads()), 0.0f);
   std::vector<collide::SurfaceBody> traits;
@@ -125,17 +142,11 @@ void Dynamics::find_surface_contacts(double left) {
     const Prototype& p = prototype(id);
     const auto edge = float(p.mean_edge);
     const float reach = std::clamp(0.5f * float(p.material.thickness), 0.001f * edge, 0.1f * edge);
-    // Twice what the body needed last: the calmer it is, the fewer candidates. A new one is no calm one.
-    const float strayed = id < surface_.bodies() && surface_.moved(id) ? 2 * surface_.stray(id) : edge;
-    const float slack = std::clamp(strayed, 0.015f * edge, 0.1f * edge);
-    traits.push_back({p.surface.get(), reach + slack, slack, edge, body.moves()});
+    traits.push_back({p.surface.get(), reach, 0, edge, body.moves()});
     contacts.push_back({body.origin, slot(body, 0), body.moves() ? float(1 / p.particle_mass) : 0.0f,
                         float(p.material.friction), float(p.material.restitution), &p.shape->rest()});
-    for (Index v = 0; v < p.mesh.vertices.size(); ++v)
-      for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(body, v)];
   }
-  surface_.find({now, velocity_[0], velocity_[1], velocity_[2]}, std::move(traits), std::move(contacts), float(left),
-                self_contact_, workers_);
+  surface_.find(motion, std::move(traits), std::move(contacts), float(left), float(ahead), self_contact_, workers_);
 }
 
 }  // namespace softbody

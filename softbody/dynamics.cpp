@@ -152,8 +152,8 @@ int Dynamics::advance(double seconds) {
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {
-    if (has_surface_) find_surface_contacts(left);
     const int stable = fixed ? fixed - total : substeps(left);
+    if (has_surface_) find_surface_contacts(left, left / stable);
     const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
     int count = std::max(stable, rate);
     // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
@@ -166,6 +166,7 @@ int Dynamics::advance(double seconds) {
     int now = fixed ? count : std::min(count, substeps_within_bound(left / count));
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
+    if (has_surface_) now = std::min(now, foreseen_substeps(left, left / count));
     run(now, static_cast<float>(left / count), total == 0);
     total += now;
     left = now == count ? 0 : left - now * (left / count);

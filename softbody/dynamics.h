@@ -218,7 +218,8 @@ class Dynamics {
   void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
                   std::vector<ShieldPair>& pairs) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
-  void find_surface_contacts(double left);
+  void find_surface_contacts(double left, double ahead);
+  int foreseen_substeps(double left, double h) const;
   void wake_what_is_hit(double seconds);
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>

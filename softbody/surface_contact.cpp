@@ -15,9 +15,21 @@ namespace {
 using collide::Closest;
 using collide::FeaturePair;
 using collide::Surface;
+using collide::SurfaceSearch;
 
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
+constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
 constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
+
+/// m: how far a body may stray, if it strayed so far before.
+float slack_after(float stray, const collide::SurfaceBody& before) { return std::max(2 * stray, before.slack / 2); }
+
+/// The calmer a body is, the fewer candidates it needs.
+void set_slack(collide::SurfaceBody& body, float wanted) {
+  const float slack = std::clamp(wanted, 0.015f * body.edge, 0.1f * body.edge);
+  body.skin += slack - body.slack;
+  body.slack = slack;
+}
 
 }  // namespace
 
@@ -33,24 +45,49 @@ void SurfaceContact::clear() {
 }
 
 void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits,
-                          std::vector<ContactBody> bodies, float seconds, bool self, collide::Workers& workers) {
-  const std::vector<FeaturePair> old_features = search_.features();
-  const std::vector<Pair> old_pairs = std::move(pairs_);
-  const std::vector<Memory> old_memory = std::move(memory_);
-  traits_ = std::move(traits);
-  bodies_ = std::move(bodies);
+                          std::vector<ContactBody> bodies, float seconds, float ahead, bool self,
+                          collide::Workers& workers) {
+  std::swap(traits, traits_);
+  std::swap(bodies, bodies_);
+  for (Index body = 0; body < traits_.size(); ++body) {
+    const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
+    if (!known) {
+      set_slack(traits_[body], traits_[body].edge);
+      continue;
+    }
+    const SurfaceSearch::Past past = search_.past(body);
+    set_slack(traits_[body], slack_after(past.stray, traits[body]));
+    traits_[body].foresight = std::max(ahead, patience * past.lasted);
+  }
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   search_.find(motion, traits_, seconds, self, workers);
+  take_candidates(motion.positions);
+}
+
+void SurfaceContact::renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers) {
+  for (Index body = 0; body < traits_.size(); ++body) {
+    const collide::SweptBody& swept = search_.body(body);
+    if (!swept.due()) continue;
+    traits_[body].foresight = std::max(ahead, patience * (elapsed - swept.begin()));
+    if (swept.strayed()) set_slack(traits_[body], slack_after(swept.stray(), traits_[body]));
+  }
+  search_.renew(motion, traits_, elapsed, workers);
+  take_candidates(motion.positions);
+}
+
+void SurfaceContact::take_candidates(const collide::Frame& now) {
+  std::swap(pairs_, pairs_before_);
+  std::swap(memory_, memory_before_);
   pairs_.clear();
   for (const collide::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
   memory_.assign(search_.features().size(), {});
   room_.assign(search_.features().size(), std::numeric_limits<float>::max());
-  inherit(old_pairs, old_features, old_memory);
+  inherit();
   for (const Pair& p : pairs_)
     if (p.range.a == p.range.b) leave_room(p);
   deep_.clear();
   for (Pair& p : pairs_)
-    if (p.overlap) find_deep(p);
+    if (p.overlap) find_deep(p, now);
   foresee_speeds();
   colour();
 }
@@ -83,7 +120,10 @@ void SurfaceContact::foresee_speeds() {
     for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
     rate_ = std::max(rate_, speed / (step_share * edge));
   }
-  for (Pair& p : pairs_) p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
+  for (Pair& p : pairs_) {
+    p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
+    p.rate = p.speed / (step_share * std::min(traits_[p.range.a].edge, traits_[p.range.b].edge));
+  }
 }
 
 SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range) const {
@@ -102,23 +142,20 @@ SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range
 }
 
 /// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
-void SurfaceContact::inherit(const std::vector<Pair>& old_pairs, const std::vector<FeaturePair>& old_features,
-                             const std::vector<Memory>& old_memory) {
-  auto old = old_pairs.begin();
-  const auto before = [](const collide::SurfacePair& x, const collide::SurfacePair& y) {
-    return x.a != y.a ? x.a < y.a : x.b < y.b;
-  };
+void SurfaceContact::inherit() {
+  auto old = pairs_before_.begin();
+  const std::vector<FeaturePair>& old_features = search_.features_before();
   const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
     for (; to < to_end; ++to) {
       while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
       if (from == from_end) return;
-      if (old_features[from].key() == search_.features()[to].key()) memory_[to] = old_memory[from];
+      if (old_features[from].key() == search_.features()[to].key()) memory_[to] = memory_before_[from];
     }
   };
   for (Pair& p : pairs_) {
-    while (old != old_pairs.end() && before(old->range, p.range)) ++old;
-    if (old == old_pairs.end()) return;
-    if (before(p.range, old->range)) continue;
+    while (old != pairs_before_.end() && old->range.bodies() < p.range.bodies()) ++old;
+    if (old == pairs_before_.end()) return;
+    if (p.range.bodies() < old->range.bodies()) continue;
     const collide::SurfacePair &from = old->range, &to = p.range;
     p.overlap = old->overlap;
     hand_on(from.vertex_face, from.face_vertex, to.vertex_face, to.face_vertex);
@@ -128,13 +165,17 @@ void SurfaceContact::inherit(const std::vector<Pair>& old_pairs, const std::vect
 }
 
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
-void SurfaceContact::find_deep(Pair& pair) {
+void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now) {
+  const auto run = [&](Index body) {
+    const Index first = now.bodies->first[body];
+    return collide::Run{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
+  };
   pair.deep = static_cast<std::uint32_t>(deep_.size());
   float deepest = 0;
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
-    const collide::Run vertices = search_.run(own), shell = search_.run(other);
+    const collide::Run vertices = run(own), shell = run(other);
     const collide::Bound bound = collide::bound_of(shell);
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
@@ -156,7 +197,8 @@ void SurfaceContact::find_deep(Pair& pair) {
 void SurfaceContact::colour() {
   constexpr std::size_t most = 64;
   std::vector<std::uint64_t> taken(bodies_.size(), 0);
-  colours_.clear();
+  for (auto& colour : colours_) colour.clear();
+  std::size_t used = 0;
   std::vector<std::uint32_t> rest;
   for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
     std::uint64_t &a = taken[pairs_[i].range.a], &b = taken[pairs_[i].range.b];
@@ -167,9 +209,11 @@ void SurfaceContact::colour() {
     }
     a |= std::uint64_t{1} << free;
     b |= std::uint64_t{1} << free;
-    if (colours_.size() <= free) colours_.resize(free + 1);
+    used = std::max(used, free + 1);
+    if (colours_.size() < used) colours_.resize(used);
     colours_[free].push_back(i);
   }
+  colours_.resize(used);
   for (const std::uint32_t i : rest) colours_.push_back({i});
 }
 

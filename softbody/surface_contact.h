@@ -82,14 +82,16 @@ class SurfaceContact {
   static constexpr float spring_frequency = 750;  // 1/s, angular
   static constexpr float spring_damping = 5;      // of the critical
 
-  /// The candidates of the coming `seconds`. traits and bodies: one a body.
+  /// The candidates of the coming `seconds`. traits and bodies: one a body; slack, and skin beyond the reach, are set
+  /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least.
   void find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits, std::vector<ContactBody> bodies,
-            float seconds, bool self, collide::Workers& workers);
+            float seconds, float ahead, bool self, collide::Workers& workers);
+  /// `elapsed` seconds later: those of bodies that have strayed from the motion that was foreseen, or whose was not
+  /// foreseen for the seconds `ahead`, anew.
+  void renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   void clear();
-  bool holds(const collide::Frame& now, float elapsed) { return search_.holds(now, elapsed); }
+  bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.holds(now, elapsed, ahead); }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
-  float stray(Index body) const { return search_.stray(body); }
-  bool moved(Index body) const { return bodies_[body].inverse_mass > 0; }  // at the last find()
   const collide::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
@@ -102,7 +104,7 @@ class SurfaceContact {
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
 
-  /// Every two bodies that touched in the last substep, a < b.
+  /// Every two bodies that pressed on each other in the last substep, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
@@ -118,6 +120,7 @@ class SurfaceContact {
     float inverse_a, inverse_b;
     std::size_t slot_a, slot_b;
     float speed = 0;       // m/s, with which the two may meet
+    float rate = 0;        // 1/s: that over how far they may go in a substep
     bool overlap = false;  // some vertex may be inside the other body: see find_deep()
     bool parting = false;  // so deep that the bodies are moved apart as a whole
     std::uint32_t deep = 0, deep_end = 0;
@@ -150,6 +153,7 @@ class SurfaceContact {
   struct alignas(64) Thread {
     std::vector<ContactRow> rows;
     std::vector<Near> near;  // faces near one vertex
+    collide::FeaturePairs meeting;
   };
   /// The state of a substep, as one thread sees it.
   struct Step {
@@ -162,15 +166,17 @@ class SurfaceContact {
     float same;  // the length of this substep over that of the last one; 0: there was none
   };
 
-  void inherit(const std::vector<Pair>& old_pairs, const std::vector<collide::FeaturePair>& old_features,
-               const std::vector<Memory>& old_memory);
+  void take_candidates(const collide::Frame& now);
+  void inherit();
   Pair make_pair(const collide::SurfacePair& range) const;
-  void find_deep(Pair& pair);
+  void find_deep(Pair& pair, const collide::Frame& now);
   void leave_room(const Pair& pair);
   void foresee_speeds();
   void colour();
   Side side(const Pair& pair, bool second) const;
   Index owner(const Pair& pair, std::uint32_t slot) const;
+  /// Where a vertex is at the start of the substep.
+  static glm::vec3 at(const Step& step, const Side& side, Index vertex);
   void vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b);
   void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
   void deep_vertices(Step& step);
@@ -182,9 +188,9 @@ class SurfaceContact {
   std::vector<collide::SurfaceBody> traits_;
   std::vector<ContactBody> bodies_;
   collide::SurfaceSearch search_;
-  std::vector<Pair> pairs_;
-  std::vector<Memory> memory_;
-  std::vector<float> room_;  // m, of each feature pair: no more than this is kept between the two
+  std::vector<Pair> pairs_, pairs_before_;      // before: the last find() or renew()
+  std::vector<Memory> memory_, memory_before_;  // of each feature pair
+  std::vector<float> room_;                     // m, of each feature pair: no more than this is kept between the two
   std::vector<DeepVertex> deep_;
   std::vector<std::vector<std::uint32_t>> colours_;
   std::vector<Thread> threads_;
@@ -195,11 +201,11 @@ class SurfaceContact {
 struct SurfaceContact::State {
   std::vector<collide::SurfaceBody> traits;
   std::vector<ContactBody> bodies;
-  std::vector<float> strays;                   // m, one a body
-  std::vector<Pair> pairs;                     // with their ranges in ...
-  std::vector<collide::FeaturePair> features;  // ... those of which something is remembered,
-  std::vector<Memory> memory;                  // namely this,
-  std::vector<ContactRow> rows;                // and in those that pressed
+  std::vector<collide::SurfaceSearch::Past> past;  // one a body
+  std::vector<Pair> pairs;                         // with their ranges in ...
+  std::vector<collide::FeaturePair> features;      // ... those of which something is remembered,
+  std::vector<Memory> memory;                      // namely this,
+  std::vector<ContactRow> rows;                    // and in those that pressed
   float last_h = 0;
 
   std::size_t bytes() const;

@@ -51,6 +51,10 @@ void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Fiel
   }
 }
 
+glm::vec3 SurfaceContact::at(const Step& step, const Side& side, Index vertex) {
+  return read(step.x, side.slot + vertex * lanes) + side.offset;
+}
+
 void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
   const Side vertex_side = side(step.pair, vertex_of_b), face_side = side(step.pair, !vertex_of_b);
   const Side faces = step.pair.range.a == step.pair.range.b ? vertex_side : face_side;
@@ -61,24 +65,34 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
   };
   const auto& features = search_.features();
   const float look2 = step.look * step.look;
-  for (std::uint32_t i = begin; i < end;) {
-    const Index v = features[i].a;
-    const glm::vec3 p = read(step.x, vertex_side.slot + v * lanes) + vertex_side.offset;
+  collide::FeaturePairs& meeting = step.own.meeting;
+  step.own.near.clear();
+  const auto flush = [&] {
+    if (!step.own.near.empty() && !is_deep(features[step.own.near[0].feature].a))
+      vertex_on_faces(step, vertex_side, faces, oriented);
     step.own.near.clear();
-    for (; i < end && features[i].a == v; ++i) {
+  };
+  for (std::uint32_t i = begin; i < end;) {
+    meeting.clear();
+    for (; i < end && !meeting.full(); ++i) {
       if (features[i].from > step.until) continue;
-      const collide::Triangle& face = faces.surface->triangles()[features[i].b];
-      glm::vec3 corner[3];
-      for (std::size_t k = 0; k < 3; ++k) corner[k] = read(step.x, faces.slot + face[k] * lanes) + faces.offset;
-      const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
-      const float distance2 = glm::dot(c.apart, c.apart);
-      if (distance2 > look2)
-        memory_[i] = {};
-      else
-        step.own.near.push_back({c, normal_of(corner[0], corner[1], corner[2]), distance2, i});
+      const auto& [a, b, c] = faces.surface->triangles()[features[i].b];
+      meeting.add({at(step, vertex_side, features[i].a), at(step, faces, a), at(step, faces, b), at(step, faces, c)},
+                  i);
     }
-    if (!step.own.near.empty() && !is_deep(v)) vertex_on_faces(step, vertex_side, faces, oriented);
+    meeting.meet_vertices_and_faces();
+    for (Index k = 0; k < meeting.size(); ++k) {
+      const std::uint32_t feature = meeting.tag(k);
+      if (!step.own.near.empty() && features[step.own.near[0].feature].a != features[feature].a) flush();
+      if (meeting.distance2(k) > look2)
+        memory_[feature] = {};
+      else
+        step.own.near.push_back({meeting.closest_vertex_face(k),
+                                 normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
+                                 meeting.distance2(k), feature});
+    }
   }
+  flush();
 }
 
 /// The rows of one vertex, whose near faces are listed.
@@ -145,8 +159,8 @@ void SurfaceContact::deep_vertices(Step& step) {
     const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
     const collide::Triangle& face = face_side.surface->triangles()[d.face];
     glm::vec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = read(step.x, face_side.slot + face[k] * lanes) + face_side.offset;
-    const glm::vec3 p = read(step.x, vertex_side.slot + d.vertex * lanes) + vertex_side.offset;
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = at(step, face_side, face[k]);
+    const glm::vec3 p = at(step, vertex_side, d.vertex);
     const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
     ContactRow row = corners_of(c, vertex_side.slot + d.vertex * lanes, vertex_side.inverse_mass, face, face_side.slot,
@@ -163,26 +177,18 @@ void SurfaceContact::edges_on_edges(Step& step) {
   const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
   const bool closed = !self && one.surface->closed() && two.surface->closed();
   const float look2 = step.look * step.look;
-  const auto at = [&](const Side& s, Index v) { return read(step.x, s.slot + v * lanes) + s.offset; };
   const auto outward = [&](const Side& s, Index edge) {
     glm::vec3 sum(0.0f);
     for (const Index f : s.surface->edge_triangles()[edge]) {
       const collide::Triangle& face = s.surface->triangles()[f];
-      sum += unit(normal_of(at(s, face[0]), at(s, face[1]), at(s, face[2])), {});
+      sum += unit(normal_of(at(step, s, face[0]), at(step, s, face[1]), at(step, s, face[2])), {});
     }
     return sum;
   };
-  for (std::uint32_t i = range.edge_edge; i < range.end; ++i) {
+  const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
     const FeaturePair& f = search_.features()[i];
-    if (f.from > step.until) continue;
     const collide::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
-    const Closest c = collide::closest_edges(at(one, e1[0]), at(one, e1[1]), at(two, e2[0]), at(two, e2[1]));
-    const float distance2 = glm::dot(c.apart, c.apart);
     Memory& memory = memory_[i];
-    if (!c.inner || distance2 > look2) {  // those that end on a corner are a vertex's
-      memory = {};
-      continue;
-    }
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
       row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * lanes);
@@ -202,12 +208,29 @@ void SurfaceContact::edges_on_edges(Step& step) {
       crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
       if (crossed && distance > step.pair.distance) {  // the far side of something thin
         memory = {};
-        continue;
+        return;
       }
       memory.normal = crossed ? glm::vec3(0.0f) : normal;
       if (crossed) normal = -normal;
     }
     add_row(step, row, normal, crossed ? -distance : distance, memory);
+  };
+  collide::FeaturePairs& meeting = step.own.meeting;
+  for (std::uint32_t i = range.edge_edge; i < range.end;) {
+    meeting.clear();
+    for (; i < range.end && !meeting.full(); ++i) {
+      const FeaturePair& f = search_.features()[i];
+      if (f.from > step.until) continue;
+      const collide::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+      meeting.add({at(step, one, e1[0]), at(step, one, e1[1]), at(step, two, e2[0]), at(step, two, e2[1])}, i);
+    }
+    meeting.meet_edges();
+    for (Index k = 0; k < meeting.size(); ++k) {
+      if (meeting.inner(k) && meeting.distance2(k) <= look2)
+        meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
+      else  // those that end on a corner are a vertex's
+        memory_[meeting.tag(k)] = {};
+    }
   }
 }
 

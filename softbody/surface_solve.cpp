@@ -16,13 +16,14 @@ void iterate(ContactRow& row, Field<float> v) {
   const float speed = glm::dot(velocity, row.normal);
   const float held = row.hardness / (1 + row.hardness) * (row.pressed + row.mass * (row.widening - speed));
   const float pressed = std::max({0.0f, held, row.pressed + row.mass * (row.target - speed)});
+  if (pressed == 0 && row.pressed == 0) return;
   const float push = pressed - row.pressed;
   row.pressed = pressed;
   velocity += (push / row.mass) * row.normal;
   const glm::vec3 slip = velocity - glm::dot(velocity, row.normal) * row.normal;
   glm::vec3 drag = row.drag - row.mass * slip;
   if (const float size = glm::length(drag), limit = row.friction * pressed; size > limit) drag *= limit / size;
-  if (row.pressed > 0 || push != 0) apply(row, push * row.normal + (drag - row.drag), v);
+  apply(row, push * row.normal + (drag - row.drag), v);
   row.drag = drag;
 }
 
@@ -60,12 +61,14 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
                            const std::function<void()>& barrier) {
   constexpr std::size_t few = 2000;  // rows: done before the threads have met at every colour
   const bool alone = rows() < few;
-  const auto pass = [&](const auto& visit, bool parting = false) {
+  const auto hit = [&](const Pair& p) { return h * p.rate > 0.5f; };
+  const auto pass = [&](const auto& takes_part, const auto& visit, bool parting = false) {
     for (const auto& colour : colours_) {
       const collide::Part part =
           alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
       for (std::size_t i = part.begin; i < part.end; ++i) {
         const Pair& p = pairs_[colour[i]];
+        if (!takes_part(p)) continue;
         if (parting && p.parting) separate(p, x, v);
         for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r)
           visit(threads_[static_cast<std::size_t>(p.thread)].rows[r]);
@@ -73,12 +76,16 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
       if (!alone) barrier();
     }
   };
-  pass([&](ContactRow& row) {
+  const auto all = [](const Pair&) { return true; };
+  pass(all, [&](ContactRow& row) {
     if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
   });
-  const int rounds = h * rate_ > 0.5f ? iterations_of_hits : iterations;
-  for (int i = 1; i < rounds; ++i) pass([&](ContactRow& row) { iterate(row, v); }, true);
+  const auto round = [&](ContactRow& row) { iterate(row, v); };
+  if (std::any_of(pairs_.begin(), pairs_.end(), hit))
+    for (int i = iterations; i < iterations_of_hits; ++i) pass(hit, round, true);
+  for (int i = 1; i < iterations; ++i) pass(all, round, true);
   pass(
+      all,
       [&](ContactRow& row) {
         iterate(row, v);
         if (row.feature == forgotten) return;

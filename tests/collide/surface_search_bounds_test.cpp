@@ -22,7 +22,7 @@ TEST(SurfaceSearch, StarShapedBodiesNeverPierceThemselves) {
     m.add(mesh, r[0], 0.01f, slack, [&](const glm::vec3& v) {
       return r[1] + 0.1f * glm::cross(r[2], v) + strain * random_points(random, 1, -1, 1)[0];
     });
-    const bool star = Found(m, true).search.unfolded() == 1;
+    const bool star = Found(m, true).search.body(0).unfolded();
     skipped += star;
     bool pierces = false;
     for (const float when : {0.0f, 0.3f, 0.6f, 1.0f})
@@ -38,17 +38,17 @@ TEST(SurfaceSearch, BodiesThatAreNoStarAreLookedInto) {
   const auto unfolded = [](const SurfaceMesh& mesh) {
     Moving m;
     m.add(mesh, glm::vec3(3, 1, 2), 0.01f, 0.001f, [](const glm::vec3&) { return glm::vec3(0); });
-    return Found(m, true).search.unfolded();
+    return Found(m, true).search.body(0).unfolded();
   };
-  EXPECT_EQ(unfolded(ball(1)), 1u);
-  EXPECT_EQ(unfolded(valley()), 0u);
+  EXPECT_TRUE(unfolded(ball(1)));
+  EXPECT_FALSE(unfolded(valley()));
   SurfaceMesh inverted = ball(1);
   for (Triangle& f : inverted.triangles) std::swap(f[1], f[2]);
-  EXPECT_EQ(unfolded(inverted), 0u);
+  EXPECT_FALSE(unfolded(inverted));
   SurfaceMesh twice = ball(1), second = turned(ball(0.95f), glm::vec3(1, 2, 3), 0.5f);  // one in the other
   for (const Triangle& f : second.triangles) twice.triangles.push_back({f[0] + 162, f[1] + 162, f[2] + 162});
   twice.vertices.insert(twice.vertices.end(), second.vertices.begin(), second.vertices.end());
-  EXPECT_EQ(unfolded(twice), 0u) << "every face looks outwards, but the surface winds around the middle twice";
+  EXPECT_FALSE(unfolded(twice)) << "every face looks outwards, but the surface winds around the middle twice";
 }
 
 TEST(SurfaceSearch, HoldsWhileNoVertexStraysBeyondTheSlack) {
@@ -66,11 +66,11 @@ TEST(SurfaceSearch, HoldsWhileNoVertexStraysBeyondTheSlack) {
   off.state.x = m.scene.state.x, off.state.y = m.scene.state.y, off.state.z = m.scene.state.z;
   off.state.x[5] += 0.03f;
   EXPECT_TRUE(again.search.holds(off.frame(), 0));
-  EXPECT_NEAR(again.search.stray(0), 0.03f, 1e-6);
+  EXPECT_NEAR(again.search.body(0).stray(), 0.03f, 1e-6);
   off.state.x[5] += 0.03f;
   EXPECT_FALSE(again.search.holds(off.frame(), 0));
-  EXPECT_NEAR(again.search.stray(0), 0.06f, 1e-6);
-  EXPECT_EQ(again.search.stray(1), 0);
+  EXPECT_NEAR(again.search.body(0).stray(), 0.06f, 1e-6);
+  EXPECT_EQ(again.search.body(1).stray(), 0);
   EXPECT_FALSE(again.search.holds(m.scene.frame(), 0)) << "what was off has not been foreseen";
 }
 

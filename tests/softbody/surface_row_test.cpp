@@ -60,14 +60,14 @@ class OneRow {
   }
   void solve() {
     const collide::Surface triangle(3, {{0, 1, 2}});
-    const collide::SurfaceBody traits{&triangle, reach + 0.01f, 0.01f, 1, true};
+    const collide::SurfaceBody traits{&triangle, reach, 0, 1, true};
     const auto body = [&](std::size_t lane, float inverse_mass) {
       return ContactBody{glm::dvec3(0.0), lane, inverse_mass, impact_.friction, impact_.restitution};
     };
     collide::Workers workers(1);
     SurfaceContact contact;
     contact.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
-                 {body(0, impact_.inverse_a), body(1, impact_.inverse_b)}, h, false, workers);
+                 {body(0, impact_.inverse_a), body(1, impact_.inverse_b)}, h, h, false, workers);
     contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
     ASSERT_LE(contact.rows(), 1u);
     contact.solve(0, 1, std::as_const(x).field(), v.field(), h, [] {});
