@@ -199,7 +199,7 @@ class Dynamics {
   bool particles_on_solids(Batch& batch, float h, bool again);
   void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
   bool solid_features(Batch& batch, float h);
-  bool solid_feature(Batch& batch, SolidFeature& feature, float h);
+  bool solid_feature(Batch& batch, SolidFeature& feature);
   void structural_springs(Batch& batch);
   void bend_springs(Batch& batch);
   void shear_springs(Batch& batch);

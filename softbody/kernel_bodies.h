@@ -3,9 +3,9 @@
 // set.
 
 #include <algorithm>
-#include <limits>
 
 #include "softbody/kernels.h"
+#include "softbody/solid_law.h"
 
 namespace softbody::body {
 
@@ -196,32 +196,6 @@ SB_INLINE void drift(std::size_t particles, float h, const float* moves, Field<c
   for (std::size_t at = 0; at < particles * lanes; at += lanes) store(x, at, load(x, at) + step * load(v, at));
 }
 
-/// The contact of one particle with a solid, on its velocity: after the step it is not below the surface, the change
-/// of normal velocity acts as an impulse, and Coulomb friction takes at most `friction` times it from the tangential
-/// velocity. What hits faster than impact_speed leaves with `restitution` times its speed before the step's forces:
-/// these alone may be large on a particle at rest. A particle that is inside already comes out at a tenth of its depth
-/// a step, at most 1 m/s. Returns the change of normal velocity.
-SB_INLINE Lane<float> respond(const SolidArguments& s, Lane<float> gap, Vec<Lane<float>> n, Vec<Lane<float>> before,
-                              Vec<Lane<float>>& v) {
-  using V = Lane<float>;
-  const V zero{}, moves = load(s.moves);
-  const float inverse_h = 1.0f / s.h;
-  V target = gap > zero ? -gap * inverse_h : smaller(-0.1f * inverse_h * gap, zero + 1.0f);
-  const V normal_speed = dot(v, n);
-  if (s.restitution > 0) {
-    const V approach = -dot(before, n);
-    const V thrown_back = approach > zero + impact_speed ? larger(s.restitution * approach, target) : target;
-    target = normal_speed < target ? thrown_back : target;
-  }
-  const V wanted = target - normal_speed;
-  const V change = moves * (wanted > s.slack ? wanted : zero);
-  const Vec<V> tangential = v - normal_speed * n;
-  const V slip = square_root(dot(tangential, tangential));
-  const V lost = smaller(s.friction * change, slip) / larger(slip, zero + std::numeric_limits<float>::min());
-  v = v + change * n - lost * tangential;
-  return change;
-}
-
 /// Returns the lanes in which the solid acted, as bits.
 template <class Shape>
 SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<const float> x, Field<float> v) {
@@ -234,7 +208,7 @@ SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<cons
     const SurfaceAt<V> surface = surface_at(shape, load(x, at) - place);
     Vec<V> velocity = load(v, at);
     const Vec<V> before = s.restitution > 0 ? load(s.before, at) : Vec<V>{};
-    const V change = respond(s, surface.distance, surface.normal, before, velocity);
+    const V change = respond(s, load(s.moves), surface.distance, surface.normal, before, velocity);
     impulse = impulse + (s.mass * change) * surface.normal;
     returned += s.restitution * s.mass * change;
     most = larger(change, most);

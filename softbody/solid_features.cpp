@@ -4,12 +4,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <optional>
 #include <span>
 
 #include "collide/closest_features.h"
 #include "softbody/dynamics.h"
+#include "softbody/solid_law.h"
 #include "softbody/surface_vectors.h"
 
 namespace softbody {
@@ -129,14 +129,14 @@ bool Dynamics::solid_features(Batch& b, float h) {
   bool acted = false;
   for (SolidFeature& f : b.solid_features) {
     f.far -= f.speed * h;
-    if (f.far <= 0) acted = solid_feature(b, f, h) || acted;
+    if (f.far <= 0) acted = solid_feature(b, f) || acted;
   }
   return acted;
 }
 
-/// By the law of the particles' own contacts (respond() in kernel_bodies.h), on the closest point: an impulse there
-/// goes to the corners by their weights.
-bool Dynamics::solid_feature(Batch& b, SolidFeature& f, float h) {
+/// By the law of the particles' own contacts, on the closest point: an impulse there goes to the corners by their
+/// weights.
+bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
   constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
   const std::size_t corners = f.vertices[2] == SolidFeature::no_vertex ? 2 : 3, lane = std::size_t(f.lane);
   const Field<float> v = at(v_, b);
@@ -153,24 +153,26 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f, float h) {
   const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
   if (!surface) return false;
 
-  const glm::vec3 n(surface->normal.x, surface->normal.y, surface->normal.z);
-  glm::vec3 velocity(0.0f);
+  const body::Vec<float>& n = surface->normal;
+  body::Vec<float> velocity{}, before{};
   float square = 0;
   for (std::size_t k = 0; k < corners; ++k) {
-    velocity += m.weight[k] * read(v, slot[k]);
+    const auto add_share = [&](body::Vec<float>& sum, Field<const float> of) {
+      const glm::vec3 u = m.weight[k] * read(of, slot[k]);
+      sum = sum + body::Vec<float>{u.x, u.y, u.z};
+    };
+    add_share(velocity, v);
+    if (s.restitution > 0) add_share(before, s.before);
     square += m.weight[k] * m.weight[k];
   }
-  const float gap = surface->distance, normal_speed = glm::dot(velocity, n);
-  const float target = gap > 0 ? -gap / h : std::min(-0.1f * gap / h, 1.0f);
-  const float change = target - normal_speed;
-  if (!(change > 0)) return false;
-  const glm::vec3 tangential = velocity - normal_speed * n;
-  const float slip = glm::length(tangential);
-  const glm::vec3 lost =
-      std::min(s.friction * change, slip) / std::max(slip, std::numeric_limits<float>::min()) * tangential;
-  for (std::size_t k = 0; k < corners; ++k) softbody::add(v, slot[k], m.weight[k] / square * (change * n - lost));
+  body::Vec<float> after = velocity;
+  const float change = body::respond(s, 1.0f, surface->distance, n, before, after);
+  if (change <= 0) return false;
+  const glm::vec3 gained(after.x - velocity.x, after.y - velocity.y, after.z - velocity.z);
+  for (std::size_t k = 0; k < corners; ++k) softbody::add(v, slot[k], m.weight[k] / square * gained);
   const float impulse = s.mass / square * change;
   s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
+  s.returned[lane] += s.restitution * impulse;
   return true;
 }
 

@@ -101,5 +101,35 @@ const Case cases[]{
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
 
+/// Between two vertices' places, on a sphere so small that no vertex meets it.
+double rebound(double restitution) {
+  Material m = gas_ball();
+  m.rebound_speed = 2;
+  m.internal_damping = 10;
+  Scene scene = lone_body(m, {0, -8, 0});
+  scene.bodies[0].position = {0.003, 0.62, 0.002};
+  scene.contact_surface = ContactSurface::surfaces;
+  scene.spheres = {{.centre = {0, -0.12, 0}, .radius = 0.1, .friction = 0, .restitution = restitution}};
+  World world(scene, {});
+  double fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    fastest = std::max(fastest, motion(world, 0).velocity.y);
+  }
+  return fastest;
+}
+
+TEST(SolidFeature, ThrowsBackByTheSolidsRestitution) {
+  const double soft = rebound(0);  // by its springs and gas
+  EXPECT_LT(soft, 2);
+  double before = soft;
+  for (const double e : {0.4, 0.6, 0.8}) {
+    const double speed = rebound(e);
+    EXPECT_GT(speed, before + 1);
+    EXPECT_LT(speed, soft + e * 8 * 1.05);
+    before = speed;
+  }
+}
+
 }  // namespace
 }  // namespace softbody::test
