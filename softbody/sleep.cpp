@@ -30,10 +30,11 @@ void Sleep::settle(Dynamics& dynamics, std::span<const BodyId> vertex_body,
   const auto count = static_cast<BodyId>(dynamics.body_count());
   parent_.resize(count);
   for (BodyId b = 0; b < count; ++b) parent_[b] = b;
-  for (const collide::Contact& c : contacts) {
-    const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
+  const auto join = [&](BodyId a, BodyId b) {
     if (a != b && dynamics.body(a).moves() && dynamics.body(b).moves()) parent_[root(a)] = root(b);
-  }
+  };
+  for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
+  for (const collide::ItemPair& pair : dynamics.surface_contact().touching()) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: its least calm body
   for (BodyId b = 0; b < count; ++b) {
     if (!dynamics.body(b).moves()) continue;

@@ -13,8 +13,8 @@ class Sleep {
   /// Wakes sleepers that a body faster than twice the rule's speed touches. Call before the response.
   void wake_touched(Dynamics& dynamics, std::span<const BodyId> vertex_body,
                     const std::vector<collide::Contact>& contacts) const;
-  /// Counts calm frames and puts islands to sleep whose bodies have all been calm for long enough. Call after
-  /// detection.
+  /// Counts calm frames and puts islands to sleep whose bodies have all been calm for long enough. They touch by these
+  /// contacts or, in surface contact, where their surfaces may. Call after detection.
   void settle(Dynamics& dynamics, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts);
 
  private:

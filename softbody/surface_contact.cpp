@@ -230,13 +230,8 @@ std::size_t SurfaceContact::rows() const {
 
 std::vector<collide::ItemPair> SurfaceContact::touching() const {
   std::vector<collide::ItemPair> list;
-  for (const Pair& p : pairs_) {
-    if (p.range.a == p.range.b) continue;
-    const auto& rows = threads_[static_cast<std::size_t>(p.thread)].rows;
-    const auto first = rows.begin() + p.first_row;
-    if (std::any_of(first, first + p.rows, [](const ContactRow& r) { return r.pressed > 0; }))
-      list.push_back({p.range.a, p.range.b});
-  }
+  for (const Pair& p : pairs_)
+    if (p.range.a != p.range.b && p.range.vertex_face < p.range.end) list.push_back({p.range.a, p.range.b});
   return list;
 }
 

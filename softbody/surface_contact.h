@@ -104,7 +104,7 @@ class SurfaceContact {
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
 
-  /// Every two bodies that pressed on each other in the last substep, a < b.
+  /// Every two bodies of which features may touch in the frame at hand, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last

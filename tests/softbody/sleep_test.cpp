@@ -141,5 +141,36 @@ TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
   EXPECT_GE(fell_asleep, 15);
 }
 
+/// A ball slides over a mat without friction; no vertex of the one is near any of the other.
+TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
+  Material smooth = spring_ball();
+  smooth.friction = smooth.rolling_resistance = 0;
+  smooth.internal_damping = 10;
+  Scene scene = lone_body(smooth, {1, 0, 0});
+  scene.gravity = {0, -9.81, 0};
+  scene.ground = Ground{0, 0.6, 0};
+  scene.contact_surface = ContactSurface::surfaces;
+  scene.collision.tolerance = 1e-4f;
+  scene.sleep = {.speed = 0.1, .frames = 10};
+  Material heavy = smooth;
+  heavy.mass = 50;
+  scene.materials.push_back(heavy);
+  scene.materials[0].mass = 0.2;
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].material = 1;
+  scene.bodies[0].position = {-0.6, 0.52, 0.01};
+  scene.bodies[1].mesh = {.kind = "grid", .columns = 5, .rows = 5, .width = 3, .depth = 3};
+  scene.bodies[1].velocity = glm::dvec3(0.0);
+  scene.bodies[1].position = {0, 0.006, 0};
+  World world(scene, {});
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    ASSERT_TRUE(world.detection().contacts.empty());
+    ASSERT_GT(world.dynamics().fastest(0), 0.2) << "it slides";
+    EXPECT_FALSE(world.body(1).asleep) << world.frame();
+  }
+  EXPECT_LT(world.dynamics().fastest(1), 0.1) << "calm enough to sleep";
+}
+
 }  // namespace
 }  // namespace softbody::test
