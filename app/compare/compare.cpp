@@ -116,10 +116,12 @@ void Comparison::score(const Snapshot& snapshot, CompareReport& report) const {
   report.reference_ms = reference.ms;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     CompareRow& row = report.rows[i];
-    if (i == snapshot.driver)
+    if (i == snapshot.driver) {
       row = scored(snapshot.found, truth, std::move(row));
-    else if (entries_[i].done)
+      if (entries_[i].done) row.counters = entries_[i].result.counters;  // from scratch, as its time
+    } else if (entries_[i].done) {
       row = scored(entries_[i].result, truth, std::move(row));
+    }
   }
 }
 

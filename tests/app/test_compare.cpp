@@ -133,6 +133,13 @@ TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
   EXPECT_TRUE(report.order.empty());
 }
 
+TEST(Comparison, CountsTheDriverFromScratchAsItTimesIt) {
+  Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
+  snapshot.found.counters = {};  // of a frame for which all was remembered
+  const CompareReport report = Comparison(seed).run(snapshot);
+  EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
+}
+
 TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
   Snapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
   snapshot.settings.tolerance = 1e-6f;
