@@ -34,8 +34,8 @@ Closest closest_vertex_face(const glm::vec3& p, const glm::vec3& a, const glm::v
 
 Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s) {
   const glm::vec3 d1 = q - p, d2 = s - r, between = p - r;
-  const EdgeShares m = edge_shares(glm::dot(d1, d1), glm::dot(d1, d2), glm::dot(d1, between), glm::dot(d2, d2),
-                                   glm::dot(d2, between));
+  const EdgeShares m =
+      edge_shares(glm::dot(d1, d1), glm::dot(d1, d2), glm::dot(d1, between), glm::dot(d2, d2), glm::dot(d2, between));
   const glm::vec3 apart = between + m.along * d1 - m.across * d2;
   return {{1 - m.along, m.along, 1 - m.across, m.across}, apart, m.inner};
 }

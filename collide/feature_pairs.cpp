@@ -52,7 +52,7 @@ void MeetVerticesAndFaces(FeaturePairs& p) {
     const float dx = px - (u * ax + m.v * bx + m.w * cx), dy = py - (u * ay + m.v * by + m.w * cy),
                 dz = pz - (u * az + m.v * bz + m.w * cz);
     p.first_[i] = m.v, p.second_[i] = m.w;
-    p.inner_[i] = thin & !m.corner ? FeaturePairs::sliver : m.inner ? 1.0f : 0.0f;
+    p.inner_[i] = (thin & !m.corner) ? FeaturePairs::sliver : m.inner ? 1.0f : 0.0f;
     p.apart_[0][i] = dx, p.apart_[1][i] = dy, p.apart_[2][i] = dz;
     p.distance2_[i] = dx * dx + dy * dy + dz * dz;
   }
