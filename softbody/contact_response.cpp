@@ -86,13 +86,19 @@ void Dynamics::set_contacts(const SeenContacts& seen, float shield) {
   shield_.group(batches_.size(), [&](BodyId body) { return bodies_[body].batch; });
 }
 
-double Dynamics::shield_energy(const SeenContacts& seen, float shield) const {
-  Shield at_hand;
-  at_hand.thickness = shield;
+std::vector<PairEnergy> Dynamics::shield_energies() const {
+  Shield last = shield_;
+  for (ShieldPair& p : last.pairs) p.offset = glm::vec3(bodies_[p.body_a].origin - bodies_[p.body_b].origin);
+  return last.energies({x_[0].data(), x_[1].data(), x_[2].data()});
+}
+
+std::vector<PairEnergy> Dynamics::shield_energies(const SeenContacts& seen, float shield) const {
+  Shield coming;
+  coming.thickness = shield;
   std::vector<std::uint32_t> contacts_of(seen.vertex_body.size(), 0);
-  find_pairs(seen, contacts_of, at_hand.pairs);
-  at_hand.inherit(shield_.pairs);
-  return at_hand.energy({x_[0].data(), x_[1].data(), x_[2].data()});
+  find_pairs(seen, contacts_of, coming.pairs);
+  coming.inherit(shield_.pairs);
+  return coming.energies({x_[0].data(), x_[1].data(), x_[2].data()});
 }
 
 /// Wakes sleepers that a body comes near in the coming frame which is faster than twice the speed of sleep: who sleeps

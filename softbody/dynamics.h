@@ -114,8 +114,9 @@ class Dynamics {
 
   /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.
   void set_contacts(const SeenContacts& seen, float shield);
-  /// J, what these contacts would have stored of bodies that move, see Shield::energy().
-  double shield_energy(const SeenContacts& seen, float shield) const;
+  /// What the pairs of the last frame hold by now; what these contacts would hold, of bodies that move.
+  std::vector<PairEnergy> shield_energies() const;
+  std::vector<PairEnergy> shield_energies(const SeenContacts& seen, float shield) const;
 
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }

@@ -64,23 +64,31 @@ Shield::Slopes Shield::slopes(const ShieldPair& p, Field<const float> x, Field<c
   return {spring, damper, p.stiffness, 0.5f * p.stiffness * h / (rebound_speed * seconds)};
 }
 
-double Shield::energy(Field<const float> x) const {
+double Shield::energy(const ShieldPair& p, Field<const float> x) const {
   const double h = thickness;
+  const glm::dvec3 d(read(x, p.slot_a) - read(x, p.slot_b) + p.offset);
+  const double s = glm::dot(d, glm::dvec3(p.normal)), k = double(p.stiffness);
+  const double end2 = h * h - (glm::dot(d, d) - s * s);  // of s, where the weight has come to 0, squared
+  if (end2 <= 0 || s >= std::sqrt(end2)) return 0;
+  // (end2 - s^2) (h - s), integrated; below 0 the force stays as it is there.
+  const auto integral = [&](double t) {
+    return end2 * h * t - end2 * t * t / 2 - h * t * t * t / 3 + t * t * t * t / 4;
+  };
+  const double push = integral(std::sqrt(end2)) - integral(std::max(s, 0.0)) + end2 * h * std::max(-s, 0.0);
+  const glm::dvec3 stretch(p.stretch);
+  return k / (h * h) * push + k / 2 * glm::dot(stretch, stretch);
+}
+
+double total(std::span<const PairEnergy> pairs) {
   double sum = 0;
-  for (const ShieldPair& p : pairs) {
-    const glm::dvec3 d(read(x, p.slot_a) - read(x, p.slot_b) + p.offset);
-    const double s = glm::dot(d, glm::dvec3(p.normal)), k = double(p.stiffness);
-    const double end2 = h * h - (glm::dot(d, d) - s * s);  // of s, where the weight has come to 0, squared
-    if (end2 <= 0 || s >= std::sqrt(end2)) continue;
-    // (end2 - s^2) (h - s), integrated; below 0 the force stays as it is there.
-    const auto integral = [&](double t) {
-      return end2 * h * t - end2 * t * t / 2 - h * t * t * t / 3 + t * t * t * t / 4;
-    };
-    const double push = integral(std::sqrt(end2)) - integral(std::max(s, 0.0)) + end2 * h * std::max(-s, 0.0);
-    const glm::dvec3 stretch(p.stretch);
-    sum += k / (h * h) * push + k / 2 * glm::dot(stretch, stretch);
-  }
+  for (const PairEnergy& p : pairs) sum += p.joules;
   return sum;
+}
+
+std::vector<PairEnergy> Shield::energies(Field<const float> x) const {
+  std::vector<PairEnergy> list;
+  for (const ShieldPair& p : pairs) list.push_back({p.contact, energy(p, x)});
+  return list;
 }
 
 void Shield::inherit(std::span<const ShieldPair> before) {

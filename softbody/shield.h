@@ -4,7 +4,9 @@
 //
 //   F = k w min(h - s, h) clamp(1 - u / v, 0, 3)    s = d . n,  w = 1 - (d^2 - s_^2) / h^2,  s_ = min(s, 0),
 //
-// which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump.
+// which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump -
+// in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
+// nobody has put in, as when solids push out what is in them.
 // h is the shield's thickness, k its stiffness, u the speed at which the two separate: Hunt and Crossley's damping
 // (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a spring
 // of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to frame as
@@ -36,6 +38,13 @@ struct ShieldPair {
   glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
 };
 
+/// What a pair holds, see Shield::energy().
+struct PairEnergy {
+  collide::Contact contact;
+  double joules;
+};
+double total(std::span<const PairEnergy> pairs);  // J
+
 /// The end of a pair that falls to one batch.
 struct ShieldEnd {
   std::size_t slot;
@@ -54,8 +63,9 @@ struct Shield {
 
   /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
-  /// J: the work of the undamped push along n until each pair is out of sight, and what the friction springs hold.
-  double energy(Field<const float> x) const;
+  /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
+  double energy(const ShieldPair& pair, Field<const float> x) const;
+  std::vector<PairEnergy> energies(Field<const float> x) const;  // of all, in the order of pairs
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
     float spring, damper;                // along n

@@ -255,11 +255,13 @@ const Profile& World::profile() const { return state_->profile; }
 std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
 const Dynamics& World::dynamics() const { return state_->dynamics; }
 
-double World::shield_energy() const {
+std::vector<PairEnergy> World::shield_energies() const {
   const State& s = *state_;
-  if (!s.plan.has(Stage::contact_response)) return 0;
-  return s.dynamics.shield_energy({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+  if (!s.plan.has(Stage::contact_response)) return {};
+  return s.dynamics.shield_energies({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
 }
+
+std::vector<PairEnergy> World::last_shield_energies() const { return state_->dynamics.shield_energies(); }
 
 std::vector<SolidContact> World::solid_contacts() const {
   constexpr double hair = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding

@@ -102,7 +102,10 @@ class World {
   const collide::Detector& detector() const;    // for its debug()
   std::span<const BodyId> vertex_body() const;  // the body of each vertex
   std::vector<SolidContact> solid_contacts() const;
-  double shield_energy() const;      // J, what detection()'s contacts have stored between bodies that move
+  // What pairs of the shield between bodies that move hold, ascending by contact: those of detection(), which the
+  // coming step goes by, and those that the last step went by.
+  std::vector<PairEnergy> shield_energies() const;
+  std::vector<PairEnergy> last_shield_energies() const;
   bool all_at_rest() const;          // every body asleep, none still to come
   const Profile& profile() const;    // of the last step
   std::uint64_t state_hash() const;  // over the bits of positions and velocities, in body order

@@ -21,7 +21,7 @@ struct StabilitySample {
   double time = 0;     // s, at its end
   int frame = 0;       // from 1
   bool finite = true;  // all positions and velocities; if not, the rest has no meaning
-  double energy = 0;   // J: kinetic, springs, gas and gravity
+  double energy = 0;   // J: kinetic, springs, gas, gravity, and what bodies have put into shields
   double work = 0;     // J, that came from outside so far: solids push out what is in them
   double speed = 0,
          speed_reach = 0;  // m/s: of the fastest particle, and what all the energy there may be could give it

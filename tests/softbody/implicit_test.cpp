@@ -137,7 +137,7 @@ TEST(Implicit, StandsAnyStiffnessAtSixtyFramesASecond) {
 
 /// J, the most that a world gains over where it starts, its shields' energy counted.
 double most_gained(World& world, int frames) {
-  const auto energy = [&] { return measure(world).energy + world.shield_energy(); };
+  const auto energy = [&] { return measure(world).energy + total(world.shield_energies()); };
   const double start = energy();
   double most = 0;
   for (int f = 0; f < frames; ++f) {

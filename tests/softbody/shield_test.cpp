@@ -64,17 +64,18 @@ TEST(Shield, StoresTheWorkOfItsPush) {
       constexpr double step = 1e-5;
       for (double s = from + step / 2; s < 0.1; s += step) work += step * force({across, s, 0}, glm::dvec3(0.0)).y;
       const Pair pair({across, from, 0});
-      EXPECT_NEAR(pair.shield.energy(pair.x.field()), work, 1e-4 * work + 1e-9) << from << " " << across;
+      EXPECT_NEAR(pair.shield.energy(pair.shield.pairs[0], pair.x.field()), work, 1e-4 * work + 1e-9)
+          << from << " " << across;
     }
   const Pair apart({0, 0.11, 0});
-  EXPECT_EQ(apart.shield.energy(apart.x.field()), 0);
+  EXPECT_EQ(apart.shield.energy(apart.shield.pairs[0], apart.x.field()), 0);
 }
 
 TEST(Shield, StoresWhatItsFrictionSpringsHold) {
   Pair pair({0, 0.05, 0}, 1);
-  const double before = pair.shield.energy(std::as_const(pair.x).field());
+  const double before = pair.shield.energy(pair.shield.pairs[0], std::as_const(pair.x).field());
   pair.force({0.01, 0, 0}, 0.1);  // a stretch of 1 mm
-  EXPECT_NEAR(pair.shield.energy(std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6, 1e-8);
+  EXPECT_NEAR(pair.shield.energy(pair.shield.pairs[0], std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6, 1e-8);
 }
 
 TEST(Shield, FadesOutWhereTheDetectorLosesSight) {

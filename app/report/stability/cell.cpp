@@ -7,6 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/reference/shield_account.h"
 #include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
 #include "softbody/measures.h"
@@ -44,7 +45,8 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      energy_ = softbody::measure(world).energy + world.shield_energy();
+      shields_ = ShieldAccount(world.shield_energies());
+      energy_ = softbody::measure(world).energy + shields_.stored();
       bodies_ = world.bodies().count();
     }
     return world;
@@ -56,11 +58,12 @@ class Run {
     ++frame_;
     time_ += world.frame_time();
     passages_.look(world);
+    shields_.frame(world.last_shield_energies(), world.shield_energies());
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
                       .frame = frame_,
                       .finite = m.finite,
-                      .energy = m.energy + world.shield_energy(),
+                      .energy = m.energy + shields_.stored(),
                       .speed = m.max_speed,
                       .depth = m.deepest_penetration,
                       .through = passages_.count()};
@@ -113,6 +116,7 @@ class Run {
   const StabilityStart& start_;
   StabilityJudge judge_;
   SolidPassages passages_;
+  ShieldAccount shields_{{}};
   int frame_ = 0;
   double time_ = 0, work_ = 0, energy_ = 0;
   bool came_out_ = false;

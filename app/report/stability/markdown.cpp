@@ -19,7 +19,7 @@ std::string introduction(const StabilityResults& r) {
       "Named integrators take exactly one step of their own a frame (of XPBD's it has 20 substeps): where they blow up "
       "is the finding. Only `auto` chooses its steps.\n"
       "- A cell passes if: everything is finite; ";
-  text += "energy, of motion, springs, gas, gravity and the shields between bodies, ";
+  text += "energy, of motion, springs, gas, gravity and what bodies have put into the shields between them, ";
   text += format(
       "never exceeds that of the start and work from outside by more than %g max(E0 - E_eq, m g R); the fastest "
       "particle and the longest box stay within what this energy can give; ",
@@ -37,6 +37,9 @@ std::string introduction(const StabilityResults& r) {
       "springs and gas acts), and unchanged within 0.1 % when its step is halved or its start disturbed by 1e-7 R. "
       "Where there is none, the case is "
       "marked * with the reason below its table, and judged on the rest.\n"
+      "- Shields push out what they find behind a surface. The potential of such a pair appears when it is found: it "
+      "is "
+      "counted as far as it turns into energy of the bodies, and as far as they press the pair further.\n"
       "- `stability.csv` has every figure of every cell.\n";
   if (r.quick) text += "- This is the quick report: fewer cases and stiffnesses, and half the time.\n";
   return text + "\n";

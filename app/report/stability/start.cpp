@@ -70,7 +70,7 @@ StabilityLimits limits_of(const World& world, const StabilityStart& start, doubl
     smallest = std::min(smallest, p.radius);
   }
   const softbody::Measures m = softbody::measure(world);
-  return {.energy = m.energy + world.shield_energy(),
+  return {.energy = m.energy + softbody::total(world.shield_energies()),
           .scale = std::max(m.energy - height - start.balance, weight),
           .seconds = start.first_frame + seconds,
           .radius = smallest,

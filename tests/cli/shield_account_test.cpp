@@ -1,0 +1,120 @@
+// What bodies have put into shields, on made-up potentials.
+
+#include "app/reference/shield_account.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "softbody/measures.h"
+
+namespace app::test {
+namespace {
+
+using Pairs = std::vector<softbody::PairEnergy>;
+
+TEST(ShieldAccount, StartsWithAllThatIsThere) {
+  EXPECT_DOUBLE_EQ(ShieldAccount(Pairs{{{0, 5}, 2}, {{1, 5}, 0.5}}).stored(), 2.5);
+}
+
+TEST(ShieldAccount, DoesNotCountWhatAPairIsFoundWith) {
+  ShieldAccount account({});
+  account.frame({}, Pairs{{{0, 5}, 2}});
+  EXPECT_EQ(account.stored(), 0);
+}
+
+TEST(ShieldAccount, CountsWhatMotionStoresAndGivesBack) {
+  ShieldAccount account({});
+  account.frame({}, Pairs{{{0, 5}, 2}, {{0, 6}, 1}});
+  account.frame(Pairs{{{0, 5}, 2.5}, {{0, 6}, 1.25}}, Pairs{{{0, 5}, 2.5}, {{0, 6}, 1.25}});
+  EXPECT_DOUBLE_EQ(account.stored(), 0.75);
+  account.frame(Pairs{{{0, 5}, 2.25}, {{0, 6}, 1.25}}, Pairs{{{0, 5}, 2.25}, {{0, 6}, 1.25}});
+  EXPECT_DOUBLE_EQ(account.stored(), 0.5);
+}
+
+TEST(ShieldAccount, APairThatGivesMoreThanItWasGivenOwesNothing) {
+  ShieldAccount account({});
+  account.frame({}, Pairs{{{0, 5}, 2}, {{1, 6}, 0}});
+  account.frame(Pairs{{{0, 5}, 0.5}, {{1, 6}, 0.25}}, Pairs{{{0, 5}, 0.5}, {{1, 6}, 0.25}});
+  EXPECT_DOUBLE_EQ(account.stored(), 0.25) << "nor do other pairs";
+}
+
+/// As where stiffness is shared among more contacts, then among fewer again.
+TEST(ShieldAccount, DoesNotCountWhatPotentialsBecomeBetweenFrames) {
+  ShieldAccount account(Pairs{{{0, 5}, 1}});
+  account.frame(Pairs{{{0, 5}, 1.5}}, Pairs{{{0, 5}, 3}});
+  EXPECT_DOUBLE_EQ(account.stored(), 1.5);
+  account.frame(Pairs{{{0, 5}, 3}}, Pairs{{{0, 5}, 0.5}});
+  EXPECT_DOUBLE_EQ(account.stored(), 0.5) << "it can give back no more";
+  account.frame(Pairs{{{0, 5}, 0.5}}, Pairs{{{0, 5}, 3}});
+  EXPECT_DOUBLE_EQ(account.stored(), 0.5);
+}
+
+TEST(ShieldAccount, ForgetsPairsThatAreFoundNoMore) {
+  ShieldAccount account(Pairs{{{0, 5}, 1}, {{2, 5}, 4}});
+  account.frame(Pairs{{{0, 5}, 1}, {{2, 5}, 4}}, Pairs{{{2, 5}, 4}});
+  EXPECT_DOUBLE_EQ(account.stored(), 4);
+  account.frame(Pairs{{{2, 5}, 4}}, Pairs{{{0, 5}, 1}, {{2, 5}, 4}});
+  EXPECT_DOUBLE_EQ(account.stored(), 4);
+}
+
+/// A slack ball hits one 1e6 times as stiff. Its particles slip between the other's and come into sight from behind.
+softbody::Scene slack_on_stiff() {
+  softbody::Scene scene;
+  scene.gravity = glm::dvec3(0.0);
+  scene.collision.self_collision = false;
+  scene.sleep.speed = 0;
+  for (const double k : {10.0, 1e-5}) {
+    softbody::Material& m = scene.materials.emplace_back();
+    m.name = k > 1 ? "stiff" : "slack";
+    m.structural = {k, 0.1}, m.bend = {k / 4, 0.1};
+    m.gas_pressure = 1.6 * k;
+    m.rolling_resistance = 0;
+    softbody::BodySource& body = scene.bodies.emplace_back();
+    body.material = int(scene.materials.size()) - 1;
+    body.position = {0, k > 1 ? 0 : 1.7, 0};
+    body.velocity = {0, k > 1 ? 0 : -1, 0};
+  }
+  return scene;
+}
+
+TEST(ShieldAccount, PairsFoundFromBehindAreNoEnergyOfTheBodies) {
+  softbody::World world(slack_on_stiff(), {.frame_time = 1.0 / 30});
+  ShieldAccount account(world.shield_energies());
+  const double start = softbody::measure(world).energy, bound = 0.05 * 9.81;  // J: of m g R, both bodies
+  double stored = 0, potential = 0;                                           // J, the most: with the bodies' own
+  for (int frame = 0; frame < 60; ++frame) {
+    world.step();
+    account.frame(world.last_shield_energies(), world.shield_energies());
+    const double own = softbody::measure(world).energy - start;
+    stored = std::max(stored, own + account.stored());
+    potential = std::max(potential, own + softbody::total(world.shield_energies()));
+  }
+  EXPECT_GT(potential, 2 * bound) << "they are found so";
+  EXPECT_LT(stored, bound);
+}
+
+/// Slowly, so that little is lost in dampers.
+TEST(ShieldAccount, HoldsWhatBodiesLoseToEachOther) {
+  softbody::Scene scene = slack_on_stiff();
+  scene.bodies[1].material = 0;
+  scene.bodies[1].velocity.y = -0.2;
+  scene.bodies[1].position.y = 1.25;
+  softbody::World world(scene, {.frame_time = 1.0 / 240});
+  ShieldAccount account(world.shield_energies());
+  const double start = softbody::measure(world).energy, rounding = 1e-6;  // J
+  double most = 0, lost = 0;  // J: stored, and what the bodies had less then
+  for (int frame = 0; frame < 480; ++frame) {
+    world.step();
+    account.frame(world.last_shield_energies(), world.shield_energies());
+    const double own = softbody::measure(world).energy - start;
+    ASSERT_LT(own + account.stored(), rounding) << "frame " << frame;
+    if (account.stored() > most) most = account.stored(), lost = -own;
+  }
+  EXPECT_GT(most, 5e-4);
+  EXPECT_GT(most, 0.8 * lost);
+  EXPECT_EQ(account.stored(), 0) << "they have parted";
+}
+
+}  // namespace
+}  // namespace app::test
