@@ -2,6 +2,7 @@
 // Repeated measurements of one duration.
 
 #include <algorithm>
+#include <numeric>
 #include <vector>
 
 namespace app {
@@ -10,6 +11,7 @@ namespace app {
 struct Times {
   std::vector<double> ms;
 
+  double total() const { return std::accumulate(ms.begin(), ms.end(), 0.0); }
   double least() const { return *std::min_element(ms.begin(), ms.end()); }
   double median() const {
     std::vector<double> sorted = ms;

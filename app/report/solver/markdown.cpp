@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 
 #include "app/report/solver/results.h"
@@ -16,7 +17,8 @@ std::string introduction(const SolverResults& r) {
       "RMS over the particles of "
       "the difference to the reference, in radii R, at the end.\n"
       "- ms: processor time of the thread for whole steps, a simulated second, ";
-  text += format("median of %d repetitions which take turns. ", r.repetitions);
+  text += format("median of %d repetitions which take turns, of fewer where these took %g s. ", r.repetitions,
+                 r.longest_run);
   text +=
       "Bodies of one prototype are solved side by side, one a SIMD lane. \"Batch\" is the cost a body of eight bodies, "
       "a full batch; \"alone\" is one body, which leaves seven lanes empty. Plots show the batch; scenes from files "
@@ -25,6 +27,10 @@ std::string introduction(const SolverResults& r) {
       "changed by less than ";
   text +=
       format("%g R. Scenes that have what it does not model are held against the world's rk4 in floats.\n", r.bound);
+  text +=
+      "- A curve ends with the first error that is not above what the reference is known to, or with the first run "
+      "that takes longer than ";
+  text += format("%g s of processor time (%g s simulated); below each table stands which.\n", r.longest_run, r.seconds);
   text +=
       "- Growth: by how much a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No solver is "
       "nearer to the reference than the growth times its rounding.\n"
@@ -40,6 +46,14 @@ std::string introduction(const SolverResults& r) {
 
 std::string optional_text(const std::optional<double>& value) { return value ? format("%.2g", *value) : ""; }
 
+/// Nothing: all blew up.
+const WorkPoint* most_accurate(const WorkCurve& curve) {
+  const WorkPoint* best = nullptr;
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up && (!best || p.error < best->error)) best = &p;
+  return best;
+}
+
 /// The cheapest that is at least so accurate.
 std::string cheapest(const WorkCurve& curve, double bound) {
   const WorkPoint* best = nullptr;
@@ -47,6 +61,25 @@ std::string cheapest(const WorkCurve& curve, double bound) {
   for (const WorkPoint& p : curve.points)
     if (!p.blew_up && p.error <= bound && (!best || cost(p) < cost(*best))) best = &p;
   return best ? joined(brief(cost(*best)), " (", steps_text(*best), ")") : "";
+}
+
+/// All scenes at one error.
+std::string overview(const SolverResults& r) {
+  constexpr double bound = 2e-3;  // R
+  Cells names{"integrator"};
+  for (const SolverCase& c : r.cases) names.push_back(c.name);
+  std::string text = joined("## All scenes\n\nms a simulated second a body for an error of at most ",
+                            format("%g R (steps a frame), or the least error seen:\n\n", bound), heading(names, 1));
+  for (std::size_t i = 0; i < r.cases.front().curves.size(); ++i) {
+    Cells cells{std::string(r.cases.front().curves[i].integrator->name)};
+    for (const SolverCase& c : r.cases) {
+      const std::string cost = cheapest(c.curves[i], bound);
+      const WorkPoint* best = most_accurate(c.curves[i]);
+      cells.push_back(!cost.empty() ? cost : best ? format("only %.2g R", best->error) : "blew up");
+    }
+    text += line(cells);
+  }
+  return text + "\n";
 }
 
 std::string costs(const SolverCase& c) {
@@ -69,16 +102,12 @@ std::string details(const SolverCase& c) {
                               "angular", "volume", c.at_rest ? "jitter, m/s" : "inner speed, m/s"},
                              1);
   for (const WorkCurve& curve : c.curves) {
-    const WorkPoint *first = nullptr, *best = nullptr;
-    for (const WorkPoint& p : curve.points) {
-      if (p.blew_up) continue;
-      if (!first) first = &p;
-      if (!best || p.error < best->error) best = &p;
-    }
-    if (!first) {
+    const WorkPoint* best = most_accurate(curve);
+    if (!best) {
       text += line({std::string(curve.integrator->name), "", "", "", "blew up", "", "", "", "", ""});
       continue;
     }
+    const WorkPoint* first = &*std::ranges::find(curve.points, false, &WorkPoint::blew_up);
     std::vector<const WorkPoint*> shown{first};
     if (best != first) shown.push_back(best);
     for (const WorkPoint* p : shown) {
@@ -91,17 +120,34 @@ std::string details(const SolverCase& c) {
   return text;
 }
 
+/// Where curves end before the reference's own uncertainty, and why.
+std::string left_out(const SolverResults& r, const SolverCase& c) {
+  std::string text;
+  for (const WorkCurve& curve : c.curves) {
+    const WorkPoint& last = curve.points.back();
+    if (last.substeps == 0 || curve.reaches(c.known(r.bound))) continue;  // it chooses its steps, or came there
+    text += joined(text.empty() ? "" : "; ", curve.integrator->name, format(" beyond %d steps a frame", last.substeps),
+                   last.blew_up ? " (blown up)" : "");
+  }
+  const double known = c.known(r.bound);
+  return text.empty() ? format("\nAll curves end at an error of %.2g R, to which the reference is known.\n", known)
+                      : joined(format("\nLeft out, as runs took too long to come to the %.2g R to which the reference "
+                                      "is known: ",
+                                      known),
+                               text, ".\n");
+}
+
 }  // namespace
 
 std::string solver_markdown(const SolverResults& results, const std::vector<Plot>& plots) {
-  std::string text = introduction(results);
+  std::string text = introduction(results) + overview(results);
   for (const SolverCase& c : results.cases) {
     text +=
         joined("## ", c.name, "\n\n", "Reference: ", c.reference,
                format(", steps of %.3g s on average; halving them changed the positions by %.2g R", c.step, c.change),
                c.converged ? "" : ", which is not converged: errors below that mean nothing",
                format(". A disturbance grows %.3g times.\n\n", c.growth));
-    text += joined(costs(c), details(c), picture(plots, solver_plot_name(c)), "\n");
+    text += joined(costs(c), left_out(results, c), details(c), picture(plots, solver_plot_name(c)), "\n");
   }
   return text;
 }

@@ -1,6 +1,7 @@
 #pragma once
 // What `report solver` has measured, and what it is written as.
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,7 @@ struct WorkCurve {
   const softbody::Integrator* integrator;
   std::vector<WorkPoint> points{};      // by substeps
   std::optional<double> order() const;  // observed, of the error; none: no two errors show one
+  bool reaches(double error) const;     // R
 };
 
 struct SolverCase {
@@ -41,6 +43,9 @@ struct SolverCase {
   bool converged = false;  // change is within the bound
   double growth = 0;       // of a disturbance
   std::vector<WorkCurve> curves{};
+  /// R: how well the reference is known, if its change is to be within `bound`. Smaller errors say nothing: with the
+  /// first of them a curve ends.
+  double known(double bound) const { return std::max(bound, change); }
 };
 
 struct SolverResults {
@@ -49,6 +54,7 @@ struct SolverResults {
   double seconds = 0, frame_time = 0;  // simulated
   double bound = 0;                    // R, of the reference's change
   int repetitions = 0;
+  double longest_run = 0;  // s of processor time: a curve ends with the first run that takes longer
   std::vector<SolverCase> cases;
 };
 

@@ -19,7 +19,7 @@ constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"
 
 struct Effort {
   double seconds;               // of processor time: the steps of a frame are doubled until a run takes longer
-  int repetitions;              // whose median counts
+  int repetitions;              // whose median counts, unless fewer already took those seconds
   std::uint64_t truth_steps;    // at most, of the reference
   int most_substeps = 1 << 14;  // a frame
 };
@@ -41,6 +41,7 @@ class SolverReport {
     results.frame_time = run_.frame_time;
     results.bound = 2e-5;
     results.repetitions = effort_.repetitions;
+    results.longest_run = effort_.seconds;
   }
 
   void run() {
@@ -67,7 +68,7 @@ class SolverReport {
       WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
       double took = 0;
       const int most = chooses_steps(integrator) ? 1 : effort_.most_substeps;
-      for (int n = 1; n <= most && took < effort_.seconds; n *= 2) {
+      for (int n = 1; n <= most && took < effort_.seconds && !curve.reaches(c.known(results.bound)); n *= 2) {
         const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
         took = outcome.finite ? outcome.cpu : 0;
         WorkPoint point = judge(scene, outcome, truth);
@@ -83,9 +84,12 @@ class SolverReport {
   void repeat(Cell& cell) {
     const SolverScene& scene = scenes_[cell.of];
     const softbody::Integrator& integrator = *results.cases[cell.of].curves[cell.curve].integrator;
-    const auto time = [&](int copies) { return 1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu; };
-    cell.alone.ms.push_back(time(1));
-    if (scene.repeatable) cell.batch.ms.push_back(time(softbody::lanes));
+    const auto time = [&](Times& times, int copies) {
+      if (times.total() > 1e3 * effort_.seconds) return;  // a long run's time is less chance's than a short one's
+      times.ms.push_back(1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu);
+    };
+    time(cell.alone, 1);
+    if (scene.repeatable) time(cell.batch, softbody::lanes);
   }
 
   void take_times(const Cell& cell) {
@@ -126,6 +130,10 @@ void report_solver(const Options& options) {
                              .markdown_name = "solver.md",
                              .plots = solver_plots(results),
                              .markdown = [&](const auto& drawn) { return solver_markdown(results, drawn); }});
+}
+
+bool WorkCurve::reaches(double error) const {
+  return std::ranges::any_of(points, [&](const WorkPoint& p) { return !p.blew_up && p.error <= error; });
 }
 
 /// Between neighbouring errors that are neither floats' last digits nor of another motion: the median.
