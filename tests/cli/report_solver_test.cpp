@@ -36,11 +36,16 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   make();
   auto curves = curves_of(out_ / "solver.csv");
   EXPECT_EQ(curves.size(), softbody::integrators().size());
+  bool cut_short = false;  // a curve, by the time that its runs took
   for (const softbody::Integrator& i : softbody::integrators()) {
     const auto curve = curves.find(std::string(i.key));
     ASSERT_NE(curve, curves.end()) << i.key;
-    ASSERT_GE(curve->second.size(), i.automatic ? 1u : 3u) << i.key;
     Row first = curve->second.front(), last = curve->second.back();
+    constexpr double known = 2e-5;  // R, to which the reference is: there a curve ends
+    if (!i.automatic && number(last["error"]) > known) {
+      EXPECT_GE(curve->second.size(), 3u) << i.key;
+      cut_short = true;
+    }
     if (!i.automatic) {
       EXPECT_EQ(first["substeps"], "1");
       EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
@@ -51,7 +56,7 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
     EXPECT_EQ(last["linear_error"], "") << "it falls";
     curve->second.pop_back();
     for (Row& before : curve->second)
-      EXPECT_TRUE(before["blew_up"] == "1" || number(before["error"]) > 2e-5) << i.key << ": nothing more is learnt";
+      EXPECT_TRUE(before["blew_up"] == "1" || number(before["error"]) > known) << i.key << ": nothing more is learnt";
     EXPECT_LT(number(last["volume_error"]), 1e-2);
     EXPECT_EQ(last["reference_converged"], "1");
     EXPECT_LT(number(last["reference_change"]), 1e-4);
@@ -60,7 +65,7 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   const std::string text = read_file(out_ / "solver.md");
   EXPECT_NE(text.find("RK4 in double"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
-  EXPECT_NE(text.find("Left out, as runs took too long"), std::string::npos) << "explicit Euler's, for one";
+  EXPECT_NE(text.find(cut_short ? "Left out, as runs took too long" : "All curves end"), std::string::npos);
 }
 
 TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
