@@ -29,7 +29,7 @@ std::string solver_csv(const SolverResults& results) {
         for (const auto& value : {p.linear, p.angular, p.volume})
           line.add_if(!p.blew_up && value.has_value(), value.value_or(0));
         line.add_if(!p.blew_up, p.speed);
-        const auto order = curve.order();
+        const auto order = c.order(curve, results.bound);
         line.add_if(order.has_value(), order.value_or(0));
         line.add(c.step);
         line.add(c.change);

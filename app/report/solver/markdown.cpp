@@ -38,7 +38,9 @@ std::string introduction(const SolverResults& r) {
       "Momentum: of the body's own, only where nothing acts from outside. Inner speed: RMS of what is not motion of "
       "the "
       "body as a whole; where it starts in balance, this is jitter.\n"
-      "- Order: of the error, observed from step to step; none where errors never fall in a row.\n"
+      "- Order: of the error, observed from step to step as long as each error is clearly less than the one before; "
+      "none "
+      "where errors do not fall in a row.\n"
       "- `solver.csv` has every figure.\n";
   if (r.quick) text += "- This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.\n";
   return text + "\n";
@@ -75,19 +77,19 @@ std::string overview(const SolverResults& r) {
     for (const SolverCase& c : r.cases) {
       const std::string cost = cheapest(c.curves[i], bound);
       const WorkPoint* best = most_accurate(c.curves[i]);
-      cells.push_back(!cost.empty() ? cost : best ? format("only %.2g R", best->error) : "blew up");
+      cells.push_back(!cost.empty() ? cost : best ? format("only %.3g R", best->error) : "blew up");
     }
     text += line(cells);
   }
   return text + "\n";
 }
 
-std::string costs(const SolverCase& c) {
+std::string costs(const SolverResults& r, const SolverCase& c) {
   Cells names{"integrator", "order"};
   for (const double bound : bounds) names.push_back(format("%g R", bound));
   std::string text = joined("ms for an error of at most ... (steps a frame):\n\n", heading(names, 1));
   for (const WorkCurve& curve : c.curves) {
-    const auto order = curve.order();
+    const auto order = c.order(curve, r.bound);
     Cells cells{std::string(curve.integrator->name), order ? format("%.1f", *order) : ""};
     for (const double bound : bounds) cells.push_back(cheapest(curve, bound));
     text += line(cells);
@@ -147,7 +149,7 @@ std::string solver_markdown(const SolverResults& results, const std::vector<Plot
                format(", steps of %.3g s on average; halving them changed the positions by %.2g R", c.step, c.change),
                c.converged ? "" : ", which is not converged: errors below that mean nothing",
                format(". A disturbance grows %.3g times.\n\n", c.growth));
-    text += joined(costs(c), left_out(results, c), details(c), picture(plots, solver_plot_name(c)), "\n");
+    text += joined(costs(results, c), left_out(results, c), details(c), picture(plots, solver_plot_name(c)), "\n");
   }
   return text;
 }

@@ -13,8 +13,9 @@ double cost(const WorkPoint& p) { return p.cpu_batch.value_or(p.cpu_alone); }
 
 class Diagram {
  public:
-  /// Of a case whose reference is known to so many R.
-  Diagram(const SolverCase& c, double known) {
+  /// bound: R, of the references' change.
+  Diagram(const SolverCase& c, double bound) {
+    const double known = c.known(bound);
     script =
         joined(plot_style, "set title ",
                literal(joined(c.name, format(": error against run time (a disturbance grows %.3g times)", c.growth))),
@@ -27,7 +28,7 @@ class Diagram {
         "set label 'the reference is known to this' at graph 0.01, first %g offset 0,0.5 font ',8' textcolor rgb "
         "'#666666'\n",
         known, known, known);
-    for (std::size_t i = 0; i < c.curves.size(); ++i) add(c.curves[i], i);
+    for (std::size_t i = 0; i < c.curves.size(); ++i) add(c.curves[i], i, c.order(c.curves[i], bound));
     for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(c.curves[i], i);
   }
 
@@ -37,7 +38,7 @@ class Diagram {
   /// Above the errors, a row a method, so that crosses do not lie upon each other.
   static double row(std::size_t number) { return 20 * std::pow(1.6, double(number)); }  // R
 
-  void add(const WorkCurve& curve, std::size_t number) {
+  void add(const WorkCurve& curve, std::size_t number, std::optional<double> order) {
     std::string good;
     bool chooses = false;
     for (const WorkPoint& p : curve.points) {
@@ -51,7 +52,7 @@ class Diagram {
     // A single point under others' curves: a large open diamond shows around them.
     const char* style = chooses ? "points pointtype 12 pointsize 2.2" : "linespoints pointtype 7 pointsize 0.8";
     plot_ += joined(separator(), format("$g%zu with %s linewidth 2", number, style), " linecolor rgb '", colour,
-                    "' title ", literal(title(curve)));
+                    "' title ", literal(joined(curve.integrator->name, order ? format(" (order %.1f)", *order) : "")));
     if (!chooses)
       plot_ +=
           format(", $g%zu using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '%s' notitle", number, colour);
@@ -73,18 +74,14 @@ class Diagram {
   }
 
   const char* separator() const { return plot_.empty() ? "plot " : ", "; }
-  static std::string title(const WorkCurve& curve) {
-    const auto order = curve.order();
-    return joined(curve.integrator->name, order ? format(" (order %.1f)", *order) : "");
-  }
 
   std::string script, plot_;
 };
 
-Plot plot_of(const SolverCase& c, double known) {
+Plot plot_of(const SolverCase& c, double bound) {
   return {solver_plot_name(c),
           joined(c.name, ": left is cheaper, down is truer; numbers are steps a frame, crosses above blew up."),
-          Diagram(c, known).finished()};
+          Diagram(c, bound).finished()};
 }
 
 }  // namespace
@@ -93,7 +90,7 @@ std::string solver_plot_name(const SolverCase& c) { return joined("solver-", c.k
 
 std::vector<Plot> solver_plots(const SolverResults& results) {
   std::vector<Plot> plots;
-  for (const SolverCase& c : results.cases) plots.push_back(plot_of(c, c.known(results.bound)));
+  for (const SolverCase& c : results.cases) plots.push_back(plot_of(c, results.bound));
   std::erase_if(plots, [](const Plot& p) { return p.script.empty(); });
   return plots;
 }

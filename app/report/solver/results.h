@@ -29,9 +29,8 @@ inline std::string steps_text(const WorkPoint& p) { return p.substeps > 0 ? std:
 
 struct WorkCurve {
   const softbody::Integrator* integrator;
-  std::vector<WorkPoint> points{};      // by substeps
-  std::optional<double> order() const;  // observed, of the error; none: no two errors show one
-  bool reaches(double error) const;     // R
+  std::vector<WorkPoint> points{};   // by substeps
+  bool reaches(double error) const;  // R
 };
 
 struct SolverCase {
@@ -46,6 +45,8 @@ struct SolverCase {
   /// R: how well the reference is known, if its change is to be within `bound`. Smaller errors say nothing: with the
   /// first of them a curve ends.
   double known(double bound) const { return std::max(bound, change); }
+  /// Observed, of a curve's error; none: its errors do not show one.
+  std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
 struct SolverResults {

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "app/base/text.h"
 #include "app/base/times.h"
@@ -130,24 +129,6 @@ void report_solver(const Options& options) {
                              .markdown_name = "solver.md",
                              .plots = solver_plots(results),
                              .markdown = [&](const auto& drawn) { return solver_markdown(results, drawn); }});
-}
-
-bool WorkCurve::reaches(double error) const {
-  return std::ranges::any_of(points, [&](const WorkPoint& p) { return !p.blew_up && p.error <= error; });
-}
-
-/// Between neighbouring errors that are neither floats' last digits nor of another motion: the median.
-std::optional<double> WorkCurve::order() const {
-  constexpr double least = 2e-5, most = 0.3;  // R
-  std::vector<double> orders;
-  for (std::size_t i = 1; i < points.size(); ++i) {
-    const WorkPoint &a = points[i - 1], &b = points[i];
-    if (a.blew_up || b.blew_up || a.error > most || b.error < least) continue;
-    orders.push_back(std::log2(a.error / b.error) / std::log2(double(b.substeps) / a.substeps));
-  }
-  if (orders.empty()) return std::nullopt;
-  std::ranges::sort(orders);
-  return orders[orders.size() / 2];
 }
 
 }  // namespace app
