@@ -77,7 +77,7 @@ std::string overview(const SolverResults& r) {
     for (const SolverCase& c : r.cases) {
       const std::string cost = cheapest(c.curves[i], bound);
       const WorkPoint* best = most_accurate(c.curves[i]);
-      cells.push_back(!cost.empty() ? cost : best ? format("only %.3g R", best->error) : "blew up");
+      cells.push_back(!cost.empty() ? cost : best ? format("only %.4g R", best->error) : "blew up");
     }
     text += line(cells);
   }
