@@ -79,6 +79,25 @@ TEST(StabilityReport, TakesASceneAndScalesItsStiffness) {
   EXPECT_EQ(file_names(out), (std::set<std::string>{"stability.csv", "stability.md"})) << "no map of another scene";
 }
 
+/// Gas in balance has less energy than none, and a body high up more: both come with the second one.
+TEST(StabilityReport, BodiesThatAppearBringTheirEnergy) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write(
+      "two.toml",
+      "[[material]]\nname = \"m\"\nstructural = {stiffness = 100, damping_ratio = 0.1}\ngas_pressure = "
+      "100\n[ground]\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [0, 0.4, "
+      "0]\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [2, 5, 0]\nappear = "
+      "10\n[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1, radius = 0.3}\nposition = [2.1, 4.9, "
+      "0.1]\nappear = 11\n");
+  const auto out = folder.path() / "out";
+  const Outcome o = run({"report", "stability", "--quick", "--scene", scene, "--out", out});
+  ASSERT_EQ(o.status, 0) << o.err;
+  auto cells = cells_of(out / "stability.csv");
+  for (const std::string& dt : dts)
+    for (const char* integrator : {"auto", "implicit"})
+      EXPECT_EQ(cells["two " + std::string(integrator) + " " + dt + " 1"]["failures"], "") << integrator << " " << dt;
+}
+
 TEST(StabilityReport, ErrorsAreSaidBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");

@@ -36,7 +36,7 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), judge_(start.limits) {}
+  Run(const StabilityStart& start) : start_(start), judge_(start.limits), balance_(start.balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(
@@ -45,8 +45,7 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      shields_ = ShieldAccount(world.shield_energies());
-      energy_ = softbody::measure(world).energy + shields_.stored();
+      shields_ = ShieldAccount(world.shield_energies(), world.bodies().vertex_count());
       bodies_ = world.bodies().count();
     }
     return world;
@@ -58,7 +57,7 @@ class Run {
     ++frame_;
     time_ += world.frame_time();
     passages_.look(world);
-    shields_.frame(world.last_shield_energies(), world.shield_energies());
+    work_ += shields_.frame(world.last_shield_energies(), world.shield_energies(), world.bodies().vertex_count());
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
                       .frame = frame_,
@@ -77,7 +76,7 @@ class Run {
 
  private:
   void add_reach(const World& world, StabilitySample& s, double depth_before) {
-    add_work(world, s, depth_before);
+    add_work(world, depth_before);
     s.work = work_;
     const StabilityLimits& limits = start_.limits;
     double available = limits.energy + work_ + stability_bounds.energy * limits.scale;  // for all but gravity and gas
@@ -91,7 +90,7 @@ class Run {
       extents.push_back(extent_of(particles));
     }
     const double least = 1e-9 * limits.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = std::sqrt(2 * std::max(available - start_.balance, least) / lightest);
+    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest);
     s.extent_reach = 1;
     for (std::size_t b = 0; b < std::min(extents.size(), start_.leash.size()); ++b) {
       const auto& [length, stiffness] = start_.leash[b];
@@ -101,24 +100,26 @@ class Run {
   }
 
   /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse. And bodies that join
-  /// bring their energy along.
-  void add_work(const World& world, const StabilitySample& s, double depth_before) {
+  /// bring their energy along, be it negative.
+  void add_work(const World& world, double depth_before) {
     constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
     if (start_.limits.begins_inside && !came_out_)
       for (BodyId b = 0; b < world.bodies().count(); ++b)
         work_ += push_out * glm::length(world.dynamics().solid_impulse(b));
-    if (world.bodies().count() != bodies_) work_ += std::max(0.0, s.energy - energy_);
-    bodies_ = world.bodies().count();
-    energy_ = s.energy;
+    for (; bodies_ < world.bodies().count(); ++bodies_) {
+      work_ += softbody::measure(world, bodies_).energy.total();
+      balance_ += balance_of(world.prototype(bodies_));
+    }
   }
 
   const StabilityStart& start_;
   StabilityJudge judge_;
+  double balance_;  // J, springs and gas of the bodies at hand in balance
   SolidPassages passages_;
-  ShieldAccount shields_{{}};
+  ShieldAccount shields_{{}, 0};
   int frame_ = 0;
-  double time_ = 0, work_ = 0, energy_ = 0;
+  double time_ = 0, work_ = 0;
   bool came_out_ = false;
   BodyId bodies_ = 0;
 };

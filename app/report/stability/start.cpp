@@ -19,13 +19,6 @@ using softbody::World;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// J, springs and gas of a prototype in balance.
-double balance_of(const softbody::Prototype& p) {
-  softbody::Scene nowhere;
-  nowhere.gravity = dvec3(0.0);
-  return ReferenceBody(p, nowhere).energy({p.start, std::vector<dvec3>(p.start.size(), dvec3(0.0))});
-}
-
 /// Any two particles are joined by a chain of so many springs at most: twice those from one particle to the farthest.
 /// None if some cannot be reached.
 std::optional<int> longest_chain(const softbody::Prototype& p) {
@@ -87,7 +80,12 @@ bool alike(const ReferenceBody& body, const BodyState& a, const BodyState& b) {
 
 }  // namespace
 
-/// J, of gravity on one body, 0 at the origin.
+double balance_of(const softbody::Prototype& p) {
+  softbody::Scene nowhere;
+  nowhere.gravity = dvec3(0.0);
+  return ReferenceBody(p, nowhere).energy({p.start, std::vector<dvec3>(p.start.size(), dvec3(0.0))});
+}
+
 double height_energy(const World& world, const Particles& particles, BodyId body) {
   double energy = 0;
   for (const softbody::Particle& p : particles)

@@ -32,6 +32,8 @@ StabilityStart prepare(const StabilityScene& scene, double seconds);
 void find_truth(StabilityStart& start, std::uint64_t steps);
 
 std::vector<Particles> all_particles(const softbody::World& world);
+/// J, springs and gas of a prototype in balance.
+double balance_of(const softbody::Prototype& prototype);
 /// J, of gravity on one body, 0 at the origin.
 double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
 
