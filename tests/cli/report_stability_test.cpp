@@ -79,7 +79,7 @@ TEST(StabilityReport, TakesASceneAndScalesItsStiffness) {
   EXPECT_EQ(file_names(out), (std::set<std::string>{"stability.csv", "stability.md"})) << "no map of another scene";
 }
 
-/// Gas in balance has less energy than none, and a body high up more: both come with the second one.
+/// High up, one inside another: neither its height is energy of the others, nor what they are pushed apart with.
 TEST(StabilityReport, BodiesThatAppearBringTheirEnergy) {
   const TemporaryFolder folder;
   const auto scene = folder.write(
