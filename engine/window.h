@@ -41,6 +41,8 @@ class Window {
   void present();
   void set_vsync(bool on);
   void set_title(const std::string& title);
+  /// The driver was reset: nothing that was drawn with or made in this window's context is left. Make another window.
+  bool context_lost() const;
 
   bool minimised() const;  // nothing to draw: framebuffer_size() may be 0 x 0
   glm::ivec2 framebuffer_size() const;

@@ -58,10 +58,19 @@ void World::State::drop(const Dropper& dropper) {
   const double distance = dropper.spread * std::sqrt((drops++ % 16 + 0.5) / 16);
   const auto [c, n] = drop_direction;
   drop_direction = {-0.7373688780783197 * c - 0.6754902942615238 * n, 0.6754902942615238 * c - 0.7373688780783197 * n};
-  glm::dvec3 position = dropper.body.position + distance * glm::dvec3(c, 0, n);
-  position.y = clear_height(*prototypes.of(dropper.body), position);
-  add(dropper.body, position);
+  BodySource source = dropper.body;
+  source.position += distance * glm::dvec3(c, 0, n);
+  source.position.y = clear_height(*prototypes.of(source), source.position);
+  invite(std::move(source));
   gather();
+}
+
+BodyId World::State::invite(BodySource source) {
+  source.appear = frame;
+  source.release = frame;
+  const BodyId id = add(source, source.position);
+  guests.push_back({id, std::move(source)});
+  return id;
 }
 
 Dropper World::State::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
@@ -90,10 +99,17 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
   source.velocity = velocity;
   for (int i = 2; i < most_paces; ++i) {
     source.position = from + i * pace * glm::normalize(velocity);
-    if (s.is_clear(p, source.position)) return add(source);
+    if (!s.is_clear(p, source.position)) continue;
+    s.check_room(p, 1);
+    s.check_company(s.prototypes, 1);
+    const BodyId id = s.invite(std::move(source));
+    s.joined(1);
+    return id;
   }
   return std::nullopt;
 }
+
+const std::vector<Guest>& World::guests() const { return state_->guests; }
 
 BodyId World::drop(int count) {
   State& s = *state_;
@@ -143,6 +159,8 @@ void World::remove(BodyId body) {
   State& s = *state_;
   s.wake_near(body);
   s.dynamics.remove(body);
+  std::erase_if(s.guests, [&](const Guest& guest) { return guest.body == body; });
+  for (Guest& guest : s.guests) guest.body -= guest.body > body;
   s.count_vertices();
   s.visitors.grabs = s.dynamics.grabbed().has_value();
   s.replan();

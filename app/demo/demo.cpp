@@ -2,6 +2,8 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
+#include <optional>
 #include <thread>
 #include <utility>
 
@@ -59,72 +61,97 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
+/// All that lives in a context of OpenGL, and is made anew when the context is lost.
+struct Screen {
+  explicit Screen(glm::ivec2 size) : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}) {}
+
+  engine::Window window;  // before the others, which need its context
+  engine::Gui gui{window};
+  SceneView view{engine::find_folder("shaders")};
+  Canvas canvas{!engine::draws_in_software()};
+};
+
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
       : preferences_(preferences_path()),
-        window_({.title = "Multi-Level SB Collide",
-                 .size = options.size_given ? glm::ivec2(options.width, options.height) : preferences_.kept().size,
-                 .samples = 0}),
-        gui_(window_),
-        view_(engine::find_folder("shaders")),
-        canvas_(!engine::draws_in_software()),
+        screen_(std::make_unique<Screen>(options.size_given ? glm::ivec2(options.width, options.height)
+                                                            : preferences_.kept().size)),
         session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
   }
 
   void run() {
-    while (window_.open() && !ui_.quit) {
-      window_.poll();
+    while (screen_->window.open() && !ui_.quit) {
+      screen_->window.poll();
       const double elapsed = pacer_.tick();
       handle_keys();
-      if (window_.minimised()) continue;  // poll() has slept; the world waits for its window
+      if (screen_->window.minimised()) continue;  // poll() has slept; the world waits for its window
+      if (screen_->window.context_lost()) renew_screen();
       frame(elapsed);
     }
     keep_preferences(true);
   }
 
  private:
+  /// The world goes on in a new window. Throws engine::Unavailable if that one does not last either.
+  void renew_screen() {
+    if (seconds_ - renewed_ < shortest_screen)
+      throw engine::Unavailable(
+          "the graphics driver loses its state again and again: update it, or set "
+          "LIBGL_ALWAYS_SOFTWARE=1");
+    const glm::ivec2 size = window_size();
+    screen_.reset();  // one window at a time
+    screen_ = std::make_unique<Screen>(size);
+    drawn_ = {};
+    renewed_ = seconds_;
+    session_.set_notice("the graphics driver was reset: the window was made anew, nothing else was lost");
+  }
+
   void handle_keys() {
-    if (gui_.wants_keyboard()) return;
-    for (const engine::KeyPress& key : window_.key_presses()) {
+    if (screen_->gui.wants_keyboard()) return;
+    for (const engine::KeyPress& key : screen_->window.key_presses()) {
       if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
     }
   }
 
   void frame(double elapsed) {
     seconds_ += elapsed;
-    ui_.import.drop(window_.dropped_files(), session_);
+    ui_.import.drop(screen_->window.dropped_files(), session_);
     if (ui_.take_away.recording())
       session_.advance_one(elapsed, ui_.take_away.may_step());
     else
       session_.advance(elapsed);
-    gui_.begin_frame();
-    interface_.draw(session_, ui_, gui_.scale(), seconds_);
+    screen_->gui.begin_frame();
+    interface_.draw(session_, ui_, screen_->gui.scale(), seconds_);
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
     do_as_asked(viewport);
     clear_window();
     draw_scene(viewport);
     if (const Spotlight* light = ui_.tour.spotlight())
-      draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), gui_.scale());
+      draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), screen_->gui.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
-    gui_.end_frame();
+    screen_->gui.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
-    window_.present();
+    screen_->window.present();
     keep_preferences();
     pacer_.rest();
   }
 
   /// Of what is about to be shown.
   engine::Image picture(bool with_panel) const {
-    return with_panel ? engine::read_pixels(0, window_.framebuffer_size()) : canvas_.read();
+    return with_panel ? engine::read_pixels(0, screen_->window.framebuffer_size()) : screen_->canvas.read();
+  }
+
+  /// On an ordinary screen it would have this one.
+  glm::ivec2 window_size() const {
+    return glm::ivec2(glm::round(glm::vec2(screen_->window.framebuffer_size()) / screen_->window.content_scale()));
   }
 
   void keep_preferences(bool last = false) {
-    const glm::vec2 size = glm::vec2(window_.framebuffer_size()) / window_.content_scale();
-    preferences_.keep(preferences_of(session_, ui_, glm::ivec2(glm::round(size))), seconds_, last);
+    preferences_.keep(preferences_of(session_, ui_, window_size()), seconds_, last);
     if (std::string problem = preferences_.take_problem(); !problem.empty()) session_.set_notice(std::move(problem));
   }
 
@@ -134,13 +161,13 @@ class Demo {
     const auto pixels = [](float at, float factor) { return static_cast<int>(std::lround(at * factor)); };
     const glm::ivec2 lo(pixels(area.min.x, ratio.x), pixels(area.min.y, ratio.y));
     const glm::ivec2 hi(pixels(area.max.x, ratio.x), pixels(area.max.y, ratio.y));
-    return {{lo.x, window_.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
+    return {{lo.x, screen_->window.framebuffer_size().y - hi.y}, glm::max(hi - lo, 0)};
   }
 
   void move_camera(const engine::Viewport& viewport, double elapsed) {
     if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
       shown_scene_ = session_.world().scene().key;
-      camera_ = view_.camera(session_.world().scene(), viewport.size);
+      camera_ = screen_->view.camera(session_.world().scene(), viewport.size);
       fitted_ = viewport.size;
       ui_.reset_camera = false;
       before_tour_.reset();
@@ -169,8 +196,8 @@ class Demo {
   }
 
   MouseInput mouse_input(const engine::Viewport& viewport) const {
-    const float below = static_cast<float>(window_.framebuffer_size().y - viewport.origin.y - viewport.size.y);
-    return read_mouse({static_cast<float>(viewport.origin.x), below}, !gui_.wants_mouse());
+    const float below = static_cast<float>(screen_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y);
+    return read_mouse({static_cast<float>(viewport.origin.x), below}, !screen_->gui.wants_mouse());
   }
 
   /// What the panel and the keys ask for that needs the camera.
@@ -195,12 +222,12 @@ class Demo {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
-    canvas_.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      view_.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, key.scale,
-                 session_.drawn_positions(whole_steps(session_)));
+    screen_->canvas.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
+      screen_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, key.scale,
+                         session_.drawn_positions(whole_steps(session_)));
     });
     drawn_ = key;
-    canvas_.show(viewport.origin);
+    screen_->canvas.show(viewport.origin);
   }
 
   PictureKey picture_key() const {
@@ -216,18 +243,16 @@ class Demo {
             .selected = session_.selected_body(),
             .grab = session_.world().grabbed(),
             .view = camera_.view(),
-            .scale = std::max(window_.content_scale(), window_.pixel_ratio()),
+            .scale = std::max(screen_->window.content_scale(), screen_->window.pixel_ratio()),
             .between = whole_steps(session_) ? 1.0f : session_.between()};
   }
 
   static constexpr float tour_room = 0.6f;       // glide_to() leaves half of the picture free: less is enough
+  static constexpr double shortest_screen = 10;  // s between two losses of the context
   static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
 
   PreferencesFile preferences_;
-  engine::Window window_;  // before the others, which need its context
-  engine::Gui gui_;
-  SceneView view_;
-  Canvas canvas_;
+  std::unique_ptr<Screen> screen_;
   Session session_;
   Interface interface_;
   UiState ui_;
@@ -238,7 +263,8 @@ class Demo {
   std::string shown_scene_;  // the one that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;
-  double seconds_ = 0;  // the window has been open
+  double seconds_ = 0;  // the demo has been open
+  double renewed_ = -shortest_screen;
 };
 
 }  // namespace

@@ -113,6 +113,12 @@ softbody::Scene Session::scene_in_use() const {
   return scene;
 }
 
+softbody::Scene Session::scene_with_guests() const {
+  softbody::Scene scene = scene_in_use();
+  for (const softbody::Guest& guest : world_->guests()) scene.bodies.push_back(guest.source);
+  return scene;
+}
+
 void Session::reset() {
   try {
     start(scene_in_use());
@@ -149,7 +155,7 @@ void Session::rewind_to(int frame) {
 }
 
 void Session::save_scene(const std::filesystem::path& file, const softbody::View& view) {
-  softbody::Scene scene = scene_in_use();
+  softbody::Scene scene = scene_with_guests();
   scene.view = view;
   notice_.clear();
   try {

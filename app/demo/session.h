@@ -81,7 +81,9 @@ class Session {
   void reset();
   /// The scene with the settings in use: what reset() starts.
   softbody::Scene scene_in_use() const;
-  /// Writes scene_in_use(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
+  /// With the bodies dropped and thrown, too, each in the frame in which it came.
+  softbody::Scene scene_with_guests() const;
+  /// Writes scene_with_guests(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
   /// written and notice() says why.
   void save_scene(const std::filesystem::path& file, const softbody::View& view);
   /// Where the scene came from, or was saved to last.

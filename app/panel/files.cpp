@@ -46,14 +46,14 @@ void draw_save(Widgets& w, Session& session, UiState& ui) {
   const bool there = std::filesystem::exists(ui.save_as, ignored);
   if (field_with_button(w, "Scene file", ui.save_as, "scene.toml",
                         "The scene with all settings in use and the camera as it is: method, levels, buckets, cell "
-                        "size, tolerance, contact surface. Bodies dropped or thrown by hand are not in it: the scene "
-                        "runs from its start, and their places need not be free then.",
+                        "size, tolerance, contact surface. Bodies that you dropped or threw are in it, each from the "
+                        "frame in which it came; what you pulled or deleted is not.",
                         there ? "Replace###Save" : "Save###Save", "Writes the file."))
     session.save_scene(ui.save_as, ui.view);
 }
 
 void draw_command(Widgets& w, const Session& session, const UiState& ui) {
-  softbody::Scene used = session.scene_in_use();
+  softbody::Scene used = session.scene_with_guests();
   used.view = ui.view;
   const SceneFile& file = session.scene_file();
   const int frame = session.world().frame();

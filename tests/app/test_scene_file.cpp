@@ -130,6 +130,34 @@ TEST(SavedSession, HasTheSettingsInUse) {
   EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
+TEST(SavedSession, BringsWhatWasDroppedAndThrownInTheFrameInWhichItCame) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.toml";
+  Session session(softbody::find_scene("drop", scene_folder()), {}, 1);
+  const auto go_on = [](Session& s, int frames) {
+    for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60, true);
+  };
+  session.drop(2);
+  go_on(session, 40);
+  session.throw_body({6, 2, 0}, {-1, 0, 0});
+  session.drop();
+  go_on(session, 30);
+  ASSERT_EQ(session.world().guests().size(), 4u);
+  session.select_body(session.world().guests()[1].body);
+  session.remove_selected();  // no part of the scene any more
+  session.save_scene(file, {});
+  ASSERT_EQ(session.notice(), "");
+  softbody::Scene shown = session.scene_with_guests();
+  EXPECT_TRUE(session.scene_file().makes(shown));
+  EXPECT_EQ(softbody::load_scene(file).bodies.size(), shown.bodies.size());
+  Session again(softbody::load_scene(file), {}, 1);
+  go_on(again, 70);
+  EXPECT_EQ(again.world().bodies().count(), session.world().bodies().count());
+  EXPECT_TRUE(again.world().guests().empty());  // they belong to the scene now
+  session.reset();
+  EXPECT_EQ(session.world().scene().bodies.size(), shown.bodies.size() - 3);
+}
+
 TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);

@@ -1,8 +1,10 @@
 #!/bin/bash
-# The real program in a real window under Xvfb: keys, a click, resizing, closing. Usage: window.sh PROGRAM
+# The real program in a real window under Xvfb: keys, a click, resizing, closing, a driver that is reset.
+# Usage: window.sh PROGRAM LOST_CONTEXT   (the second is the library of lost_context.cpp)
 # Exits 77 (skipped) if the X tools are missing.
 set -u
 program=$(realpath "$1")
+lost_context=$(realpath "$2")
 sources=$(realpath "$(dirname "$0")/../..")
 work=$(mktemp -d)
 pids=()
@@ -34,8 +36,8 @@ for tool in Xvfb xdotool; do
   command -v $tool >/dev/null || { echo "window: $tool is missing, skipped"; exit 77; }
 done
 
-# Xvfb picks a free display itself and says which.
-Xvfb -displayfd 3 -screen 0 1600x1000x24 -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
+# Xvfb picks a free display itself and says which; it stays as it is when its last client leaves.
+Xvfb -displayfd 3 -screen 0 1600x1000x24 -noreset -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
 pids+=($!)
 until_true "the X server" test -s "$work/display"
 DISPLAY=:$(cat "$work/display")
@@ -159,3 +161,17 @@ until_true "the video" test -s video_0001.mp4
 click 1100 400 1
 press q
 expect_clean_end "the key Q, the third time"
+
+# The driver is reset: another context shows the same world.
+contexts=$work/contexts
+has_another_context() { [ "$(wc -l <"$contexts")" = 2 ] && has_window; }
+export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
+LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start
+until_true "another context after a reset of the driver" has_another_context
+xdotool windowfocus "$window" 2>/dev/null
+sleep 1
+press space
+press p
+until_true "a picture after a reset of the driver" test -s picture_0002.png
+press q
+expect_clean_end "the key Q, after a reset of the driver"
