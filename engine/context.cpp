@@ -12,7 +12,7 @@ void load_gl() {
     throw Unavailable(std::string("cannot load OpenGL: ") + reinterpret_cast<const char*>(glewGetErrorString(status)) +
                       "; check the graphics driver, or use 'simulate', which needs none");
   }
-  while (glGetError() != GL_NO_ERROR) continue;  // glewInit leaves one behind in core contexts
+  glGetError();  // glewInit leaves one behind in core contexts
   GLint major = 0, minor = 0;
   glGetIntegerv(GL_MAJOR_VERSION, &major);
   glGetIntegerv(GL_MINOR_VERSION, &minor);

@@ -6,6 +6,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <chrono>
+#include <thread>
 
 #include "engine/context.h"
 
@@ -67,6 +69,7 @@ Window::Window(const WindowOptions& options) {
   glfwSetWindowUserPointer(window_, this);
   glfwSetKeyCallback(window_, &Window::on_key);
   glfwSetDropCallback(window_, &Window::on_drop);
+  glfwSetMouseButtonCallback(window_, &Window::on_button);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(options.vsync);
 }
@@ -78,6 +81,7 @@ void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 void Window::poll() {
   key_presses_.clear();
+  clicked_ = false;
   dropped_files_.clear();
   if (minimised()) {
     glfwWaitEventsTimeout(0.1);
@@ -91,7 +95,14 @@ void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
 void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 bool Window::context_lost() const {
-  return glGetGraphicsResetStatus != nullptr && glGetGraphicsResetStatus() != GL_NO_ERROR;
+  // Drivers may give an address to functions that they do not have.
+  if (GLEW_VERSION_4_5 || GLEW_KHR_robustness) return glGetGraphicsResetStatus() != GL_NO_ERROR;
+  return GLEW_ARB_robustness && glGetGraphicsResetStatusARB() != GL_NO_ERROR;
+}
+
+void Window::wait_for_reset() const {
+  constexpr int most = 100;
+  for (int i = 0; i < most && context_lost(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 bool Window::minimised() const {
@@ -126,6 +137,10 @@ glm::vec2 Window::cursor() const {
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
   auto& files = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_files_;
   files.insert(files.end(), paths, paths + count);
+}
+
+void Window::on_button(GLFWwindow* window, int, int action, int) {
+  if (action == GLFW_PRESS) static_cast<Window*>(glfwGetWindowUserPointer(window))->clicked_ = true;
 }
 
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {

@@ -41,15 +41,18 @@ class Window {
   void present();
   void set_vsync(bool on);
   void set_title(const std::string& title);
-  /// The driver was reset: nothing that was drawn with or made in this window's context is left. Make another window.
+  /// The driver was reset: nothing that was made in this window's context is left. Known only of drivers that tell.
   bool context_lost() const;
+  /// After such a loss: until the reset is over, for a few seconds at most, so that another window can be made.
+  void wait_for_reset() const;
 
   bool minimised() const;  // nothing to draw: framebuffer_size() may be 0 x 0
   glm::ivec2 framebuffer_size() const;
   float content_scale() const;  // 1 on an ordinary screen, 2 on a high-density one
   float pixel_ratio() const;    // framebuffer pixels per screen coordinate; not the same as content_scale() on X11
   glm::vec2 cursor() const;     // framebuffer pixels from the top left corner
-  const std::vector<KeyPress>& key_presses() const { return key_presses_; }         // since the last poll()
+  const std::vector<KeyPress>& key_presses() const { return key_presses_; }         // in the last poll()
+  bool clicked() const { return clicked_; }                                         // some button, likewise
   const std::vector<std::string>& dropped_files() const { return dropped_files_; }  // paths; since the last poll()
 
   GLFWwindow* handle() const { return window_; }
@@ -57,8 +60,10 @@ class Window {
  private:
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
+  static void on_button(GLFWwindow* window, int button, int action, int mods);
 
   GLFWwindow* window_ = nullptr;
+  bool clicked_ = false;
   std::vector<KeyPress> key_presses_;
   std::vector<std::string> dropped_files_;
 };

@@ -39,7 +39,7 @@ void Dynamics::restore(const DynamicsState& state) {
 }
 
 std::size_t Snapshot::bytes() const {
-  return sizeof(*this) + bytes_of(scene.bodies) + bytes_of(arrived) + bytes_of(guests) + dynamics.bytes();
+  return sizeof(*this) + bytes_of(scene.bodies) + bytes_of(arrived) + bytes_of(added) + dynamics.bytes();
 }
 
 Snapshot World::snapshot() const {
@@ -49,7 +49,7 @@ Snapshot World::snapshot() const {
           .dynamics = s.dynamics.save(),
           .arrived = s.arrived,
           .visitors = s.visitors,
-          .guests = s.guests,
+          .added = s.added,
           .drops = s.drops,
           .drop_direction = s.drop_direction,
           .frame = s.frame,
@@ -67,7 +67,7 @@ void World::restore(const Snapshot& from) {
   s.scene = from.scene;
   s.prototypes = from.prototypes;
   s.visitors = from.visitors;
-  s.guests = from.guests;
+  s.added = from.added;
   s.sleep = Sleep(s.scene.sleep);
   s.options.integrator = from.integrator;
   s.options.substeps = from.substeps;

@@ -13,7 +13,7 @@ struct Snapshot {
   DynamicsState dynamics;
   std::vector<char> arrived;
   Visitors visitors;
-  std::vector<Guest> guests;
+  std::vector<AddedBody> added;
   int drops = 0;
   std::array<double, 2> drop_direction{};
   int frame = 0;

@@ -19,10 +19,10 @@ struct SolidContact {
   glm::vec3 normal;  // out of the solid
 };
 
-/// A body that was dropped or thrown in.
-struct Guest {
+/// A body that no scene brought.
+struct AddedBody {
   BodyId body;
-  BodySource source;  // as a scene's that brings it in the same frame to the same place
+  BodySource source;  // as a scene would bring it, in the same frame to the same place
 };
 
 struct Snapshot;
@@ -68,9 +68,11 @@ class World {
   /// Throws a body of the kind that drop() adds, from the first clear place a little way along `velocity` (m/s, not 0).
   /// Nothing if there is none.
   std::optional<BodyId> throw_body(const glm::dvec3& from, const glm::dvec3& velocity);
-  /// Those of drop() and throw_body() that are still there, as they came. The world's scene with them in it goes the
-  /// same way to the bit, if hands did nothing else.
-  const std::vector<Guest>& guests() const;
+  /// Those of drop(), add() and throw_body() that are still there, in the order in which they came.
+  const std::vector<AddedBody>& added() const;
+  /// The scene's bodies and the added ones. A world of a scene with these goes the same way to the bit, if hands did
+  /// nothing else and the plan of a lone body did not need to change for company.
+  std::vector<BodySource> sources() const;
   /// Takes a body out. Those after it move up by one id, and their vertices with them; its neighbours wake.
   void remove(BodyId body);
   /// A hand takes a body, which wakes, stays awake, and is no longer held in place. There is one hand.

@@ -61,15 +61,15 @@ void World::State::drop(const Dropper& dropper) {
   BodySource source = dropper.body;
   source.position += distance * glm::dvec3(c, 0, n);
   source.position.y = clear_height(*prototypes.of(source), source.position);
-  invite(std::move(source));
+  spawn(std::move(source));
   gather();
 }
 
-BodyId World::State::invite(BodySource source) {
+BodyId World::State::spawn(BodySource source) {
   source.appear = frame;
   source.release = frame;
   const BodyId id = add(source, source.position);
-  guests.push_back({id, std::move(source)});
+  added.push_back({id, std::move(source)});
   return id;
 }
 
@@ -99,17 +99,27 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
   source.velocity = velocity;
   for (int i = 2; i < most_paces; ++i) {
     source.position = from + i * pace * glm::normalize(velocity);
-    if (!s.is_clear(p, source.position)) continue;
-    s.check_room(p, 1);
-    s.check_company(s.prototypes, 1);
-    const BodyId id = s.invite(std::move(source));
-    s.joined(1);
-    return id;
+    if (s.is_clear(p, source.position)) return add(source);
   }
   return std::nullopt;
 }
 
-const std::vector<Guest>& World::guests() const { return state_->guests; }
+const std::vector<AddedBody>& World::added() const { return state_->added; }
+
+std::vector<BodySource> World::sources() const {
+  const std::vector<AddedBody>& added = state_->added;  // in the order in which they came
+  const auto first_late = std::ranges::find_if(added, [](const AddedBody& one) { return one.source.appear > 0; });
+  std::vector<BodySource> all;
+  auto late = first_late;
+  for (const BodySource& body : scene().bodies) {
+    // Between two steps, so before those of the scene that come in the next one.
+    for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
+    all.push_back(body);
+  }
+  for (auto one = added.begin(); one != first_late; ++one) all.push_back(one->source);
+  for (; late != added.end(); ++late) all.push_back(late->source);
+  return all;
+}
 
 BodyId World::drop(int count) {
   State& s = *state_;
@@ -129,7 +139,7 @@ BodyId World::add(const BodySource& source) {
   s.check_room(*more.add(source, s.scene.materials), 1);
   s.check_company(more, 1);
   s.prototypes = std::move(more);
-  const BodyId id = s.add(source, source.position);
+  const BodyId id = s.spawn(source);
   s.joined(1);
   return id;
 }
@@ -159,8 +169,8 @@ void World::remove(BodyId body) {
   State& s = *state_;
   s.wake_near(body);
   s.dynamics.remove(body);
-  std::erase_if(s.guests, [&](const Guest& guest) { return guest.body == body; });
-  for (Guest& guest : s.guests) guest.body -= guest.body > body;
+  std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
+  for (AddedBody& one : s.added) one.body -= one.body > body;
   s.count_vertices();
   s.visitors.grabs = s.dynamics.grabbed().has_value();
   s.replan();

@@ -39,7 +39,7 @@ struct World::State {
   void joined(std::size_t number);  // bodies, by hand
   Dropper dropper() const;          // the scene's, or one over its first body
   void drop(const Dropper& dropper);
-  BodyId invite(BodySource source);
+  BodyId spawn(BodySource source);
   bool is_clear(const Prototype& p, const glm::dvec3& position) const;
   double clear_height(const Prototype& p, const glm::dvec3& position) const;
 
@@ -52,7 +52,7 @@ struct World::State {
   Sleep sleep;
   std::vector<char> arrived;  // one a body source of the scene
   Visitors visitors;
-  std::vector<Guest> guests;
+  std::vector<AddedBody> added;
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;

@@ -71,6 +71,12 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--contact-surface", options.contact_surface,
                   "what keeps bodies apart: a key of `list contact-surfaces`")
       ->type_name("K");
+  command.add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  command
+      .add_option("--substeps", options.substeps,
+                  "exactly N steps of the integrator a frame (default: as many as stability asks for)")
+      ->type_name("N")
+      ->check(CLI::Range(1, softbody::World::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -85,12 +91,6 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
   add_scene_options(*simulate, options);
   simulate->add_option("--frames", options.frames, "frames to run")->type_name("N")->check(CLI::Range(1, 10'000'000));
-  simulate->add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
-  simulate
-      ->add_option("--substeps", options.substeps,
-                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
-      ->type_name("N")
-      ->check(CLI::Range(1, softbody::World::max_substeps));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
@@ -129,7 +129,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 CLI::App* add_report(CLI::App& cli, Options& options) {
   ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
-  report->add_option("what", r.name, "detection, contact, solver or stability")->required();
+  report->add_option("what", r.name, "detection, contact, solver or stability");
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
   report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
   report
@@ -188,7 +188,6 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   const CLI::App* report = add_report(cli, options);
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
-      ->required()
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
 
   try {
@@ -197,8 +196,14 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     cli.exit(asked);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
-    throw UsageError(one_line(error.what()) + "; see sbcollide --help");
+    const auto below = cli.get_subcommands();
+    const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
+    throw UsageError(one_line(error.what()) + "; see sbcollide " + command + "--help");
   }
+  if (*report && options.report.name.empty())
+    throw UsageError("report: say which one: detection, contact, solver or stability");
+  if (*list && options.list_of.empty())
+    throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
   refuse_empty_values(cli);
   options.command = *simulate ? Command::simulate
                     : *detect ? Command::detect

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <thread>
 #include <utility>
 
@@ -78,6 +79,7 @@ class Demo {
         screen_(std::make_unique<Screen>(options.size_given ? glm::ivec2(options.width, options.height)
                                                             : preferences_.kept().size)),
         session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
+    session_.set_integrator(options.integrator, options.substeps);
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
   }
@@ -88,35 +90,46 @@ class Demo {
       const double elapsed = pacer_.tick();
       handle_keys();
       if (screen_->window.minimised()) continue;  // poll() has slept; the world waits for its window
-      if (screen_->window.context_lost()) renew_screen();
       frame(elapsed);
     }
     keep_preferences(true);
   }
 
  private:
-  /// The world goes on in a new window. Throws engine::Unavailable if that one does not last either.
+  void frame(double elapsed) {
+    if (screen_->window.context_lost()) renew_screen();
+    try {
+      draw_frame(elapsed);
+    } catch (const std::runtime_error&) {  // what a lost context refuses; the next frame finds another
+      if (!screen_->window.context_lost()) throw;
+      renew_screen();
+    }
+  }
+
+  /// The world goes on in a new window. Throws engine::Unavailable if there is none, or it did not last either.
   void renew_screen() {
-    if (seconds_ - renewed_ < shortest_screen)
+    keep_preferences(true);
+    if (now() - renewed_ < shortest_screen)
       throw engine::Unavailable(
-          "the graphics driver loses its state again and again: update it, or set "
-          "LIBGL_ALWAYS_SOFTWARE=1");
+          "the graphics driver was reset again and again: update it, or set LIBGL_ALWAYS_SOFTWARE=1");
     const glm::ivec2 size = window_size();
+    screen_->window.wait_for_reset();
     screen_.reset();  // one window at a time
     screen_ = std::make_unique<Screen>(size);
     drawn_ = {};
-    renewed_ = seconds_;
+    renewed_ = now();
     session_.set_notice("the graphics driver was reset: the window was made anew, nothing else was lost");
   }
 
   void handle_keys() {
-    if (screen_->gui.wants_keyboard()) return;
+    // What is typed in the same moment as a click, on a slow machine, may be meant for the field that was clicked.
+    if (screen_->gui.wants_keyboard() || screen_->window.clicked()) return;
     for (const engine::KeyPress& key : screen_->window.key_presses()) {
       if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
     }
   }
 
-  void frame(double elapsed) {
+  void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.dropped_files(), session_);
     if (ui_.take_away.recording())
@@ -264,7 +277,7 @@ class Demo {
   PictureKey drawn_;         // what the canvas shows
   Pacer pacer_;
   double seconds_ = 0;  // the demo has been open
-  double renewed_ = -shortest_screen;
+  double renewed_ = now() - shortest_screen;
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 
+#include "softbody/integrators.h"
 #include "softbody/scene.h"
 
 namespace app {
@@ -11,6 +12,8 @@ struct DemoOptions {
   softbody::Scene scene;
   std::string scene_name;              // its key or file
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
+  std::string integrator{softbody::default_integrator};
+  std::optional<int> substeps;  // as World::Options
   int threads = 1;
   int width = 1280, height = 720;  // of the window, screen coordinates
   bool size_given = false;         // else it has the size that it had last

@@ -1,16 +1,11 @@
 #pragma once
 // A second world beside the one that is shown: the same bodies from the same state on, moved by another integrator.
 
+#include "app/demo/integrator_choice.h"
 #include "app/view/drawn_positions.h"
 #include "softbody/world.h"
 
 namespace app {
-
-struct IntegratorChoice {
-  std::string key{softbody::default_integrator};
-  std::optional<int> substeps;  // none: as many as stability asks for
-  bool operator==(const IntegratorChoice&) const = default;
-};
 
 class Ghost {
  public:

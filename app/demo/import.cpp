@@ -16,6 +16,7 @@ namespace app {
 namespace {
 
 constexpr std::size_t many_vertices = 10'000;
+constexpr double finest_edge = 0.2;  // tolerances
 
 /// The height at which a ball of this radius is clear of what is below, from `at` upwards.
 double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
@@ -28,7 +29,15 @@ double clear_height(const softbody::World& world, glm::dvec3 at, double radius) 
   return at.y;
 }
 
-std::vector<std::string> lines_about(const softbody::MeshSource& mesh) {
+/// Over all faces, m.
+double mean_edge(const softbody::Mesh& mesh) {
+  double sum = 0;
+  for (const auto& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) sum += glm::distance(mesh.vertices[t[k]], mesh.vertices[t[(k + 1) % 3]]);
+  return sum / static_cast<double>(3 * mesh.triangles.size());
+}
+
+std::vector<std::string> lines_about(const softbody::MeshSource& mesh, const softbody::World& world) {
   const softbody::ImportFindings& f = mesh.imported->findings;
   std::array<char, 96> scale{};
   std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
@@ -39,6 +48,10 @@ std::vector<std::string> lines_about(const softbody::MeshSource& mesh) {
   const std::string changed = softbody::remarks(f);
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");
+  const bool by_vertices = world.scene().contact_surface == softbody::ContactSurface::vertices;
+  if (const double edge = mean_edge(mesh.imported->mesh);
+      by_vertices && edge < finest_edge * static_cast<double>(world.collision().tolerance))
+    lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
   lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
   return lines;
 }
@@ -80,7 +93,7 @@ softbody::Material imported_material(double extent) {
 void Import::refuse(Session& session, const std::string& why) {
   report_ = {why};
   failed_ = true;
-  session.set_notice(why);
+  session.set_notice("");  // the report says it
 }
 
 void Import::load(Session& session) {
@@ -123,7 +136,7 @@ void Import::follow(Session& session) {
 }
 
 void Import::join(Session& session, softbody::MeshSource mesh) {
-  const std::vector<std::string> lines = lines_about(mesh);
+  const std::vector<std::string> lines = lines_about(mesh, session.world());
   softbody::Material material = imported_material(mesh.imported->findings.extent);
   session.add_body(place_above(session.world(), std::move(mesh)), std::move(material));
   if (!session.notice().empty()) return refuse(session, session.notice());

@@ -14,7 +14,7 @@ void Interface::draw(Session& session, UiState& ui, float scale, double seconds,
   if (recorder) recorder->widgets.clear();
   Widgets widgets(scale, hover_, ui.sections, recorder);
   ui.import.follow(session);
-  ui.tour.follow(session);
+  ui.tour.follow(session, &ui.view);
   layout_ = lay_out(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
   if (layout_.compare) draw_compare(widgets, session, *layout_.compare);

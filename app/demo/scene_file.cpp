@@ -59,7 +59,7 @@ std::string shell_word(const std::string& text) {
 namespace {
 
 /// A space before each.
-std::string scene_options(const std::string& name, const softbody::Scene& used) {
+std::string scene_options(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
   const collide::Settings& c = used.collision;
   std::string text;
   const auto add = [&text](const char* option, const std::string& value) {
@@ -75,6 +75,8 @@ std::string scene_options(const std::string& name, const softbody::Scene& used) 
   text += c.self_collision ? " --self" : " --no-self";
   for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
     if (info.value == used.contact_surface) add("--contact-surface", std::string(info.key));
+  if (integrator.key != softbody::default_integrator) add("--integrator", integrator.key);
+  if (integrator.substeps) add("--substeps", std::to_string(*integrator.substeps));
   add("--view", view_text(used.view));
   return text;
 }
@@ -87,13 +89,15 @@ std::string this_program() {
 
 }  // namespace
 
-std::string demo_command(const std::string& name, const softbody::Scene& used) {
-  return this_program() + scene_options(name, used);
+std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+  return this_program() + scene_options(name, used, integrator);
 }
 
-std::string simulate_command(const std::string& name, const softbody::Scene& used, int frame) {
+std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
+                             int frame) {
   const std::string number = std::to_string(std::max(frame, 1));  // nothing is drawn before the first
-  return this_program() + " simulate" + scene_options(name, used) + " --frames " + number + " --capture " + number;
+  return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
+         number;
 }
 
 }  // namespace app

@@ -36,8 +36,10 @@ void Session::adopt(softbody::Scene scene) {
   solids_ = list_solids(scene_);
 }
 
-void Session::start(const softbody::Scene& scene) {
-  auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+void Session::start(const softbody::Scene& scene, const IntegratorChoice& integrator) {
+  auto world = std::make_unique<softbody::World>(
+      scene,
+      softbody::World::Options{.threads = threads_, .integrator = integrator.key, .substeps = integrator.substeps});
   if (world_) {
     world_->release();
     remember({std::move(world_), {}, scene_, scene_file_, solids_});
@@ -55,6 +57,7 @@ void Session::remember(Past past) {
 void Session::begin() {
   selected_bucket_.reset();
   selected_body_.reset();
+  as_scripted_ = true;
   history_.clear();
   notice_.clear();
   stability_.restart();
@@ -113,15 +116,15 @@ softbody::Scene Session::scene_in_use() const {
   return scene;
 }
 
-softbody::Scene Session::scene_with_guests() const {
+softbody::Scene Session::scene_as_it_is() const {
   softbody::Scene scene = scene_in_use();
-  for (const softbody::Guest& guest : world_->guests()) scene.bodies.push_back(guest.source);
+  scene.bodies = world_->sources();
   return scene;
 }
 
 void Session::reset() {
   try {
-    start(scene_in_use());
+    start(scene_in_use(), integrator());
   } catch (const std::exception& error) {
     notice_ = error.what();  // the present world goes on
   }
@@ -155,7 +158,7 @@ void Session::rewind_to(int frame) {
 }
 
 void Session::save_scene(const std::filesystem::path& file, const softbody::View& view) {
-  softbody::Scene scene = scene_with_guests();
+  softbody::Scene scene = scene_as_it_is();
   scene.view = view;
   notice_.clear();
   try {
@@ -194,6 +197,7 @@ void make_name_new(std::string& name, const std::vector<softbody::Material>& all
 
 void Session::add_body(softbody::BodySource body, softbody::Material material) {
   notice_.clear();
+  as_scripted_ = false;
   try {
     const std::size_t known = find_material(scene_.materials, material);
     body.material = static_cast<int>(known);
@@ -205,7 +209,6 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
     for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
       world_->add_material(scene_.materials[i]);
     world_->add(body);
-    scene_.bodies.push_back(std::move(body));
     intervened();
   } catch (const std::exception& error) {
     notice_ = error.what();
@@ -215,7 +218,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
 
 const std::string& Session::caption() const {
   static const std::string none;
-  if (world_->bodies().count() > world_->scene().bodies.size()) return none;  // dropped bodies tell another story
+  if (!as_scripted_) return none;  // what hands do is another story
   const std::string* text = &none;
   for (const softbody::Caption& caption : world_->scene().captions) {
     if (caption.frame <= world_->frame()) text = &caption.text;

@@ -77,21 +77,21 @@ class Session {
   const std::vector<SceneChoice>& scenes() const { return scenes_; }
   /// Loads another scene with its own settings; on an error the present one stays and notice() says why.
   void choose_scene(const std::string& key_or_path);
-  /// The scene from its start, with the settings in use.
+  /// The scene from its start, with the settings in use and without added bodies.
   void reset();
   /// The scene with the settings in use: what reset() starts.
   softbody::Scene scene_in_use() const;
-  /// With the bodies dropped and thrown, too, each in the frame in which it came.
-  softbody::Scene scene_with_guests() const;
-  /// Writes scene_with_guests(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
+  /// With the added bodies, too, each in the frame in which it came.
+  softbody::Scene scene_as_it_is() const;
+  /// Writes scene_as_it_is(), seen like this, to a file, which scene_file() is from then on; on an error nothing is
   /// written and notice() says why.
   void save_scene(const std::filesystem::path& file, const softbody::View& view);
   /// Where the scene came from, or was saved to last.
   const SceneFile& scene_file() const { return scene_file_; }
   /// Method and settings as the scene has them.
   void restore_settings();
-  /// A body joins the world, and the scene, which it belongs to after a reset too. If there is such a material already,
-  /// but for its name, it has that one. On an error no body joins and notice() says why.
+  /// A body joins the world. If there is such a material already, but for its name, it has that one; else the scene
+  /// gets it. On an error no body joins and notice() says why.
   void add_body(softbody::BodySource body, softbody::Material material);
   /// The world as it was before the last reset, choice of scene or deletion, to the bit; of the last few of them.
   bool can_undo() const { return !past_.empty(); }
@@ -138,6 +138,7 @@ class Session {
   void next_contact_surface();
   /// substeps: of the integrator's a frame; none: as many as stability asks for.
   void set_integrator(std::string_view key, std::optional<int> substeps);
+  IntegratorChoice integrator() const { return {std::string(world_->integrator().key), world_->substeps()}; }
   void set_collision(const collide::Settings& settings, bool default_cell_size);
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
@@ -203,7 +204,7 @@ class Session {
     Value value{};
   };
 
-  void start(const softbody::Scene& scene);
+  void start(const softbody::Scene& scene, const IntegratorChoice& integrator = {});
   void show_anew();
   void follow();
   void keep_world_settings(const softbody::Scene& in_use);
@@ -238,6 +239,7 @@ class Session {
   std::vector<Past> past_;  // the latest last
   std::optional<softbody::BodyId> selected_body_;
   SolidList solids_;
+  bool as_scripted_ = true;  // no hand has touched a body since the scene began
   Positions before_last_step_;
   double accumulator_ = 0;  // s of simulated time owed, less than one frame after advance()
   bool step_once_ = false;

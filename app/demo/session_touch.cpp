@@ -16,6 +16,7 @@ void Session::select_body(std::optional<BodyId> body) {
 
 void Session::grab(const softbody::Grab& grab) {
   world_->grab(grab);
+  as_scripted_ = false;
   intervened();
   ++revision_;
 }
@@ -26,6 +27,7 @@ void Session::release() { world_->release(); }
 void Session::drop(int count) {
   if (!can_drop()) return;
   notice_.clear();
+  as_scripted_ = false;
   succeeds([&] { world_->drop(count); });
   intervened();
   ++revision_;
@@ -34,6 +36,7 @@ void Session::drop(int count) {
 void Session::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
   if (!can_drop()) return;
   notice_.clear();
+  as_scripted_ = false;
   const bool done = succeeds([&] {
     if (const auto body = world_->throw_body(eye, throw_speed * direction))
       select_body(body);
@@ -50,6 +53,7 @@ void Session::remove_selected() {
     return;
   }
   notice_.clear();
+  as_scripted_ = false;
   world_->release();
   remember({nullptr, world_->snapshot(), scene_, scene_file_, solids_});
   succeeds([&] { world_->remove(*selected_body_); });

@@ -85,10 +85,10 @@ float draw_status(Widgets& w, Session& session, const SceneArea& area, bool& exp
 
 namespace {
 
-void legend_line(Widgets& w, const glm::vec3& colour, const char* text) {
+void legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
   w.chip(colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  ImGui::TextUnformatted(text);
+  ImGui::TextUnformatted(text.c_str());
 }
 
 void strain_scale(const Widgets& w) {
@@ -152,7 +152,8 @@ void draw_legend(Widgets& w, const Session& session, bool of_which_method) {
     legend_line(w, contact_solid_colour, "contact with a solid");
   }
   if (shown.touches) touches_legend(w, session);
-  if (shown.missed) legend_line(w, contact_missed_colour, "missed contact");
+  if (shown.missed)
+    legend_line(w, contact_missed_colour, "missed by " + std::string(collide::methods()[session.misses_of()].name));
   if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");
@@ -170,29 +171,32 @@ void draw_legend_plate(Widgets& w, const Session& session, const SceneArea& area
 
 namespace {
 
-/// Text on the scene itself, centred, with a light edge that keeps it legible on any colour.
-void text_on_scene(const Widgets& w, const char* text, float y, const SceneArea& area, float alpha) {
-  const ImVec2 size = ImGui::CalcTextSize(text);
-  if (size.x > area.max.x - area.min.x) return;
-  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
+/// Text on the scene itself, centred, with a light edge that keeps it legible on any colour; its last line ends at `y`.
+/// Returns its upper end.
+float text_on_scene(const Widgets& w, const char* text, float y, const SceneArea& area, float alpha) {
   const ImVec2 pad{w.px(10), w.px(4)};
+  const float room = area.max.x - area.min.x - 4 * pad.x;
+  const ImVec2 size = ImGui::CalcTextSize(text, nullptr, false, room);
+  const ImVec2 at{std::floor(0.5f * (area.min.x + area.max.x - size.x)), std::floor(y - size.y)};
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   draw->AddRectFilled({at.x - pad.x, at.y - pad.y}, {at.x + size.x + pad.x, at.y + size.y + pad.y},
                       to_imgui(glm::vec3(1.0f), 0.65f * alpha), w.px(6));
-  draw->AddText(at, to_imgui(glm::vec3(0.15f), alpha), text);
+  draw->AddText(nullptr, 0, at, to_imgui(glm::vec3(0.15f), alpha), text, nullptr, room);
+  return at.y - pad.y;
 }
 
 }  // namespace
 
 void draw_caption(Widgets& w, const Session& session, const SceneArea& area, double seconds) {
-  const float line = ImGui::GetTextLineHeight() + w.px(14);
-  const float bottom = area.max.y - w.px(14);
-  if (!session.caption().empty()) text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f);
+  const float bottom = area.max.y - w.px(14), line = ImGui::GetTextLineHeight() + w.px(14);
+  float hint = bottom - line;  // the caption's place stays free: the hint does not jump
+  if (!session.caption().empty())
+    hint = std::min(hint, text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f) - w.px(10));
   const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
   if (left <= 0) return;
   text_on_scene(w,
                 "Drag a body to pull it, drag beside it to turn, B throws a body, G explains the method, F1 for help",
-                bottom - line, area, left);
+                hint, area, left);
 }
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #pragma once
 // What the user has opened and asked of the window; the rest of the demo's state is the Session's.
 
+#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -27,8 +28,9 @@ struct UiState {
   TakeAway take_away;
   Tour tour;
   Import import;
-  std::string save_as = "scene.toml";   // where the scene is saved to
-  std::size_t material = 0, solid = 0;  // whose values the panel shows
+  std::string save_as = "scene.toml";      // where the scene is saved to
+  std::size_t material = 0, solid = 0;     // whose values the panel shows
+  std::array<double, 2> copied{-10, -10};  // when the commands were, in seconds of ImGui
 };
 
 }  // namespace app

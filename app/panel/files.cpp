@@ -1,6 +1,7 @@
 // The panel's sections of what comes in and what goes out: meshes, scenes, the command line; pictures, recordings,
 // curves.
 
+#include <algorithm>
 #include <filesystem>
 
 #include "app/panel/panel.h"
@@ -40,31 +41,45 @@ void draw_import(Widgets& w, Session& session, Import& import) {
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
 }
 
-void draw_save(Widgets& w, Session& session, UiState& ui) {
+void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
   w.row("Save as", w.px(label_column));
   std::error_code ignored;
   const bool there = std::filesystem::exists(ui.save_as, ignored);
-  if (field_with_button(w, "Scene file", ui.save_as, "scene.toml",
-                        "The scene with all settings in use and the camera as it is: method, levels, buckets, cell "
-                        "size, tolerance, contact surface. Bodies that you dropped or threw are in it, each from the "
-                        "frame in which it came; what you pulled or deleted is not.",
-                        there ? "Replace###Save" : "Save###Save", "Writes the file."))
+  const bool as_named = saved && there && session.scene_file().name() == std::filesystem::absolute(ui.save_as);
+  const char* button = as_named ? "Saved###Save" : there ? "Replace###Save" : "Save###Save";
+  if (field_with_button(
+          w, "Scene file", ui.save_as, "scene.toml",
+          "The scene with all settings in use but the integrator, and the camera as it is. Bodies that "
+          "you dropped, threw or loaded are in it, each in the frame in which it came; what you pulled or "
+          "deleted is as it was, so that their places need not be free then.",
+          button, as_named ? "The file holds the scene as it is." : "Writes the file."))
     session.save_scene(ui.save_as, ui.view);
 }
 
-void draw_command(Widgets& w, const Session& session, const UiState& ui) {
-  softbody::Scene used = session.scene_with_guests();
-  used.view = ui.view;
+/// A button that says for a moment that it has put `command` on the clipboard.
+void copy_button(Widgets& w, const char* name, const std::string& command, double& copied, float width) {
+  constexpr double moment = 1.5;  // s
+  const std::string label = (ImGui::GetTime() < copied + moment ? "Copied###" : std::string(name) + "###") + name;
+  if (!w.button(label.c_str(), command.c_str(), width)) return;
+  ImGui::SetClipboardText(command.c_str());
+  copied = ImGui::GetTime();
+}
+
+void draw_command(Widgets& w, const Session& session, UiState& ui, const softbody::Scene& used, bool saved) {
   const SceneFile& file = session.scene_file();
   const int frame = session.world().frame();
+  // What was added between the last step and the next shows here at once, there after that step.
+  const bool just_added = std::ranges::any_of(session.world().added(),
+                                              [&](const auto& one) { return frame > 0 && one.source.appear == frame; });
   w.row("Command", w.px(label_column));
-  ImGui::BeginDisabled(!file.makes(used));
+  ImGui::BeginDisabled(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  std::string demo = demo_command(file.name(), used), simulate = simulate_command(file.name(), used, frame);
-  if (!file.makes(used)) demo = simulate = "The scene was changed: save it, so that a command can name it.";
-  if (w.button("Copy", demo.c_str(), width)) ImGui::SetClipboardText(demo.c_str());
+  std::string demo = demo_command(file.name(), used, session.integrator());
+  std::string simulate = simulate_command(file.name(), used, session.integrator(), frame + (just_added ? 1 : 0));
+  if (!saved) demo = simulate = "The scene was changed: save it, so that a command can name it.";
+  copy_button(w, "Copy", demo, ui.copied[0], width);
   ImGui::SameLine();
-  if (w.button("Copy simulate", simulate.c_str(), width)) ImGui::SetClipboardText(simulate.c_str());
+  copy_button(w, "Copy simulate", simulate, ui.copied[1], width);
   ImGui::EndDisabled();
 }
 
@@ -105,8 +120,11 @@ void draw_message(Widgets& w, const TakeAway& take_away) {
 
 void draw_files(Widgets& w, Session& session, UiState& ui) {
   draw_import(w, session, ui.import);
-  draw_save(w, session, ui);
-  draw_command(w, session, ui);
+  softbody::Scene used = session.scene_as_it_is();
+  used.view = ui.view;
+  const bool saved = session.scene_file().makes(used);
+  draw_save(w, session, ui, saved);
+  draw_command(w, session, ui, used, saved);
 }
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {

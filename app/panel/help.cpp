@@ -35,8 +35,8 @@ void overlays_and_mouse(const Widgets& w, float left) {
 }  // namespace
 
 void draw_help(Widgets& w, const SceneArea& area, bool& open) {
-  ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * (area.min.y + area.max.y)};
   const ImVec2 display = ImGui::GetIO().DisplaySize;
+  ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * display.y};
   const bool narrow = display.x < w.px(2.2f * half_width);
   if (narrow || display.x - area.min.x < w.px(2.2f * half_width)) middle.x = 0.5f * display.x;
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});

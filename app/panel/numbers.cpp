@@ -69,18 +69,26 @@ std::string ratio(std::uint64_t part, std::uint64_t whole) {
   return whole == 0 ? "-" : text("%.3g", static_cast<double>(part) / static_cast<double>(whole));
 }
 
-/// What §3 claims of the work, against what was counted.
-void draw_claims(Widgets& w, const Session& session) {
+/// With what §3 claims of them.
+void draw_pair_tests(Widgets& w, const Session& session) {
   const collide::Counters& counters = session.world().detection().counters;
   const std::uint64_t vertices = session.world().bodies().vertex_count();
   const std::uint64_t all = all_pair_tests(session.world().bodies(), session.world().collision().self_collision);
-  const std::uint64_t corners = 8 * session.paper().boxes.size();
+  w.figure("Pair tests", grouped(counters.pair_tests),
+           "Distances evaluated in this frame; brute force evaluates all (§2.3).");
   w.figure("  a vertex; of all pairs",
            joined(ratio(counters.pair_tests, vertices), "; ", ratio(100 * counters.pair_tests, all), " %"),
            joined("Pair tests of this frame over its ", grouped(vertices), " vertices, and over all ", grouped(all),
                   " pairs. §3 claims O(1) at best: as many a vertex, however many bodies there are; and O(N^2) at "
                   "worst: all pairs.")
                .c_str());
+}
+
+void draw_hashes(Widgets& w, const Session& session) {
+  const std::uint64_t vertices = session.world().bodies().vertex_count();
+  const std::uint64_t corners = 8 * session.paper().boxes.size();
+  w.figure("Hash evaluations", grouped(session.world().detection().counters.hashes),
+           "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
   w.figure("  corners / vertices", joined(grouped(corners), " / ", grouped(vertices)),
            joined("What the paper's method hashes, eight corners a box, against what a vertex hash does: ",
                   ratio(corners, vertices),
@@ -101,11 +109,8 @@ void draw_numbers(Widgets& w, const Session& session) {
   w.figure("with solids", grouped(session.world().solid_contacts().size()),
            "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
   draw_touches(w, session);
-  w.figure("Pair tests", grouped(counters.pair_tests),
-           "Distances evaluated in this frame; brute force evaluates all (§2.3).");
-  w.figure("Hash evaluations", grouped(counters.hashes),
-           "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
-  draw_claims(w, session);
+  draw_pair_tests(w, session);
+  draw_hashes(w, session);
   w.figure("Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
   w.figure("Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
   w.figure("Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");

@@ -54,7 +54,8 @@ void draw_integrator(Widgets& w, Session& session) {
   if (draw_integrator_choice(w, "", choice, proposed)) session.set_integrator(choice.key, choice.substeps);
   if (!world.integrator().automatic) return;
   const softbody::Dynamics& dynamics = world.dynamics();
-  w.figure("At work", std::string(dynamics.used_integrator().name),
+  const bool chosen = !dynamics.used_integrator().automatic;  // not before the first step
+  w.figure("At work", chosen ? std::string(dynamics.used_integrator().name) : "from the next step on",
            std::string("Because ").append(dynamics.why_integrator()).append(".").c_str());
 }
 

@@ -250,7 +250,12 @@ void text_in_line(const std::string& text, float place) {
 
 }  // namespace
 
-void Widgets::line(const std::string& text) { text_in_line(text, 0.0f); }
+void Widgets::line(const std::string& text) {
+  if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
+    ImGui::TextWrapped("%s", text.c_str());
+  else
+    text_in_line(text, 0.0f);
+}
 void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
 
 void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {

@@ -14,6 +14,7 @@
 #include "app/tour/excerpt.h"
 #include "collide/body_boxes.h"
 #include "collide/detectors.h"
+#include "softbody/measures.h"
 
 namespace app {
 namespace {
@@ -44,19 +45,35 @@ Pair pair_of(const softbody::World& world, const Contact& contact) {
   return {a, b};
 }
 
-/// The most telling pair in contact: with the wished body, of two bodies, with found and missed contacts, with most.
-std::optional<Pair> most_telling(const softbody::World& world, const std::vector<Contact>& contacts,
-                                 const std::vector<Contact>& missed, std::optional<BodyId> wish) {
+/// Whether a solid stands between the eye and the middle of a pair's boxes.
+bool hidden(const softbody::World& world, const collide::BodyBoxes& boxes, const Pair& pair, const glm::dvec3& eye) {
+  constexpr int places = 64;
+  const collide::Aabb &a = boxes.box[pair.a], &b = boxes.box[pair.b];
+  const glm::dvec3 middle = 0.25 * (glm::dvec3(a.lo) + glm::dvec3(a.hi) + glm::dvec3(b.lo) + glm::dvec3(b.hi));
+  for (int i = 0; i < places; ++i)
+    if (softbody::solid_depth(world.scene(), glm::mix(middle, eye, double(i) / places)).depth > 0) return true;
+  return false;
+}
+
+/// The most telling pair in contact: with the wished body, in sight, of two bodies, with found and missed contacts,
+/// with most.
+std::optional<Pair> most_telling(const softbody::World& world, const collide::BodyBoxes& boxes,
+                                 const std::vector<Contact>& contacts, const std::vector<Contact>& missed,
+                                 std::optional<BodyId> wish, std::optional<glm::dvec3> eye) {
   std::map<Pair, std::pair<std::size_t, std::size_t>> counts;  // missed, all
   for (const Contact& contact : contacts) ++counts[pair_of(world, contact)].second;
   for (const Contact& contact : missed) ++counts[pair_of(world, contact)].first;
   const auto rank = [&](const auto& entry) {
     const auto& [pair, count] = entry;
     const auto [lost, all] = count;
-    return std::tuple(wish && (pair.a == *wish || pair.b == *wish), pair.a != pair.b, std::min(lost, all - lost), all);
+    return std::tuple(wish && (pair.a == *wish || pair.b == *wish), !eye || !hidden(world, boxes, pair, *eye),
+                      pair.a != pair.b, std::min(lost, all - lost), all);
   };
-  const auto best = std::ranges::max_element(counts, {}, rank);
-  return best == counts.end() ? std::nullopt : std::optional(best->first);
+  using Rank = decltype(rank(*counts.begin()));
+  std::optional<std::pair<Rank, Pair>> best;  // each is ranked once: it looks along the line of sight
+  for (const auto& entry : counts)
+    if (const Rank now = rank(entry); !best || now > best->first) best.emplace(now, entry.first);
+  return best ? std::optional(best->second) : std::nullopt;
 }
 
 float gap(const collide::Aabb& a, const collide::Aabb& b) {
@@ -185,7 +202,8 @@ std::optional<std::vector<Contact>> Finder::missed_by_themselves(const softbody:
   return score(found, f.contacts).missed;
 }
 
-std::optional<Findings> Finder::find(const softbody::World& world, std::optional<BodyId> wish) {
+std::optional<Findings> Finder::find(const softbody::World& world, std::optional<BodyId> wish,
+                                     std::optional<glm::dvec3> eye) {
   const collide::Frame frame = world.positions();
   const collide::Settings& settings = world.collision();
   collide::BodyBoxes boxes;
@@ -204,7 +222,7 @@ std::optional<Findings> Finder::find(const softbody::World& world, std::optional
     missed = score(detect(*paper_, frame, settings, alone_, &f.work), truth).missed;
     f.structure = paper_->debug();
   }
-  const auto in_touch = most_telling(world, truth, missed, wish);
+  const auto in_touch = most_telling(world, boxes, truth, missed, wish, eye);
   const auto pair = in_touch ? in_touch : nearest(boxes, wish);
   if (!pair) return std::nullopt;
   f.body = pair->a;

@@ -44,9 +44,10 @@ struct Findings {
 class Finder {
  public:
   Finder();
-  /// wish: a body that should be in the pair, if possible. Nothing if no body of the world is finite. May throw what
-  /// detectors throw.
-  std::optional<Findings> find(const softbody::World& world, std::optional<softbody::BodyId> wish);
+  /// wish: a body that should be in the pair, if possible. eye: from where it should be seen, if possible. Nothing if
+  /// no body of the world is finite. May throw what detectors throw.
+  std::optional<Findings> find(const softbody::World& world, std::optional<softbody::BodyId> wish,
+                               std::optional<glm::dvec3> eye = std::nullopt);
 
  private:
   std::optional<std::vector<collide::Contact>> missed_by_themselves(const softbody::World& world, const Findings& f);

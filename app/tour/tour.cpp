@@ -1,6 +1,19 @@
 #include "app/tour/tour.h"
 
+#include <cmath>
+
+#include <glm/trigonometric.hpp>
+
 namespace app {
+namespace {
+
+glm::dvec3 eye_of(const softbody::View& view) {
+  const double round = glm::radians(view.azimuth), up = glm::radians(view.elevation);
+  const glm::dvec3 direction(std::cos(up) * std::sin(round), std::sin(up), std::cos(up) * std::cos(round));
+  return view.target + view.distance * direction;
+}
+
+}  // namespace
 
 void Tour::start(Session& session) {
   finder_ = std::make_unique<Finder>();
@@ -12,7 +25,6 @@ void Tour::start(Session& session) {
   revision_ = 0;
   chosen_corner_.reset();
   go_to(0);
-  follow(session);
 }
 
 void Tour::close(Session& session) {
@@ -44,19 +56,20 @@ void Tour::choose_corner(std::size_t corner) {
   go_to(step_);
 }
 
-void Tour::follow(const Session& session) {
+void Tour::follow(const Session& session, const softbody::View* view) {
   if (!open()) return;
-  if (revision_ != session.revision() || wish_ != session.selected_body()) find(session);
+  if (revision_ != session.revision() || wish_ != session.selected_body()) find(session, view);
   if (!shown_) show(session);
 }
 
-void Tour::find(const Session& session) {
+void Tour::find(const Session& session, const softbody::View* view) {
   revision_ = session.revision();
   wish_ = session.selected_body();
   shown_ = false;
   problem_ = "There is no body in the world yet: close the tour and wait until one comes.";
   try {
-    findings_ = finder_->find(session.world(), session.selected_body());
+    findings_ =
+        finder_->find(session.world(), session.selected_body(), view ? std::optional(eye_of(*view)) : std::nullopt);
   } catch (const std::exception& error) {
     findings_.reset();
     problem_ = error.what();

@@ -22,8 +22,8 @@ class Tour {
   /// Of the eight corners of the box that is hashed.
   void choose_corner(std::size_t corner);
 
-  /// Once a frame: looks again if the state or the selected body has changed.
-  void follow(const Session& session);
+  /// Once a frame: looks again if the state or the selected body has changed, for what can be seen in this view.
+  void follow(const Session& session, const softbody::View* view = nullptr);
   /// Nothing if there is no body to show, or the method cannot be shown on it: then problem() says why.
   std::optional<TourView> view(const Session& session) const;
   const std::string& problem() const { return problem_; }
@@ -38,7 +38,7 @@ class Tour {
   const std::optional<Overlays>& kept_overlays() const { return kept_overlays_; }
 
  private:
-  void find(const Session& session);
+  void find(const Session& session, const softbody::View* view);
   void show(const Session& session);
   void go_to(std::size_t step);
 

@@ -39,22 +39,24 @@ MeshHandle Bodies::add_mesh(std::span<const std::uint32_t> triangles, std::uint3
     throw std::invalid_argument("a mesh of " + std::to_string(vertex_count) +
                                 " vertices has an index beyond them, or an unfinished triangle");
   }
-  Mesh& mesh = meshes_.emplace_back();
-  mesh.vertex_count = vertex_count;
-  mesh.closed = is_closed(triangles);
-  for (int l = 0; l < levels; ++l) {
-    const RefinedMesh refined = refine(triangles, vertex_count, 1 << l);
-    Level& level = mesh.levels.emplace_back();
-    level.array.bind();
-    level.index_count = static_cast<GLsizei>(refined.indices.size());
-    level.indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(refined.indices));
-    level.vertices.set(GL_ARRAY_BUFFER, std::span(refined.vertices));
-    constexpr GLsizei stride = sizeof(RefinedVertex);
-    glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, offset(offsetof(RefinedVertex, corners)));
-    glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(RefinedVertex, weights)));
-    describe_instances();
-  }
+  meshes_.push_back({{triangles.begin(), triangles.end()}, vertex_count, is_closed(triangles), {}});
   return {static_cast<std::uint32_t>(meshes_.size() - 1)};
+}
+
+const Bodies::Level& Bodies::level_of(Mesh& mesh, int level) const {
+  std::optional<Level>& made = mesh.refined[static_cast<std::size_t>(level)];
+  if (made) return *made;
+  made.emplace();
+  const RefinedMesh refined = refine(mesh.triangles, mesh.vertex_count, 1 << level);
+  made->array.bind();
+  made->index_count = static_cast<GLsizei>(refined.indices.size());
+  made->indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(refined.indices));
+  made->vertices.set(GL_ARRAY_BUFFER, std::span(refined.vertices));
+  constexpr GLsizei stride = sizeof(RefinedVertex);
+  glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, offset(offsetof(RefinedVertex, corners)));
+  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(RefinedVertex, weights)));
+  describe_instances();
+  return *made;
 }
 
 void Bodies::describe_instances() const {
@@ -170,8 +172,8 @@ void Bodies::draw_translucent() {
 void Bodies::draw_batches(const Batches& batches, bool coarse) {
   for (const auto& [key, batch] : batches) {
     if (batch.empty()) continue;
-    const Mesh& mesh = meshes_[key.first];
-    const Level& level = mesh.levels[coarse ? 0 : static_cast<std::size_t>(key.second)];
+    Mesh& mesh = meshes_[key.first];
+    const Level& level = level_of(mesh, coarse ? 0 : key.second);
     instances_.stream(GL_ARRAY_BUFFER, std::span(batch));
     level.array.bind();
     if (mesh.closed) glEnable(GL_CULL_FACE);

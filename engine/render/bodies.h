@@ -2,10 +2,12 @@
 // Deforming bodies: one instanced draw per mesh and refinement. The shader fetches a body's vertices from textures, so
 // a frame uploads positions and normals as they are, and finer outlines cost no upload.
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <glm/vec3.hpp>
 #include <map>
+#include <optional>
 #include <span>
 #include <utility>
 #include <vector>
@@ -49,9 +51,10 @@ class Bodies {
     GLsizei index_count = 0;
   };
   struct Mesh {
+    std::vector<std::uint32_t> triangles;
     std::uint32_t vertex_count = 0;
     bool closed = false;
-    std::vector<Level> levels;
+    std::array<std::optional<Level>, levels> refined;  // made when first needed: each has four times the triangles
   };
   using Batches = std::map<std::pair<std::uint32_t, int>, std::vector<Instance>,
                            std::greater<>>;  // by mesh and level, finest first
@@ -59,6 +62,7 @@ class Bodies {
   void collect(const FrameData& frame, const Occlusion& occlusion, const glm::vec3& eye, float pixels_at_one_metre);
   void collect_translucent(const FrameData& frame, const glm::vec3& eye, float pixels_at_one_metre);
   void draw_batches(const Batches& batches, bool coarse);
+  const Level& level_of(Mesh& mesh, int level) const;
   void describe_instances() const;
 
   Program program_, shadow_program_;

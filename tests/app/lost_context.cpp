@@ -11,12 +11,16 @@ namespace {
 
 using Function = void (*)();
 
-/// In the place of glGetGraphicsResetStatus.
+/// In the place of glGetGraphicsResetStatus, which the program asks once a frame. A reset takes some time. With
+/// LOST_CONTEXT_AGAIN there is another one after the first.
 unsigned reset_status() {
-  constexpr int when = 60;  // calls, one a frame
+  constexpr int first = 60, takes = 3;  // calls
   constexpr unsigned guilty_context_reset = 0x8253;
+  static const int again = std::getenv("LOST_CONTEXT_AGAIN") ? first + takes + 20 : -takes;
   static int calls = 0;
-  return ++calls == when ? guilty_context_reset : 0;
+  ++calls;
+  const bool lost = (calls >= first && calls < first + takes) || (calls >= again && calls < again + takes);
+  return lost ? guilty_context_reset : 0;
 }
 
 }  // namespace
@@ -25,7 +29,7 @@ unsigned reset_status() {
 extern "C" Function glXGetProcAddressARB(const unsigned char* name) {
   using Lookup = Function (*)(const unsigned char*);
   if (std::strcmp(reinterpret_cast<const char*>(name), "glGetGraphicsResetStatus") == 0) {
-    std::ofstream(std::getenv("LOST_CONTEXT_LOG"), std::ios::app) << "context\n";
+    if (const char* log = std::getenv("LOST_CONTEXT_LOG")) std::ofstream(log, std::ios::app) << "context\n";
     return reinterpret_cast<Function>(&reset_status);
   }
   static const auto driver = reinterpret_cast<Lookup>(::dlsym(RTLD_NEXT, "glXGetProcAddressARB"));

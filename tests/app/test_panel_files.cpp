@@ -29,7 +29,8 @@ TEST(FilesPanel, LoadsWhatIsNamed) {
   rig.type("File to open", "/none.obj");
   rig.click("Load");
   for (int i = 0; i < 600 && !rig.ui.import.failed(); ++i) rig.frame();
-  EXPECT_NE(rig.session.notice().find("/none.obj"), std::string::npos) << rig.session.notice();
+  ASSERT_TRUE(rig.ui.import.failed());
+  EXPECT_NE(rig.ui.import.report().front().find("/none.obj"), std::string::npos);
 }
 
 TEST(FilesPanel, SavesAndSaysWhenItReplaces) {

@@ -56,7 +56,7 @@ TEST(Commands, MakeTheSceneAsItRuns) {
     SCOPED_TRACE(key);
     const softbody::Scene scene = softbody::find_scene(key, scene_folder());
     for (const softbody::Scene& used : {scene, changed(scene)}) {
-      const Options demo = parse(demo_command(key, used));
+      const Options demo = parse(demo_command(key, used, {}));
       EXPECT_EQ(demo.command, Command::demo);
       softbody::Scene made = load_scene(demo);
       if (used.default_cell_size) made.collision.cell_size = used.collision.cell_size;  // not in use
@@ -64,9 +64,11 @@ TEST(Commands, MakeTheSceneAsItRuns) {
       made.bodies = used.bodies;  // meshes from files are read anew
       made.dropper = used.dropper;
       EXPECT_TRUE(made == used);
-      const Options simulate = parse(simulate_command(key, used, 17));
+      const Options simulate = parse(simulate_command(key, used, {"xpbd", 7}, 17));
       EXPECT_EQ(simulate.command, Command::simulate);
       EXPECT_EQ(simulate.frames, 17);
+      EXPECT_EQ(simulate.integrator, "xpbd");
+      EXPECT_EQ(simulate.substeps, 7);
       EXPECT_EQ(simulate.captures, std::vector{17});
       EXPECT_TRUE(load_scene(simulate).collision == made.collision);
     }
@@ -76,7 +78,7 @@ TEST(Commands, MakeTheSceneAsItRuns) {
 TEST(Commands, AreQuotedForAShell) {
   for (const std::string name :
        {"it's a \"scene\" $HOME `id`\\.toml", "a b.toml", "-x.toml", "D", "é\n*?[a].toml", "~"})
-    EXPECT_EQ(parse(demo_command(name, touching_pair())).scene, name);
+    EXPECT_EQ(parse(demo_command(name, touching_pair(), {})).scene, name);
   EXPECT_EQ(shell_word("D"), "D");
   EXPECT_EQ(shell_word(""), "''");
 }
@@ -93,7 +95,7 @@ TEST(Commands, OfASavedSceneMakeAllOfIt) {
   softbody::Scene used = session.scene_in_use();
   used.view = view;
   EXPECT_TRUE(session.scene_file().makes(used));
-  softbody::Scene made = load_scene(parse(demo_command(session.scene_file().name(), used)));
+  softbody::Scene made = load_scene(parse(demo_command(session.scene_file().name(), used, {})));
   made.key = used.key;
   made.collision.cell_size = used.collision.cell_size;
   EXPECT_TRUE(made == used);
@@ -130,32 +132,42 @@ TEST(SavedSession, HasTheSettingsInUse) {
   EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
-TEST(SavedSession, BringsWhatWasDroppedAndThrownInTheFrameInWhichItCame) {
+TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.toml";
   Session session(softbody::find_scene("drop", scene_folder()), {}, 1);
   const auto go_on = [](Session& s, int frames) {
     for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60, true);
   };
+  const auto begin = session.world().scene().bodies.size();
   session.drop(2);
   go_on(session, 40);
   session.throw_body({6, 2, 0}, {-1, 0, 0});
   session.drop();
   go_on(session, 30);
-  ASSERT_EQ(session.world().guests().size(), 4u);
-  session.select_body(session.world().guests()[1].body);
-  session.remove_selected();  // no part of the scene any more
+  ASSERT_EQ(session.world().added().size(), 4u);
   session.save_scene(file, {});
   ASSERT_EQ(session.notice(), "");
-  softbody::Scene shown = session.scene_with_guests();
-  EXPECT_TRUE(session.scene_file().makes(shown));
-  EXPECT_EQ(softbody::load_scene(file).bodies.size(), shown.bodies.size());
+  EXPECT_TRUE(session.scene_file().makes(session.scene_as_it_is()));
   Session again(softbody::load_scene(file), {}, 1);
+  EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
   go_on(again, 70);
-  EXPECT_EQ(again.world().bodies().count(), session.world().bodies().count());
-  EXPECT_TRUE(again.world().guests().empty());  // they belong to the scene now
+  EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
+  EXPECT_TRUE(again.world().added().empty());  // they are the scene's now
+  session.select_body(session.world().added()[1].body);
+  session.remove_selected();
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 3);
+  session.undo();
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 4);
   session.reset();
-  EXPECT_EQ(session.world().scene().bodies.size(), shown.bodies.size() - 3);
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin);
+}
+
+TEST(Reset, KeepsTheIntegrator) {
+  Session session(touching_pair(), {}, 1);
+  session.set_integrator("xpbd", 7);
+  session.reset();
+  EXPECT_EQ(session.integrator(), (IntegratorChoice{"xpbd", 7}));
 }
 
 TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {

@@ -112,6 +112,7 @@ TEST(Tour, WritesTheHashOut) {
   Session session(touching_pair(), {}, 1);
   Tour tour;
   tour.start(session);
+  tour.follow(session);
   for (std::size_t i = 0; i < 8; ++i) {
     tour.choose_corner(i);
     const auto view = tour.view(session);

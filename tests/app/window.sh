@@ -162,16 +162,29 @@ click 1100 400 1
 press q
 expect_clean_end "the key Q, the third time"
 
-# The driver is reset: another context shows the same world.
+# The driver is reset: another context shows the same world, with what was added before.
 contexts=$work/contexts
 has_another_context() { [ "$(wc -l <"$contexts")" = 2 ] && has_window; }
 export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
+rm -f scene.toml
+open_only Files
 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context start
+xdotool windowfocus "$window" 2>/dev/null
+press d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
 sleep 1
-press space
+click 290 $((field + 58)) 1  # Save
+until_true "the scene after a reset of the driver" test -s scene.toml
+[ "$(grep -c '^\[\[body\]\]' scene.toml)" -gt "$(grep -c '^\[\[body\]\]' "$sources/assets/scenes/drop.toml")" ] ||
+  fail "the dropped body was lost with the context"
+click 1100 400 1
 press p
 until_true "a picture after a reset of the driver" test -s picture_0002.png
 press q
 expect_clean_end "the key Q, after a reset of the driver"
+
+# Reset again at once: it ends and says why.
+LOST_CONTEXT_AGAIN=1 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context "$program" >"$work/out" 2>"$work/err"
+[ $? -eq 2 ] || fail "the exit status after two resets of the driver"
+[ "$(wc -l <"$work/err")" = 1 ] && grep -q "again and again" "$work/err" || fail "one line about two resets"

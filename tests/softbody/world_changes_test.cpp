@@ -5,7 +5,6 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/limits.h"
-#include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody {
@@ -195,44 +194,6 @@ TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
     test::run(world, 30);
     EXPECT_TRUE(measure(world).finite);
   }
-}
-
-/// The hash after so many frames of the world's own scene with the guests that it has.
-std::uint64_t hash_with_guests(const World& world) {
-  Scene scene = world.scene();
-  for (const Guest& guest : world.guests()) scene.bodies.push_back(guest.source);
-  World again(std::move(scene), {.threads = 2});
-  test::run(again, world.frame());
-  return again.state_hash();
-}
-
-TEST(Guests, BroughtByTheSceneItselfGoTheSameWayToTheBit) {
-  for (const char* key : {"drop", "A", "cloth"}) {
-    SCOPED_TRACE(key);
-    World world(find_scene(key, SBCOLLIDE_SCENES), {.threads = 2});
-    world.drop(3);  // before the first frame
-    test::run(world, 30);
-    world.drop();
-    ASSERT_TRUE(world.throw_body({6, 2, 0}, {-5, 1, 0}));
-    test::run(world, 60);
-    ASSERT_EQ(world.guests().size(), 5u);
-    EXPECT_EQ(hash_with_guests(world), world.state_hash());
-  }
-}
-
-TEST(Guests, LeaveWithTheirBodiesAndComeBackWithTheirSnapshot) {
-  World world(find_scene("A", SBCOLLIDE_SCENES), {});
-  const BodyId first = world.bodies().count();
-  world.drop(3);
-  const Snapshot three = world.snapshot();
-  world.remove(first + 1);
-  ASSERT_EQ(world.guests().size(), 2u);
-  EXPECT_EQ(world.guests()[0].body, first);
-  EXPECT_EQ(world.guests()[1].body, first + 1);
-  world.remove(0);  // one of the scene's own
-  EXPECT_EQ(world.guests()[0].body, first - 1);
-  world.restore(three);
-  EXPECT_EQ(world.guests().size(), 3u);
 }
 
 TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
