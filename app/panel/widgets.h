@@ -80,8 +80,8 @@ class Widgets {
 
   /// Grey text that starts a row; what follows stands in the right column and takes its whole width.
   void row(const char* label, float column);
-  /// Text that takes the rest of the line whatever it says, flush left or right: changing digits move nothing else. What
-  /// is flush left and too long is wrapped.
+  /// Text that takes the rest of the line whatever it says, flush left or right: changing digits move nothing else.
+  /// What is flush left and too long is wrapped.
   void line(const std::string& text);
   void value(const std::string& text);
   /// A line with a grey label and its value at the right.
