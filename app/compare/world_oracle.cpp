@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
+
+#include "collide/closest_features.h"
 
 namespace app {
 
@@ -33,10 +36,20 @@ std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& wor
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
   std::vector<collide::Crossing> found;
   if (moved(world) > 0) found = collide::find_crossings(before, after, surfaces_, workers_);
+  std::swap(earlier_, before_);
   before_.copy(now);
   bodies_ = world.bodies();
   surfaces_ = surfaces_of(world);
   return found;
+}
+
+bool WorldOracle::changed_side(const collide::Crossing& crossing) const {
+  const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
+  const auto inside = [&](const Positions& p) {
+    return collide::inside({p.x[vertex], p.y[vertex], p.z[vertex]}, *surfaces_[crossing.other],
+                           {&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)});
+  };
+  return inside(earlier_) != inside(before_);
 }
 
 }  // namespace app

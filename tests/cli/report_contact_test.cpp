@@ -74,6 +74,22 @@ TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
   }
 }
 
+/// In B a vertex goes in and out again through one face that turns, on the straight ways of two steps, and is never
+/// inside when it is looked at: of its crossings only the first is listed.
+TEST(ContactReport, WhatCameOutAgainHasNotPassed) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run({"report", "contact", "--quick", "--scene", "B", "--out", folder.path()}).status, 0);
+  int surfaces = 0;
+  for (Row row : read_csv(folder.path() / "contact.csv")) {
+    if (row["contact_surface"] != "surface") continue;
+    ++surfaces;
+    EXPECT_GT(number(row["crossed_vertices"]), 0) << "else this test holds nothing";
+    EXPECT_EQ(row["passed"], "0");
+    EXPECT_EQ(row["failures"], "");
+  }
+  EXPECT_EQ(surfaces, 1);
+}
+
 TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
   const TemporaryFolder folder;
   const Outcome o = run({"report", "contact", "--quick", "--scene", "drop-3000", "--out", folder.path()});

@@ -96,8 +96,11 @@ class Trial {
     std::set<collide::Index> vertices;
     for (const collide::Crossing& c : crossings) {
       if (c.kind != collide::Crossing::Kind::vertex_face) continue;
-      balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
+      if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
+        balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
+      else if (oracle_.changed_side(c))
+        vertices.insert(c.feature[0]);
     }
     for (const auto& [key, sum] : balance) {
       if (sum != 0) vertices.insert(key.first);
