@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace app::test {
 namespace {
 
@@ -48,6 +50,17 @@ TEST(StabilityCriteria, WhatIsNotFiniteFailsAndEndsTheRun) {
   const StabilityFigures f = run([](StabilitySample& s) { s.finite = s.frame < 30; });
   EXPECT_EQ(fault(f), "not finite;gave up at 0.5 s;");
   EXPECT_EQ(f.blew_up, 0.5);
+}
+
+TEST(StabilityCriteria, AFigureThatIsNoNumberFails) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.energy = nan; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.speed = s.speed_reach = 0; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.extent_reach = nan; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.depth = nan; }), "not finite;gave up at 0.0167 s;");
+  StabilityLimits nothing = limits;
+  nothing.energy = 90, nothing.scale = 0;
+  EXPECT_EQ(fault([](StabilitySample&) {}, nothing), "not finite;gave up at 0.0167 s;");
 }
 
 TEST(StabilityCriteria, EnergyMayGrowByAFewHundredthsOfTheScaleAndByTheWorkDone) {
