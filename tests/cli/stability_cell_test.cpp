@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "app/report/stability/joiners.h"
 
 namespace app::test {
