@@ -10,7 +10,7 @@ namespace app {
 
 void StabilityJudge::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
-  const double excess = (s.energy - limits_.energy - s.work) / limits_.scale, speed = s.speed / s.speed_reach,
+  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.speed_reach,
                extent = s.extent / s.extent_reach, depth = s.depth / limits_.radius;
   // What is no number is no less than any bound: std::max would pass over it.
   const auto finite = [](double figure) { return std::isfinite(figure); };

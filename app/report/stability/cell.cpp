@@ -37,7 +37,7 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), judge_(start.limits) {}
+  Run(const StabilityStart& start) : start_(start), judge_(start.limits), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(
@@ -58,6 +58,7 @@ class Run {
     world.step();
     ++frame_;
     time_ += world.frame_time();
+    if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
     shields_.frame(world.last_shield_energies(), world.shield_energies());
     const softbody::Measures m = softbody::measure(world);
@@ -65,6 +66,7 @@ class Run {
                       .frame = frame_,
                       .finite = m.finite,
                       .energy = m.energy + shields_.stored(),
+                      .scale = std::max(above_balance_, weight_),
                       .speed = m.max_speed,
                       .depth = m.deepest_penetration,
                       .through = passages_.count()};
@@ -81,7 +83,7 @@ class Run {
     add_work(world, depth_before);
     s.work = work_;
     const StabilityLimits& limits = start_.limits;
-    double available = limits.energy + work_ + stability_bounds.energy * limits.scale;  // for all but gravity and gas
+    double available = limits.energy + work_ + stability_bounds.energy * s.scale;  // for all but gravity and gas
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
@@ -90,9 +92,9 @@ class Run {
       gas += gas_energy(world.prototype(b), particles);
       extents.push_back(extent_of(particles));
     }
-    const double least = 1e-9 * limits.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = s.extent_reach = 1;        // of nobody
-    if (bodies_ > 0) s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
+    const double least = 1e-9 * s.scale;  // what has flown away has lost all to gravity
+    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
+    s.extent_reach = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
       const auto& [length, stiffness] = start_.members[b].leash;
       const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
@@ -104,6 +106,7 @@ class Run {
   const StabilityStart::Member& take_in() {
     const StabilityStart::Member& member = start_.members[bodies_++];
     balance_ += member.balance;
+    weight_ += member.weight();
     lightest_ = std::min(lightest_, member.particle_mass);
     return member;
   }
@@ -113,7 +116,11 @@ class Run {
   void join(World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
     const BodyId first = bodies_;
-    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) work_ += take_in().energy();
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) {
+      const StabilityStart::Member& member = take_in();
+      work_ += member.energy();
+      above_balance_ += member.kinetic;
+    }
     if (bodies_ == first) return;
     const auto joiners = std::span(sources).subspan(first, bodies_ - first);
     work_ += shields_.join(shield_energies_with(world, joiners), world.bodies().vertex_count());
@@ -130,8 +137,10 @@ class Run {
 
   const StabilityStart& start_;
   StabilityJudge judge_;
+  double above_balance_;                                       // J, that the bodies at hand began or joined with
   BodyId bodies_ = 0;                                          // at hand
   double balance_ = 0;                                         // J, their springs and gas in balance
+  double weight_ = 0;                                          // J, their m g R
   double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
   SolidPassages passages_;
   ShieldAccount shields_;

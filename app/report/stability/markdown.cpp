@@ -39,7 +39,7 @@ std::string introduction(const StabilityResults& r) {
       "marked * with the reason below its table, and judged on the rest.\n"
       "- Bodies have, where they start or join, their own energy and all that the shields' pairs hold there. What the "
       "first frame of one that joins adds to it, or carries it into, is not credited. E0 - E_eq and m g R are those of "
-      "all bodies of the scene, whenever they join.\n"
+      "all bodies that have begun or joined by then.\n"
       "- Shields push out what they find behind a surface. The potential of such a pair appears when it is found. "
       "It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by pressing it "
       "further is energy of theirs.\n"

@@ -71,18 +71,9 @@ StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::B
 
 StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
   const softbody::Measures m = softbody::measure(world);
-  double above_balance = m.energy, weight = 0, smallest = infinite;
-  for (BodyId b = 0; b < start.members.size(); ++b) {
-    const StabilityStart::Member& member = start.members[b];
-    if (b < start.particles.size())
-      above_balance -= height_energy(world, start.particles[b], b) + member.balance;
-    else
-      above_balance += member.kinetic;
-    weight += member.mass * 9.81 * member.radius;
-    smallest = std::min(smallest, member.radius);
-  }
+  double smallest = infinite;
+  for (const StabilityStart::Member& member : start.members) smallest = std::min(smallest, member.radius);
   return {.energy = m.energy + softbody::total(world.shield_energies()),
-          .scale = std::max(above_balance, weight),
           .seconds = start.first_frame + seconds,
           .radius = smallest,
           .begins_inside = m.deepest_penetration > 0};
@@ -118,6 +109,9 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   const softbody::PrototypeSet prototypes = world.snapshot().prototypes;
   for (const softbody::BodySource& source : s.scene.bodies)
     s.members.push_back(member_of(*prototypes.of(source), source, s.scene.gravity));
+  s.above_balance = softbody::measure(world).energy;
+  for (BodyId b = 0; b < s.particles.size(); ++b)
+    s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
   if (!s.particles.empty()) s.balanced = world.prototype(0).start;
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start: no cell has to look for their balance again, unless some come later.

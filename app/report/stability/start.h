@@ -20,12 +20,14 @@ struct StabilityStart {
     double radius, mass, particle_mass;  // m, kg, kg
     double balance, kinetic, height;     // J: springs and gas; of motion; of gravity, 0 at the origin
     double energy() const { return balance + kinetic + height; }
+    double weight() const { return mass * 9.81 * radius; }  // J, m g R
   };
 
   softbody::Scene scene;             // its bodies in the order in which they join
   std::vector<Particles> particles;  // that the bodies start with
   double first_frame = 0;            // s, see StabilityScene
   StabilityLimits limits{};
+  double above_balance = 0;            // J, E0 - E_eq of those that begin
   std::vector<Member> members{};       // the bodies of the scene
   std::vector<glm::dvec3> balanced{};  // m, the first body's shape in balance
   BodyState truth{};                   // the reference's end, if untold is empty
