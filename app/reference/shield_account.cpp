@@ -6,6 +6,7 @@ namespace app {
 namespace {
 
 const collide::Contact& contact_of(const softbody::PairEnergy& p) { return p.contact; }
+constexpr auto contact_in = [](const auto& entry) -> const collide::Contact& { return entry.found.contact; };
 
 /// The one of this contact in a list that ascends; nothing: it is not there.
 template <class List, class Projection>
@@ -16,28 +17,28 @@ auto find(const List& list, const collide::Contact& contact, Projection of) -> d
 
 }  // namespace
 
-ShieldAccount::ShieldAccount(std::span<const softbody::PairEnergy> found, std::size_t vertices) : vertices_(vertices) {
-  for (const softbody::PairEnergy& p : found) entries_.push_back({p, p.joules});
+double ShieldAccount::join(std::span<const softbody::PairEnergy> found, std::size_t first) {
+  double came = 0;
+  for (const softbody::PairEnergy& p : found) {
+    if (p.contact.b < first) continue;
+    entries_.push_back({p, p.joules});
+    came += p.joules;
+  }
+  std::ranges::sort(entries_, {}, contact_in);
+  return came;
 }
 
-double ShieldAccount::frame(std::span<const softbody::PairEnergy> ended, std::span<const softbody::PairEnergy> found,
-                            std::size_t vertices) {
+void ShieldAccount::frame(std::span<const softbody::PairEnergy> ended, std::span<const softbody::PairEnergy> found) {
   std::vector<Entry> now;
-  double brought = 0;
   for (const softbody::PairEnergy& p : found) {
     Entry& entry = now.emplace_back(Entry{p, 0});
-    if (p.contact.b >= vertices_) {
-      entry.stored = p.joules;
-      brought += p.joules;
-      continue;
-    }
-    const Entry* before = find(entries_, p.contact, [](const Entry& e) { return e.found.contact; });
+    const Entry* before = find(entries_, p.contact, contact_in);
+    if (!before) continue;
     const softbody::PairEnergy* end = find(ended, p.contact, contact_of);
-    if (before && end) entry.stored = std::clamp(before->stored + end->joules - before->found.joules, 0.0, p.joules);
+    const double put_in = end ? end->joules - before->found.joules : 0;
+    entry.stored = std::clamp(before->stored + put_in, 0.0, p.joules);
   }
   entries_ = std::move(now);
-  vertices_ = vertices;
-  return brought;
 }
 
 double ShieldAccount::stored() const {

@@ -1,6 +1,8 @@
 #include "app/reference/stability_criteria.h"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 
 #include "app/base/text.h"
 
@@ -8,16 +10,18 @@ namespace app {
 
 void StabilityJudge::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
-  f.finite = s.finite;
-  if (!s.finite) {
+  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.speed_reach,
+               extent = s.extent / s.extent_reach, depth = s.depth / limits_.radius;
+  // What is no number is no less than any bound: std::max would pass over it.
+  const auto finite = [](double figure) { return std::isfinite(figure); };
+  f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);
+  if (!f.finite) {
     f.blew_up = s.time;
     return;
   }
-  const double excess = (s.energy - limits_.energy - s.work) / limits_.scale;
   f.energy = std::max(f.energy, excess);
-  f.speed = std::max(f.speed, s.speed / s.speed_reach);
-  f.extent = std::max(f.extent, s.extent / s.extent_reach);
-  const double depth = s.depth / limits_.radius;
+  f.speed = std::max(f.speed, speed);
+  f.extent = std::max(f.extent, extent);
   constexpr int coming_out = 10;  // frames
   if (!limits_.begins_inside || s.frame > coming_out) f.transient = std::max(f.transient, depth);
   if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);

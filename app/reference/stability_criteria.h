@@ -10,9 +10,8 @@ namespace app {
 /// Fixed at the start.
 struct StabilityLimits {
   double energy = 0;           // J, at the start, of all that a sample counts
-  double scale = 0;            // J, max(E0 - E_eq, m g R) of the scene
   double seconds = 0;          // that the run takes
-  double radius = 0;           // m, R of the smallest body
+  double radius = 0;           // m, R of the smallest body of the scene, whenever it joins
   bool begins_inside = false;  // a solid
 };
 
@@ -22,7 +21,8 @@ struct StabilitySample {
   int frame = 0;       // from 1
   bool finite = true;  // all positions and velocities; if not, the rest has no meaning
   double energy = 0;   // J: kinetic, springs, gas, gravity, and what bodies have put into shields
-  double work = 0;     // J, that came from outside so far: solids push out what is in them
+  double work = 0;     // J, that came from outside so far: solids push out what is in them, bodies join with theirs
+  double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that have begun or joined by now
   double speed = 0,
          speed_reach = 0;  // m/s: of the fastest particle, and what all the energy there may be could give it
   double extent = 0, extent_reach = 0;  // m: the longest box of a body, and how long that energy could draw it
@@ -38,7 +38,7 @@ struct AgainstReference {
 };
 
 struct StabilityFigures {
-  bool finite = true;
+  bool finite = true;    // all positions and velocities, and what is worked out from them
   double energy = 0;     // above what it may have, in the scale: the largest
   double speed = 0;      // in its reach: the largest
   double extent = 0;     // in its reach: the largest

@@ -4,10 +4,12 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 namespace app::test {
 namespace {
 
-constexpr StabilityLimits limits{.energy = 100, .scale = 20, .seconds = 1, .radius = 0.5};
+constexpr StabilityLimits limits{.energy = 100, .seconds = 1, .radius = 0.5};
 
 /// Sixty frames of a run in which nothing is wrong, changed by `change` in each.
 template <class Change>
@@ -17,6 +19,7 @@ StabilityFigures run(Change change, const StabilityLimits& l = limits) {
     StabilitySample s{.time = frame / 60.0,
                       .frame = frame,
                       .energy = 90,
+                      .scale = 20,
                       .speed = 3,
                       .speed_reach = 10,
                       .extent = 1,
@@ -48,6 +51,15 @@ TEST(StabilityCriteria, WhatIsNotFiniteFailsAndEndsTheRun) {
   const StabilityFigures f = run([](StabilitySample& s) { s.finite = s.frame < 30; });
   EXPECT_EQ(fault(f), "not finite;gave up at 0.5 s;");
   EXPECT_EQ(f.blew_up, 0.5);
+}
+
+TEST(StabilityCriteria, AFigureThatIsNoNumberFails) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.energy = nan; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.speed = s.speed_reach = 0; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.extent_reach = nan; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([&](StabilitySample& s) { s.depth = nan; }), "not finite;gave up at 0.0167 s;");
+  EXPECT_EQ(fault([](StabilitySample& s) { s.energy = 100, s.scale = 0; }), "not finite;gave up at 0.0167 s;");
 }
 
 TEST(StabilityCriteria, EnergyMayGrowByAFewHundredthsOfTheScaleAndByTheWorkDone) {

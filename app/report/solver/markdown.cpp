@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "app/report/solver/results.h"
 #include "app/report/table.h"
@@ -20,28 +21,37 @@ std::string introduction(const SolverResults& r) {
   text += format("median of %d repetitions which take turns, of fewer where these took %g s. ", r.repetitions,
                  r.longest_run);
   text +=
-      "Bodies of one prototype are solved side by side, one a SIMD lane. \"Batch\" is the cost a body of eight bodies, "
-      "a full batch; \"alone\" is one body, which leaves seven lanes empty. Plots show the batch; scenes from files "
+      "Bodies of one prototype are solved side by side, one a SIMD lane. \"Batch\" is the cost per body when eight "
+      "are solved side by side, \"alone\" that of a lone body, which leaves seven lanes empty. Plots show the batch; "
+      "scenes from files "
       "have the bodies that they have, and their cost stands under alone.\n"
       "- Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions "
       "changed by less than ";
   text +=
       format("%g R. Scenes that have what it does not model are held against the world's rk4 in floats.\n", r.bound);
   text +=
-      "- A curve ends with the first error that is not above what the reference is known to, or with the first run "
-      "that takes longer than ";
-  text += format("%g s of processor time (%g s simulated); below each table stands which.\n", r.longest_run, r.seconds);
+      "- A curve ends with the first error that is not above the reference's own uncertainty, with the first run that "
+      "takes longer than ";
+  text += format("%g s of processor time (%g s simulated), or with %d steps a frame; ", r.longest_run, r.seconds,
+                 r.most_substeps);
+  text += "below each table stands which. Runs are timed: on another machine a curve may end elsewhere.\n";
   text +=
       "- Growth: by how much a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No solver is "
       "nearer to the reference than the growth times its rounding.\n"
       "- Energy: difference to the reference's, in the larger of the energy above balance at the start and m g R. "
       "Momentum: of the body's own, only where nothing acts from outside. Inner speed: RMS of what is not motion of "
       "the "
-      "body as a whole; where it starts in balance, this is jitter.\n"
-      "- Order: of the error, observed from step to step as long as each error is clearly less than the one before; "
-      "none "
-      "where errors do not fall in a row.\n"
-      "- `solver.csv` has every figure.\n";
+      "body as a whole; where it starts in balance, this is jitter.\n";
+  text +=
+      "- Order: of the error, observed from each number of steps to its double: the median (of an even number the mean "
+      "of the middle two) over the longest row of errors, ";
+  text += format("from %g R on, each of which is less than %g of the one before; ", SolverCase::coarsest,
+                 SolverCase::clearly);
+  text +=
+      "of rows of the same length over that of the most steps. A row takes two falls, or one that leads as far as the "
+      "reference is known. As smaller falls are left out, it is rather too high than too low, ";
+  text += format("and none below %.1f is seen.\n", -std::log2(SolverCase::clearly));
+  text += "- `solver.csv` has every figure.\n";
   if (r.quick) text += "- This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.\n";
   return text + "\n";
 }
@@ -70,8 +80,9 @@ std::string overview(const SolverResults& r) {
   constexpr double bound = 2e-3;  // R
   Cells names{"integrator"};
   for (const SolverCase& c : r.cases) names.push_back(c.name);
-  std::string text = joined("## All scenes\n\nms a simulated second a body for an error of at most ",
-                            format("%g R (steps a frame), or the least error seen:\n\n", bound), heading(names, 1));
+  std::string text =
+      joined("## All scenes\n\nms a simulated second per body, in a batch where there is one, for an error of at most ",
+             format("%g R (steps a frame), or the least error seen:\n\n", bound), heading(names, 1));
   for (std::size_t i = 0; i < r.cases.front().curves.size(); ++i) {
     Cells cells{std::string(r.cases.front().curves[i].integrator->name)};
     for (const SolverCase& c : r.cases) {
@@ -124,19 +135,24 @@ std::string details(const SolverCase& c) {
 
 /// Where curves end before the reference's own uncertainty, and why.
 std::string left_out(const SolverResults& r, const SolverCase& c) {
-  std::string text;
+  const double known = c.known(r.bound);
+  std::string too_long, too_many;
   for (const WorkCurve& curve : c.curves) {
     const WorkPoint& last = curve.points.back();
-    if (last.substeps == 0 || curve.reaches(c.known(r.bound))) continue;  // it chooses its steps, or came there
-    text += joined(text.empty() ? "" : "; ", curve.integrator->name, format(" beyond %d steps a frame", last.substeps),
+    if (last.substeps == 0 || curve.reaches(known)) continue;  // it chooses its steps, or came there
+    std::string& list = last.substeps >= r.most_substeps ? too_many : too_long;
+    list += joined(list.empty() ? "" : "; ", curve.integrator->name, format(" beyond %d steps a frame", last.substeps),
                    last.blew_up ? " (blown up)" : "");
   }
-  const double known = c.known(r.bound);
-  return text.empty() ? format("\nAll curves end at an error of %.2g R, to which the reference is known.\n", known)
-                      : joined(format("\nLeft out, as runs took too long to come to the %.2g R to which the reference "
-                                      "is known: ",
-                                      known),
-                               text, ".\n");
+  if (too_long.empty() && too_many.empty())
+    return format("\nAll curves end at an error of %.2g R, to which the reference is known.\n", known);
+  const auto sentence = [known](const std::string& why, const std::string& list) {
+    if (list.empty()) return list;
+    return joined(format("\nLeft out, short of the %.2g R to which the reference is known, as ", known), why, ": ",
+                  list, ".\n");
+  };
+  return sentence(format("runs took longer than %g s", r.longest_run), too_long) +
+         sentence("no more steps were tried", too_many);
 }
 
 }  // namespace

@@ -25,7 +25,7 @@ class Diagram {
                "set xlabel 'processor time, ms a simulated second a body'\nset ylabel 'error in position, RMS / R'\n");
     script += format(
         "set arrow from graph 0, first %g to graph 1, first %g nohead dashtype 2 linecolor rgb '#666666'\n"
-        "set label 'the reference is known to this' at graph 0.01, first %g offset 0,0.5 font ',8' textcolor rgb "
+        "set label 'uncertainty of the reference' at graph 0.01, first %g offset 0,0.5 font ',8' textcolor rgb "
         "'#666666'\n",
         known, known, known);
     for (std::size_t i = 0; i < c.curves.size(); ++i) add(c.curves[i], i, c.order(c.curves[i], bound));

@@ -45,7 +45,12 @@ struct SolverCase {
   /// R: how well the reference is known, if its change is to be within `bound`. Smaller errors say nothing: with the
   /// first of them a curve ends.
   double known(double bound) const { return std::max(bound, change); }
-  /// Observed, of a curve's error; none: its errors do not show one.
+  static constexpr double coarsest = 0.3;  // R: larger errors tell no order
+  static constexpr double clearly = 0.8;   // of the error before: what has fallen less may be rounding
+  /// Observed, of a curve's error; none: its errors do not show one. The median over the longest row of errors that
+  /// clearly fall, of rows as long as each other that of the most steps: what lies beside it is rounding, or too coarse
+  /// to tell. A row takes two falls at least, or one that leads as far as the reference is known. What starts in
+  /// balance has nothing but rounding to show.
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
@@ -55,7 +60,8 @@ struct SolverResults {
   double seconds = 0, frame_time = 0;  // simulated
   double bound = 0;                    // R, of the reference's change
   int repetitions = 0;
-  double longest_run = 0;  // s of processor time: a curve ends with the first run that takes longer
+  double longest_run = 0;  // s of processor time: a curve ends with the first run that takes longer ...
+  int most_substeps = 0;   // ... or with so many a frame
   std::vector<SolverCase> cases;
 };
 

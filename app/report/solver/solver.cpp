@@ -41,6 +41,7 @@ class SolverReport {
     results.bound = 2e-5;
     results.repetitions = effort_.repetitions;
     results.longest_run = effort_.seconds;
+    results.most_substeps = effort_.most_substeps;
   }
 
   void run() {

@@ -10,6 +10,7 @@
 #include "app/reference/shield_account.h"
 #include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
+#include "app/report/stability/joiners.h"
 #include "softbody/measures.h"
 
 namespace app {
@@ -36,7 +37,7 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), judge_(start.limits), balance_(start.balance) {}
+  Run(const StabilityStart& start) : start_(start), judge_(start.limits), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(
@@ -45,24 +46,27 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      shields_ = ShieldAccount(world.shield_energies(), world.bodies().vertex_count());
-      bodies_ = world.bodies().count();
+      shields_.join(world.shield_energies(), 0);
+      while (bodies_ < world.bodies().count()) take_in();
     }
     return world;
   }
 
   void step(World& world) {
+    join(world);
     const double depth_before = softbody::measure(world).deepest_penetration;
     world.step();
     ++frame_;
     time_ += world.frame_time();
+    if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
-    work_ += shields_.frame(world.last_shield_energies(), world.shield_energies(), world.bodies().vertex_count());
+    shields_.frame(world.last_shield_energies(), world.shield_energies());
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
                       .frame = frame_,
                       .finite = m.finite,
                       .energy = m.energy + shields_.stored(),
+                      .scale = std::max(above_balance_, weight_),
                       .speed = m.max_speed,
                       .depth = m.deepest_penetration,
                       .through = passages_.count()};
@@ -79,49 +83,70 @@ class Run {
     add_work(world, depth_before);
     s.work = work_;
     const StabilityLimits& limits = start_.limits;
-    double available = limits.energy + work_ + stability_bounds.energy * limits.scale;  // for all but gravity and gas
-    double gas = 0, lightest = std::numeric_limits<double>::infinity();
+    double available = limits.energy + work_ + stability_bounds.energy * s.scale;  // for all but gravity and gas
+    double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
       const Particles particles = particles_of(world, b);
       available -= height_energy(world, particles, b);
       gas += gas_energy(world.prototype(b), particles);
-      lightest = std::min(lightest, world.prototype(b).particle_mass);
       extents.push_back(extent_of(particles));
     }
-    const double least = 1e-9 * limits.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest);
+    const double least = 1e-9 * s.scale;  // what has flown away has lost all to gravity
+    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
     s.extent_reach = 1;
-    for (std::size_t b = 0; b < std::min(extents.size(), start_.leash.size()); ++b) {
-      const auto& [length, stiffness] = start_.leash[b];
+    for (std::size_t b = 0; b < extents.size(); ++b) {
+      const auto& [length, stiffness] = start_.members[b].leash;
       const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
       if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
     }
   }
 
-  /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse. And bodies that join
-  /// bring their energy along, be it negative.
+  /// The next body is at hand.
+  const StabilityStart::Member& take_in() {
+    const StabilityStart::Member& member = start_.members[bodies_++];
+    balance_ += member.balance;
+    weight_ += member.weight();
+    lightest_ = std::min(lightest_, member.particle_mass);
+    return member;
+  }
+
+  /// Bodies that join in the coming step bring their energy along, be it negative, and what their pairs hold where they
+  /// join: not what their first frame makes of it.
+  void join(World& world) {
+    const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
+    const BodyId first = bodies_;
+    while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) {
+      const StabilityStart::Member& member = take_in();
+      work_ += member.energy();
+      above_balance_ += member.kinetic;
+    }
+    if (bodies_ == first) return;
+    const auto joiners = std::span(sources).subspan(first, bodies_ - first);
+    work_ += shields_.join(shield_energies_with(world, joiners), world.bodies().vertex_count());
+  }
+
+  /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse.
   void add_work(const World& world, double depth_before) {
     constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
     if (start_.limits.begins_inside && !came_out_)
       for (BodyId b = 0; b < world.bodies().count(); ++b)
         work_ += push_out * glm::length(world.dynamics().solid_impulse(b));
-    for (; bodies_ < world.bodies().count(); ++bodies_) {
-      work_ += softbody::measure(world, bodies_).energy.total();
-      balance_ += balance_of(world.prototype(bodies_));
-    }
   }
 
   const StabilityStart& start_;
   StabilityJudge judge_;
-  double balance_;  // J, springs and gas of the bodies at hand in balance
+  double above_balance_;                                       // J, that the bodies at hand began or joined with
+  BodyId bodies_ = 0;                                          // at hand
+  double balance_ = 0;                                         // J, their springs and gas in balance
+  double weight_ = 0;                                          // J, their m g R
+  double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
   SolidPassages passages_;
-  ShieldAccount shields_{{}, 0};
+  ShieldAccount shields_;
   int frame_ = 0;
   double time_ = 0, work_ = 0;
   bool came_out_ = false;
-  BodyId bodies_ = 0;
 };
 
 AgainstReference compare(const World& world, const StabilityStart& start) {

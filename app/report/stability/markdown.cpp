@@ -37,9 +37,12 @@ std::string introduction(const StabilityResults& r) {
       "springs and gas acts), and unchanged within 0.1 % when its step is halved or its start disturbed by 1e-7 R. "
       "Where there is none, the case is "
       "marked * with the reason below its table, and judged on the rest.\n"
-      "- Shields push out what they find behind a surface. The potential of such a pair appears when it is found: it "
-      "is "
-      "counted as far as it turns into energy of the bodies, and as far as they press the pair further.\n"
+      "- Bodies have, where they start or join, their own energy and all that the shields' pairs hold there. What the "
+      "first frame of one that joins adds to it, or carries it into, is not credited. E0 - E_eq and m g R are those of "
+      "all bodies that have begun or joined by then.\n"
+      "- Shields push out what they find behind a surface. The potential of such a pair appears when it is found. "
+      "It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by pressing it "
+      "further is energy of theirs.\n"
       "- `stability.csv` has every figure of every cell.\n";
   if (r.quick) text += "- This is the quick report: fewer cases and stiffnesses, and half the time.\n";
   return text + "\n";

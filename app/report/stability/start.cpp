@@ -9,6 +9,7 @@
 
 #include "app/base/text.h"
 #include "softbody/measures.h"
+#include "softbody/snapshot.h"
 
 namespace app {
 namespace {
@@ -54,17 +55,25 @@ World placed(const StabilityScene& from) {
   return world;
 }
 
+/// As it begins or joins: in its starting shape.
+StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::BodySource& source,
+                                 const dvec3& gravity) {
+  StabilityStart::Member m{.leash = leash_of(p),
+                           .radius = p.radius,
+                           .mass = p.material.mass,
+                           .particle_mass = p.particle_mass,
+                           .balance = softbody::starting_energy(p).deformation(),
+                           .kinetic = 0.5 * p.material.mass * glm::dot(source.velocity, source.velocity),
+                           .height = 0};
+  for (const dvec3& x : p.start) m.height -= p.particle_mass * glm::dot(gravity, source.position + x);
+  return m;
+}
+
 StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
-  double height = 0, weight = 0, smallest = infinite;
-  for (BodyId b = 0; b < world.bodies().count(); ++b) {
-    const softbody::Prototype& p = world.prototype(b);
-    height += height_energy(world, start.particles[b], b);
-    weight += p.material.mass * 9.81 * p.radius;
-    smallest = std::min(smallest, p.radius);
-  }
   const softbody::Measures m = softbody::measure(world);
+  double smallest = infinite;
+  for (const StabilityStart::Member& member : start.members) smallest = std::min(smallest, member.radius);
   return {.energy = m.energy + softbody::total(world.shield_energies()),
-          .scale = std::max(m.energy - height - start.balance, weight),
           .seconds = start.first_frame + seconds,
           .radius = smallest,
           .begins_inside = m.deepest_penetration > 0};
@@ -79,12 +88,6 @@ bool alike(const ReferenceBody& body, const BodyState& a, const BodyState& b) {
 }
 
 }  // namespace
-
-double balance_of(const softbody::Prototype& p) {
-  softbody::Scene nowhere;
-  nowhere.gravity = dvec3(0.0);
-  return ReferenceBody(p, nowhere).energy({p.start, std::vector<dvec3>(p.start.size(), dvec3(0.0))});
-}
 
 double height_energy(const World& world, const Particles& particles, BodyId body) {
   double energy = 0;
@@ -102,10 +105,13 @@ std::vector<Particles> all_particles(const World& world) {
 StabilityStart prepare(const StabilityScene& from, double seconds) {
   const World world = placed(from);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
-  for (BodyId b = 0; b < s.particles.size(); ++b) {
-    s.balance += balance_of(world.prototype(b));
-    s.leash.push_back(leash_of(world.prototype(b)));
-  }
+  std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
+  const softbody::PrototypeSet prototypes = world.snapshot().prototypes;
+  for (const softbody::BodySource& source : s.scene.bodies)
+    s.members.push_back(member_of(*prototypes.of(source), source, s.scene.gravity));
+  s.above_balance = softbody::measure(world).energy;
+  for (BodyId b = 0; b < s.particles.size(); ++b)
+    s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
   if (!s.particles.empty()) s.balanced = world.prototype(0).start;
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start: no cell has to look for their balance again, unless some come later.

@@ -14,12 +14,21 @@ struct StabilityStart {
     double length, stiffness;  // m, N/m: of the chain at rest
   };
 
-  softbody::Scene scene;
+  /// One body of the scene, whether it begins or joins later, as it is then.
+  struct Member {
+    Leash leash;
+    double radius, mass, particle_mass;  // m, kg, kg
+    double balance, kinetic, height;     // J: springs and gas; of motion; of gravity, 0 at the origin
+    double energy() const { return balance + kinetic + height; }
+    double weight() const { return mass * 9.81 * radius; }  // J, m g R
+  };
+
+  softbody::Scene scene;             // its bodies in the order in which they join
   std::vector<Particles> particles;  // that the bodies start with
   double first_frame = 0;            // s, see StabilityScene
   StabilityLimits limits{};
-  double balance = 0;                  // J, springs and gas of all bodies in balance
-  std::vector<Leash> leash{};          // a body
+  double above_balance = 0;            // J, E0 - E_eq of those that begin
+  std::vector<Member> members{};       // the bodies of the scene
   std::vector<glm::dvec3> balanced{};  // m, the first body's shape in balance
   BodyState truth{};                   // the reference's end, if untold is empty
   std::string untold{};                // why no reference judges shape, volume and rest
@@ -32,8 +41,6 @@ StabilityStart prepare(const StabilityScene& scene, double seconds);
 void find_truth(StabilityStart& start, std::uint64_t steps);
 
 std::vector<Particles> all_particles(const softbody::World& world);
-/// J, springs and gas of a prototype in balance.
-double balance_of(const softbody::Prototype& prototype);
 /// J, of gravity on one body, 0 at the origin.
 double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
 

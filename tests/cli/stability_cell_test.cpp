@@ -1,0 +1,141 @@
+// Cells of `report stability` in which bodies join a world that is under way: what they bring is theirs, and no more.
+
+#include "app/report/stability/cell.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "app/report/stability/joiners.h"
+
+namespace app::test {
+namespace {
+
+constexpr double dt = 1.0 / 30;  // s
+
+/// Balls in balance, R = 0.5 m, that join one after another; no gravity, no solids, no sleep.
+softbody::Scene balls(std::initializer_list<softbody::BodySource> sources, double stiffness = 1e3) {
+  softbody::Scene scene = lone_scene(ball_material(stiffness, 0.1));
+  const softbody::MeshSource mesh = scene.bodies[0].mesh;
+  scene.bodies = sources;
+  for (softbody::BodySource& body : scene.bodies) body.mesh = mesh;
+  return scene;
+}
+
+softbody::BodySource joiner(int appear, const glm::dvec3& position, const glm::dvec3& velocity = glm::dvec3(0.0)) {
+  softbody::BodySource body;
+  body.position = position, body.velocity = velocity;
+  body.appear = body.release = appear;
+  return body;
+}
+
+StabilityFigures run(const softbody::Scene& scene, std::string_view integrator, int frames) {
+  StabilityStart start = prepare({.scene = scene}, frames * dt);
+  start.untold = "bodies join";
+  const StabilityFigures figures = run_cell(start, *softbody::find_integrator(integrator), dt);
+  EXPECT_EQ(figures.refused, "");
+  return figures;
+}
+
+/// An explicit Euler step adds 1/2 m (g dt)^2 to a body that begins to fall, a Verlet step nothing.
+TEST(StabilityCell, WhatAJoinerGainsInItsFirstFrameIsAGain) {
+  constexpr int appear = 5;
+  for (const double height : {-40.0, 40.0}) {  // m: also one whose energy is negative
+    softbody::Scene scene = balls({joiner(0, {9, 0, 0}), joiner(appear, {0, height, 0}, {0, 3, 0})});
+    scene.bodies[0].release = 1000;  // held in place: it gains nothing
+    scene.gravity = {0, -98.1, 0};
+    const double gain = 0.5 * std::pow(98.1 * dt, 2) / (2 * 9.81 * prepare({.scene = scene}, 1).limits.radius);
+    const StabilityFigures before = run(scene, "explicit-euler", appear), after = run(scene, "explicit-euler", 6);
+    EXPECT_NEAR(before.energy, 0, 1e-4) << height;
+    EXPECT_NEAR(after.energy, gain, 0.01 * gain) << height;
+    EXPECT_GT(gain, 5 * stability_bounds.energy) << height;
+    EXPECT_NEAR(run(scene, "velocity-verlet", 6).energy, 0, 1e-3) << height;
+  }
+}
+
+/// A stiff shield around a ball, and a second one that joins.
+softbody::Scene joined_by(const softbody::BodySource& second) {
+  softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
+  scene.materials[0].contact_stiffness = 1e8;
+  scene.bodies[0].release = 1000;
+  return scene;
+}
+
+TEST(StabilityCell, JoinersHaveWhatPairsHoldWhereTheyJoin) {
+  softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
+  scene.materials[0].contact_stiffness = 1e3;
+  EXPECT_LE(run(scene, "auto", 12).energy, stability_bounds.energy);
+}
+
+/// It flies into the other one from afar: in that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
+TEST(StabilityCell, WhatAJoinersFirstFrameLeadsIntoIsNotItsOwn) {
+  constexpr int appear = 3;
+  constexpr double speed = 100, g = speed / dt;  // m/s, m/s^2
+  softbody::Scene scene = joined_by(joiner(appear, {0.7 + speed * dt, 0.01, 0.02}, {-speed, 0, 0}));
+  scene.gravity = {0, -g, 0};
+  softbody::World world(scene, {.frame_time = dt, .integrator = "explicit-euler", .substeps = 1});
+  for (int frame = 0; frame < appear; ++frame) world.step();
+  EXPECT_EQ(softbody::total(shield_energies_with(world, std::span(scene.bodies).subspan(1))), 0);
+  world.step();
+  EXPECT_GT(softbody::total(world.shield_energies()), 2 * speed * speed) << "J, more than was gained";
+  EXPECT_NEAR(run(scene, "explicit-euler", appear + 1).energy, 1, 1e-3);
+}
+
+TEST(StabilityCell, AskingWhatJoinersHoldLeavesTheWorldAsItWas) {
+  for (const char* integrator : {"auto", "implicit", "velocity-verlet"}) {
+    softbody::Scene scene = balls({joiner(0, {0, 0, 0}), joiner(0, {1.22, 0, 0}, {-1, 0, 0})});
+    const softbody::World::Options options{.integrator = integrator};
+    softbody::World asked(scene, options), other(scene, options);
+    softbody::BodySource third = scene.bodies[0];
+    third.position = {0, 0.7, 0};
+    for (int frame = 0; frame < 30; ++frame) {
+      EXPECT_GT(softbody::total(shield_energies_with(asked, {{third}})), 0);
+      ASSERT_EQ(asked.bodies().count(), 2u);
+      asked.step();
+      other.step();
+      ASSERT_EQ(asked.state_hash(), other.state_hash()) << integrator << ", frame " << frame;
+    }
+  }
+}
+
+/// Nobody is there at the start: what may be gained and how deep a solid may be entered is known all the same.
+TEST(StabilityCell, ASceneWhoseBodiesAllJoinLaterIsJudged) {
+  softbody::Scene falling = balls({joiner(2, {0, 40, 0})});
+  falling.gravity = {0, -9.81, 0};
+  EXPECT_NEAR(prepare({.scene = falling}, 1).limits.radius, 0.5, 0.01);
+  const StabilityFigures in_order = run(falling, "auto", 8);
+  EXPECT_EQ(failures(in_order), std::vector<std::string>{});
+  EXPECT_GT(in_order.extent, 0) << "its springs tell how far it can be drawn";
+
+  falling.ground = softbody::Ground{};
+  falling.bodies[0].position.y = 0.2;
+  EXPECT_GT(run(falling, "auto", 4).transient, stability_bounds.transient);
+
+  softbody::Scene stiff = balls({joiner(2, {0, 0, 0}), joiner(2, {3, 0, 0}, {1, 0, 0})}, 1e8);
+  EXPECT_GT(run(stiff, "explicit-euler", 20).energy, stability_bounds.energy);
+}
+
+/// Explicit Euler gains with every frame; what a heavy body will bring, which is not there yet, allows it no more.
+TEST(StabilityCell, WhoIsYetToJoinLoosensNothing) {
+  softbody::Scene lone = balls({joiner(0, {0, 0, 0})}), awaiting = balls({joiner(0, {0, 0, 0}), joiner(5, {9, 0, 0})});
+  for (softbody::Scene* scene : {&lone, &awaiting}) scene->gravity = {0, -98.1, 0};
+  awaiting.materials.push_back(ball_material(1e3, 0.1));
+  awaiting.materials[1].mass = 1000;
+  awaiting.bodies[1].material = 1;
+  const double gain = run(lone, "explicit-euler", 1).energy;
+  EXPECT_GT(gain, 5 * stability_bounds.energy);
+  EXPECT_DOUBLE_EQ(run(awaiting, "explicit-euler", 1).energy, gain);
+}
+
+/// Joining order is not the file's.
+TEST(StabilityCell, BodiesAreToldApartByWhenTheyJoin) {
+  softbody::Scene scene = balls({joiner(4, {9, -30, 0}), joiner(0, {0, 0, 0}), joiner(2, {0, 50, 0}, {0, 20, 0})});
+  scene.gravity = {0, -9.81, 0};
+  scene.materials.push_back(ball_material(1e3, 0.1));
+  scene.materials[1].mass = 7;
+  scene.bodies[0].material = 1;
+  EXPECT_NEAR(run(scene, "auto", 8).energy, 0, 1e-3);
+}
+
+}  // namespace
+}  // namespace app::test
