@@ -44,9 +44,9 @@ MeshHandle Bodies::add_mesh(std::span<const std::uint32_t> triangles, std::uint3
 }
 
 const Bodies::Level& Bodies::level_of(Mesh& mesh, int level) const {
-  std::optional<Level>& made = mesh.refined[static_cast<std::size_t>(level)];
+  std::unique_ptr<Level>& made = mesh.refined[static_cast<std::size_t>(level)];
   if (made) return *made;
-  made.emplace();
+  made = std::make_unique<Level>();
   const RefinedMesh refined = refine(mesh.triangles, mesh.vertex_count, 1 << level);
   made->array.bind();
   made->index_count = static_cast<GLsizei>(refined.indices.size());

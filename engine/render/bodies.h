@@ -7,7 +7,7 @@
 #include <functional>
 #include <glm/vec3.hpp>
 #include <map>
-#include <optional>
+#include <memory>
 #include <span>
 #include <utility>
 #include <vector>
@@ -54,7 +54,7 @@ class Bodies {
     std::vector<std::uint32_t> triangles;
     std::uint32_t vertex_count = 0;
     bool closed = false;
-    std::array<std::optional<Level>, levels> refined;  // made when first needed: each has four times the triangles
+    std::array<std::unique_ptr<Level>, levels> refined;  // made when first needed: each has four times the triangles
   };
   using Batches = std::map<std::pair<std::uint32_t, int>, std::vector<Instance>,
                            std::greater<>>;  // by mesh and level, finest first

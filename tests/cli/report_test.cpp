@@ -167,7 +167,7 @@ TEST(Report, BadInputIsRefusedInOneLineAndLeavesNothing) {
   };
   const std::string out = folder.path() / "out";
   refused({"detection", "--quick"}, {"--out"});
-  refused({"--out", out}, {"what"});
+  refused({"--out", out}, {"say which one", "stability"});
   refused({"friction", "--out", out}, {"friction", "use one of: detection"});
   refused({"detection", "--scene", "E", "--out", out}, {"E", "drop-3000"});
   refused({"detection", "--threads", "0", "--out", out}, {"--threads"});
