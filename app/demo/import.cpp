@@ -73,7 +73,6 @@ softbody::BodySource place_above(const softbody::World& world, softbody::MeshSou
   body.mesh = std::move(mesh);
   const glm::dvec3 at = scene.dropper ? scene.dropper->body.position : scene.view.target + glm::dvec3(0, 1, 0);
   body.position = {at.x, clear_height(world, at, radius), at.z};
-  body.appear = body.release = world.frame();
   return body;
 }
 

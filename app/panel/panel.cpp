@@ -46,7 +46,8 @@ void draw_transport(Widgets& w, Session& session) {
   ImGui::SameLine();
   if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.single_step();
   ImGui::SameLine();
-  if (w.button("Reset", "The scene from its start, with the settings below (R).", width)) session.reset();
+  if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
+    session.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.can_undo());
   if (w.button("Undo",
