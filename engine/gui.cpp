@@ -85,8 +85,10 @@ void Gui::begin_frame(const GuiInput& input) {
 
 void Gui::end_frame() {
   ImGui::Render();
-  ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData());
+  draw_again();
 }
+
+void Gui::draw_again() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }

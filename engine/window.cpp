@@ -8,6 +8,7 @@
 #include <cctype>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include "engine/context.h"
 
@@ -80,15 +81,16 @@ bool Window::open() const { return !glfwWindowShouldClose(window_); }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 void Window::poll() {
-  key_presses_.clear();
-  clicked_ = false;
-  dropped_files_.clear();
   if (minimised()) {
     glfwWaitEventsTimeout(0.1);
   } else {
     glfwPollEvents();
   }
 }
+
+std::vector<KeyPress> Window::take_key_presses() { return std::exchange(key_presses_, {}); }
+std::vector<std::string> Window::take_dropped_files() { return std::exchange(dropped_files_, {}); }
+bool Window::take_clicked() { return std::exchange(clicked_, false); }
 
 void Window::present() { glfwSwapBuffers(window_); }
 void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
@@ -133,6 +135,8 @@ glm::vec2 Window::cursor() const {
   glfwGetCursorPos(window_, &x, &y);
   return glm::vec2(static_cast<float>(x), static_cast<float>(y)) * pixel_ratio();
 }
+
+bool Window::left_button_down() const { return glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS; }
 
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
   auto& files = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_files_;

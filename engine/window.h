@@ -37,6 +37,10 @@ class Window {
 
   /// Handles what happened since the last call. Sleeps up to 0.1 s while minimised, so that a loop does not spin.
   void poll();
+  // What happened in all calls of poll() since it was last taken.
+  std::vector<KeyPress> take_key_presses();
+  std::vector<std::string> take_dropped_files();  // paths
+  bool take_clicked();                            // some button went down
   /// Shows the frame; with vsync, waits for the monitor.
   void present();
   void set_vsync(bool on);
@@ -51,9 +55,7 @@ class Window {
   float content_scale() const;  // 1 on an ordinary screen, 2 on a high-density one
   float pixel_ratio() const;    // framebuffer pixels per screen coordinate; not the same as content_scale() on X11
   glm::vec2 cursor() const;     // framebuffer pixels from the top left corner
-  const std::vector<KeyPress>& key_presses() const { return key_presses_; }         // in the last poll()
-  bool clicked() const { return clicked_; }                                         // some button, likewise
-  const std::vector<std::string>& dropped_files() const { return dropped_files_; }  // paths; since the last poll()
+  bool left_button_down() const;
 
   GLFWwindow* handle() const { return window_; }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <future>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -123,19 +124,18 @@ class Demo {
 
   void handle_keys() {
     // What is typed in the same moment as a click, on a slow machine, may be meant for the field that was clicked.
-    if (screen_->gui.wants_keyboard() || screen_->window.clicked()) return;
-    for (const engine::KeyPress& key : screen_->window.key_presses()) {
+    const bool clicked = screen_->window.take_clicked();
+    const std::vector<engine::KeyPress> keys = screen_->window.take_key_presses();
+    if (screen_->gui.wants_keyboard() || clicked) return;
+    for (const engine::KeyPress& key : keys) {
       if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
     }
   }
 
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
-    ui_.import.drop(screen_->window.dropped_files(), session_);
-    if (ui_.take_away.recording())
-      session_.advance_one(elapsed, ui_.take_away.may_step());
-    else
-      session_.advance(elapsed);
+    ui_.import.drop(screen_->window.take_dropped_files(), session_);
+    advance(elapsed);
     screen_->gui.begin_frame();
     interface_.draw(session_, ui_, screen_->gui.scale(), seconds_);
     const engine::Viewport viewport = scene_viewport();
@@ -151,6 +151,39 @@ class Demo {
     screen_->window.present();
     keep_preferences();
     pacer_.rest();
+  }
+
+  /// Steps that take long run beside the window: meanwhile one can look round, and what is typed or clicked is kept.
+  void advance(double elapsed) {
+    const auto advance = [&] {
+      if (ui_.take_away.recording())
+        session_.advance_one(elapsed, ui_.take_away.may_step());
+      else
+        session_.advance(elapsed);
+    };
+    if (session_.world().profile().total_ms < long_step_ms) return advance();
+    std::future<void> done = std::async(std::launch::async, advance);
+    for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)
+      look_around(now() - std::exchange(last, now()));
+    done.get();
+  }
+
+  /// Moves the camera over what was drawn last, and touches nothing that a step writes.
+  void look_around(double elapsed) {
+    screen_->window.poll();
+    const engine::Viewport viewport = scene_viewport();
+    if (drawn_ == PictureKey{} || screen_->window.minimised() || viewport.size.x <= 0 || viewport.size.y <= 0) return;
+    if (screen_->window.left_button_down())
+      mouse_.turn_on(screen_->window.cursor() - corner(viewport), camera_, viewport.size);
+    camera_.advance(elapsed);
+    if (camera_.view() == drawn_.view) return;
+    drawn_.view = camera_.view();
+    clear_window();
+    screen_->canvas.update(viewport.size, true, false,
+                           [&](const engine::Viewport& whole) { screen_->view.draw_again(camera_, whole); });
+    screen_->canvas.show(viewport.origin);
+    screen_->gui.draw_again();
+    screen_->window.present();
   }
 
   /// Of what is about to be shown.
@@ -186,7 +219,7 @@ class Demo {
       before_tour_.reset();
     }
     refit(viewport.size);
-    mouse_.follow(mouse_input(viewport), session_, camera_, viewport.size);
+    mouse_.follow(read_mouse(corner(viewport), !screen_->gui.wants_mouse()), session_, camera_, viewport.size);
     frame_tour(viewport);
     if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
@@ -208,9 +241,9 @@ class Demo {
     camera_.glide_to(light.centre, tour_room * light.radius, viewport.size);
   }
 
-  MouseInput mouse_input(const engine::Viewport& viewport) const {
-    const float below = static_cast<float>(screen_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y);
-    return read_mouse({static_cast<float>(viewport.origin.x), below}, !screen_->gui.wants_mouse());
+  /// Its top left one in the window, whose pixels are counted from there.
+  glm::vec2 corner(const engine::Viewport& viewport) const {
+    return {viewport.origin.x, screen_->window.framebuffer_size().y - viewport.origin.y - viewport.size.y};
   }
 
   /// What the panel and the keys ask for that needs the camera.
@@ -262,6 +295,7 @@ class Demo {
 
   static constexpr float tour_room = 0.6f;       // glide_to() leaves half of the picture free: less is enough
   static constexpr double shortest_screen = 10;  // s between two losses of the context
+  static constexpr double long_step_ms = 50;
   static constexpr double key_hint_seconds = 5;  // whoever uses keys needs the hint less
 
   PreferencesFile preferences_;

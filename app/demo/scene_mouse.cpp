@@ -46,8 +46,17 @@ void SceneMouse::follow(const MouseInput& in, Session& session, engine::Camera& 
   if (pressed) press(in, session, camera, size);
   if (!in.down[0]) let_go(session);
   drag(in, session, camera, size);
+  last_at_ = in.at;
+  turned_on_ = {};
   on_body_ = drag_ == Drag::body || (in.over_scene && drag_ == Drag::nothing &&
                                      pick(camera.pick_ray(in.at, size), session.world(), session.drawn_positions()));
+}
+
+void SceneMouse::turn_on(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
+  if (drag_ != Drag::turn) return;
+  camera.rotate(at - last_at_, size);
+  turned_on_ += at - last_at_;
+  last_at_ = at;
 }
 
 void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
@@ -72,7 +81,7 @@ void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& ca
   travelled_ += glm::length(in.moved);
   const auto& held = session.world().grabbed();
   if (drag_ == Drag::body && held) session.pull_to(beside(camera.pick_ray(in.at, size), camera, held->target));
-  if (drag_ == Drag::turn) camera.rotate(in.moved, size);
+  if (drag_ == Drag::turn) camera.rotate(in.moved - turned_on_, size);
   if (!in.over_scene) return;
   if (in.down[1] || in.down[2]) camera.pan(in.moved, size);
   if (in.wheel != 0) camera.zoom(in.wheel);

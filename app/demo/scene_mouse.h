@@ -29,6 +29,9 @@ class SceneMouse {
   /// Once a frame, before the camera advances. size: of the viewport.
   void follow(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
 
+  /// For moments between frames, in which there is no session to ask: a drag that turns the camera goes on to `at`.
+  void turn_on(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
+
   /// A body that could be taken lies under the mouse, or is held.
   bool on_body() const { return on_body_; }
   /// From the eye through the mouse; through the middle while a panel has the mouse.
@@ -45,6 +48,7 @@ class SceneMouse {
   bool was_down_ = false, on_body_ = false, pressed_on_body_ = false;
   float travelled_ = 0;  // pixels, since the left button went down
   std::optional<glm::vec2> at_;
+  glm::vec2 last_at_{0.0f}, turned_on_{0.0f};  // pixels: the second by turn_on(), since follow()
 };
 
 }  // namespace app

@@ -47,6 +47,11 @@ class SceneView {
     draw(world, overlays, camera, viewport, pixel_scale, DrawnPositions{.now = world.positions()});
   }
 
+  /// What the last draw() drew, from elsewhere. The world is not asked, but labels and hints stay those of then.
+  void draw_again(const engine::Camera& camera, const engine::Viewport& viewport) {
+    renderer_.draw(camera, viewport, frame_);
+  }
+
   /// The scene's own camera, with limits that suit its size.
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
   /// The other way round: the view that a scene must have for such a camera, to a tenth of a millimetre or degree.

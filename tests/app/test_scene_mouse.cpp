@@ -129,6 +129,32 @@ class Mouse : public testing::Test {
   MouseInput input;
 };
 
+/// Between two frames the camera follows the mouse, and the next frame adds but what is left.
+TEST_F(Mouse, GoesOnTurningBetweenFrames) {
+  const auto turn = [&](bool between) {
+    camera = camera_at({0, 3, 0}, 8);
+    input.at = {5, 5};  // beside all bodies
+    button(0, true);
+    if (between) {
+      const engine::Orbit before = camera.orbit();
+      mouse.turn_on({60, 20}, camera, size);
+      camera.settle();
+      EXPECT_NE(camera.orbit().azimuth, before.azimuth);
+    }
+    move({100, 40});
+    camera.settle();
+    button(0, false);
+    return camera.orbit();
+  };
+  const engine::Orbit whole = turn(false), parts = turn(true);
+  EXPECT_NEAR(whole.azimuth, parts.azimuth, 1e-5);
+  EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
+  const engine::Orbit before = camera.orbit();
+  mouse.turn_on({400, 300}, camera, size);  // nobody drags
+  camera.settle();
+  EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
+}
+
 TEST_F(Mouse, GrabsPullsAndThrows) {
   move(body_pixel(1));
   EXPECT_TRUE(mouse.on_body());
