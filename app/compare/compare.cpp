@@ -39,6 +39,7 @@ Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
 CompareReport Comparison::run(const Snapshot& snapshot, const std::stop_token& stop) {
   CompareReport report;
   report.id = snapshot.id;
+  report.frame = snapshot.frame_number;
   report.rows.resize(entries_.size());
   for (Entry& entry : entries_) entry.done = false;
   forecast_.begin(snapshot.frame(), snapshot.settings, snapshot.world);

@@ -20,6 +20,7 @@ std::size_t method_index(std::string_view key);
 struct Snapshot {
   std::uint64_t id = 0;     // the caller's: names the state that was copied
   std::uint64_t world = 0;  // another number, another world
+  int frame_number = 0;     // of the world
   Positions at;
   collide::Bodies bodies;
   collide::Settings settings;
@@ -46,6 +47,7 @@ struct CompareRow {
 
 struct CompareReport {
   std::uint64_t id = 0;                  // of the snapshot; 0: nothing compared yet
+  int frame = 0;                         // the snapshot's frame_number
   std::optional<std::size_t> reference;  // the method whose contacts count as the true ones
   std::size_t true_contacts = 0;
   double reference_ms = 0;

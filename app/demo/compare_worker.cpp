@@ -9,6 +9,7 @@ CompareReport CompareTask::answer(const Snapshot& snapshot, const std::stop_toke
   } catch (const std::exception& error) {
     CompareReport report;
     report.id = snapshot.id;
+    report.frame = snapshot.frame_number;
     report.stands_in = std::string("the comparison failed: ") + error.what();
     report.rows.resize(collide::methods().size());
     return report;

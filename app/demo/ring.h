@@ -12,15 +12,18 @@ class Ring {
  public:
   static constexpr std::size_t capacity = 180;  // three seconds of frames
 
-  void push(float value) {
+  /// frame: of the world, when it was so.
+  void push(int frame, float value) {
     values_[next_] = value;
+    frames_[next_] = frame;
     next_ = (next_ + 1) % capacity;
     if (size_ < capacity) ++size_;
   }
   void clear() { next_ = size_ = 0; }
   std::size_t size() const { return size_; }
   /// i = 0 is the oldest value kept.
-  float operator[](std::size_t i) const { return values_[(next_ + capacity - size_ + i) % capacity]; }
+  float operator[](std::size_t i) const { return values_[place(i)]; }
+  int frame(std::size_t i) const { return frames_[place(i)]; }
   // 0 if there are no values.
   float largest() const { return size_ == 0 ? 0 : *std::max_element(values_.begin(), end()); }
   float smallest() const { return size_ == 0 ? 0 : *std::min_element(values_.begin(), end()); }
@@ -36,11 +39,13 @@ class Ring {
   }
 
  private:
+  std::size_t place(std::size_t i) const { return (next_ + capacity - size_ + i) % capacity; }
   std::array<float, capacity>::const_iterator end() const {
     return values_.begin() + static_cast<std::ptrdiff_t>(size_);
   }  // in no order
 
   std::array<float, capacity> values_{};
+  std::array<int, capacity> frames_{};
   std::size_t next_ = 0, size_ = 0;
 };
 

@@ -109,11 +109,11 @@ void Session::exchange_comparison() {
 void Session::keep(CompareReport report) {
   comparison_ = std::move(report);
   ++comparisons_;
-  if (const CompareRow* row = driver_row()) history_.recall.push(static_cast<float>(row->recall));
+  if (const CompareRow* row = driver_row()) history_.recall.push(comparison_.frame, static_cast<float>(row->recall));
   for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
     Ring& times = history_.method_ms[i];
     if (const auto ms = comparison_.rows[i].ms)
-      times.push(static_cast<float>(*ms));
+      times.push(comparison_.frame, static_cast<float>(*ms));
     else
       times.clear();
   }
@@ -122,6 +122,7 @@ void Session::keep(CompareReport report) {
 Snapshot Session::snapshot() const {
   Snapshot copy;
   copy.id = revision_;
+  copy.frame_number = world_->frame();
   copy.world = worlds_;
   copy.at.copy(world_->positions());
   copy.bodies = world_->bodies();

@@ -47,7 +47,7 @@ void Session::step_ghost() {
     return;
   }
   if (ghost_->blown_up()) return;
-  history_.ghost.push(static_cast<float>(ghost_->distance(*world_)));
+  history_.ghost.push(world_->frame(), static_cast<float>(ghost_->distance(*world_)));
   if (!ghost_->world().all_at_rest()) ++revision_;
 }
 

@@ -8,7 +8,7 @@
 namespace app {
 
 void Session::advance(double elapsed) {
-  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
+  history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
   if (step_once_) {
     step_once_ = false;
     step();
@@ -19,7 +19,7 @@ void Session::advance(double elapsed) {
 }
 
 void Session::advance_one(double elapsed, bool one) {
-  history_.frame_ms.push(static_cast<float>(elapsed * 1e3));
+  history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
   if (one && (!paused || step_once_)) {
     step_once_ = false;
     accumulator_ = 0;
@@ -95,9 +95,9 @@ void Session::step() {
   if (stability_.alarm() && !alarmed) paused = true;
   step_ghost();
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
-  history_.detect_ms.push(static_cast<float>(world_->profile().detect_ms));
-  history_.solve_ms.push(static_cast<float>(world_->profile().solve_ms));
-  history_.contacts.push(static_cast<float>(world_->detection().contacts.size()));
+  history_.detect_ms.push(world_->frame(), static_cast<float>(world_->profile().detect_ms));
+  history_.solve_ms.push(world_->frame(), static_cast<float>(world_->profile().solve_ms));
+  history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
 }
 
 }  // namespace app

@@ -34,16 +34,16 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
-  record(softbody::total(bodies), energy_at_start(world));
+  record(world.frame(), softbody::total(bodies), energy_at_start(world));
   if (!guarded || alarm_) return;
   alarm_ = guard_.look(world, bodies);
   if (!alarm_) good_frame_ = world.frame();
 }
 
-void StabilityWatch::record(const softbody::Measures& all, const softbody::Energy& start) {
+void StabilityWatch::record(int frame, const softbody::Measures& all, const softbody::Energy& start) {
   constexpr double most = 1e30;  // what has blown up is no longer drawn
-  const auto push = [](Ring& ring, double value) {
-    if (std::abs(value) < most) ring.push(static_cast<float>(value));
+  const auto push = [frame](Ring& ring, double value) {
+    if (std::abs(value) < most) ring.push(frame, static_cast<float>(value));
   };
   push(history_.kinetic, all.energies.kinetic);
   push(history_.elastic, all.energies.elastic - start.elastic);

@@ -47,7 +47,7 @@ class StabilityWatch {
   const StepMargin& margin() const { return margin_; }
 
  private:
-  void record(const softbody::Measures& all, const softbody::Energy& start);
+  void record(int frame, const softbody::Measures& all, const softbody::Energy& start);
 
   Rewind rewind_;
   Guard guard_;

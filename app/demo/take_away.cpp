@@ -1,6 +1,7 @@
 #include "app/demo/take_away.h"
 
-#include <algorithm>
+#include <map>
+#include <optional>
 #include <utility>
 
 #include "app/base/csv_line.h"
@@ -44,21 +45,24 @@ fs::path whole(const std::string& folder) { return fs::absolute(folder.empty() ?
 
 std::string curves_csv(const Session& session) {
   const std::vector<Curve> curves = curves_of(session);
-  std::size_t longest = 0;
+  // Of several values of a frame (it was paused, or gone back to) the last counts.
+  std::map<int, std::vector<std::optional<float>>> rows;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t i = 0; i < curves[c].ring.size(); ++i) {
+      auto& row = rows[curves[c].ring.frame(i)];
+      row.resize(curves.size());
+      row[c] = curves[c].ring[i];
+    }
   std::string text;
   {
     CsvLine heading(text);
-    heading.add("values_ago");
-    for (const auto& [name, ring] : curves) {
-      heading.add(std::string_view(name));
-      longest = std::max(longest, ring.size());
-    }
+    heading.add("frame");
+    for (const Curve& curve : curves) heading.add(std::string_view(curve.name));
   }
-  for (std::size_t ago = longest; ago-- > 0;) {
+  for (const auto& [frame, row] : rows) {
     CsvLine line(text);
-    line.add(static_cast<std::uint64_t>(ago));
-    for (const auto& [name, ring] : curves)
-      line.add_if(ago < ring.size(), ago < ring.size() ? static_cast<double>(ring[ring.size() - 1 - ago]) : 0.0);
+    line.add(static_cast<double>(frame));
+    for (const auto& value : row) line.add_if(value.has_value(), static_cast<double>(value.value_or(0)));
   }
   return text;
 }

@@ -51,7 +51,7 @@ class TakeAway {
   bool failed_ = false;
 };
 
-/// The curves of the panel as CSV: a column each, the latest values in the last line.
+/// The curves of the panel as CSV: a line for each frame of the world that any of them knows, a column each.
 std::string curves_csv(const Session& session);
 
 }  // namespace app

@@ -325,9 +325,10 @@ TEST(Session, TouchesAreTheClosestPointsOfTheTwoBodies) {
 TEST(Ring, KeepsTheLastValuesInOrder) {
   Ring ring;
   EXPECT_EQ(ring.size(), 0u);
-  for (std::size_t i = 0; i < Ring::capacity + 5; ++i) ring.push(static_cast<float>(i));
+  for (std::size_t i = 0; i < Ring::capacity + 5; ++i) ring.push(static_cast<int>(2 * i), static_cast<float>(i));
   EXPECT_EQ(ring.size(), Ring::capacity);
   EXPECT_EQ(ring[0], 5.0f);
+  EXPECT_EQ(ring.frame(0), 10);
   EXPECT_EQ(ring[Ring::capacity - 1], static_cast<float>(Ring::capacity + 4));
   EXPECT_EQ(ring.largest(), static_cast<float>(Ring::capacity + 4));
   EXPECT_EQ(ring.median(3), static_cast<float>(Ring::capacity + 3));
