@@ -6,6 +6,7 @@
 #include <time.h>
 
 #include "collide/methods.h"
+#include "tests/bench/median.h"
 
 namespace bench {
 namespace {
@@ -76,12 +77,6 @@ void compare(const Runner& runner, const Runner& truth, const Course& course, st
   line.append(extra ? "too many" : "missing").append(": ");
   line.append(std::to_string(at.a)).append(", ").append(std::to_string(at.b));
   throw Difference(line);
-}
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + std::ptrdiff_t(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
 }
 
 }  // namespace
