@@ -70,13 +70,14 @@ double Dynamics::undue_speed(BodyId id, double out, double impulse) {
   return out < 0 ? (1 - restitution) * out : std::max(0.0, out - restitution * body.impact);
 }
 
-/// Moves the body's origin when its first particle has gone further than four radii from it, by a multiple of 1/64 m
-/// that floats of that size hold without loss.
+/// Moves the body's origin when its first particle, which begins no further than the radius from it, has gone further
+/// than one and a half, by a multiple of 1/64 m that floats of that size hold without loss. What is rounded off further
+/// out would keep stiff bodies trembling.
 void Dynamics::follow(BodyId id) {
   Body& body = bodies_[id];
   const std::size_t first = slot(body, 0);
   const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
-  if (glm::length(away) <= 4 * prototype(id).radius) return;
+  if (glm::length(away) <= 1.5 * prototype(id).radius) return;
   for (int k = 0; k < 3; ++k) {
     const double shift = std::round(away[k] * 64) / 64;
     body.origin[k] += shift;

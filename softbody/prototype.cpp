@@ -1,12 +1,15 @@
 #include "softbody/prototype.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/equilibrium.h"
+#include "softbody/spring_bound.h"
 
 namespace softbody {
 namespace {
@@ -51,17 +54,6 @@ Material for_mesh(Material m, const MeshSource& source) {
   return m;
 }
 
-/// The largest sum over one particle's springs of a property.
-double largest_sum(const Prototype& p, double Spring::*property) {
-  std::vector<double> sum(p.mesh.vertices.size(), 0.0);
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) {
-      sum[s.i] += s.*property;
-      sum[s.j] += s.*property;
-    }
-  return *std::max_element(sum.begin(), sum.end());
-}
-
 void list_faces(Prototype& p) {
   std::vector<std::vector<Index>> at(p.mesh.vertices.size());
   for (Index f = 0; f < p.mesh.triangles.size(); ++f)
@@ -79,8 +71,9 @@ void give_material(Prototype& p, const MeshSource& source, const Material& mater
   p.structural = make_springs(p.mesh, p.mesh.edges, p.material.structural, p.particle_mass);
   p.bend = make_springs(p.mesh, p.mesh.bend_pairs, p.material.bend, p.particle_mass);
   p.shear = make_springs(p.mesh, p.mesh.shear_pairs, p.material.shear, p.particle_mass);
-  p.spring_stiffness_bound = largest_sum(p, &Spring::stiffness);
-  p.spring_damping_bound = largest_sum(p, &Spring::damping);
+  const std::array lists{&std::as_const(p.structural), &std::as_const(p.bend), &std::as_const(p.shear)};
+  p.spring_stiffness_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::stiffness) / 2;
+  p.spring_damping_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::damping) / 2;
   set_shape(p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
   if (!p.mesh.closed) return;
   p.gas.ambient = material.ambient_pressure;
@@ -110,7 +103,7 @@ double Gas::energy(double v) const {
 }
 
 double stable_step(double k_m, double c_m) {
-  // Twice the Gershgorin row sum bounds a spring matrix: each spring stands on its diagonal and beside it.
+  // Twice the sum of a row bounds a spring matrix: each spring stands on its diagonal and beside it (Gershgorin).
   const double omega2 = 2 * k_m, gamma = 2 * c_m;
   if (omega2 <= 0) return gamma > 0 ? 0.8 * 2 / gamma : 1e9;
   const double omega = std::sqrt(omega2), z = gamma / (2 * omega);

@@ -46,8 +46,8 @@ struct Prototype {
   double radius = 0;                       // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;           // starting shape: the equilibrium, or the mesh itself
   double start_volume = 0;                 // m^3, 0 for open meshes
-  // Gershgorin bounds over the particles (see stable_step()):
-  double spring_stiffness_bound = 0;  // N/m: largest sum of the stiffnesses at one particle
+  // What stands for the springs in stable_step(), half of their matrices' largest eigenvalues (see spring_bound()):
+  double spring_stiffness_bound = 0;  // N/m: at most the largest sum of the stiffnesses at one particle
   double spring_damping_bound = 0;    // N s/m
   double largest_degree = 0;          // faces at one particle
   double face_degree = 0;             // the same, as the mean of a face's three corners

@@ -2,10 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
 
 #include "softbody/prototype_set.h"
+#include "softbody/spring_bound.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -54,21 +58,54 @@ TEST(Prototype, AStiffnessOfZeroMeansNoSprings) {
   EXPECT_TRUE(make_prototype({}, m)->bend.empty());
 }
 
-TEST(Prototype, BoundsAreTheLargestSumsAtOneParticle) {
+TEST(SpringBound, HasTheEigenvaluesOfKnownGraphs) {
+  const auto bound = [](std::size_t particles, const std::vector<Edge>& edges) {
+    std::vector<Spring> springs;
+    for (const auto& [i, j] : edges) springs.push_back({i, j, 1, 3, 0});
+    const std::array lists{&std::as_const(springs)};
+    return spring_bound(particles, lists, &Spring::stiffness) / 3;
+  };
+  EXPECT_NEAR(bound(2, {{0, 1}}), 2, 1e-9);
+  EXPECT_NEAR(bound(4, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}), 4, 1e-9) << "complete: their number";
+  std::vector<Edge> star, ring;
+  for (Index i = 1; i < 60; ++i) star.push_back({0, i});
+  for (Index i = 0; i < 60; ++i) ring.push_back({i, (i + 1) % 60});
+  EXPECT_NEAR(bound(60, star), 60, 1e-6) << "the hub's sum and one";
+  EXPECT_NEAR(bound(60, ring), 4, 1e-6) << "an even ring swings against itself, as Gershgorin has it";
+  EXPECT_EQ(bound(3, {}), 0);
+}
+
+/// From below by power iteration, from above by a little more than that.
+TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
   Material m = spring_ball();
   m.structural = {300, 0.2};
   m.bend = {75, 0.4};
-  const auto p = make_prototype({}, m);
-  double stiffness = 0, damping = 0;
-  for (Index i = 0; i < 162; ++i) {
-    double k = 0, c = 0;
-    for (const auto* list : {&p->structural, &p->bend})
-      for (const Spring& s : *list)
-        if (s.i == i || s.j == i) k += s.stiffness, c += s.damping;
-    stiffness = std::max(stiffness, k), damping = std::max(damping, c);
-  }
-  EXPECT_NEAR(p->spring_stiffness_bound, stiffness, 1e-9);
-  EXPECT_NEAR(p->spring_damping_bound, damping, 1e-9);
+  m.shear = {100, 0.1};
+  MeshSource grid, ball;
+  grid.kind = "grid";
+  for (const MeshSource& source : {grid, ball})
+    for (const auto property : {&Spring::stiffness, &Spring::damping}) {
+      const auto p = make_prototype(source, m);
+      const std::array lists{&p->structural, &p->bend, &p->shear};
+      const std::size_t count = p->mesh.vertices.size();
+      std::vector<double> v(count);
+      for (std::size_t i = 0; i < count; ++i) v[i] = std::sin(double(i * i));
+      double length = 0;
+      for (int step = 0; step < 2000; ++step) {
+        std::vector<double> next(count, 0.0);
+        for (const auto* list : lists)
+          for (const Spring& s : *list) {
+            const double pull = s.*property * (v[s.i] - v[s.j]);
+            next[s.i] += pull, next[s.j] -= pull;
+          }
+        length = std::sqrt(std::inner_product(next.begin(), next.end(), next.begin(), 0.0));
+        for (std::size_t i = 0; i < count; ++i) v[i] = next[i] / length;
+      }
+      const double bound = spring_bound(count, lists, property);
+      EXPECT_GE(bound, length * (1 - 1e-9)) << source.kind;
+      EXPECT_LE(bound, length * 1.05) << source.kind;
+      EXPECT_EQ(bound / 2, property == &Spring::stiffness ? p->spring_stiffness_bound : p->spring_damping_bound);
+    }
 }
 
 TEST(Prototype, ListsTheFacesAtEachVertex) {
