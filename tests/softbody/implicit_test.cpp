@@ -209,6 +209,27 @@ TEST(Auto, TurnsImplicitWhereItIsStiffAndRefusesNothing) {
   EXPECT_LT(world.profile().substeps, 100);
 }
 
+/// An implicit step costs far more in contact than in flight.
+TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
+  Scene scene = ball_above_ground(2e5, 3);
+  scene.sleep = {};
+  World world(scene, {});
+  world.step();
+  EXPECT_EQ(world.dynamics().used_integrator().key, "implicit");
+  run(world, 50);
+  EXPECT_GT(world.dynamics().solid_impulse(0).y, 0) << "it lies on the ground";
+  EXPECT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler") << world.dynamics().why_integrator();
+}
+
+TEST(Auto, StaysExplicitHoweverFarABodyFalls) {
+  Scene scene = ball_above_ground(1e4, 1000);
+  World world(scene, {});
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    ASSERT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler") << frame;
+  }
+}
+
 TEST(Auto, TurnsImplicitWhereRoundingWouldKeepBodiesTrembling) {
   Scene scene = ball_above_ground(1e5, 2);
   World near(scene, {.frame_time = 1.0 / 240});
