@@ -81,8 +81,7 @@ void Dynamics::follow(BodyId id) {
   for (int k = 0; k < 3; ++k) {
     const double shift = std::round(away[k] * 64) / 64;
     body.origin[k] += shift;
-    for (std::size_t i = 0; i < prototype(id).mesh.vertices.size(); ++i)
-      x_[std::size_t(k)][first + i * lanes] -= float(shift);
+    for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i) x_[std::size_t(k)][slot(body, i)] -= float(shift);
   }
 }
 

@@ -149,8 +149,9 @@ void Dynamics::find_surface_contacts(double left, double ahead) {
     const auto edge = float(p.mean_edge);
     const float reach = std::clamp(0.5f * float(p.material.thickness), 0.001f * edge, 0.1f * edge);
     traits.push_back({p.surface.get(), reach, 0, edge, body.moves()});
-    contacts.push_back({body.origin, slot(body, 0), body.moves() ? float(1 / p.particle_mass) : 0.0f,
-                        float(p.material.friction), float(p.material.restitution), &p.shape->rest()});
+    contacts.push_back({body.origin, slot(body, 0), std::size_t(batches_[body.batch].width),
+                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material.friction),
+                        float(p.material.restitution), &p.shape->rest()});
   }
   surface_.find(motion, std::move(traits), std::move(contacts), float(left), float(ahead), self_contact_, workers_);
 }

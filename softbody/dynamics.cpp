@@ -68,8 +68,8 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     double stiffest = stiffness_per_mass(p, {});
     if (p.has_gas) {
       alignas(32) float volume[lanes], cross_square_sum[lanes], perimeter[lanes];
-      kernels_.volume(b.mesh->faces, at(x_, b), volume);
-      kernels_.surface(b.mesh->faces, at(x_, b), cross_square_sum, perimeter);
+      kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
+      kernels_of(b).surface(b.mesh->faces, at(x_, b), cross_square_sum, perimeter);
       for (int l = 0; l < b.used; ++l)
         stiffest = std::max(stiffest, stiffness_per_mass(p, {volume[l], cross_square_sum[l], perimeter[l]}));
     }
@@ -97,7 +97,7 @@ double Dynamics::tremble(double step) const {
   double farthest = 0;
   for (const Batch* b : moving_) {
     Extent e;
-    kernels_.extent(b->particles(), at(x_, *b), at(v_, *b), e);
+    kernels_of(*b).extent(b->particles(), at(x_, *b), at(v_, *b), e);
     for (int l = 0; l < b->used; ++l)
       for (const LaneVector* corner : {&e.lo, &e.hi})
         farthest = std::max(
@@ -180,8 +180,8 @@ int Dynamics::advance(double seconds) {
 
 double Dynamics::fastest(const Batch& b) const {
   Extent e;
-  kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
-  return std::sqrt(double(*std::max_element(std::begin(e.speed2), std::end(e.speed2))));
+  kernels_of(b).extent(b.particles(), at(x_, b), at(v_, b), e);
+  return std::sqrt(double(*std::max_element(e.speed2, e.speed2 + b.width)));
 }
 
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
@@ -203,7 +203,7 @@ void Dynamics::run(int count, float h, bool first) {
       if (has_restitution_)
         for (Batch* b : share(thread))
           for (std::size_t k = 0; k < 3; ++k)
-            std::copy_n(v_[k].begin() + std::ptrdiff_t(b->base), b->particles() * lanes,
+            std::copy_n(v_[k].begin() + std::ptrdiff_t(b->base), b->values(),
                         before_[k].begin() + std::ptrdiff_t(b->base));
       integrator_->advance(*this, thread, {h, first && s == 0});
       if (has_surface_) since_found_[std::size_t(thread)] += h;
@@ -254,26 +254,29 @@ void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {
 void Dynamics::all_forces(Batch& b) { run_stages(b, force_stages_); }
 void Dynamics::other_forces(Batch& b) { run_stages(b, other_force_stages_); }
 
-void Dynamics::structural_springs(Batch& b) { kernels_.springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::bend_springs(Batch& b) { kernels_.springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::shear_springs(Batch& b) { kernels_.springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::structural_springs(Batch& b) {
+  kernels_of(b).springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b));
+}
+void Dynamics::bend_springs(Batch& b) { kernels_of(b).springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::shear_springs(Batch& b) { kernels_of(b).springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
 
 void Dynamics::gas_pressure(Batch& b) {
   if (!b.prototype->has_gas) return;
   const Gas& gas = b.prototype->gas;
   alignas(32) float volume[lanes], gauge[lanes]{};
-  kernels_.volume(b.mesh->faces, at(x_, b), volume);
+  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.pressure(double(volume[l])) - gas.ambient);
-  kernels_.pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
+  kernels_of(b).pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
 }
 
 void Dynamics::shape_matching(Batch& b) {
   if (b.mesh->shape.empty()) return;
   ShapeMoments<float> moments;
   ShapePose<float> pose{};
-  kernels_.shape_moments(b.mesh->shape, at(x_, b), moments);
+  kernels_of(b).shape_moments(b.mesh->shape, at(x_, b), moments);
   fit_shape(moments, b.used, pose);
-  kernels_.shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.prototype)), at(x_, b), at(f_, b));
+  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.prototype)), at(x_, b),
+                           at(f_, b));
 }
 
 void Dynamics::shield_forces(Batch& b) {
@@ -287,10 +290,10 @@ void Dynamics::shield_forces(Batch& b) {
 
 void Dynamics::kick(Batch& b, float h) {
   const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
-  kernels_.kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
-                at(v_, b));
+  kernels_of(b).kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
+                     at(v_, b));
 }
 
-void Dynamics::drift(Batch& b, float h) { kernels_.drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
+void Dynamics::drift(Batch& b, float h) { kernels_of(b).drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
 
 }  // namespace softbody

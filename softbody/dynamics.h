@@ -16,18 +16,20 @@
 
 namespace softbody {
 
-/// A prototype's springs, faces and shape as the kernels want them, shared by all its batches.
+/// A prototype's springs, faces and shape as the kernels want them, shared by all its batches of one width.
 struct KernelMesh {
-  explicit KernelMesh(const Prototype& prototype);
+  KernelMesh(const Prototype& prototype, int width);
   KernelSprings structural, bend, shear;
   std::vector<KernelTriangle> faces;
   std::vector<ShapePoint<float>> shape;  // empty if it is not kept
 };
 
-/// Up to `lanes` bodies of one prototype. Its values start at `base` in every array of the state.
+/// Up to `width` bodies of one prototype. Its values start at `base` in every array of the state. What stands here for
+/// each lane has room for the widest.
 struct Batch {
   std::shared_ptr<const Prototype> prototype;
   std::shared_ptr<const KernelMesh> mesh;
+  int width = lanes;  // or one_lane, see Dynamics::batch_with_room()
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
@@ -38,6 +40,7 @@ struct Batch {
   std::vector<SolidFeature> solid_features;         // ... and what of the bodies may meet them between vertices
 
   std::size_t particles() const { return prototype->mesh.vertices.size(); }
+  std::size_t values() const { return particles() * std::size_t(width); }  // of one array
 };
 
 struct Body {
@@ -88,7 +91,11 @@ class Dynamics {
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
-      : scene_(scene), workers_(workers), kernels_(kernels(isa)) {}
+      : scene_(scene),
+        workers_(workers),
+        wide_(kernels(isa, lanes)),
+        narrow_(kernels(isa, one_lane)),
+        implicit_kernels_(implicit_kernels(isa)) {}
 
   BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
@@ -181,7 +188,8 @@ class Dynamics {
   using Components = std::array<LaneArray<float>, 3>;
 
   std::size_t slot(const Body& body, Index vertex) const {
-    return batches_[body.batch].base + std::size_t(vertex) * lanes + std::size_t(body.lane);
+    const Batch& b = batches_[body.batch];
+    return b.base + std::size_t(vertex) * std::size_t(b.width) + std::size_t(body.lane);
   }
   Field<float> at(Components& c, const Batch& b) {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
@@ -189,7 +197,11 @@ class Dynamics {
   Field<const float> at(const Components& c, const Batch& b) const {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
   }
+  const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
+  std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const Prototype>& prototype, int width) const;
   Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
+  std::size_t append(std::size_t values);
+  void widen(Batch& batch);
   Components& components(Quantity q);
   template <class Operation>
   void each_value(Batch& batch, Operation operation);
@@ -250,7 +262,8 @@ class Dynamics {
 
   const Scene& scene_;
   collide::Workers& workers_;
-  const Kernels& kernels_;
+  const Kernels &wide_, &narrow_;
+  const ImplicitKernels& implicit_kernels_;
   const Integrator *asked_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;

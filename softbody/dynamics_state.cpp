@@ -14,8 +14,14 @@ Dynamics::Components& Dynamics::components(Quantity q) {
 /// operation(place in the arrays, 1 or 0 for whether its lane moves)
 template <class Operation>
 void Dynamics::each_value(Batch& b, Operation operation) {
-  for (std::size_t at = b.base; at < b.base + b.particles() * lanes; at += lanes)
-    for (std::size_t l = 0; l < lanes; ++l) operation(at + l, b.moves[l]);
+  const auto run = [&, moves = b.moves](auto width) {
+    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
+      for (std::size_t l = 0; l < width; ++l) operation(at + l, moves[l]);
+  };
+  if (b.width == one_lane)
+    run(std::integral_constant<std::size_t, one_lane>());
+  else
+    run(std::integral_constant<std::size_t, lanes>());
 }
 
 void Dynamics::copy(Batch& b, Quantity from, Quantity to) {
@@ -42,7 +48,7 @@ void Dynamics::scale(Batch& b, Quantity q, float times) {
 }
 
 void Dynamics::clear(Batch& b, Quantity q) {
-  for (auto& c : components(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.particles() * lanes, 0.0f);
+  for (auto& c : components(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
 }
 
 void Dynamics::accelerations(Batch& b) {

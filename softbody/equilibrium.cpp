@@ -9,42 +9,41 @@
 namespace softbody {
 namespace {
 
-/// One body in lane 0 of the double-precision kernels.
+/// One body by itself, in double precision.
 class Relaxation {
  public:
-  Relaxation(const Prototype& p, const std::vector<glm::dvec3>& from) : prototype_(p), size_(from.size() * lanes) {
+  Relaxation(const Prototype& p, const std::vector<glm::dvec3>& from) : prototype_(p), size_(from.size()) {
     for (auto* field : {&x_, &v_, &f_})
       for (auto& component : *field) component.assign(size_, 0.0);
     for (std::size_t i = 0; i < from.size(); ++i)
-      for (int k = 0; k < 3; ++k) x_[k][i * lanes] = from[i][k];
+      for (int k = 0; k < 3; ++k) x_[k][i] = from[i][k];
     for (const auto* list : {&p.structural, &p.bend, &p.shear})
-      for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, 0.0});
-    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
+      for (const Spring& s : *list) springs_.push_back({s.i, s.j, s.rest, s.stiffness, 0.0});
     for (const glm::dvec3& q : p.goal) shape_.push_back({q.x, q.y, q.z});
   }
 
   void evaluate() {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
-    body::springs<double>(springs_, constant(x_), constant(v_), field(f_));
+    body::springs<double, one_lane>(springs_, constant(x_), constant(v_), field(f_));
     if (!shape_.empty()) keep_shape();
     if (!prototype_.has_gas) return;
-    double v[lanes], gauge[lanes]{};
-    body::volume<double>(faces_, constant(x_), v);
-    gauge[0] = prototype_.gas.pressure(v[0]) - prototype_.gas.ambient;
-    body::pressure<double>(faces_, constant(x_), gauge, field(f_));
+    double v;
+    body::volume<double, one_lane>(prototype_.mesh.triangles, constant(x_), &v);
+    const double gauge = prototype_.gas.pressure(v) - prototype_.gas.ambient;
+    body::pressure<double, one_lane>(prototype_.mesh.triangles, constant(x_), &gauge, field(f_));
   }
 
   void keep_shape() {
     ShapeMoments<double> moments;
     ShapePose<double> pose{};
-    body::shape_moments<double>(shape_, constant(x_), moments);
+    body::shape_moments<double, one_lane>(shape_, constant(x_), moments);
     fit_shape(moments, 1, pose);
-    body::shape_pull<double>(shape_, pose, shape_stiffness(prototype_), constant(x_), field(f_));
+    body::shape_pull<double, one_lane>(shape_, pose, shape_stiffness(prototype_), constant(x_), field(f_));
   }
 
   double largest_force() const {
     double largest2 = 0;  // or NaN, once there is one
-    for (std::size_t i = 0; i < size_; i += lanes) {
+    for (std::size_t i = 0; i < size_; ++i) {
       const double force2 = f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i];
       if (force2 > largest2 || std::isnan(force2)) largest2 = force2;
     }
@@ -57,7 +56,7 @@ class Relaxation {
     const double kick = (kinetic_ > 0 ? h : h / 2) / prototype_.particle_mass;
     double kinetic = 0;
     for (int k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < size_; i += lanes) {
+      for (std::size_t i = 0; i < size_; ++i) {
         v_[k][i] += kick * f_[k][i];
         kinetic += v_[k][i] * v_[k][i];
       }
@@ -67,12 +66,12 @@ class Relaxation {
     }
     kinetic_ = kinetic;
     for (int k = 0; k < 3; ++k)
-      for (std::size_t i = 0; i < size_; i += lanes) x_[k][i] += h * v_[k][i];
+      for (std::size_t i = 0; i < size_; ++i) x_[k][i] += h * v_[k][i];
   }
 
   std::vector<glm::dvec3> positions() const {
     std::vector<glm::dvec3> result;
-    for (std::size_t i = 0; i < size_; i += lanes) result.emplace_back(x_[0][i], x_[1][i], x_[2][i]);
+    for (std::size_t i = 0; i < size_; ++i) result.emplace_back(x_[0][i], x_[1][i], x_[2][i]);
     return result;
   }
 
@@ -85,7 +84,6 @@ class Relaxation {
   std::size_t size_;
   Components x_, v_, f_;
   KernelSpringsOf<double> springs_;
-  std::vector<KernelTriangle> faces_;
   std::vector<ShapePoint<double>> shape_;
   double kinetic_ = 0;
 };

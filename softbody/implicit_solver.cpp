@@ -12,7 +12,7 @@
 
 namespace softbody {
 
-ImplicitSolver::ImplicitSolver(const Prototype& p, const Kernels& kernels)
+ImplicitSolver::ImplicitSolver(const Prototype& p, const ImplicitKernels& kernels)
     : kernels_(kernels), particles_(p.mesh.vertices.size()), stride_(particles_ * lanes) {
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
@@ -24,7 +24,7 @@ ImplicitSolver::ImplicitSolver(const Prototype& p, const Kernels& kernels)
     for (Lanes& v : *list) v.resize(3 * stride_);
 }
 
-ImplicitWork::ImplicitWork(const Prototype& prototype, const Kernels& kernels) : solver(prototype, kernels) {
+ImplicitWork::ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels) : solver(prototype, kernels) {
   for (Lanes* lane_field : {&x, &v, &stage_x, &stage_v, &end_x, &end_v})
     lane_field->resize(3 * prototype.mesh.vertices.size() * lanes);
 }
@@ -96,12 +96,12 @@ void ImplicitSolver::place_goal(const ImplicitProblem& p) {
 
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  kernels_.implicit_springs(springs_, 1 / p.h, field(x), field(*p.x), field(ahead_), field(g));
+  kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(ahead_), field(g));
   if (p.prototype.has_gas) {
     alignas(64) double volume[lanes], gauge[lanes];
-    kernels_.volume_double(faces_, field(x), volume);
+    kernels_.volume(faces_, field(x), volume);
     for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.prototype.gas.pressure(volume[l]) - p.prototype.gas.ambient;
-    kernels_.pressure_double(faces_, field(x), gauge, field(g));
+    kernels_.pressure(faces_, field(x), gauge, field(g));
   }
   if (!p.prototype.goal.empty()) {
     const double pull = shape_stiffness(p.prototype);

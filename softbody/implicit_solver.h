@@ -61,7 +61,7 @@ struct ImplicitProblem {
 
 class ImplicitSolver {
  public:
-  ImplicitSolver(const Prototype& prototype, const Kernels& kernels);
+  ImplicitSolver(const Prototype& prototype, const ImplicitKernels& kernels);
 
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
@@ -102,7 +102,7 @@ class ImplicitSolver {
   void stay(std::size_t lane);
   void remember();
 
-  const Kernels& kernels_;
+  const ImplicitKernels& kernels_;
   std::size_t particles_, stride_;  // stride: of a component
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
@@ -119,7 +119,7 @@ class ImplicitSolver {
 
 /// What a thread solves the batches of one prototype with.
 struct ImplicitWork {
-  ImplicitWork(const Prototype& prototype, const Kernels& kernels);
+  ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels);
   ImplicitSolver solver;
   Lanes x, v, stage_x, stage_v, end_x, end_v, missing;
   std::vector<PlaneContact> planes;

@@ -35,7 +35,7 @@ void Dynamics::prepare_implicit(float h) {
   for (const Batch* b : moving_) {
     const auto& p = b->prototype;
     for (int thread = 0; thread < active_threads_; ++thread)
-      implicit_work_[std::size_t(thread)].try_emplace(p, *p, kernels_);
+      implicit_work_[std::size_t(thread)].try_emplace(p, *p, implicit_kernels_);
     for (const double length : {double(h), implicit_stage * double(h)}) {
       const auto of_p = [&](const MatrixOf& m) { return m.prototype == p; };
       const auto known =

@@ -1,6 +1,6 @@
 #pragma once
-// The arithmetic of the kernels, for one vector of bodies at a time. Included where it is compiled for an instruction
-// set.
+// The arithmetic of the kernels, for `width` bodies at a time: eight, or one by itself. Included where it is compiled
+// for an instruction set.
 
 #include <algorithm>
 
@@ -9,79 +9,87 @@
 
 namespace softbody::body {
 
-template <class Real>
-SB_INLINE Lane<Real> load(const Real* p) {
-  Lane<Real> v;
-  std::memcpy(&v, p, sizeof v);
+/// V: one value a lane.
+template <class V, class Real>
+SB_INLINE V load(const Real* p) {
+  V v;
+  if constexpr (std::is_same_v<V, DoubleLane>) {
+    std::memcpy(&v.lo, p, sizeof v.lo);
+    std::memcpy(&v.hi, p + lanes / 2, sizeof v.hi);
+  } else {
+    std::memcpy(&v, p, sizeof v);
+  }
   return v;
 }
 
-template <class Real>
-SB_INLINE void store(Real* p, Lane<Real> v) {
-  std::memcpy(p, &v, sizeof v);
+template <class V, class Real>
+SB_INLINE void store(Real* p, const V& v) {
+  if constexpr (std::is_same_v<V, DoubleLane>) {
+    std::memcpy(p, &v.lo, sizeof v.lo);
+    std::memcpy(p + lanes / 2, &v.hi, sizeof v.hi);
+  } else {
+    std::memcpy(p, &v, sizeof v);
+  }
 }
 
-SB_INLINE DoubleLane load(const double* p) {
-  DoubleLane v;
-  std::memcpy(&v.lo, p, sizeof v.lo);
-  std::memcpy(&v.hi, p + lanes / 2, sizeof v.hi);
-  return v;
+template <class V, class Real>
+SB_INLINE Vec<V> load(Field<Real> f, std::size_t at) {
+  return {load<V>(f.x + at), load<V>(f.y + at), load<V>(f.z + at)};
 }
 
-SB_INLINE void store(double* p, const DoubleLane& v) {
-  std::memcpy(p, &v.lo, sizeof v.lo);
-  std::memcpy(p + lanes / 2, &v.hi, sizeof v.hi);
-}
-
-template <class Real>
-SB_INLINE Vec<Lane<Real>> load(Field<const Real> f, std::size_t at) {
-  return {load(f.x + at), load(f.y + at), load(f.z + at)};
-}
-
-template <class Real>
-SB_INLINE Vec<Lane<Real>> load(Field<Real> f, std::size_t at) {
-  return {load(f.x + at), load(f.y + at), load(f.z + at)};
-}
-
-template <class Real>
-SB_INLINE void store(Field<Real> f, std::size_t at, Vec<Lane<Real>> v) {
+template <class V, class Real>
+SB_INLINE void store(Field<Real> f, std::size_t at, const Vec<V>& v) {
   store(f.x + at, v.x);
   store(f.y + at, v.y);
   store(f.z + at, v.z);
 }
 
-SB_INLINE Vec<Lane<float>> load(const LaneVector& v) { return {load(v.x), load(v.y), load(v.z)}; }
+template <class V>
+SB_INLINE Vec<V> load(const LaneVector& v) {
+  return {load<V>(v.x), load<V>(v.y), load<V>(v.z)};
+}
+
+/// The lanes in which a > b, as bits.
+template <class V>
+SB_INLINE unsigned lanes_above(V a, V b) {
+  unsigned bits = 0;
+  for (int l = 0; l < lanes; ++l) bits |= unsigned(a[l] > b[l]) << l;
+  return bits;
+}
+
+SB_INLINE unsigned lanes_above(float a, float b) { return a > b; }
 
 /// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j.
 /// A spring of length zero has no direction and pulls nowhere.
-template <class Real>
+template <class Real, int width>
 SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
                        Field<Real> f) {
-  using V = Lane<Real>;
+  using V = Lane<Real, width>;
   const V tiny = V{} + Real(1e-12);  // m; its inverse times any stiffness is finite, so that times dx = 0 it is 0
   for (const KernelSpring<Real>& s : list) {
-    const Vec<V> dx = load(x, s.j) - load(x, s.i), dv = load(v, s.j) - load(v, s.i);
+    const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i), dv = load<V>(v, s.j) - load<V>(v, s.i);
     const V length = square_root(dot(dx, dx));
     const V inverse = Real(1) / larger(length, tiny);
     const V tension = s.stiffness * (length - s.rest) + s.damping * (dot(dv, dx) * inverse);
     const Vec<V> force = (tension * inverse) * dx;
-    store(f, s.i, load(f, s.i) + force);
-    store(f, s.j, load(f, s.j) - force);
+    store(f, s.i, load<V>(f, s.i) + force);
+    store(f, s.j, load<V>(f, s.j) - force);
   }
 }
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): the spring
 /// as a constraint of compliance 1 / k with its damper. Particles are at x + d, d their displacements in this step:
 /// these are small, so that floats leave velocities their digits.
+template <int width>
 SB_INLINE void project_springs(const ProjectArguments& p, std::span<const KernelSpring<float>> list,
                                Field<const float> x, Field<float> d) {
-  using V = Lane<float>;
+  using V = Lane<float, width>;
   const V tiny = V{} + 1e-12f;  // m
-  const V inverse_mass = p.inverse_mass * load(p.moves);
+  const V inverse_mass = p.inverse_mass * load<V>(p.moves);
   const float inverse_h = 1 / p.h, inverse_h2 = inverse_h * inverse_h;
   for (const KernelSpring<float>& s : list) {
-    const Vec<V> di = load(d, s.i), dj = load(d, s.j), moved = dj - di;
-    const Vec<V> dx = (load(x, s.j) - load(x, s.i)) + moved;
+    const Vec<V> di = load<V>(d, s.i), dj = load<V>(d, s.j), moved = dj - di;
+    const Vec<V> dx = (load<V>(x, s.j) - load<V>(x, s.i)) + moved;
     const V length = square_root(dot(dx, dx));
     const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
     const float damping = s.damping * inverse_h;
@@ -95,28 +103,29 @@ SB_INLINE void project_springs(const ProjectArguments& p, std::span<const Kernel
 
 /// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces, seen from one of the corners and
 /// added up in blocks, for the gas of a body at rest breathes with its last digits.
-template <class Real>
+template <class Real, int width>
 SB_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Real> x, Real* result) {
-  using V = Lane<Real>;
+  using V = Lane<Real, width>;
   constexpr std::size_t block = 16;
-  const Vec<V> from = faces.empty() ? Vec<V>{} : load(x, faces[0][0]);
+  const Vec<V> from = faces.empty() ? Vec<V>{} : load<V>(x, faces[0][0]);
   V six{};
   for (std::size_t first = 0; first < faces.size(); first += block) {
     V part{};
     for (const auto& [a, b, c] : faces.subspan(first, std::min(block, faces.size() - first)))
-      part += dot(load(x, a) - from, cross(load(x, b) - from, load(x, c) - from));
+      part += dot(load<V>(x, a) - from, cross(load<V>(x, b) - from, load<V>(x, c) - from));
     six += part;
   }
   store(result, six / Real(6));
 }
 
 /// What the stability bound needs, see Surface: the sum of |c|^2, c = (b - a) x (c - a), and the largest perimeter.
+template <int width>
 SB_INLINE void surface(std::span<const KernelTriangle> faces, Field<const float> x, float* cross_square_sum,
                        float* perimeter) {
-  using V = Lane<float>;
+  using V = Lane<float, width>;
   V sum{}, longest{};
   for (const auto& [a, b, c] : faces) {
-    const Vec<V> ab = load(x, b) - load(x, a), ac = load(x, c) - load(x, a), bc = ac - ab;
+    const Vec<V> ab = load<V>(x, b) - load<V>(x, a), ac = load<V>(x, c) - load<V>(x, a), bc = ac - ab;
     const Vec<V> cross_product = cross(ab, ac);
     sum += dot(cross_product, cross_product);
     longest = larger(square_root(dot(ab, ab)) + square_root(dot(ac, ac)) + square_root(dot(bc, bc)), longest);
@@ -126,30 +135,30 @@ SB_INLINE void surface(std::span<const KernelTriangle> faces, Field<const float>
 }
 
 /// A third of each face's pressure force to each of its corners (Matyka & Ollila 2003).
-template <class Real>
+template <class Real, int width>
 SB_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Real> x, const Real* gauge, Field<Real> f) {
-  using V = Lane<Real>;
-  const V sixth = load(gauge) / Real(6);
+  using V = Lane<Real, width>;
+  const V sixth = load<V>(gauge) / Real(6);
   for (const auto& [a, b, c] : faces) {
-    const Vec<V> pa = load(x, a);
-    const Vec<V> third = sixth * cross(load(x, b) - pa, load(x, c) - pa);
-    store(f, a, load(f, a) + third);
-    store(f, b, load(f, b) + third);
-    store(f, c, load(f, c) + third);
+    const Vec<V> pa = load<V>(x, a);
+    const Vec<V> third = sixth * cross(load<V>(x, b) - pa, load<V>(x, c) - pa);
+    store(f, a, load<V>(f, a) + third);
+    store(f, b, load<V>(f, b) + third);
+    store(f, c, load<V>(f, c) + third);
   }
 }
 
 /// What the fit of the shape needs. Seen from one of the particles and added up in blocks, as volume() is.
-template <class Real>
+template <class Real, int width>
 SB_INLINE void shape_moments(std::span<const ShapePoint<Real>> shape, Field<const Real> x, ShapeMoments<Real>& m) {
-  using V = Lane<Real>;
+  using V = Lane<Real, width>;
   constexpr std::size_t block = 16;
-  const Vec<V> from = load(x, 0);
+  const Vec<V> from = load<V>(x, 0);
   Vec<V> sum{}, covariance[3]{};
   for (std::size_t first = 0; first < shape.size(); first += block) {
     Vec<V> part{}, a{}, b{}, c{};
     for (std::size_t i = first; i < std::min(first + block, shape.size()); ++i) {
-      const Vec<V> d = load(x, i * lanes) - from;
+      const Vec<V> d = load<V>(x, i * width) - from;
       part = part + d;
       a = a + (V{} + shape[i].x) * d;
       b = b + (V{} + shape[i].y) * d;
@@ -167,48 +176,52 @@ SB_INLINE void shape_moments(std::span<const ShapePoint<Real>> shape, Field<cons
 }
 
 /// Draws each particle to its place: f += stiffness (centre + R q - x).
-template <class Real>
+template <class Real, int width>
 SB_INLINE void shape_pull(std::span<const ShapePoint<Real>> shape, const ShapePose<Real>& pose, Real stiffness,
                           Field<const Real> x, Field<Real> f) {
-  using V = Lane<Real>;
-  const Vec<V> centre{load(pose.centre[0]), load(pose.centre[1]), load(pose.centre[2])};
+  using V = Lane<Real, width>;
+  const Vec<V> centre{load<V>(pose.centre[0]), load<V>(pose.centre[1]), load<V>(pose.centre[2])};
   Vec<V> column[3];
   for (int k = 0; k < 3; ++k)
-    column[k] = {load(pose.rotation[3 * k]), load(pose.rotation[3 * k + 1]), load(pose.rotation[3 * k + 2])};
+    column[k] = {load<V>(pose.rotation[3 * k]), load<V>(pose.rotation[3 * k + 1]), load<V>(pose.rotation[3 * k + 2])};
   const V pull = V{} + stiffness;
   for (std::size_t i = 0; i < shape.size(); ++i) {
     const Vec<V> goal =
         centre + (V{} + shape[i].x) * column[0] + (V{} + shape[i].y) * column[1] + (V{} + shape[i].z) * column[2];
-    store(f, i * lanes, load(f, i * lanes) + pull * (goal - load(x, i * lanes)));
+    store(f, i * width, load<V>(f, i * width) + pull * (goal - load<V>(x, i * width)));
   }
 }
 
+template <int width>
 SB_INLINE void kick(const KickArguments& k, Field<const float> f, Field<float> v) {
-  using V = Lane<float>;
-  const V moves = load(k.moves);
+  using V = Lane<float, width>;
+  const V moves = load<V>(k.moves);
   const V scale = k.h_over_mass * moves;
   const Vec<V> g{k.gx * moves, k.gy * moves, k.gz * moves};
-  for (std::size_t at = 0; at < k.particles * lanes; at += lanes) store(v, at, load(v, at) + scale * load(f, at) + g);
+  for (std::size_t at = 0; at < k.particles * width; at += width)
+    store(v, at, load<V>(v, at) + scale * load<V>(f, at) + g);
 }
 
+template <int width>
 SB_INLINE void drift(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x) {
-  const Lane<float> step = h * load(moves);
-  for (std::size_t at = 0; at < particles * lanes; at += lanes) store(x, at, load(x, at) + step * load(v, at));
+  using V = Lane<float, width>;
+  const V step = h * load<V>(moves);
+  for (std::size_t at = 0; at < particles * width; at += width) store(x, at, load<V>(x, at) + step * load<V>(v, at));
 }
 
 /// Returns the lanes in which the solid acted, as bits.
-template <class Shape>
+template <int width, class Shape>
 SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<const float> x, Field<float> v) {
-  using V = Lane<float>;
+  using V = Lane<float, width>;
   const V zero{};
-  const Vec<V> place = load(s.place);
-  Vec<V> impulse = load(s.impulse, 0);
-  V most{}, returned = load(s.returned);
-  for (std::size_t at = 0; at < s.particles * lanes; at += lanes) {
-    const SurfaceAt<V> surface = surface_at(shape, load(x, at) - place);
-    Vec<V> velocity = load(v, at);
-    const Vec<V> before = s.restitution > 0 ? load(s.before, at) : Vec<V>{};
-    const V change = respond(s, load(s.moves), surface.distance, surface.normal, before, velocity);
+  const Vec<V> place = load<V>(s.place);
+  Vec<V> impulse = load<V>(s.impulse, 0);
+  V most{}, returned = load<V>(s.returned);
+  for (std::size_t at = 0; at < s.particles * width; at += width) {
+    const SurfaceAt<V> surface = surface_at(shape, load<V>(x, at) - place);
+    Vec<V> velocity = load<V>(v, at);
+    const Vec<V> before = s.restitution > 0 ? load<V>(s.before, at) : Vec<V>{};
+    const V change = respond(s, load<V>(s.moves), surface.distance, surface.normal, before, velocity);
     impulse = impulse + (s.mass * change) * surface.normal;
     returned += s.restitution * s.mass * change;
     most = larger(change, most);
@@ -216,24 +229,24 @@ SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<cons
   }
   store(s.impulse, 0, impulse);
   store(s.returned, returned);
-  unsigned acted = 0;
-  for (int l = 0; l < lanes; ++l) acted |= unsigned(most[l] > zero[l]) << l;
-  return acted;
+  return lanes_above(most, zero);
 }
 
+template <int width>
 SB_INLINE unsigned solid(const SolidArguments& s, Field<const float> x, Field<float> v) {
-  if (const auto* sphere = std::get_if<SphereShape<float>>(&s.shape)) return solid(s, *sphere, x, v);
-  if (const auto* plane = std::get_if<PlaneShape<float>>(&s.shape)) return solid(s, *plane, x, v);
-  if (const auto* box = std::get_if<BoxShape<float>>(&s.shape)) return solid(s, *box, x, v);
-  return solid(s, std::get<CapsuleShape<float>>(s.shape), x, v);
+  if (const auto* sphere = std::get_if<SphereShape<float>>(&s.shape)) return solid<width>(s, *sphere, x, v);
+  if (const auto* plane = std::get_if<PlaneShape<float>>(&s.shape)) return solid<width>(s, *plane, x, v);
+  if (const auto* box = std::get_if<BoxShape<float>>(&s.shape)) return solid<width>(s, *box, x, v);
+  return solid<width>(s, std::get<CapsuleShape<float>>(s.shape), x, v);
 }
 
+template <int width>
 SB_INLINE void extent(std::size_t particles, Field<const float> x, Field<const float> v, Extent& e) {
-  using V = Lane<float>;
-  Vec<V> lo = load(x, 0), hi = lo;
+  using V = Lane<float, width>;
+  Vec<V> lo = load<V>(x, 0), hi = lo;
   V speed2{};
-  for (std::size_t at = 0; at < particles * lanes; at += lanes) {
-    const Vec<V> p = load(x, at), u = load(v, at);
+  for (std::size_t at = 0; at < particles * width; at += width) {
+    const Vec<V> p = load<V>(x, at), u = load<V>(v, at);
     lo = {smaller(p.x, lo.x), smaller(p.y, lo.y), smaller(p.z, lo.z)};
     hi = {larger(p.x, hi.x), larger(p.y, hi.y), larger(p.z, hi.z)};
     speed2 = larger(dot(u, u), speed2);

@@ -1,6 +1,6 @@
 #pragma once
-// The inner loops of a substep over one batch of eight bodies, chosen once for the processor at hand. Every variant is
-// compiled from the same source without fused arithmetic, so all give the same bits.
+// The inner loops of a substep over one batch of bodies, chosen for its width and for the processor at hand. Every
+// variant is compiled from the same source without fused arithmetic, so all give the same bits.
 
 #include <array>
 #include <cstddef>
@@ -13,7 +13,7 @@
 
 namespace softbody {
 
-/// A spring as the loops want it: particle indices already times `lanes`, single precision.
+/// A spring as the loops want it: particle indices already times the width of the batch, single precision.
 template <class Real>
 struct KernelSpring {
   std::uint32_t i, j;
@@ -23,7 +23,7 @@ template <class Real>
 using KernelSpringsOf = std::vector<KernelSpring<Real>>;
 using KernelSprings = KernelSpringsOf<float>;
 
-/// Corners of a face, already times `lanes`.
+/// Corners of a face, already times the width of the batch.
 using KernelTriangle = std::array<std::uint32_t, 3>;
 
 /// A particle's place in the shape that a body keeps, from the mean of all; see shape_matching.h.
@@ -31,6 +31,8 @@ template <class Real>
 struct ShapePoint {
   Real x, y, z;
 };
+
+// Of what stands here for each lane, one that is solved by itself has but the first value.
 
 /// Of each lane's body: the mean of x, and the sum of x q^T, q the places of ShapePoint; column c of the matrix at 3 c.
 template <class Real>
@@ -52,13 +54,13 @@ struct KickArguments {
   std::size_t particles;
   float h_over_mass;   // s/kg
   float gx, gy, gz;    // h * gravity, m/s
-  const float* moves;  // lanes values, 0 or 1
+  const float* moves;  // a value a lane, 0 or 1
 };
 
 struct ProjectArguments {
   float h;             // s
   float inverse_mass;  // 1/kg, of a particle
-  const float* moves;  // lanes values, 0 or 1
+  const float* moves;  // a value a lane, 0 or 1
 };
 
 /// A particle that meets a solid more slowly is not thrown back, so that resting contacts rest.
@@ -72,7 +74,7 @@ struct SolidArguments {
   SolidShape<float> shape;  // grown by the thickness that particles keep from it
   LaneVector place;         // m, see the shape
   const float* moves;
-  Field<float> impulse;         // N s, lanes values each: the normal impulses are added here ...
+  Field<float> impulse;         // N s, a value a lane: the normal impulses are added here ...
   float* returned;              // ... and here their sizes times the restitution
   float h = 0;                  // s
   float slack = 0;              // m/s: a smaller change of normal velocity is left undone
@@ -98,6 +100,7 @@ struct Extent {
   alignas(32) float speed2[lanes];  // (m/s)^2, of the fastest particle
 };
 
+/// For batches of one width.
 struct Kernels {
   void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
   void (*project_springs)(const ProjectArguments&, std::span<const KernelSpring<float>>, Field<const float> x,
@@ -112,13 +115,15 @@ struct Kernels {
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
   void (*extent)(std::size_t particles, Field<const float> x, Field<const float> v, Extent&);
+};
 
-  // For implicit steps, in double; see implicit_kernels.h.
-  void (*implicit_springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
-                           Field<const double> from, Field<const double> ahead, Field<double> f);
-  void (*volume_double)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
-  void (*pressure_double)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
-                          Field<double> f);
+/// For implicit steps of eight bodies, in double; see implicit_kernels.h.
+struct ImplicitKernels {
+  void (*springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
+                  Field<const double> from, Field<const double> ahead, Field<double> f);
+  void (*volume)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
+  void (*pressure)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
+                   Field<double> f);
   void (*substitute)(const CholeskyFactor&, double* x, double* room);
   void (*turn)(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);
@@ -130,6 +135,7 @@ struct Kernels {
 enum class Isa { baseline, avx2 };
 /// The widest that this processor and build have.
 Isa best_isa();
-const Kernels& kernels(Isa isa);
+const Kernels& kernels(Isa isa, int width = lanes);
+const ImplicitKernels& implicit_kernels(Isa isa);
 
 }  // namespace softbody

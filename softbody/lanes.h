@@ -1,6 +1,7 @@
 #pragma once
-// Eight bodies of one prototype are solved side by side, one a SIMD lane: value [particle * lanes + lane].
-// Compiler vectors, so that the same source serves every instruction set and gives the same bits on each.
+// Eight bodies of one prototype are solved side by side, one a SIMD lane: value [particle * lanes + lane]. Or one by
+// itself: value [particle]. The same source serves both widths and, by compiler vectors, every instruction set, and
+// gives the same bits on each.
 
 #include <cmath>
 #include <cstring>
@@ -11,6 +12,7 @@
 namespace softbody {
 
 inline constexpr int lanes = 8;
+inline constexpr int one_lane = 1;  // the width of what is solved by itself
 
 /// Inlined everywhere, so that it is compiled for the instruction set of its caller.
 #define SB_INLINE [[gnu::always_inline]] inline
@@ -33,18 +35,23 @@ struct DoubleLane {
   SB_INLINE DoubleLane& operator-=(const DoubleLane& b) { return *this = *this - b; }
 };
 
-template <class Real>
+template <class Real, int width>
 struct LaneOf;
+template <class Real>
+struct LaneOf<Real, one_lane> {
+  using Vector = Real;
+};
 template <>
-struct LaneOf<float> {
+struct LaneOf<float, lanes> {
   typedef float Vector __attribute__((vector_size(lanes * sizeof(float))));
 };
 template <>
-struct LaneOf<double> {
+struct LaneOf<double, lanes> {
   using Vector = DoubleLane;
 };
-template <class Real>
-using Lane = typename LaneOf<Real>::Vector;
+/// One value a body, of `width` bodies.
+template <class Real, int width>
+using Lane = typename LaneOf<Real, width>::Vector;
 
 /// Storage that starts on a cache line.
 template <class T>

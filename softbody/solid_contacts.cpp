@@ -27,7 +27,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
     for (SolidArguments& s : b.near_solids) {
       s.h = h;
       s.slack = pass || again ? slack : 0;
-      const unsigned now = kernels_.solid(s, at(x_, b), at(v_, b));
+      const unsigned now = kernels_of(b).solid(s, at(x_, b), at(v_, b));
       more = more || (acted & now) || (pass && now);
       acted |= now;
     }
@@ -40,7 +40,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
 /// particle may go twice as far as its body's fastest goes now, and a tenth of the body's size.
 void Dynamics::prepare_solids(Batch& b, double seconds) {
   Extent e;
-  kernels_.extent(b.particles(), at(x_, b), at(v_, b), e);
+  kernels_of(b).extent(b.particles(), at(x_, b), at(v_, b), e);
   b.near_solids.clear();
   b.solid_features.clear();
   for_each_solid(scene_, [&](const auto& solid) { prepare_solid(b, e, seconds, solid); });

@@ -96,7 +96,9 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const Meeting& m, 
 void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone> bones, const Approach& approach) {
   const glm::dvec3 origin = bodies_[b.body[std::size_t(lane)]].origin;
   const Field<const float> x = at(std::as_const(x_), b);
-  const auto position = [&](std::uint32_t v) { return read(x, std::size_t(v) * lanes + std::size_t(lane)); };
+  const auto position = [&](std::uint32_t v) {
+    return read(x, std::size_t(v) * std::size_t(b.width) + std::size_t(lane));
+  };
   const collide::Surface& surface = *b.prototype->surface;
   for (const SolidBone& bone : bones) {
     SolidFeature found{.lane = lane,
@@ -143,7 +145,7 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
   std::array<std::size_t, 3> slot{};
   std::array<glm::vec3, 3> x{};
   for (std::size_t k = 0; k < corners; ++k) {
-    slot[k] = std::size_t(f.vertices[k]) * lanes + lane;
+    slot[k] = std::size_t(f.vertices[k]) * std::size_t(b.width) + lane;
     x[k] = read(at(std::as_const(x_), b), slot[k]);
   }
   const Meeting m = meet(f, std::span(x).first(corners));

@@ -218,8 +218,9 @@ void SurfaceContact::colour() {
 }
 
 SurfaceContact::Side SurfaceContact::side(const Pair& pair, bool second) const {
-  if (second) return {traits_[pair.range.b].surface, pair.slot_b, pair.offset, pair.inverse_b};
-  return {traits_[pair.range.a].surface, pair.slot_a, glm::vec3(0.0f), pair.inverse_a};
+  if (second)
+    return {traits_[pair.range.b].surface, pair.slot_b, bodies_[pair.range.b].stride, pair.offset, pair.inverse_b};
+  return {traits_[pair.range.a].surface, pair.slot_a, bodies_[pair.range.a].stride, glm::vec3(0.0f), pair.inverse_a};
 }
 
 std::size_t SurfaceContact::rows() const {
@@ -237,9 +238,9 @@ std::vector<collide::ItemPair> SurfaceContact::touching() const {
 
 /// The body of the pair that a slot belongs to.
 Index SurfaceContact::owner(const Pair& pair, std::uint32_t slot) const {
-  const std::size_t first = bodies_[pair.range.a].first_slot;
-  const std::size_t end = first + lanes * traits_[pair.range.a].surface->vertex_count();
-  return slot >= first && slot < end && (slot - first) % lanes == 0 ? pair.range.a : pair.range.b;
+  const std::size_t first = bodies_[pair.range.a].first_slot, stride = bodies_[pair.range.a].stride;
+  const std::size_t end = first + stride * traits_[pair.range.a].surface->vertex_count();
+  return slot >= first && slot < end && (slot - first) % stride == 0 ? pair.range.a : pair.range.b;
 }
 
 std::vector<SurfaceTouch> SurfaceContact::touches(const collide::Bodies& vertices) const {
@@ -253,7 +254,7 @@ std::vector<SurfaceTouch> SurfaceContact::touches(const collide::Bodies& vertice
           list.emplace_back(SurfaceTouch{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
       for (std::size_t k = 0; k < 4; ++k) {
         const Index body = owner(p, row.slot[k]);
-        const std::size_t local = (row.slot[k] - bodies_[body].first_slot) / lanes;
+        const std::size_t local = (row.slot[k] - bodies_[body].first_slot) / bodies_[body].stride;
         touch.vertex[k] = vertices.first[body] + static_cast<Index>(local);
       }
     }

@@ -37,8 +37,9 @@ using Index = collide::Index;
 /// What surface contact knows of a body.
 struct ContactBody {
   glm::dvec3 origin{0.0};      // m
-  std::size_t first_slot = 0;  // of its vertices: first_slot + lanes * v
-  float inverse_mass = 0;      // 1/kg, of a particle; 0: it does not move
+  std::size_t first_slot = 0;  // of its vertices: first_slot + stride * v
+  std::size_t stride = 1;
+  float inverse_mass = 0;  // 1/kg, of a particle; 0: it does not move
   float friction = 0, restitution = 0;
   const std::vector<glm::vec3>* rest = nullptr;  // its vertices at rest, m
 };
@@ -140,7 +141,7 @@ class SurfaceContact {
   /// One body of a pair, seen from the other's origin where that is the first.
   struct Side {
     const collide::Surface* surface;
-    std::size_t slot;
+    std::size_t slot, stride;  // as of ContactBody
     glm::vec3 offset;
     float inverse_mass;
   };

@@ -16,13 +16,13 @@ using collide::FeaturePair;
 constexpr float push_share = 0.1f;  // of an overlap, a substep
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility, const collide::Triangle& face,
-                      std::size_t face_slot, float face_mobility) {
+                      std::size_t face_slot, std::size_t stride, float face_mobility) {
   ContactRow row{};
   row.slot[0] = static_cast<std::uint32_t>(vertex_slot);
   row.weight[0] = 1;
   row.mobility[0] = vertex_mobility;
   for (std::size_t k = 0; k < 3; ++k) {
-    row.slot[k + 1] = static_cast<std::uint32_t>(face_slot + face[k] * lanes);
+    row.slot[k + 1] = static_cast<std::uint32_t>(face_slot + face[k] * stride);
     row.weight[k + 1] = -c.weight[k + 1];
     row.mobility[k + 1] = face_mobility * row.weight[k + 1];
   }
@@ -52,7 +52,7 @@ void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Fiel
 }
 
 glm::vec3 SurfaceContact::at(const Step& step, const Side& side, Index vertex) {
-  return read(step.x, side.slot + vertex * lanes) + side.offset;
+  return read(step.x, side.slot + vertex * side.stride) + side.offset;
 }
 
 void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
@@ -101,8 +101,9 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
   const std::vector<Near>& near = step.own.near;
   const auto corners = [&](const Near& n) {
     const FeaturePair& f = features[n.feature];
-    ContactRow row = corners_of(n.closest, vertex_side.slot + f.a * lanes, vertex_side.inverse_mass,
-                                face_side.surface->triangles()[f.b], face_side.slot, face_side.inverse_mass);
+    ContactRow row =
+        corners_of(n.closest, vertex_side.slot + f.a * vertex_side.stride, vertex_side.inverse_mass,
+                   face_side.surface->triangles()[f.b], face_side.slot, face_side.stride, face_side.inverse_mass);
     row.feature = n.feature;
     return row;
   };
@@ -163,8 +164,8 @@ void SurfaceContact::deep_vertices(Step& step) {
     const glm::vec3 p = at(step, vertex_side, d.vertex);
     const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
-    ContactRow row = corners_of(c, vertex_side.slot + d.vertex * lanes, vertex_side.inverse_mass, face, face_side.slot,
-                                face_side.inverse_mass);
+    ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
+                                face_side.slot, face_side.stride, face_side.inverse_mass);
     row.feature = forgotten;
     Memory none;
     add_row(step, row, normal, glm::dot(p - corner[0], normal), none);
@@ -191,8 +192,8 @@ void SurfaceContact::edges_on_edges(Step& step) {
     Memory& memory = memory_[i];
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
-      row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * lanes);
-      row.slot[k + 2] = static_cast<std::uint32_t>(two.slot + e2[k] * lanes);
+      row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * one.stride);
+      row.slot[k + 2] = static_cast<std::uint32_t>(two.slot + e2[k] * two.stride);
       row.weight[k] = c.weight[k];
       row.weight[k + 2] = -c.weight[k + 2];
       row.mobility[k] = one.inverse_mass * row.weight[k];

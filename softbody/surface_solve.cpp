@@ -40,8 +40,8 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     Whole w;
     const Index count = s.surface->vertex_count();
     for (Index i = 0; i < count; ++i) {
-      w.centre += (read(x, s.slot + i * lanes) + s.offset) / static_cast<float>(count);
-      w.velocity += read(v, s.slot + i * lanes) / static_cast<float>(count);
+      w.centre += (read(x, s.slot + i * s.stride) + s.offset) / static_cast<float>(count);
+      w.velocity += read(v, s.slot + i * s.stride) / static_cast<float>(count);
     }
     w.inverse_mass = s.inverse_mass / static_cast<float>(count);
     return w;
@@ -52,9 +52,10 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
   const float missing = push_speed - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
-  for (Index i = 0; i < one.surface->vertex_count(); ++i) add(v, one.slot + i * lanes, impulse * a.inverse_mass * axis);
+  for (Index i = 0; i < one.surface->vertex_count(); ++i)
+    add(v, one.slot + i * one.stride, impulse * a.inverse_mass * axis);
   for (Index i = 0; i < two.surface->vertex_count(); ++i)
-    add(v, two.slot + i * lanes, -impulse * b.inverse_mass * axis);
+    add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,

@@ -14,26 +14,27 @@ void Dynamics::project_gas(Batch& b, Quantity d, float h) {
   double square[lanes]{};
   std::fill_n(unit, lanes, 1.0f);
   clear(b, forces);
-  kernels_.volume(b.mesh->faces, at(x_, b), volume);
-  kernels_.pressure(b.mesh->faces, at(x_, b), unit, at(f_, b));
+  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
+  kernels_of(b).pressure(b.mesh->faces, at(x_, b), unit, at(f_, b));
+  const auto width = std::size_t(b.width);
   for (const auto& gradient : f_)
-    for (std::size_t i = 0; i < b.particles() * lanes; ++i)
-      square[i % lanes] += double(gradient[b.base + i]) * double(gradient[b.base + i]);
+    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
+      for (std::size_t l = 0; l < width; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
   const double h2_m = double(h) * double(h) / p.particle_mass;
   float shift[lanes];
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < width; ++l) {
     const double gauge = p.gas.pressure(double(volume[l])) - p.gas.ambient;
     shift[l] = b.moves[l] * float(h2_m * gauge / (1 - p.gas.slope(double(volume[l])) * h2_m * square[l]));
   }
   for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t i = b.base; i < b.base + b.particles() * lanes; ++i)
-      components(d)[k][i] += shift[(i - b.base) % lanes] * f_[k][i];
+    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
+      for (std::size_t l = 0; l < width; ++l) components(d)[k][at + l] += shift[l] * f_[k][at + l];
 }
 
 void Dynamics::project_springs(Batch& b, Quantity x0, Quantity d, float h) {
   const ProjectArguments arguments{h, float(1 / b.prototype->particle_mass), b.moves.data()};
   for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
-    kernels_.project_springs(arguments, *list, at(std::as_const(components(x0)), b), at(components(d), b));
+    kernels_of(b).project_springs(arguments, *list, at(std::as_const(components(x0)), b), at(components(d), b));
 }
 
 void xpbd(Dynamics& dynamics, int thread, const Substep& substep) {

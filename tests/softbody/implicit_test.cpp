@@ -29,7 +29,7 @@ Scene ball_above_ground(double stiffness, double height) {
 /// In lane 0: x = A^-1 x, the gas by Sherman and Morrison.
 void solve(const ImplicitMatrix& a, Lanes& x) {
   Lanes room(x.size());
-  kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
+  implicit_kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
   double along = 0;
   for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
   for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];

@@ -1,0 +1,333 @@
+// A body moves the same to the bit by itself and as one of eight lanes, and by itself takes no room for others.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "softbody/snapshot.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// One lane of a field, by itself.
+struct SoloField {
+  SoloField(const LaneField& all, int lane) {
+    for (std::size_t s = std::size_t(lane); s < all.x.size(); s += lanes)
+      x.push_back(all.x[s]), y.push_back(all.y[s]), z.push_back(all.z[s]);
+  }
+  LaneArray<float> x, y, z;
+  Field<float> field() { return {x.data(), y.data(), z.data()}; }
+  Field<const float> constant() const { return {x.data(), y.data(), z.data()}; }
+  bool operator==(const SoloField&) const = default;
+};
+
+bool same_bits(float a, float b) { return !std::memcmp(&a, &b, sizeof a); }
+
+/// A small mesh in every lane, out of shape, and what the kernels ask for besides.
+class EveryKernel : public testing::TestWithParam<Isa> {
+ protected:
+  EveryKernel() : x(n), v(n), f(n) {
+    for (LaneField* field : {&x, &v, &f}) field->randomise(random, 0.2);
+    for (std::size_t i = 0; i < n; ++i)
+      for (int l = 0; l < lanes; ++l) x.set(i, l, x.at(i, l) + mesh.vertices[i]);
+    for (const auto& [i, j] : mesh.edges) springs.push_back({i, j, 0.2f, 300.0f, float(uniform(random, 0, 3))});
+    for (const glm::dvec3& q : mesh.vertices) shape.push_back({float(q.x), float(q.y), float(q.z)});
+  }
+
+  /// What `run` makes of all lanes, and what of each by itself.
+  template <class Run>
+  void expect_the_same(const Run& run) {
+    LaneField all_x = x, all_v = v, all_f = f;
+    float result[lanes]{};
+    run(kernels(GetParam(), lanes), lanes, 0, all_x.field(), all_v.field(), all_f.field(), result);
+    for (int l = 0; l < lanes; ++l) {
+      SoloField own_x(x, l), own_v(v, l), own_f(f, l);
+      float own_result[lanes]{0, -2, -3, -4, -5, -6, -7, -8};
+      run(kernels(GetParam(), one_lane), one_lane, l, own_x.field(), own_v.field(), own_f.field(), own_result);
+      EXPECT_TRUE(own_x == SoloField(all_x, l) && own_v == SoloField(all_v, l) && own_f == SoloField(all_f, l)) << l;
+      EXPECT_TRUE(same_bits(own_result[0], result[l])) << own_result[0] << " and " << result[l] << ", lane " << l;
+      for (int other = 1; other < lanes; ++other) EXPECT_EQ(own_result[other], -1.0f - float(other)) << "written to";
+    }
+  }
+
+  std::vector<KernelSpring<float>> springs_of(int width) const {
+    std::vector<KernelSpring<float>> list = springs;
+    for (auto& s : list) s.i *= std::uint32_t(width), s.j *= std::uint32_t(width);
+    return list;
+  }
+  std::vector<KernelTriangle> faces_of(int width) const {
+    std::vector<KernelTriangle> list = mesh.triangles;
+    for (auto& face : list)
+      for (auto& corner : face) corner *= std::uint32_t(width);
+    return list;
+  }
+
+  std::mt19937 random{11};
+  const Mesh mesh = icosphere(1, 0.5);
+  const std::size_t n = mesh.vertices.size();
+  LaneField x, v, f;
+  std::vector<KernelSpring<float>> springs;
+  std::vector<ShapePoint<float>> shape;
+  alignas(32) float moves[lanes]{1, 0, 1, 1, 1, 1, 0, 1};
+};
+
+using Values = Field<float>;
+
+TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
+  expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values fs, float*) {
+    k.springs(springs_of(width), xs, vs, fs);
+  });
+  expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values, float* result) {
+    k.volume(faces_of(width), xs, result);
+  });
+  expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values, float* result) {
+    float perimeter[lanes];
+    k.surface(faces_of(width), xs, result, perimeter);
+  });
+  expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values, float* result) {
+    float square[lanes];
+    k.surface(faces_of(width), xs, square, result);
+  });
+  expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values, Values fs, float*) {
+    float gauge[lanes];
+    for (int l = 0; l < width; ++l) gauge[l] = 100.0f * float(first + l - 3);
+    k.pressure(faces_of(width), xs, gauge, fs);
+  });
+  expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values fs, float* result) {
+    ShapeMoments<float> moments;
+    k.shape_moments(shape, xs, moments);
+    ShapePose<float> pose{};
+    for (int l = 0; l < width; ++l) {
+      for (int c = 0; c < 3; ++c) pose.centre[c][l] = moments.mean[c][l];
+      for (int c = 0; c < 9; ++c) pose.rotation[c][l] = moments.covariance[c][l];
+      result[l] = moments.covariance[5][l];
+    }
+    k.shape_pull(shape, pose, 20.0f, xs, fs);
+  });
+}
+
+TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
+  expect_the_same([&](const Kernels& k, int, int first, Values, Values vs, Values fs, float*) {
+    k.kick({n, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
+  });
+  expect_the_same([&](const Kernels& k, int, int first, Values xs, Values vs, Values, float*) {
+    k.drift(n, 0.125f, moves + first, vs, xs);
+  });
+  expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values vs, Values, float*) {
+    k.project_springs({0.01f, 40.0f, moves + first}, springs_of(width), xs, vs);
+  });
+  for (int which = 0; which < 7; ++which)
+    expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values, float* result) {
+      Extent e;
+      k.extent(n, xs, vs, e);
+      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.speed2};
+      std::copy_n(values[which], width, result);
+    });
+}
+
+TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
+  const SolidShape<float> shapes[]{
+      SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
+      BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
+      CapsuleShape<float>{{1, 0, 0.25f}, 0.2f}};
+  unsigned acted = 0;
+  for (const auto& one : shapes)
+    expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values vs, Values fs, float* returned) {
+      LaneVector impulse{};
+      SolidArguments solid{n, 0.02f, 0.5f, 0.25f, one, {}, moves + first, {impulse.x, impulse.y, impulse.z}, returned};
+      for (int l = 0; l < width; ++l) returned[l] = 0, solid.place.y[l] = -0.45f + 0.01f * float(first + l);
+      solid.h = 0.01f;
+      solid.before = fs;
+      const unsigned now = k.solid(solid, xs, vs);
+      if (width == lanes)
+        acted = now;
+      else
+        EXPECT_EQ(now, acted >> first & 1u);
+      for (int l = 0; l < width; ++l) fs.x[l] = impulse.x[l], fs.y[l] = impulse.y[l], fs.z[l] = impulse.z[l];
+      EXPECT_NE(acted, 0u) << "or the solid took no part";
+    });
+}
+
+INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
+                         [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
+
+int width_of(const World& world, BodyId body) {
+  const DynamicsState state = world.dynamics().save();
+  return state.batches[state.bodies[body].batch].width;
+}
+
+/// A ball of 2562 vertices just above the ground and one of another material just above it, both falling.
+Scene large_bodies(ContactSurface surface) {
+  Material m = gas_ball();
+  m.mass = 4;
+  m.gas_pressure = 1200;
+  m.ambient_pressure = 1000;
+  m.internal_damping = 2;
+  m.rebound_speed = 1;
+  m.start_in_equilibrium = false;
+  Scene scene = lone_body(m, {0, -1, 0});
+  m.name = "other";
+  m.friction = 0.3;
+  scene.materials.push_back(m);
+  scene.contact_surface = surface;
+  scene.collision.self_collision = true;
+  scene.gravity = {0, -9.81, 0};
+  scene.ground = Ground{};
+  scene.bodies[0].position = {0, 0.51, 0};
+  add_body(scene, {0.1, 1.515, 0}, {0, -3, 0});
+  scene.bodies[1].material = 1;
+  for (BodySource& body : scene.bodies) body.mesh.subdivisions = 4;
+  return scene;
+}
+
+/// Another body like `id`, far away, comes and goes: what is left has eight lanes from then on.
+void visit(World& world, BodyId id) {
+  BodySource other = world.scene().bodies[id];
+  other.position = {20, 3, 0};
+  world.remove(world.add(other));
+}
+
+struct Case {
+  std::string integrator;
+  ContactSurface surface;
+};
+
+class TwoLargeBodies : public testing::TestWithParam<Case> {};
+
+TEST_P(TwoLargeBodies, MoveTheSameByThemselvesAndInLanes) {
+  const bool slow = GetParam().integrator == "explicit-euler";  // it would ask for hundreds of substeps
+  const World::Options options{
+      .threads = 2, .integrator = GetParam().integrator, .substeps = slow ? std::optional(60) : std::nullopt};
+  const Scene scene = large_bodies(GetParam().surface);
+  World solo(scene, options), mixed(scene, options), wide(scene, options);
+  visit(mixed, 1);
+  visit(wide, 0);
+  visit(wide, 1);
+  EXPECT_EQ(std::pair(width_of(solo, 0), width_of(solo, 1)), std::pair(one_lane, one_lane));
+  EXPECT_EQ(std::pair(width_of(mixed, 0), width_of(mixed, 1)), std::pair(one_lane, lanes));
+  EXPECT_EQ(std::pair(width_of(wide, 0), width_of(wide, 1)), std::pair(lanes, lanes));
+  std::size_t touched = 0;
+  for (int frame = 0; frame < 12; ++frame) {
+    for (World* world : {&solo, &mixed, &wide}) {
+      world->step();
+      if (frame == 8) visit(*world, 1);  // while it is touched
+      const auto touches = [](const World& w) { return w.dynamics().surface_contact().touches(w.bodies()).size(); };
+      ASSERT_EQ(world->state_hash(), solo.state_hash()) << "frame " << frame;
+      ASSERT_EQ(world->profile().substeps, solo.profile().substeps);
+      ASSERT_EQ(world->solid_contacts().size(), solo.solid_contacts().size());
+      ASSERT_EQ(touches(*world), touches(solo));
+      ASSERT_EQ(total(world->last_shield_energies()), total(solo.last_shield_energies()));
+      touched += touches(*world) + world->detection().contacts.size();
+    }
+  }
+  EXPECT_TRUE(measure(solo).finite);
+  EXPECT_GT(touched, 0u);
+  EXPECT_FALSE(solo.solid_contacts().empty());
+  EXPECT_EQ(std::pair(width_of(solo, 0), width_of(solo, 1)), std::pair(one_lane, lanes));
+}
+
+std::vector<Case> cases() {
+  std::vector<Case> list;
+  for (const Integrator& integrator : integrators())
+    if (!integrator.implicit)
+      for (const ContactSurfaceInfo& surface : contact_surfaces)
+        list.push_back({std::string(integrator.key), surface.value});
+  return list;
+}
+
+INSTANTIATE_TEST_SUITE_P(All, TwoLargeBodies, testing::ValuesIn(cases()), [](const auto& one) {
+  std::string name = one.param.integrator + (one.param.surface == ContactSurface::surfaces ? "_surfaces" : "_vertices");
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
+
+/// Held ones are neighbours in the lanes and do nothing else.
+TEST(LargeBody, MovesTheSameAmongOthers) {
+  Scene scene = large_bodies(ContactSurface::vertices);
+  scene.bodies.pop_back();
+  World alone(scene, {.substeps = 100});
+  EXPECT_EQ(width_of(alone, 0), one_lane);
+  run(alone, 24);
+  EXPECT_FALSE(alone.solid_contacts().empty());
+  for (const int others : {1, 9}) {
+    Scene more = scene;
+    for (int i = 0; i < others; ++i) {
+      more.bodies.insert(more.bodies.begin(), scene.bodies[0]);
+      more.bodies[0].position = {10.0 + 2 * i, 3, 0};
+      more.bodies[0].release = 1000;
+    }
+    World many(more, {.substeps = 100});
+    const auto last = static_cast<BodyId>(others);
+    EXPECT_EQ(std::pair(width_of(many, last), many.body(last).lane), std::pair(lanes, others % lanes));
+    run(many, 24);
+    for (Index i = 0; i < alone.bodies().vertex_count(); ++i) {
+      const Particle a = alone.dynamics().particle(0, i), b = many.dynamics().particle(last, i);
+      ASSERT_TRUE(a.position == b.position && a.velocity == b.velocity) << i << ", " << others << " others";
+    }
+  }
+}
+
+TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
+  const Scene scene = large_bodies(ContactSurface::vertices);
+  World narrow(scene, {}), wide(scene, {});
+  visit(wide, 0);
+  visit(wide, 1);
+  for (World* world : {&narrow, &wide}) {
+    run(*world, 4);
+    Material soft = scene.materials[0];
+    soft.structural.stiffness = 100;
+    world->set_material(0, soft);
+    world->grab({.body = 1, .target = {1, 2, 0}});
+    run(*world, 4);
+    world->release();
+    std::vector<Particle> moved;
+    for (Index i = 0; i < world->prototype(0).mesh.vertices.size(); ++i) {
+      moved.push_back(world->dynamics().particle(0, i));
+      moved.back().position += glm::dvec3(30, 0, 0);
+    }
+    world->set_particles(0, moved);
+    run(*world, 4);
+  }
+  EXPECT_EQ(std::pair(width_of(narrow, 0), width_of(wide, 0)), std::pair(one_lane, lanes));
+  EXPECT_EQ(narrow.state_hash(), wide.state_hash());
+}
+
+TEST(LargeBodies, OfBothWidthsGoOnFromASnapshot) {
+  World world(large_bodies(ContactSurface::surfaces), {});
+  visit(world, 1);
+  run(world, 6);
+  const Snapshot snapshot = world.snapshot();
+  run(world, 6);
+  World fresh(lone_body(gas_ball()), {.isa = Isa::baseline});
+  fresh.restore(snapshot);
+  EXPECT_EQ(std::pair(width_of(fresh, 0), width_of(fresh, 1)), std::pair(one_lane, lanes));
+  run(fresh, 6);
+  EXPECT_EQ(fresh.state_hash(), world.state_hash());
+}
+
+TEST(LargeBody, ComesToAPlaceThatOneLeft) {
+  Scene scene = large_bodies(ContactSurface::vertices);
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[2].position = {9, 3, 0};
+  World world(scene, {});
+  EXPECT_EQ(std::pair(width_of(world, 0), width_of(world, 1)), std::pair(lanes, one_lane));
+  world.remove(1);
+  EXPECT_EQ(width_of(world, world.add(scene.bodies[1])), one_lane);
+  EXPECT_EQ(world.dynamics().save().batches.size(), 2u);
+}
+
+TEST(SmallBody, IsSolvedInLanes) {  // as implicit steps take it
+  World world(lone_body(gas_ball()), {});
+  EXPECT_EQ(width_of(world, 0), lanes);
+}
+
+TEST(LargeBody, TakesNoRoomForOthers) {
+  const World world(large_bodies(ContactSurface::vertices), {});
+  const std::size_t particles = world.bodies().vertex_count();
+  EXPECT_LE(world.snapshot().bytes(), particles * 6 * sizeof(float) + 4096);  // positions and velocities
+}
+
+}  // namespace
+}  // namespace softbody::test
