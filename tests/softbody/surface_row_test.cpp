@@ -62,7 +62,7 @@ class OneRow {
     const collide::Surface triangle(3, {{0, 1, 2}});
     const collide::SurfaceBody traits{&triangle, reach, 0, 1, true};
     const auto body = [&](std::size_t lane, float inverse_mass) {
-      return ContactBody{glm::dvec3(0.0), lane, inverse_mass, impact_.friction, impact_.restitution};
+      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, impact_.restitution};
     };
     collide::Workers workers(1);
     SurfaceContact contact;
