@@ -229,7 +229,7 @@ void Dynamics::contact_forces(int thread, float h) {
 
 void Dynamics::contacts(int thread, float h, float since_start) {
   surface_contacts(thread, h, since_start);
-  for (Batch* batch : share(thread)) solids(*batch, h);
+  solids(thread, h);
 }
 
 void Dynamics::surface_contacts(int thread, float h, float since_start) {
@@ -238,8 +238,9 @@ void Dynamics::surface_contacts(int thread, float h, float since_start) {
   surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
                    {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)] + since_start, h);
   barrier();
-  surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
-                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
+  surface_.solve(
+      thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()},
+      h, [this] { barrier(); }, [this, thread, h] { solids(thread, h); });
 }
 
 void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {

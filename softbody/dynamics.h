@@ -196,6 +196,7 @@ class Dynamics {
   void run_stages(Batch& batch, std::span<const BatchStage> stages);
   void contacts(int thread, float h, float since_start);
   void surface_contacts(int thread, float h, float since_start);
+  void solids(int thread, float h);
   void solids(Batch& batch, float h);
   bool particles_on_solids(Batch& batch, float h, bool again);
   void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);

@@ -100,9 +100,11 @@ class SurfaceContact {
   /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
   /// forces. On every thread.
   void prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
-  /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
+  /// Solves them on the velocities. On every thread, after a barrier; `barrier` and `solids` are called by all threads
+  /// alike. `solids` keeps a thread's bodies out of solids, on the velocities too: they take turns where bodies hit, or
+  /// the solids, who have the last word, would press what lies on them through a surface that follows fast.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
-             const std::function<void()>& barrier);
+             const std::function<void()>& barrier, const std::function<void()>& solids);
 
   /// Every two bodies of which features may touch in the frame at hand, a < b.
   std::vector<collide::ItemPair> touching() const;

@@ -58,7 +58,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
 }
 
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
-                           const std::function<void()>& barrier) {
+                           const std::function<void()>& barrier, const std::function<void()>& solids) {
   constexpr std::size_t few = 2000;  // rows: done before the threads have met at every colour
   const bool alone = rows() < few;
   const auto hit = [&](const Pair& p) { return h * p.rate > 0.5f; };
@@ -81,8 +81,14 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
     if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
   });
   const auto round = [&](ContactRow& row) { iterate(row, v); };
-  if (std::any_of(pairs_.begin(), pairs_.end(), hit))
-    for (int i = iterations; i < iterations_of_hits; ++i) pass(hit, round, true);
+  if (std::any_of(pairs_.begin(), pairs_.end(), hit)) {
+    for (int i = iterations; i < iterations_of_hits; ++i) {
+      pass(hit, round, true);
+      if (alone) barrier();
+      solids();
+      barrier();
+    }
+  }
   for (int i = 1; i < iterations; ++i) pass(all, round, true);
   pass(
       all,
