@@ -132,7 +132,7 @@ bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }
 
-int Dynamics::advance(double seconds) {
+int Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
   found_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
@@ -167,7 +167,7 @@ int Dynamics::advance(double seconds) {
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
     if (has_surface_) now = std::min(now, foreseen_substeps(left, left / count));
-    run(now, static_cast<float>(left / count), total == 0);
+    run(now, static_cast<float>(left / count), total == 0, after_substep);
     total += now;
     left = now == count ? 0 : left - now * (left / count);
   }
@@ -191,7 +191,7 @@ int Dynamics::substeps_within_bound(double h) const {
   return std::max(1, static_cast<int>(trusted));
 }
 
-void Dynamics::run(int count, float h, bool first) {
+void Dynamics::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   step_ = h;
   if (integrator_->implicit) prepare_implicit(h);
   const auto task = [&](int thread) {
@@ -203,6 +203,10 @@ void Dynamics::run(int count, float h, bool first) {
                         before_[k].begin() + std::ptrdiff_t(b->base));
       integrator_->advance(*this, thread, {h, first && s == 0});
       if (has_surface_) since_found_[std::size_t(thread)] += h;
+      if (!after_substep) continue;
+      barrier();
+      if (thread == 0) after_substep();
+      barrier();
     }
   };
   if (active_threads_ == 1)
