@@ -234,6 +234,12 @@ void Dynamics::contact_forces(int thread, float h) {
 void Dynamics::contacts(int thread, float h, float since_start) {
   surface_contacts(thread, h, since_start);
   solids(thread, h);
+  for (int turn = 0; turn < SurfaceContact::turns && has_surface_ && surface_.hit(h); ++turn) {
+    barrier();
+    if (!surface_.mend(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); }))
+      break;
+    solids(thread, h);
+  }
 }
 
 void Dynamics::surface_contacts(int thread, float h, float since_start) {
@@ -242,9 +248,8 @@ void Dynamics::surface_contacts(int thread, float h, float since_start) {
   surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
                    {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)] + since_start, h);
   barrier();
-  surface_.solve(
-      thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()},
-      h, [this] { barrier(); }, [this, thread, h] { solids(thread, h); });
+  surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
+                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
 }
 
 void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {

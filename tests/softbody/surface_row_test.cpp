@@ -70,8 +70,7 @@ class OneRow {
                  {body(0, impact_.inverse_a), body(1, impact_.inverse_b)}, h, h, false, workers);
     contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
     ASSERT_LE(contact.rows(), 1u);
-    contact.solve(
-        0, 1, std::as_const(x).field(), v.field(), h, [] {}, [] {});
+    contact.solve(0, 1, std::as_const(x).field(), v.field(), h, [] {});
   }
 
   Impact impact_;
