@@ -136,7 +136,7 @@ bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }
 
-int Dynamics::advance(double seconds) {
+int Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
   found_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
@@ -171,7 +171,7 @@ int Dynamics::advance(double seconds) {
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
     if (has_surface_) now = std::min(now, foreseen_substeps(left, left / count));
-    run(now, static_cast<float>(left / count), total == 0);
+    run(now, static_cast<float>(left / count), total == 0, after_substep);
     total += now;
     left = now == count ? 0 : left - now * (left / count);
   }
@@ -195,7 +195,7 @@ int Dynamics::substeps_within_bound(double h) const {
   return std::max(1, static_cast<int>(trusted));
 }
 
-void Dynamics::run(int count, float h, bool first) {
+void Dynamics::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   step_ = h;
   if (integrator_->implicit) prepare_implicit(h);
   const auto task = [&](int thread) {
@@ -207,6 +207,10 @@ void Dynamics::run(int count, float h, bool first) {
                         before_[k].begin() + std::ptrdiff_t(b->base));
       integrator_->advance(*this, thread, {h, first && s == 0});
       if (has_surface_) since_found_[std::size_t(thread)] += h;
+      if (!after_substep) continue;
+      barrier();
+      if (thread == 0) after_substep();
+      barrier();
     }
   };
   if (active_threads_ == 1)
@@ -233,7 +237,13 @@ void Dynamics::contact_forces(int thread, float h) {
 
 void Dynamics::contacts(int thread, float h, float since_start) {
   surface_contacts(thread, h, since_start);
-  for (Batch* batch : share(thread)) solids(*batch, h);
+  solids(thread, h);
+  for (int turn = 0; turn < SurfaceContact::turns && has_surface_ && surface_.hit(h); ++turn) {
+    barrier();
+    if (!surface_.mend(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); }))
+      break;
+    solids(thread, h);
+  }
 }
 
 void Dynamics::surface_contacts(int thread, float h, float since_start) {

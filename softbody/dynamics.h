@@ -1,6 +1,7 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
+#include <functional>
 #include <map>
 #include <optional>
 
@@ -129,8 +130,8 @@ class Dynamics {
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
   /// Advances by `seconds` in equal substeps, see set_substeps(); the bound is worked out anew as bodies move. Returns
-  /// their number.
-  int advance(double seconds);
+  /// their number. after_substep: called by one thread while the others wait.
+  int advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
@@ -208,6 +209,7 @@ class Dynamics {
   void run_stages(Batch& batch, std::span<const BatchStage> stages);
   void contacts(int thread, float h, float since_start);
   void surface_contacts(int thread, float h, float since_start);
+  void solids(int thread, float h);
   void solids(Batch& batch, float h);
   bool particles_on_solids(Batch& batch, float h, bool again);
   void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
@@ -254,7 +256,7 @@ class Dynamics {
   void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
   void straighten_spin(const Batch& batch, ImplicitWork& work, const ImplicitProblem& second, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, ImplicitWork& work, double h) const;
-  void run(int substeps, float h, bool first);
+  void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void resist(BodyId id, double seconds);
   double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);

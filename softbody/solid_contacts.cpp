@@ -11,6 +11,10 @@
 
 namespace softbody {
 
+void Dynamics::solids(int thread, float h) {
+  for (Batch* batch : share(thread)) solids(*batch, h);
+}
+
 /// Particles, and where it is asked for also what lies between them, which may push particles back.
 void Dynamics::solids(Batch& b, float h) {
   if (particles_on_solids(b, h, false) && has_solid_features_ && solid_features(b, h)) particles_on_solids(b, h, true);

@@ -77,7 +77,8 @@ class SurfaceContact {
   void restore(const State& state);
 
   static constexpr int iterations = 2;          // a substep
-  static constexpr int iterations_of_hits = 8;  // where two bodies pass each other half as far as they may in a substep
+  static constexpr int iterations_of_hits = 8;  // where two bodies hit: see hit()
+  static constexpr int turns = 8;               // of mend(), which the solids take with it
   static constexpr float push_speed = 1.0f;     // m/s, overlaps come apart no faster
   // Of the spring that keeps the distance, against the effective mass of the contact:
   static constexpr float spring_frequency = 750;  // 1/s, angular
@@ -104,6 +105,11 @@ class SurfaceContact {
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
+  /// Whether two bodies pass each other half as far as they may in a substep of h.
+  bool hit(float h) const;
+  /// Where solids, which have the last word, have pressed what lies on them through a surface that follows fast: one
+  /// more round for such bodies. False if there are none. On every thread, after a barrier.
+  bool mend(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
 
   /// Every two bodies of which features may touch in the frame at hand, a < b.
   std::vector<collide::ItemPair> touching() const;
@@ -155,6 +161,7 @@ class SurfaceContact {
     std::vector<ContactRow> rows;
     std::vector<Near> near;  // faces near one vertex
     collide::FeaturePairs meeting;
+    bool undone = false;  // mend() had something to do
   };
   /// The state of a substep, as one thread sees it.
   struct Step {
@@ -184,6 +191,11 @@ class SurfaceContact {
   void edges_on_edges(Step& step);
   void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
   bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
+  bool few_rows() const { return rows() < 2000; }
+  static bool hit(const Pair& pair, float h) { return h * pair.rate > 0.5f; }
+  bool undone(const Pair& pair, Field<const float> v, float h) const;
+  template <class Visit>
+  void each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
   void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
 
   std::vector<collide::SurfaceBody> traits_;

@@ -58,32 +58,42 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
+bool SurfaceContact::hit(float h) const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return hit(p, h); });
+}
+
+/// visit(pair, its rows): colour by colour, each by one thread. A few rows are done by the first thread before all have
+/// met at every colour; the others do not wait for it.
+template <class Visit>
+void SurfaceContact::each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit) {
+  const bool alone = few_rows();
+  for (const auto& colour : colours_) {
+    const collide::Part part =
+        alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
+    for (std::size_t i = part.begin; i < part.end; ++i) {
+      const Pair& p = pairs_[colour[i]];
+      visit(p, std::span(threads_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
+    }
+    if (!alone) barrier();
+  }
+}
+
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
-  constexpr std::size_t few = 2000;  // rows: done before the threads have met at every colour
-  const bool alone = rows() < few;
-  const auto hit = [&](const Pair& p) { return h * p.rate > 0.5f; };
   const auto pass = [&](const auto& takes_part, const auto& visit, bool parting = false) {
-    for (const auto& colour : colours_) {
-      const collide::Part part =
-          alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
-      for (std::size_t i = part.begin; i < part.end; ++i) {
-        const Pair& p = pairs_[colour[i]];
-        if (!takes_part(p)) continue;
-        if (parting && p.parting) separate(p, x, v);
-        for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r)
-          visit(threads_[static_cast<std::size_t>(p.thread)].rows[r]);
-      }
-      if (!alone) barrier();
-    }
+    each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+      if (!takes_part(p)) return;
+      if (parting && p.parting) separate(p, x, v);
+      std::for_each(rows.begin(), rows.end(), visit);
+    });
   };
   const auto all = [](const Pair&) { return true; };
   pass(all, [&](ContactRow& row) {
     if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
   });
   const auto round = [&](ContactRow& row) { iterate(row, v); };
-  if (std::any_of(pairs_.begin(), pairs_.end(), hit))
-    for (int i = iterations; i < iterations_of_hits; ++i) pass(hit, round, true);
+  if (hit(h))
+    for (int i = iterations; i < iterations_of_hits; ++i) pass([&](const Pair& p) { return hit(p, h); }, round, true);
   for (int i = 1; i < iterations; ++i) pass(all, round, true);
   pass(
       all,
@@ -95,7 +105,29 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
       },
       true);
   if (thread == 0) last_h_ = h;
-  if (alone) barrier();
+  if (few_rows()) barrier();
+}
+
+/// Whether a contact uses up of the distance what it has to leave.
+bool SurfaceContact::undone(const Pair& pair, Field<const float> v, float h) const {
+  constexpr float hair = 0.02f;  // of the distance
+  const auto& rows = threads_[static_cast<std::size_t>(pair.thread)].rows;
+  const auto first = rows.begin() + pair.first_row;
+  return std::any_of(first, first + pair.rows, [&](const ContactRow& row) {
+    return h * (row.target - glm::dot(relative_velocity(row, v), row.normal)) > hair * pair.distance;
+  });
+}
+
+bool SurfaceContact::mend(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier) {
+  bool& mine = threads_[static_cast<std::size_t>(thread)].undone;
+  mine = false;
+  each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+    if (!hit(p, h) || !undone(p, v, h)) return;
+    mine = true;
+    for (ContactRow& row : rows) iterate(row, v);
+  });
+  if (few_rows()) barrier();
+  return std::any_of(threads_.begin(), threads_.begin() + threads, [](const Thread& t) { return t.undone; });
 }
 
 }  // namespace softbody

@@ -148,7 +148,7 @@ World::~World() = default;
 World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
-void World::step() {
+void World::step(const std::function<void()>& after_substep) {
   State& s = *state_;
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
@@ -159,15 +159,22 @@ void World::step() {
     s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
     s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
   }
-  s.profile.substeps = s.dynamics.advance(s.options.frame_time);
+  double looking_ms = 0;
+  const auto look = [&] {
+    const auto from = Clock::now();
+    s.gather();
+    after_substep();
+    looking_ms += ms_since(from);
+  };
+  s.profile.substeps = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
   s.dynamics.finish_frame(s.options.frame_time);
   s.gather();
-  s.profile.solve_ms = ms_since(start);
+  s.profile.solve_ms = ms_since(start) - looking_ms;
   s.detect();
   const bool shield_grows =
       s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
   if (s.plan.has(Stage::sleep) && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
-  s.profile.total_ms = ms_since(start);
+  s.profile.total_ms = ms_since(start) - looking_ms;
 }
 
 void World::redetect() { state_->detect(); }

@@ -46,7 +46,9 @@ class World {
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
 
-  void step();
+  /// after_substep: looks at positions(), which are those of then; nothing else is up to date, and nothing may be
+  /// changed.
+  void step(const std::function<void()>& after_substep = {});
   /// All that decides how the world goes on; see snapshot.h.
   Snapshot snapshot() const;
   /// The world as it was, settings included, and detects. It goes on from there to the bit, whatever happened since and

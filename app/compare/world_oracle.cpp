@@ -43,13 +43,13 @@ std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& wor
   return found;
 }
 
-bool WorldOracle::changed_side(const collide::Crossing& crossing) const {
+bool WorldOracle::came_inside(const collide::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
     return collide::inside({p.x[vertex], p.y[vertex], p.z[vertex]}, *surfaces_[crossing.other],
                            {&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)});
   };
-  return inside(earlier_) != inside(before_);
+  return inside(before_) && !inside(earlier_);
 }
 
 }  // namespace app

@@ -25,9 +25,9 @@ class WorldOracle {
   /// What passed through what since the last call, each vertex taken along the straight line between the two: bodies
   /// that arrived in between are left out, and the first call finds nothing. To be called for one world only.
   std::vector<collide::Crossing> crossings(const softbody::World& world);
-  /// Whether a vertex that crossed a face of a closed body in the last call came to be inside it, or outside. Crossings
-  /// alone do not tell: of those through one face only the first is listed, and those through a rim are those of two.
-  bool changed_side(const collide::Crossing& crossing) const;
+  /// Whether a vertex that crossed a face of a closed body in the last call came to be inside it. Crossings alone do
+  /// not tell: of those through one face only the first is listed, and those through a rim are those of two.
+  bool came_inside(const collide::Crossing& crossing) const;
 
  private:
   collide::Workers workers_;

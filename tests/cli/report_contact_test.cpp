@@ -74,6 +74,22 @@ TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
   }
 }
 
+TEST(ContactReport, WhatComesOutOfABodyThatItStartedInHasNotPassed) {
+  Row surface = rows_of("[[body]]\n[[body]]\nposition = [0.8, 3, 0]\n").at("surface");
+  EXPECT_EQ(surface["end_overlapping_pairs"], "0") << "they came apart";
+  EXPECT_EQ(surface["passed"], "0");
+}
+
+/// From frame to frame it goes twice its own size: straight lines over that lead through the sheet that it carries off.
+TEST(ContactReport, WhatFliesFastIsLookedAtAlongItsWay) {
+  Row surface = rows_of(
+                    "[[body]]\nmesh = {kind = \"grid\", columns = 8, rows = 8, width = 2, depth = 2}\n"
+                    "[[body]]\nposition = [0.04, 3.8, 0.03]\nvelocity = [0, -100, 0]\n")
+                    .at("surface");
+  EXPECT_EQ(surface["not_run"], "");
+  EXPECT_EQ(surface["passed"], "0");
+}
+
 /// In B a vertex goes in and out again through one face that turns, on the straight ways of two steps, and is never
 /// inside when it is looked at: of its crossings only the first is listed.
 TEST(ContactReport, WhatCameOutAgainHasNotPassed) {

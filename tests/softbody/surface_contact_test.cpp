@@ -103,6 +103,29 @@ INSTANTIATE_TEST_SUITE_P(At, ThrownBall,
                                          Target{"held_sheet_at_1000", true, true, false, 1000, 1}),
                          [](const auto& target) { return std::string(target.param.name); });
 
+/// What lies on the solid is hit from behind by the body's other half: both keep it, the solid and the surface.
+TEST(SurfaceContact, ABallThrownAtASolidSphereDoesNotPierceItself) {
+  for (const double speed : {100.0, 300.0}) {
+    Scene scene = load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "A.toml");
+    scene.contact_surface = ContactSurface::surfaces;
+    scene.gravity = glm::dvec3(0.0);
+    scene.ground.reset();
+    scene.bodies.resize(1);
+    BodySource& ball = scene.bodies[0];
+    const SolidSphere& solid = scene.spheres.at(0);
+    ball.position = solid.centre + glm::dvec3(0.04, solid.radius + 0.8, 0.03);
+    ball.velocity = {0, -speed, 0};
+    World world(scene, {});
+    Judge judge(world);
+    for (int i = 0; i < 20; ++i) {
+      world.step();
+      judge.expect_clean(std::to_string(speed) + " m/s, " + frame_of(world));
+      ASSERT_LT(measure(world).deepest_penetration, 1e-3) << speed << " m/s, " << frame_of(world);
+    }
+    EXPECT_GT(motion(world, 0).velocity.y, 0) << "it was thrown back";
+  }
+}
+
 TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.8, 0.05, 0.02}, glm::dvec3(0.0));  // 0.4 R deep

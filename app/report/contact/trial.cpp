@@ -35,6 +35,7 @@ class Trial {
     result_.settles = world_.scene().gravity != glm::dvec3(0.0);
     result_.tolerance = double{world_.collision().tolerance};
     oracle_.crossings(world_);
+    remember_middles();
     passages_.look(world_);
   }
 
@@ -52,21 +53,25 @@ class Trial {
 
  private:
   void step() {
-    remember_middles();
     result_.radius = smallest_closed_radius(world_);
     const double start = thread_seconds();
-    world_.step();
-    result_.cpu_ms += 1e3 * (thread_seconds() - start);
+    double looking = 0;  // s
+    world_.step([&] {
+      const double from = thread_seconds();
+      look_for_passages(straight_way);
+      looking += thread_seconds() - from;
+    });
+    result_.cpu_ms += 1e3 * (thread_seconds() - start - looking);
     result_.detect_ms += world_.profile().detect_ms;
     result_.solve_ms += world_.profile().solve_ms;
-    look_for_passages(false);
+    look_for_passages(rest_way);
     look_into_solids();
     if (world_.frame() > limits_.frames - last_second) look_at_speeds();
     if (world_.frame() % limits_.stride == 0) look_for_overlaps();
   }
 
   void finish() {
-    look_for_passages(true);
+    look_for_passages(0);
     look_for_overlaps();
     result_.frames = world_.frame();
     result_.bodies = world_.bodies().count();
@@ -78,19 +83,20 @@ class Trial {
     if (awake_particles_ > 0 && !result_.asleep) result_.jitter = std::sqrt(squares_ / awake_particles_);
   }
 
-  /// Bodies nearly at rest are looked at again only after they have gone some way.
-  void look_for_passages(bool last) {
-    if (!last && oracle_.moved(world_) < 0.01) return;  // m: the depth bound of the scenes' spheres
+  /// Unless no vertex has gone so far (m) since the last look.
+  void look_for_passages(double way) {
+    if (oracle_.moved(world_) < way) return;
     const std::vector<collide::Crossing> crossings = oracle_.crossings(world_);
     const auto figures = collide::figures_of(world_.positions(), {}, crossings);
     result_.passed += passed(crossings);
     result_.crossed_vertices += figures.crossed_vertices;
     result_.edge_crossings += figures.edge_crossings;
+    remember_middles();
   }
 
-  /// Vertices that are on the other side of a surface than before, or right through a body. The straight way from one
-  /// look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for having stayed
-  /// outside, unless the two bodies passed each other by more than the smallest body's radius in the frame.
+  /// Vertices that came to be inside a closed body, or on the other side of an open or their own surface. The straight
+  /// way from one look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for
+  /// having stayed outside, unless the two bodies passed each other by more than the smallest body's radius meanwhile.
   std::size_t passed(const std::vector<collide::Crossing>& crossings) const {
     std::map<std::pair<collide::Index, collide::Index>, int> balance;  // by vertex and the other body
     std::set<collide::Index> vertices;
@@ -99,7 +105,7 @@ class Trial {
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
       if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
         balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
-      else if (oracle_.changed_side(c))
+      else if (oracle_.came_inside(c))
         vertices.insert(c.feature[0]);
     }
     for (const auto& [key, sum] : balance) {
@@ -108,7 +114,7 @@ class Trial {
     return vertices.size();
   }
 
-  /// Of a body's middle, in the last step.
+  /// Of a body's middle, since the last look for passages.
   glm::dvec3 way_of(collide::Index body) const {
     return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
   }
@@ -131,6 +137,11 @@ class Trial {
     result_.self_intersecting = figures.self_intersecting_bodies;
   }
 
+  void remember_middles() {
+    middles_.clear();
+    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle_of(world_, b));
+  }
+
   void look_at_speeds() {
     for (collide::Index b = 0; b < world_.bodies().count(); ++b) {
       if (world_.body(b).asleep) continue;
@@ -143,23 +154,22 @@ class Trial {
     }
   }
 
-  void remember_middles() {
-    middles_.clear();
-    for (collide::Index b = 0; b < world_.bodies().count(); ++b) middles_.push_back(middle_of(world_, b));
-  }
-
   void look_into_solids() {
     if (!passages_.look(world_)) result_.finite = false;
     result_.through_solids = passages_.count();
   }
 
   static constexpr int last_second = 60;  // frames
+  // m, of a vertex between two looks for passages: what it goes in substeps before they are looked at is still
+  // straight, a tenth of the scenes' spheres' radius; what it must have gone at the end of a frame, their bound of
+  // depth.
+  static constexpr double straight_way = 0.05, rest_way = 0.01;
 
   const TrialLimits& limits_;
   ContactTrial& result_;
   softbody::World world_;
   WorldOracle oracle_{1};
-  std::vector<glm::dvec3> middles_;  // of the bodies, before the step
+  std::vector<glm::dvec3> middles_;  // of the bodies, at the last look for passages
   SolidPassages passages_;
   double depths_ = 0, squares_ = 0, awake_particles_ = 0;
 };
