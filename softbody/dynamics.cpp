@@ -91,47 +91,6 @@ int Dynamics::substeps(double seconds) const {
   return int(std::min(most_substeps, std::ceil(std::max(b.fewest, seconds / b.step))));
 }
 
-/// m/s: how fast the fastest swing goes on by what is lost where positions are rounded to floats; `step` is its bound.
-double Dynamics::tremble(double step) const {
-  constexpr double rounding = 1.0 / (1 << 24);
-  double farthest = 0;
-  for (const Batch* b : moving_) {
-    Extent e;
-    kernels_of(*b).extent(b->particles(), at(x_, *b), at(v_, *b), e);
-    for (int l = 0; l < b->used; ++l)
-      for (const LaneVector* corner : {&e.lo, &e.hi})
-        farthest = std::max(
-            {farthest, double(std::abs(corner->x[l])), double(std::abs(corner->y[l])), double(std::abs(corner->z[l]))});
-  }
-  return rounding * farthest * 1.6 / step;  // the bound is 0.8 (2 / omega), or less
-}
-
-/// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver is worth
-/// about as much as 150 explicit substeps of the same body in free flight, and as 300 to 1,500 in contact. But what
-/// explicit substeps cannot bring to rest, or near enough for it to fall asleep, is left to the other.
-void Dynamics::choose(double seconds) {
-  constexpr double in_flight = 150, in_contact = 300;  // substeps
-  integrator_ = find_integrator("semi-implicit-euler");
-  const Bound b = bound(seconds);
-  const bool touches = !shield_.pairs.empty() || std::any_of(moving_.begin(), moving_.end(),
-                                                             [](const Batch* m) { return !m->near_solids.empty(); });
-  const double worth = (touches ? in_contact : in_flight) * b.fewest;
-  const bool cheaper = seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : worth);
-  const double rest = std::max(1e-3, 0.2 * scene_.sleep.speed);  // m/s
-  if (cheaper && tremble(b.step) <= rest) {
-    why_ = "explicit substeps are stable, and cheaper than implicit steps";
-  } else if (has_surface_) {
-    why_ = "contact of the true surfaces wants short steps";
-  } else if (std::any_of(moving_.begin(), moving_.end(),
-                         [](const Batch* batch) { return batch->particles() > most_implicit_particles; })) {
-    why_ = "a body has too many particles for implicit steps";
-  } else {
-    integrator_ = find_integrator("implicit");
-    why_ = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
-                   : "so stiff that implicit steps are cheaper than explicit substeps";
-  }
-}
-
 bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }
