@@ -77,6 +77,7 @@ TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
 TEST(ContactReport, WhatComesOutOfABodyThatItStartedInHasNotPassed) {
   Row surface = rows_of("[[body]]\n[[body]]\nposition = [0.8, 3, 0]\n").at("surface");
   EXPECT_EQ(surface["end_overlapping_pairs"], "0") << "they came apart";
+  EXPECT_GT(number(surface["crossed_vertices"]), 0) << "else this test holds nothing";
   EXPECT_EQ(surface["passed"], "0");
 }
 
@@ -88,22 +89,6 @@ TEST(ContactReport, WhatFliesFastIsLookedAtAlongItsWay) {
                     .at("surface");
   EXPECT_EQ(surface["not_run"], "");
   EXPECT_EQ(surface["passed"], "0");
-}
-
-/// In B a vertex goes in and out again through one face that turns, on the straight ways of two steps, and is never
-/// inside when it is looked at: of its crossings only the first is listed.
-TEST(ContactReport, WhatCameOutAgainHasNotPassed) {
-  const TemporaryFolder folder;
-  ASSERT_EQ(run({"report", "contact", "--quick", "--scene", "B", "--out", folder.path()}).status, 0);
-  int surfaces = 0;
-  for (Row row : read_csv(folder.path() / "contact.csv")) {
-    if (row["contact_surface"] != "surface") continue;
-    ++surfaces;
-    EXPECT_GT(number(row["crossed_vertices"]), 0) << "else this test holds nothing";
-    EXPECT_EQ(row["passed"], "0");
-    EXPECT_EQ(row["failures"], "");
-  }
-  EXPECT_EQ(surfaces, 1);
 }
 
 TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
