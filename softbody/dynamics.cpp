@@ -59,20 +59,33 @@ void Dynamics::resize_scratch() {
     for (auto& c : components) c.resize(x_[0].size());
 }
 
+double Dynamics::stiffness_per_mass(const Batch& b) const {
+  const Prototype& p = *b.prototype;
+  if (!p.has_gas) return softbody::stiffness_per_mass(p, {});
+  for (auto& component : area_) component.assign(b.values(), 0);
+  const Field<float> area{area_[0].data(), area_[1].data(), area_[2].data()};
+  const Kernels& kernels = kernels_of(b);
+  alignas(32) float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
+  std::fill(std::begin(one), std::end(one), 1.0f);
+  kernels.volume(b.mesh->faces, at(x_, b), volume);
+  kernels.medians(b.mesh->faces, at(x_, b), two_medians);
+  kernels.pressure(b.mesh->faces, at(x_, b), one, area);
+  kernels.square_sum(b.particles(), area, area2);
+  for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
+    kernels.stretch(*list, area, stretch);
+  double stiffest = 0;
+  for (int l = 0; l < b.used; ++l)
+    stiffest = std::max(stiffest, softbody::stiffness_per_mass(p, {volume[l], area2[l], stretch[l], two_medians[l]}));
+  return stiffest;
+}
+
 Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double fewest = 1;                  // that keep up with the fastest body near a solid
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const Prototype& p = *b.prototype;
-    double stiffest = stiffness_per_mass(p, {});
-    if (p.has_gas) {
-      alignas(32) float volume[lanes], cross_square_sum[lanes], perimeter[lanes];
-      kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
-      kernels_of(b).surface(b.mesh->faces, at(x_, b), cross_square_sum, perimeter);
-      for (int l = 0; l < b.used; ++l)
-        stiffest = std::max(stiffest, stiffness_per_mass(p, {volume[l], cross_square_sum[l], perimeter[l]}));
-    }
+    double stiffest = stiffness_per_mass(b);
     double damper = p.spring_damping_bound;
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);

@@ -246,6 +246,7 @@ class Dynamics {
     double fewest;  // substeps that keep up with the fastest body near a solid
   };
   Bound bound(double seconds) const;
+  double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
   double tremble(double step) const;
   void choose(double seconds);
   void resize_scratch();
@@ -277,6 +278,7 @@ class Dynamics {
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
   Components x_, v_, f_;
+  mutable Components area_;  // room of stiffness_per_mass()
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   /// What implicit steps keep: the matrices used last, and one workspace a prototype for each thread.

@@ -97,8 +97,7 @@ std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::
                        prototype.radius;
   // Half of what is stable: the kinetic energy has a peak to be found only where a swing takes more than a few steps.
   const double h =
-      0.5 *
-      stable_step(stiffness_per_mass(prototype, measure_surface(prototype.mesh.vertices, prototype.mesh.triangles)), 0);
+      0.5 * stable_step(stiffness_per_mass(prototype, measure_surface(prototype, prototype.mesh.vertices)), 0);
   constexpr int limit = 50'000;
   for (int i = 0; i < limit; ++i) {
     relaxation.evaluate();

@@ -118,20 +118,44 @@ SB_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Real> x
   store(result, six / Real(6));
 }
 
-/// What the stability bound needs, see Surface: the sum of |c|^2, c = (b - a) x (c - a), and the largest perimeter.
+/// See Surface: of two medians of one face, the largest sum.
 template <int width>
-SB_INLINE void surface(std::span<const KernelTriangle> faces, Field<const float> x, float* cross_square_sum,
-                       float* perimeter) {
+SB_INLINE void medians(std::span<const KernelTriangle> faces, Field<const float> x, float* result) {
   using V = Lane<float, width>;
-  V sum{}, longest{};
+  V largest{};
   for (const auto& [a, b, c] : faces) {
-    const Vec<V> ab = load<V>(x, b) - load<V>(x, a), ac = load<V>(x, c) - load<V>(x, a), bc = ac - ab;
-    const Vec<V> cross_product = cross(ab, ac);
-    sum += dot(cross_product, cross_product);
-    longest = larger(square_root(dot(ab, ab)) + square_root(dot(ac, ac)) + square_root(dot(bc, bc)), longest);
+    const Vec<V> ab = load<V>(x, b) - load<V>(x, a), ac = load<V>(x, c) - load<V>(x, a);
+    const Vec<V> bc = ac - ab, twice_a = ab + ac, twice_b = bc - ab,
+                 twice_c = bc + ac;  // each of length twice a median
+    const V from_a = square_root(dot(twice_a, twice_a)), from_b = square_root(dot(twice_b, twice_b)),
+            from_c = square_root(dot(twice_c, twice_c));
+    largest = larger(larger(from_a + from_b, larger(from_b + from_c, from_c + from_a)), largest);
   }
-  store(cross_square_sum, sum);
-  store(perimeter, longest);
+  store(result, largest / 2.0f);
+}
+
+/// See Surface: adds the springs' stiffness times the squared difference of the vectors at their ends.
+template <int width>
+SB_INLINE void stretch(std::span<const KernelSpring<float>> list, Field<const float> a, float* sum) {
+  using V = Lane<float, width>;
+  V all = load<V>(sum);
+  for (const KernelSpring<float>& s : list) {
+    const Vec<V> d = load<V>(a, s.j) - load<V>(a, s.i);
+    all += s.stiffness * dot(d, d);
+  }
+  store(sum, all);
+}
+
+/// The sum of the squared lengths of so many vectors.
+template <int width>
+SB_INLINE void square_sum(std::size_t particles, Field<const float> a, float* sum) {
+  using V = Lane<float, width>;
+  V all{};
+  for (std::size_t i = 0; i < particles; ++i) {
+    const Vec<V> v = load<V>(a, i * width);
+    all += dot(v, v);
+  }
+  store(sum, all);
 }
 
 /// A third of each face's pressure force to each of its corners (Matyka & Ollila 2003).

@@ -106,7 +106,9 @@ struct Kernels {
   void (*project_springs)(const ProjectArguments&, std::span<const KernelSpring<float>>, Field<const float> x,
                           Field<float> d);
   void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
-  void (*surface)(std::span<const KernelTriangle>, Field<const float> x, float* cross_square_sum, float* perimeter);
+  void (*medians)(std::span<const KernelTriangle>, Field<const float> x, float* largest);
+  void (*stretch)(std::span<const KernelSpring<float>>, Field<const float> a, float* sum);
+  void (*square_sum)(std::size_t particles, Field<const float> a, float* sum);
   void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
   void (*shape_moments)(std::span<const ShapePoint<float>>, Field<const float> x, ShapeMoments<float>&);
   void (*shape_pull)(std::span<const ShapePoint<float>>, const ShapePose<float>&, float stiffness, Field<const float> x,

@@ -114,24 +114,36 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
-  // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i = the sum of c_f / 6 over the particle's faces, c_f twice the face's
-  // area vector. Its matrix is -dP/dV A A^T, of norm -dP/dV sum |A_i|^2 <= -dP/dV degree / 12 * sum |c_f|^2 (Cauchy and
-  // Schwarz; degree: the largest mean over a face's corners), plus (P - P_ambient) d2V/dx2, whose largest row is at
-  // most degree * perimeter / 6.
+  // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum |A_i|^2, plus
+  // (P - P_ambient) d2V/dx2. Breathing, which the first is about, hardly stretches springs: with q = A^T L A / A^T A <=
+  // l, where L is the springs' Laplacian and l its bound, |L A|^2 <= l A^T L A, so that L + s A A^T / A^T A has no
+  // greater eigenvalue than [q + s, sqrt(q (l - q)); sqrt(q (l - q)), l]. In the second, particles i and j of an edge
+  // are joined by a sixth of the line between the two corners opposite, which is no longer than their faces' medians.
   const double slope = -p.gas.slope(surface.volume);
   const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
-  const double gas =
-      slope * p.face_degree * surface.cross_square_sum / 12 + gauge * p.largest_degree * surface.perimeter / 6;
+  const double l = 2 * p.spring_stiffness_bound, s = slope * surface.area2;
+  const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
+  const double both = (q + s + l) / 2 + std::hypot((q + s - l) / 2, std::sqrt(q * (l - q)));
+  const double gas = both - l + gauge * p.largest_degree * surface.two_medians / 6;
   return springs + gas / (2 * p.particle_mass);  // nor is this
 }
 
-Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {
-  Surface s{.volume = volume(vertices, triangles)};
-  for (const auto& [i, j, k] : triangles) {
-    const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], cross = glm::cross(b - a, c - a);
-    s.cross_square_sum += glm::dot(cross, cross);
-    s.perimeter = std::max(s.perimeter, glm::distance(a, b) + glm::distance(b, c) + glm::distance(c, a));
+Surface measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
+  Surface s{.volume = volume(vertices, p.mesh.triangles)};
+  std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
+  for (const auto& [i, j, k] : p.mesh.triangles) {
+    const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;
+    for (const Index corner : {i, j, k}) area[corner] += third;
+    const double from_a = glm::distance(a, (b + c) / 2.0), from_b = glm::distance(b, (c + a) / 2.0),
+                 from_c = glm::distance(c, (a + b) / 2.0);
+    s.two_medians = std::max({s.two_medians, from_a + from_b, from_b + from_c, from_c + from_a});
   }
+  for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& spring : *list) {
+      const glm::dvec3 d = area[spring.i] - area[spring.j];
+      s.stretch += spring.stiffness * glm::dot(d, d);
+    }
   return s;
 }
 
@@ -142,9 +154,6 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const 
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)
     p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
-  for (const auto& [a, b, c] : p->mesh.triangles)
-    p->face_degree =
-        std::max(p->face_degree, double(p->faces_of(a).size() + p->faces_of(b).size() + p->faces_of(c).size()) / 3);
   if (p->mesh.closed) p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
   give_material(*p, source, material);
 

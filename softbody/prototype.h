@@ -50,7 +50,6 @@ struct Prototype {
   double spring_stiffness_bound = 0;  // N/m: at most the largest sum of the stiffnesses at one particle
   double spring_damping_bound = 0;    // N s/m
   double largest_degree = 0;          // faces at one particle
-  double face_degree = 0;             // the same, as the mean of a face's three corners
 
   std::span<const Index> faces_of(Index vertex) const {
     return std::span(face).subspan(first_face[vertex], first_face[vertex + 1] - first_face[vertex]);
@@ -67,11 +66,12 @@ std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const
 
 /// What the stability bound of the gas needs of a body's shape.
 struct Surface {
-  double volume = 0;            // m^3
-  double cross_square_sum = 0;  // m^4: over the faces, of (twice the area)^2
-  double perimeter = 0;         // m, of the face with the largest
+  double volume = 0;       // m^3
+  double area2 = 0;        // m^4: over the particles, of |A|^2, A = dV/dx
+  double stretch = 0;      // N m^3: over the springs, of the stiffness times |A_i - A_j|^2
+  double two_medians = 0;  // m, the two longest medians of a face together, of the face where they are longest
 };
-Surface measure_surface(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
+Surface measure_surface(const Prototype& prototype, const std::vector<glm::dvec3>& vertices);
 
 /// Bound of the stiffness over mass that springs, gas and shape matching act with on one particle of a body of this
 /// shape, in 1/s^2.

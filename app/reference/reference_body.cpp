@@ -127,8 +127,7 @@ void ReferenceBody::step(BodyState& state, double h) const {
 }
 
 double ReferenceBody::stable_step(const BodyState& state) const {
-  const double k_m =
-      softbody::stiffness_per_mass(prototype_, softbody::measure_surface(state.x, prototype_.mesh.triangles));
+  const double k_m = softbody::stiffness_per_mass(prototype_, softbody::measure_surface(prototype_, state.x));
   const double c_m = prototype_.spring_damping_bound / prototype_.particle_mass;
   return softbody::find_integrator("rk4")->stable_step(k_m, c_m);
 }

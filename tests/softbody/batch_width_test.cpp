@@ -83,13 +83,14 @@ TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
     k.volume(faces_of(width), xs, result);
   });
   expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values, float* result) {
-    float perimeter[lanes];
-    k.surface(faces_of(width), xs, result, perimeter);
+    k.medians(faces_of(width), xs, result);
   });
   expect_the_same([&](const Kernels& k, int width, int, Values xs, Values, Values, float* result) {
-    float square[lanes];
-    k.surface(faces_of(width), xs, square, result);
+    std::fill_n(result, width, 0.0f);
+    k.stretch(springs_of(width), xs, result);
   });
+  expect_the_same(
+      [&](const Kernels& k, int, int, Values xs, Values, Values, float* result) { k.square_sum(n, xs, result); });
   expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values, Values fs, float*) {
     float gauge[lanes];
     for (int l = 0; l < width; ++l) gauge[l] = 100.0f * float(first + l - 3);

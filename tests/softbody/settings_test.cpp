@@ -9,27 +9,43 @@
 namespace softbody::test {
 namespace {
 
-TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
-  Scene scene = drop_scene();
-  scene.collision.tolerance = 0.05f;
-  World world(scene, {.threads = 2});
-  while (!world.all_at_rest() && world.frame() < 2000) world.step();
-  ASSERT_TRUE(world.all_at_rest());
-  collide::Settings wide = world.collision();
-  wide.tolerance = 0.5f;
-  world.set_collision(wide, true);
-  EXPECT_FALSE(world.all_at_rest()) << "new settings wake all";
+/// m/s, of the body that is fastest as a whole.
+double fastest_body(const World& world) {
   double fastest = 0;
-  for (int i = 0; i < 120; ++i) {
-    world.step();
-    const Measures m = measure(world);
-    ASSERT_TRUE(m.finite);
-    ASSERT_GT(m.volume_ratio_min, 0.5);
-    ASSERT_LT(m.volume_ratio_max, 2.0);
-    fastest = std::max(fastest, m.max_speed);
+  for (BodyId body = 0; body < world.dynamics().body_count(); ++body) {
+    const auto count = static_cast<Index>(world.prototype(body).mesh.vertices.size());
+    glm::dvec3 sum(0.0);
+    for (Index v = 0; v < count; ++v) sum += world.dynamics().particle(body, v).velocity;
+    fastest = std::max(fastest, glm::length(sum) / double(count));
   }
-  EXPECT_GT(fastest, 0.01) << "the shield does grow";
-  EXPECT_LT(fastest, 2);
+  return fastest;
+}
+
+TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
+  for (const double shift : {0.0, 0.002, 0.004}) {  // m: the same bodies come to lie otherwise
+    Scene scene = drop_scene();
+    for (BodySource& body : scene.bodies) body.position.x += shift;
+    scene.collision.tolerance = 0.05f;
+    World world(scene, {.threads = 2});
+    while (!world.all_at_rest() && world.frame() < 2000) world.step();
+    ASSERT_TRUE(world.all_at_rest());
+    collide::Settings wide = world.collision();
+    wide.tolerance = 0.5f;
+    world.set_collision(wide, true);
+    EXPECT_FALSE(world.all_at_rest()) << "new settings wake all";
+    double fastest = 0, fastest_particle = 0;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite);
+      ASSERT_GT(m.volume_ratio_min, 0.5);
+      ASSERT_LT(m.volume_ratio_max, 2.0);
+      fastest_particle = std::max(fastest_particle, m.max_speed);
+      fastest = std::max(fastest, fastest_body(world));
+    }
+    EXPECT_GT(fastest_particle, 0.01) << "the shield does grow";
+    EXPECT_LT(fastest, 0.5) << shift;
+  }
 }
 
 TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {

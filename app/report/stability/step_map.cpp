@@ -40,8 +40,7 @@ class DisturbedBall {
   double predicted(const softbody::Integrator& integrator) const {
     const softbody::World world = make(integrator, 1);
     const softbody::Prototype& p = world.prototype(0);
-    const double k_m =
-        softbody::stiffness_per_mass(p, softbody::measure_surface(state_of(world, 0).x, p.mesh.triangles));
+    const double k_m = softbody::stiffness_per_mass(p, softbody::measure_surface(p, state_of(world, 0).x));
     return integrator.stable_step(k_m, p.spring_damping_bound / p.particle_mass);
   }
 
