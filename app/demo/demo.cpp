@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <future>
 #include <memory>
 #include <optional>
@@ -79,7 +80,8 @@ class Demo {
       : preferences_(preferences_path()),
         screen_(std::make_unique<Screen>(options.size_given ? glm::ivec2(options.width, options.height)
                                                             : preferences_.kept().size)),
-        session_(options.scene, options.scene_folder, options.threads, options.scene_name) {
+        opened_(open(options)),
+        session_(*opened_) {
     session_.set_integrator(options.integrator, options.substeps);
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
@@ -97,6 +99,29 @@ class Demo {
   }
 
  private:
+  /// The balance of a large mesh takes long to find: meanwhile the window says so.
+  std::unique_ptr<Session> open(const DemoOptions& options) {
+    std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
+      return std::make_unique<Session>(options.scene, options.scene_folder, options.threads, options.scene_name);
+    });
+    std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
+    for (const double began = now(); status != std::future_status::ready;) {
+      status = opening.wait_for(std::chrono::milliseconds(30));
+      screen_->window.poll();
+      if (!screen_->window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
+      const std::string text =
+          "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
+      screen_->gui.begin_frame();
+      const ImVec2 room = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
+      ImGui::GetForegroundDrawList()->AddText({(room.x - size.x) / 2, (room.y - size.y) / 2},
+                                              ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
+      clear_window();
+      screen_->gui.end_frame();
+      screen_->window.present();
+    }
+    return opening.get();
+  }
+
   void frame(double elapsed) {
     if (screen_->window.context_lost()) renew_screen();
     try {
@@ -300,7 +325,8 @@ class Demo {
 
   PreferencesFile preferences_;
   std::unique_ptr<Screen> screen_;
-  Session session_;
+  std::unique_ptr<Session> opened_;
+  Session& session_;
   Interface interface_;
   UiState ui_;
   engine::Camera camera_;

@@ -11,6 +11,7 @@
 #include "app/base/text.h"
 #include "softbody/measures.h"
 #include "softbody/obj_file.h"
+#include "softbody/prototype_set.h"
 
 namespace app {
 namespace {
@@ -58,11 +59,19 @@ std::vector<std::string> lines_about(const softbody::MeshSource& mesh, const sof
 
 }  // namespace
 
-MeshReader::Answer MeshReader::answer(const Question& file, const std::stop_token&) const {
+FileReader::Answer FileReader::answer(const Question& question, const std::stop_token&) const {
   try {
-    return {softbody::MeshSource::from_file(file), ""};
+    if (const auto* file = std::get_if<softbody::MeshFile>(&question)) {
+      Mesh read{softbody::MeshSource::from_file(*file), nullptr};
+      read.prototype = softbody::shared_prototype(read.mesh, imported_material(read.mesh.imported->findings.extent));
+      return read;
+    }
+    const auto& [path, threads] = std::get<SceneToRead>(question);
+    softbody::Scene scene = softbody::load_scene(path);
+    auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads});
+    return World{std::move(scene), std::move(world)};
   } catch (const std::exception& error) {
-    return {{}, error.what()};
+    return std::string(error.what());
   }
 }
 
@@ -99,20 +108,20 @@ void Import::load(Session& session) {
   if (path.empty() || reading_) return;
   const std::filesystem::path file(path);
   failed_ = false;
-  if (file.extension() == ".toml") {
-    report_ = {"scene " + file.filename().string()};
-    session.choose_scene(path);
-    if (!session.notice().empty()) refuse(session, session.notice());
-    return;
-  }
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.threads()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
-  reading_ = true;
-  report_ = {"reading " + file.filename().string()};
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}};
   if (z_is_up) mesh.up = {0, 0, 1};
-  reader_.offer(std::move(mesh));
+  read(std::move(mesh));
+}
+
+void Import::read(FileReader::Question question) {
+  reading_ = true;
+  began_ = std::chrono::steady_clock::now();
+  report_ = {"reading " + std::filesystem::path(path).filename().string()};
+  reader_.offer(std::move(question));
 }
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
@@ -123,15 +132,25 @@ void Import::drop(const std::vector<std::string>& files, Session& session) {
 void Import::follow(Session& session) {
   if (auto answer = reader_.take()) {
     reading_ = false;
-    if (answer->error.empty())
-      join(session, std::move(answer->mesh));
-    else
-      refuse(session, answer->error);
+    take(session, std::move(*answer));
+  }
+  if (reading_ && !report_.empty()) {
+    const auto seconds =
+        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
+    if (seconds > 0) report_.resize(1), report_.push_back(std::to_string(seconds) + " s so far");
   }
   if (reading_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
   load(session);
+}
+
+void Import::take(Session& session, FileReader::Answer answer) {
+  if (const auto* why = std::get_if<std::string>(&answer)) return refuse(session, *why);
+  if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(mesh->mesh));
+  auto& [scene, world] = std::get<FileReader::World>(answer);
+  session.enter(std::move(world), std::move(scene), path);
+  report_ = {"scene " + std::filesystem::path(path).filename().string()};
 }
 
 void Import::join(Session& session, softbody::MeshSource mesh) {

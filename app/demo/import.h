@@ -1,8 +1,11 @@
 #pragma once
 // Meshes and scenes of the user's own: named or dropped on the window, read beside the demo, reported on.
 
+#include <chrono>
+#include <memory>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 #include "app/demo/background_worker.h"
@@ -10,14 +13,23 @@
 
 namespace app {
 
-/// Reads a mesh file, for BackgroundWorker.
-struct MeshReader {
-  using Question = softbody::MeshFile;
-  struct Answer {
-    softbody::MeshSource mesh;
-    std::string error;  // empty: the mesh is there
+/// Reads a file and does what may take long before it can join a session, for BackgroundWorker.
+struct FileReader {
+  struct SceneToRead {
+    std::filesystem::path path;
+    int threads;  // of its world
   };
-  Answer answer(const Question& file, const std::stop_token& stop) const;
+  struct Mesh {
+    softbody::MeshSource mesh;
+    std::shared_ptr<const softbody::Prototype> prototype;  // of imported_material(): there while the answer is
+  };
+  struct World {
+    softbody::Scene scene;
+    std::unique_ptr<softbody::World> world;
+  };
+  using Question = std::variant<softbody::MeshFile, SceneToRead>;
+  using Answer = std::variant<Mesh, World, std::string>;  // string: why there is nothing
+  Answer answer(const Question& question, const std::stop_token& stop) const;
 };
 
 /// A soft body of this mesh that keeps its shape: free above the middle of the scene, clear of solids and bodies.
@@ -35,7 +47,7 @@ class Import {
   float size = 1;        // m, the largest extent that a mesh is scaled to
   bool z_is_up = false;  // in the file; else y is
 
-  /// A scene of this path replaces the present one at once; a mesh joins it as soon as it is read.
+  /// A scene of this path replaces the present one as soon as it is read, a mesh joins it.
   void load(Session& session);
   /// The same for files dropped on the window, one after another.
   void drop(const std::vector<std::string>& files, Session& session);
@@ -51,11 +63,14 @@ class Import {
 
  private:
   void refuse(Session& session, const std::string& why);
+  void read(FileReader::Question question);
+  void take(Session& session, FileReader::Answer answer);
   void join(Session& session, softbody::MeshSource mesh);
 
   std::vector<std::string> report_, dropped_;  // dropped_: still to be loaded
   bool failed_ = false, reading_ = false;
-  BackgroundWorker<MeshReader> reader_;
+  std::chrono::steady_clock::time_point began_;
+  BackgroundWorker<FileReader> reader_;
 };
 
 }  // namespace app

@@ -26,7 +26,7 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
       scenes_(list_scenes(scene_folder_)),
       threads_(threads),
       exact_(collide::find_method(collide::default_method)->make()) {
-  start(scene);
+  start(scene, {});
   scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
   adopt(std::move(scene));
 }
@@ -37,9 +37,12 @@ void Session::adopt(softbody::Scene scene) {
 }
 
 void Session::start(const softbody::Scene& scene, const IntegratorChoice& integrator) {
-  auto world = std::make_unique<softbody::World>(
+  leave_for(std::make_unique<softbody::World>(
       scene,
-      softbody::World::Options{.threads = threads_, .integrator = integrator.key, .substeps = integrator.substeps});
+      softbody::World::Options{.threads = threads_, .integrator = integrator.key, .substeps = integrator.substeps}));
+}
+
+void Session::leave_for(std::unique_ptr<softbody::World> world) {
   if (world_) {
     world_->release();
     remember({std::move(world_), {}, scene_, scene_file_, solids_});
@@ -95,12 +98,17 @@ bool Session::succeeds(const std::function<void()>& change) {
 void Session::choose_scene(const std::string& key_or_path) {
   try {
     softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
-    start(scene);
-    scene_file_ = SceneFile(key_or_path, scene);
-    adopt(std::move(scene));
+    auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+    enter(std::move(world), std::move(scene), key_or_path);
   } catch (const std::exception& error) {
     notice_ = error.what();
   }
+}
+
+void Session::enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path) {
+  leave_for(std::move(world));
+  scene_file_ = SceneFile(key_or_path, scene);
+  adopt(std::move(scene));
 }
 
 softbody::Scene Session::scene_in_use() const {

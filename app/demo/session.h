@@ -77,6 +77,9 @@ class Session {
   const std::vector<SceneChoice>& scenes() const { return scenes_; }
   /// Loads another scene with its own settings; on an error the present one stays and notice() says why.
   void choose_scene(const std::string& key_or_path);
+  /// The same with a world of that scene, which was made elsewhere with so many threads().
+  void enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path);
+  int threads() const { return threads_; }
   /// The scene from its start, with the settings in use and without added bodies.
   void reset();
   /// The scene with the settings in use: what reset() starts.
@@ -204,7 +207,8 @@ class Session {
     Value value{};
   };
 
-  void start(const softbody::Scene& scene, const IntegratorChoice& integrator = {});
+  void start(const softbody::Scene& scene, const IntegratorChoice& integrator);
+  void leave_for(std::unique_ptr<softbody::World> world);
   void show_anew();
   void follow();
   void keep_world_settings(const softbody::Scene& in_use);

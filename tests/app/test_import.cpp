@@ -11,6 +11,7 @@
 
 #include "app/demo/import.h"
 #include "softbody/measures.h"
+#include "softbody/prototype_set.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -153,6 +154,32 @@ TEST_F(Importing, ASceneReplacesTheRunningOne) {
   EXPECT_EQ(session.world().scene().key, "lone");
   EXPECT_EQ(session.world().bodies().count(), 1u);
   EXPECT_FALSE(import.failed());
+  EXPECT_EQ(report(), "scene lone.toml\n");
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+}
+
+TEST_F(Importing, TheWorldGoesOnWhileASceneIsRead) {
+  import.path = folder.write("lone.toml", "[[body]]\n").string();
+  import.load(session);
+  EXPECT_TRUE(import.busy());
+  session.advance(1.0001 / 60);
+  EXPECT_EQ(session.world().frame(), 1);
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next picture asks for it";
+  EXPECT_EQ(report(), "reading lone.toml\n");
+  wait();
+  EXPECT_EQ(session.world().bodies().count(), 1u);
+}
+
+TEST_F(Importing, ABodyIsMadeBesideTheWindow) {
+  FileReader reader;
+  const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
+  const FileReader::Answer answer = reader.answer(file, {});
+  const auto& mesh = std::get<FileReader::Mesh>(answer);
+  EXPECT_EQ(softbody::shared_prototype(mesh.mesh, imported_material(mesh.mesh.imported->findings.extent)),
+            mesh.prototype);
+  session.add_body(place_above(session.world(), mesh.mesh), imported_material(mesh.mesh.imported->findings.extent));
+  EXPECT_EQ(&last(), mesh.prototype.get());
 }
 
 TEST_F(Importing, FilesDroppedOnTheWindowComeOneAfterAnother) {

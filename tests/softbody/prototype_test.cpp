@@ -15,6 +15,19 @@
 namespace softbody::test {
 namespace {
 
+TEST(Prototype, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
+  Material m = spring_ball(), renamed = m, stiffer = m;
+  renamed.name += " again";
+  stiffer.structural.stiffness *= 2;
+  auto one = shared_prototype({}, m);
+  EXPECT_EQ(shared_prototype({}, renamed), one);
+  EXPECT_NE(shared_prototype({}, stiffer), one);
+  EXPECT_NE(shared_prototype({.subdivisions = 1}, m), one);
+  const std::weak_ptr<const Prototype> before = std::exchange(one, nullptr);
+  EXPECT_TRUE(before.expired()) << "nothing is kept for its own sake";
+  EXPECT_EQ(shared_prototype({}, m)->structural.size(), 480u);
+}
+
 TEST(Prototype, HasOneSpringAPairWithTheMeshsOwnLengths) {
   Material m = spring_ball();
   m.mass = 3;
