@@ -61,7 +61,8 @@ void Dynamics::resize_scratch() {
 
 double Dynamics::stiffness_per_mass(const Batch& b) const {
   const Prototype& p = *b.prototype;
-  if (!p.has_gas) return softbody::stiffness_per_mass(p, {});
+  double stiffest = softbody::stiffness_per_mass(p, {});
+  if (!p.has_gas) return stiffest;
   for (auto& component : area_) component.assign(b.values(), 0);
   const Field<float> area{area_[0].data(), area_[1].data(), area_[2].data()};
   const Kernels& kernels = kernels_of(b);
@@ -73,7 +74,6 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
   kernels.square_sum(b.particles(), area, area2);
   for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
     kernels.stretch(*list, area, stretch);
-  double stiffest = 0;
   for (int l = 0; l < b.used; ++l)
     stiffest = std::max(stiffest, softbody::stiffness_per_mass(p, {volume[l], area2[l], stretch[l], two_medians[l]}));
   return stiffest;

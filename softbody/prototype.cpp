@@ -115,20 +115,23 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
   // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum |A_i|^2, plus
-  // (P - P_ambient) d2V/dx2. Breathing, which the first is about, hardly stretches springs: with q = A^T L A / A^T A <=
-  // l, where L is the springs' Laplacian and l its bound, |L A|^2 <= l A^T L A, so that L + s A A^T / A^T A has no
-  // greater eigenvalue than [q + s, sqrt(q (l - q)); sqrt(q (l - q)), l]. In the second, particles i and j of an edge
-  // are joined by a sixth of the line between the two corners opposite, which is no longer than their faces' medians.
+  // (P - P_ambient) d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
+  // its bound and a = A / |A|, q = a^T L a is far below l. An eigenvalue x > l of L + s a a^T has
+  // 1 = s a^T (x - L)^-1 a <= s ((1 - q/l) / x + (q/l) / (x - l)), for 1 / (x - y) is convex in y, and so is at most
+  // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
+  // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
+  // a row is at most two medians a face at i.
   const double slope = -p.gas.slope(surface.volume);
   const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
   const double l = 2 * p.spring_stiffness_bound, s = slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
-  const double both = (q + s + l) / 2 + std::hypot((q + s - l) / 2, std::sqrt(q * (l - q)));
+  const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
   const double gas = both - l + gauge * p.largest_degree * surface.two_medians / 6;
   return springs + gas / (2 * p.particle_mass);  // nor is this
 }
 
 Surface measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
+  if (!p.has_gas) return {};
   Surface s{.volume = volume(vertices, p.mesh.triangles)};
   std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
   for (const auto& [i, j, k] : p.mesh.triangles) {

@@ -64,7 +64,7 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Ma
 std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
                                                const Material& material);
 
-/// What the stability bound of the gas needs of a body's shape.
+/// What the stability bound of the gas, if there is any, needs of a body's shape.
 struct Surface {
   double volume = 0;       // m^3
   double area2 = 0;        // m^4: over the particles, of |A|^2, A = dV/dx

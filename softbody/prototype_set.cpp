@@ -1,37 +1,44 @@
 #include "softbody/prototype_set.h"
 
-#include <algorithm>
 #include <mutex>
 
 namespace softbody {
 namespace {
 
 struct InUse {
-  MeshSource mesh;
-  Material material;  // without its name
+  MeshSource mesh;  // an imported one stays in memory as long as this does
+  Material material;
   std::weak_ptr<const Prototype> prototype;
 };
 
 std::mutex in_use_mutex;
-std::vector<InUse> in_use;  // and some that were
+std::vector<InUse> in_use;  // and those that were, until somebody looks
 
-std::shared_ptr<const Prototype> find_in_use(const MeshSource& mesh, const Material& nameless) {
+std::shared_ptr<const Prototype> find_in_use(const MeshSource& mesh, const Material& material, bool any_name) {
   const std::scoped_lock lock(in_use_mutex);
   std::erase_if(in_use, [](const InUse& one) { return one.prototype.expired(); });
-  const auto one = std::ranges::find_if(
-      in_use, [&](const InUse& known) { return known.mesh == mesh && known.material == nameless; });
-  return one == in_use.end() ? nullptr : one->prototype.lock();
+  Material wanted = material;
+  for (const InUse& known : in_use) {
+    if (any_name) wanted.name = known.material.name;
+    if (known.mesh == mesh && known.material == wanted) return known.prototype.lock();
+  }
+  return nullptr;
 }
 
 }  // namespace
 
 std::shared_ptr<const Prototype> shared_prototype(const MeshSource& mesh, const Material& material) {
-  Material nameless = material;
-  nameless.name.clear();
-  if (auto known = find_in_use(mesh, nameless)) return known;
-  auto made = make_prototype(mesh, material);
+  if (auto known = find_in_use(mesh, material, false)) return known;
+  std::shared_ptr<const Prototype> made;
+  if (const auto known = find_in_use(mesh, material, true)) {
+    auto copy = std::make_shared<Prototype>(*known);
+    copy->material.name = material.name;
+    made = std::move(copy);
+  } else {
+    made = make_prototype(mesh, material);
+  }
   const std::scoped_lock lock(in_use_mutex);
-  in_use.push_back({mesh, std::move(nameless), made});
+  in_use.push_back({mesh, material, made});
   return made;
 }
 

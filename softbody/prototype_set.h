@@ -6,7 +6,8 @@
 namespace softbody {
 
 /// The prototype of a mesh and a material: the one that is in use somewhere, since a balance may take long to find, or
-/// a new one. Materials may differ by their names. Throws SceneError as make_prototype() does. On any thread.
+/// a new one. If one in use has a material of another name but the same values, it is a copy of that. Throws SceneError
+/// as make_prototype() does. On any thread.
 std::shared_ptr<const Prototype> shared_prototype(const MeshSource& mesh, const Material& material);
 
 class PrototypeSet {

@@ -77,7 +77,7 @@ class SurfaceContact {
   void restore(const State& state);
 
   static constexpr int iterations = 2;          // a substep
-  static constexpr int iterations_of_hits = 8;  // where two bodies hit: see hit()
+  static constexpr int iterations_of_hits = 8;  // see hit()
   static constexpr int turns = 8;               // of mend(), which the solids take with it
   static constexpr float push_speed = 1.0f;     // m/s, overlaps come apart no faster
   // Of the spring that keeps the distance, against the effective mass of the contact:
@@ -105,7 +105,8 @@ class SurfaceContact {
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
-  /// Whether two bodies pass each other half as far as they may in a substep of h.
+  /// Whether two bodies pass each other half as far as they may in a substep of h, or one lies on itself: what a solid
+  /// stops is then hit from behind by the body's other side.
   bool hit(float h) const;
   /// Where solids, which have the last word, have pressed what lies on them through a surface that follows fast: one
   /// more round for such bodies. False if there are none. On every thread, after a barrier.
@@ -192,7 +193,9 @@ class SurfaceContact {
   void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
   bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
   bool few_rows() const { return rows() < 2000; }
-  static bool hit(const Pair& pair, float h) { return h * pair.rate > 0.5f; }
+  static bool hit(const Pair& pair, float h) {
+    return h * pair.rate > 0.5f || (pair.range.a == pair.range.b && pair.rows > 0);
+  }
   bool undone(const Pair& pair, Field<const float> v, float h) const;
   template <class Visit>
   void each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);

@@ -96,6 +96,8 @@ class Demo {
       frame(elapsed);
     }
     keep_preferences(true);
+    // A balance that is being sought could hold a closed window for minutes.
+    if (ui_.import.busy() && !ui_.take_away.recording() && !ui_.take_away.finishing()) std::quick_exit(EXIT_SUCCESS);
   }
 
  private:
@@ -109,6 +111,8 @@ class Demo {
       status = opening.wait_for(std::chrono::milliseconds(30));
       screen_->window.poll();
       if (!screen_->window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
+      screen_->window.take_key_presses();                          // there is nothing yet that they could be meant for
+      if (screen_->window.minimised()) continue;
       const std::string text =
           "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
       screen_->gui.begin_frame();

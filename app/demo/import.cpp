@@ -69,7 +69,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
     const auto& [path, threads] = std::get<SceneToRead>(question);
     softbody::Scene scene = softbody::load_scene(path);
     auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads});
-    return World{std::move(scene), std::move(world)};
+    return World{path, std::move(scene), std::move(world)};
   } catch (const std::exception& error) {
     return std::string(error.what());
   }
@@ -148,9 +148,16 @@ void Import::follow(Session& session) {
 void Import::take(Session& session, FileReader::Answer answer) {
   if (const auto* why = std::get_if<std::string>(&answer)) return refuse(session, *why);
   if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(mesh->mesh));
-  auto& [scene, world] = std::get<FileReader::World>(answer);
-  session.enter(std::move(world), std::move(scene), path);
-  report_ = {"scene " + std::filesystem::path(path).filename().string()};
+  enter(session, std::move(std::get<FileReader::World>(answer)));
+}
+
+void Import::enter(Session& session, FileReader::World answer) {
+  try {
+    session.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
+    report_ = {"scene " + answer.path.filename().string()};
+  } catch (const std::exception& error) {
+    refuse(session, error.what());
+  }
 }
 
 void Import::join(Session& session, softbody::MeshSource mesh) {

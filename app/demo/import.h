@@ -21,9 +21,10 @@ struct FileReader {
   };
   struct Mesh {
     softbody::MeshSource mesh;
-    std::shared_ptr<const softbody::Prototype> prototype;  // of imported_material(): there while the answer is
+    std::shared_ptr<const softbody::Prototype> prototype;  // of imported_material(); held so that a world finds it
   };
   struct World {
+    std::filesystem::path path;
     softbody::Scene scene;
     std::unique_ptr<softbody::World> world;
   };
@@ -65,6 +66,7 @@ class Import {
   void refuse(Session& session, const std::string& why);
   void read(FileReader::Question question);
   void take(Session& session, FileReader::Answer answer);
+  void enter(Session& session, FileReader::World answer);
   void join(Session& session, softbody::MeshSource mesh);
 
   std::vector<std::string> report_, dropped_;  // dropped_: still to be loaded

@@ -106,8 +106,9 @@ void Session::choose_scene(const std::string& key_or_path) {
 }
 
 void Session::enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path) {
+  SceneFile file(key_or_path, scene);
   leave_for(std::move(world));
-  scene_file_ = SceneFile(key_or_path, scene);
+  scene_file_ = std::move(file);
   adopt(std::move(scene));
 }
 

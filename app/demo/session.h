@@ -77,7 +77,8 @@ class Session {
   const std::vector<SceneChoice>& scenes() const { return scenes_; }
   /// Loads another scene with its own settings; on an error the present one stays and notice() says why.
   void choose_scene(const std::string& key_or_path);
-  /// The same with a world of that scene, which was made elsewhere with so many threads().
+  /// The same with a world of that scene, which was made elsewhere with so many threads(). Throws what
+  /// std::filesystem::absolute() does, and changes nothing then.
   void enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path);
   int threads() const { return threads_; }
   /// The scene from its start, with the settings in use and without added bodies.

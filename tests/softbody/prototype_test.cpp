@@ -20,7 +20,9 @@ TEST(Prototype, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   renamed.name += " again";
   stiffer.structural.stiffness *= 2;
   auto one = shared_prototype({}, m);
-  EXPECT_EQ(shared_prototype({}, renamed), one);
+  EXPECT_EQ(shared_prototype({}, m), one);
+  EXPECT_NE(shared_prototype({}, renamed), one) << "worlds tell prototypes of different materials apart by this";
+  EXPECT_EQ(shared_prototype({}, renamed)->material.name, renamed.name);
   EXPECT_NE(shared_prototype({}, stiffer), one);
   EXPECT_NE(shared_prototype({.subdivisions = 1}, m), one);
   const std::weak_ptr<const Prototype> before = std::exchange(one, nullptr);

@@ -126,6 +126,33 @@ TEST(SurfaceContact, ABallThrownAtASolidSphereDoesNotPierceItself) {
   }
 }
 
+/// Slack and without gas: it falls in, and its two sides meet on the solid, at any speed.
+TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
+  for (const double speed : {3.0, 10.0}) {
+    Material slack = spring_ball();
+    slack.structural = {50, 0.1};
+    slack.bend = {1, 0.1};
+    slack.internal_damping = 1;
+    slack.friction = 0.5;
+    slack.thickness = 0.005;
+    Scene scene = ball_in_space(slack, {0, -speed, 0});
+    scene.gravity = {0, -9.81, 0};
+    scene.spheres.push_back({.centre = {0, 1, 0}, .radius = 1});
+    scene.ground.emplace();
+    scene.bodies[0].mesh.subdivisions = 3;
+    scene.bodies[0].position = {0.04, 2.55, 0.03};
+    World world(scene, {});
+    Judge judge(world);
+    double least_volume = 1;
+    for (int i = 0; i < 60; ++i) {
+      world.step();
+      judge.expect_clean(std::to_string(speed) + " m/s, " + frame_of(world));
+      least_volume = std::min(least_volume, measure(world).volume_ratio_min);
+    }
+    EXPECT_LT(least_volume, 0.5) << "it fell in";
+  }
+}
+
 TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.8, 0.05, 0.02}, glm::dvec3(0.0));  // 0.4 R deep

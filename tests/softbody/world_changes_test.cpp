@@ -231,6 +231,24 @@ TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   EXPECT_TRUE(measure(world).finite);
 }
 
+TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
+  Scene scene = test::lone_body(test::spring_ball(), {1, 0, 0});
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].name = "other";
+  scene.bodies.push_back(scene.bodies[0]);
+  scene.bodies[1].material = 1;
+  scene.bodies[1].position.y += 5;
+  World world(scene, {});
+  const double mass = scene.materials[0].mass;
+  for (const std::size_t changed : {0u, 1u}) {
+    Material heavy = world.scene().materials[changed];
+    heavy.mass = 3 * mass;
+    world.set_material(changed, heavy);
+    EXPECT_EQ(world.prototype(0).material.mass, 3 * mass);
+    EXPECT_EQ(world.prototype(1).material.mass, changed == 0 ? mass : 3 * mass);
+  }
+}
+
 TEST(Changes, AMaterialThatIsTooStiffIsRefusedAndNothingChanges) {
   World world(test::lone_body(test::spring_ball()), {.integrator = "semi-implicit-euler"});
   const std::vector<Stage> stages = world.plan().stages;
