@@ -25,10 +25,11 @@ TEST(FilesPanel, LoadsWhatIsNamed) {
   rig.type("File to open", file.string());
   EXPECT_EQ(rig.ui.import.path, file.string());
   rig.click("Load");
+  for (int i = 0; i < 6000 && rig.ui.import.busy(); ++i) rig.frame();
   EXPECT_EQ(rig.session.world().scene().name, "Lone");
   rig.type("File to open", "/none.obj");
   rig.click("Load");
-  for (int i = 0; i < 600 && !rig.ui.import.failed(); ++i) rig.frame();
+  for (int i = 0; i < 6000 && !rig.ui.import.failed(); ++i) rig.frame();
   ASSERT_TRUE(rig.ui.import.failed());
   EXPECT_NE(rig.ui.import.report().front().find("/none.obj"), std::string::npos);
 }
