@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
 
 #include "app/base/text.h"
 #include "softbody/measures.h"
@@ -30,15 +30,8 @@ double clear_height(const softbody::World& world, glm::dvec3 at, double radius) 
   return at.y;
 }
 
-/// Over all faces, m.
-double mean_edge(const softbody::Mesh& mesh) {
-  double sum = 0;
-  for (const auto& t : mesh.triangles)
-    for (std::size_t k = 0; k < 3; ++k) sum += glm::distance(mesh.vertices[t[k]], mesh.vertices[t[(k + 1) % 3]]);
-  return sum / static_cast<double>(3 * mesh.triangles.size());
-}
-
-std::vector<std::string> lines_about(const softbody::MeshSource& mesh, const softbody::World& world) {
+std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::World& world) {
+  const softbody::MeshSource& mesh = read.mesh;
   const softbody::ImportFindings& f = mesh.imported->findings;
   std::array<char, 96> scale{};
   std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
@@ -50,8 +43,7 @@ std::vector<std::string> lines_about(const softbody::MeshSource& mesh, const sof
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");
   const bool by_vertices = world.scene().contact_surface == softbody::ContactSurface::vertices;
-  if (const double edge = mean_edge(mesh.imported->mesh);
-      by_vertices && edge < finest_edge * static_cast<double>(world.collision().tolerance))
+  if (by_vertices && read.prototype->mean_edge < finest_edge * static_cast<double>(world.collision().tolerance))
     lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
   lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
   return lines;
@@ -147,7 +139,7 @@ void Import::follow(Session& session) {
 
 void Import::take(Session& session, FileReader::Answer answer) {
   if (const auto* why = std::get_if<std::string>(&answer)) return refuse(session, *why);
-  if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(mesh->mesh));
+  if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(*mesh));
   enter(session, std::move(std::get<FileReader::World>(answer)));
 }
 
@@ -160,10 +152,10 @@ void Import::enter(Session& session, FileReader::World answer) {
   }
 }
 
-void Import::join(Session& session, softbody::MeshSource mesh) {
-  const std::vector<std::string> lines = lines_about(mesh, session.world());
-  softbody::Material material = imported_material(mesh.imported->findings.extent);
-  session.add_body(place_above(session.world(), std::move(mesh)), std::move(material));
+void Import::join(Session& session, FileReader::Mesh read) {
+  const std::vector<std::string> lines = lines_about(read, session.world());
+  softbody::Material material = imported_material(read.mesh.imported->findings.extent);
+  session.add_body(place_above(session.world(), std::move(read.mesh)), std::move(material));
   if (!session.notice().empty()) return refuse(session, session.notice());
   report_ = lines;
 }

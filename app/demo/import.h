@@ -67,7 +67,7 @@ class Import {
   void read(FileReader::Question question);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
-  void join(Session& session, softbody::MeshSource mesh);
+  void join(Session& session, FileReader::Mesh read);
 
   std::vector<std::string> report_, dropped_;  // dropped_: still to be loaded
   bool failed_ = false, reading_ = false;
