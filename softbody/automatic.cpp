@@ -12,8 +12,7 @@ double Dynamics::tremble(double step) const {
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
   for (const Batch* b : moving_) {
-    Extent e;
-    kernels_of(*b).extent(b->particles(), at(x_, *b), at(v_, *b), e);
+    const Extent e = extent(*b, x_, v_);
     for (int l = 0; l < b->used; ++l)
       for (const LaneVector* corner : {&e.lo, &e.hi})
         farthest = std::max(

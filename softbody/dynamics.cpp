@@ -11,9 +11,30 @@ namespace softbody {
 
 namespace {
 
-constexpr double most_substeps = 1e6;  // a state that asks for more is lost; a count must come out all the same
+constexpr double most_substeps = 1e6;  // a state that asks for more is lost
+
+double longest(const Extent& e) {
+  return std::sqrt(double(*std::max_element(std::begin(e.length2), std::end(e.length2))));
+}
+
+/// The largest of the boxes' diagonals.
+double widest(const Extent& e) {
+  double most = 0;
+  for (int l = 0; l < lanes; ++l)
+    most = std::max(
+        most, std::hypot(double(e.hi.x[l] - e.lo.x[l]), double(e.hi.y[l] - e.lo.y[l]), double(e.hi.z[l] - e.lo.z[l])));
+  return most;
+}
 
 }  // namespace
+
+Extent Dynamics::extent(const Batch& b, const Components& boxed, const Components& measured) const {
+  Extent e{};
+  kernels_of(b).extent(b.particles(), at(boxed, b), at(measured, b), e);
+  return e;
+}
+
+double Dynamics::fastest(const Batch& b) const { return longest(extent(b, x_, v_)); }
 
 void Dynamics::set_plan(const Plan& plan) {
   static constexpr std::pair<Stage, BatchStage> springs_and_gas[] = {
@@ -82,6 +103,7 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
 Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double fewest = 1;                  // that keep up with the fastest body near a solid
+  double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const Prototype& p = *b.prototype;
@@ -92,11 +114,14 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
       damper += Shield::damping_bound(k, shield_.thickness);
     }
-    if (!b.near_solids.empty()) fewest = std::max(fewest, fastest(b) * seconds / (0.1 * p.radius));
+    const Extent motion = extent(b, v_, v_);
+    if (!b.near_solids.empty()) fewest = std::max(fewest, longest(motion) * seconds / (0.1 * p.radius));
+    deforming = std::max(deforming, widest(motion) / (0.25 * p.radius));
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  return {integrator_->stable_step(stiffness, damping), fewest};
+  const double stable = integrator_->stable_step(stiffness, damping);
+  return {std::isfinite(stable) && deforming > 0 ? std::min(stable, 1 / deforming) : stable, fewest};
 }
 
 int Dynamics::substeps(double seconds) const {
@@ -128,36 +153,40 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {
-    const int stable = fixed ? fixed - total : substeps(left);
+    const int asked = fixed ? fixed - total : substeps(left);
+    const int stable = asked < most_substeps ? asked : 1;  // the sooner its frame ends, the sooner it is seen
     if (has_surface_) find_surface_contacts(left, left / stable);
     const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
     int count = std::max(stable, rate);
     // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
     if (integrator_->implicit && !fixed) {
-      double h = seconds;
-      const auto fits = [&] { return std::abs(left / h - std::round(left / h)) < 1e-6; };
-      while (h > left * (1 + 1e-9) || left / h < count * (1 - 1e-9) || !fits()) h /= 2;
-      count = int(std::lround(left / h));
+      double length = seconds;
+      const auto fits = [&] { return std::abs(left / length - std::round(left / length)) < 1e-6; };
+      while (length > left * (1 + 1e-9) || left / length < count * (1 - 1e-9) || !fits()) length /= 2;
+      count = int(std::lround(left / length));
     }
-    int now = fixed ? count : std::min(count, substeps_within_bound(left / count));
+    const double h = left / count;
+    const auto go_on = [&](int steps) {
+      run(steps, static_cast<float>(h), total == 0, after_substep);
+      total += steps;
+    };
+    int now = fixed ? count : std::min(count, substeps_within_bound(h));
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
-    if (has_surface_) now = std::min(now, foreseen_substeps(left, left / count));
-    run(now, static_cast<float>(left / count), total == 0, after_substep);
-    total += now;
-    left = now == count ? 0 : left - now * (left / count);
+    if (has_surface_) now = std::min(now, foreseen_substeps(left, h));
+    const int before = total;
+    if (total == 0 && now > 1 && !fixed) {
+      go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
+      now = std::min(now, 1 + substeps_within_bound(h));
+    }
+    go_on(now - (total - before));
+    left = now == count ? 0 : left - now * h;
   }
   return total;
 }
 
-double Dynamics::fastest(const Batch& b) const {
-  Extent e;
-  kernels_of(b).extent(b.particles(), at(x_, b), at(v_, b), e);
-  return std::sqrt(double(*std::max_element(e.speed2, e.speed2 + b.width)));
-}
-
-/// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
-/// body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
+/// How many substeps of h seconds the bound of substeps() may be trusted for, one at least: it is worked out anew
+/// before the fastest body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
 int Dynamics::substeps_within_bound(double h) const {
   constexpr double most = 16;
   double trusted = most;

@@ -228,6 +228,7 @@ class Dynamics {
   void move_lane(Batch& batch, int from, int to);
   static bool moves(const Batch& batch);
   double fastest(const Batch& batch) const;  // m/s, of its particles
+  Extent extent(const Batch& batch, const Components& boxed, const Components& measured) const;
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
   void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,

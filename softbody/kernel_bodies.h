@@ -265,19 +265,19 @@ SB_INLINE unsigned solid(const SolidArguments& s, Field<const float> x, Field<fl
 }
 
 template <int width>
-SB_INLINE void extent(std::size_t particles, Field<const float> x, Field<const float> v, Extent& e) {
+SB_INLINE void extent(std::size_t particles, Field<const float> boxed, Field<const float> measured, Extent& e) {
   using V = Lane<float, width>;
-  Vec<V> lo = load<V>(x, 0), hi = lo;
-  V speed2{};
+  Vec<V> lo = load<V>(boxed, 0), hi = lo;
+  V length2{};
   for (std::size_t at = 0; at < particles * width; at += width) {
-    const Vec<V> p = load<V>(x, at), u = load<V>(v, at);
+    const Vec<V> p = load<V>(boxed, at), u = load<V>(measured, at);
     lo = {smaller(p.x, lo.x), smaller(p.y, lo.y), smaller(p.z, lo.z)};
     hi = {larger(p.x, hi.x), larger(p.y, hi.y), larger(p.z, hi.z)};
-    speed2 = larger(dot(u, u), speed2);
+    length2 = larger(dot(u, u), length2);
   }
   store(Field<float>{e.lo.x, e.lo.y, e.lo.z}, 0, lo);
   store(Field<float>{e.hi.x, e.hi.y, e.hi.z}, 0, hi);
-  store(e.speed2, speed2);
+  store(e.length2, length2);
 }
 
 }  // namespace softbody::body

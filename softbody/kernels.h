@@ -95,9 +95,10 @@ struct CholeskyFactor {
   std::vector<double> value;  // of the diagonal the inverse
 };
 
+/// Of a body a lane.
 struct Extent {
-  LaneVector lo, hi;                // m, from the body's origin
-  alignas(32) float speed2[lanes];  // (m/s)^2, of the fastest particle
+  LaneVector lo, hi;                 // corners of the box round one field's vectors
+  alignas(32) float length2[lanes];  // squared length of the longest vector of another
 };
 
 /// For batches of one width.
@@ -116,7 +117,7 @@ struct Kernels {
   void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
-  void (*extent)(std::size_t particles, Field<const float> x, Field<const float> v, Extent&);
+  void (*extent)(std::size_t particles, Field<const float> boxed, Field<const float> measured, Extent&);
 };
 
 /// For implicit steps of eight bodies, in double; see implicit_kernels.h.

@@ -43,8 +43,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
 /// Which solids the bodies of a batch may touch in the coming frame, by their boxes and how far they may move: a
 /// particle may go twice as far as its body's fastest goes now, and a tenth of the body's size.
 void Dynamics::prepare_solids(Batch& b, double seconds) {
-  Extent e;
-  kernels_of(b).extent(b.particles(), at(x_, b), at(v_, b), e);
+  const Extent e = extent(b, x_, v_);
   b.near_solids.clear();
   b.solid_features.clear();
   for_each_solid(scene_, [&](const auto& solid) { prepare_solid(b, e, seconds, solid); });
@@ -91,7 +90,7 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
 
 double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
   const double fall = glm::length(scene_.gravity) * seconds;
-  return (2 * std::sqrt(double(e.speed2[lane])) + fall) * seconds + 0.1 * b.prototype->radius +
+  return (2 * std::sqrt(double(e.length2[lane])) + fall) * seconds + 0.1 * b.prototype->radius +
          b.prototype->material.thickness;
 }
 

@@ -123,7 +123,7 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
     expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values, float* result) {
       Extent e;
       k.extent(n, xs, vs, e);
-      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.speed2};
+      const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2};
       std::copy_n(values[which], width, result);
     });
 }

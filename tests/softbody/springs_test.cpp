@@ -209,7 +209,7 @@ TEST(Kernels, ExtentIsTheBoxAndTheFastestOfEachLane) {
       }
       EXPECT_EQ(glm::dvec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), lo);
       EXPECT_EQ(glm::dvec3(e.hi.x[l], e.hi.y[l], e.hi.z[l]), hi);
-      EXPECT_NEAR(e.speed2[l], speed2, 1e-5 * speed2);
+      EXPECT_NEAR(e.length2[l], speed2, 1e-5 * speed2);
     }
   }
 }

@@ -184,6 +184,43 @@ TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
   }
 }
 
+/// The body in its starting shape, so many times as large along each axis, with velocities in proportion.
+void place(World& world, const glm::dvec3& scale, double rate = 0) {
+  std::vector<Particle> particles;
+  for (const glm::dvec3& x : world.prototype(0).start) particles.push_back({scale * x, rate * x});
+  world.set_particles(0, particles);
+}
+
+/// At rest, but far from its balance: no speed tells yet how soon it will have another shape, and another bound. Then
+/// it is fast: a step by the bound of its present shape would lead right through its own far side.
+TEST(Substeps, FollowABodyThatSnapsBack) {
+  for (const double stretch : {2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
+    for (const double stiffness : {1e1, 1e2, 1e3, 1e4})
+      for (const double frame_time : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+        Material m = gas_ball();
+        m.structural = {stiffness, 0.1};
+        m.bend = {stiffness / 4, 0.1};
+        m.gas_pressure = 1.6 * stiffness;
+        m.ambient_pressure = 0;
+        World world(lone_body(m), {.frame_time = frame_time});
+        place(world, {stretch, 1, 1});
+        const double most = 1.05 * measure(world).energy;
+        for (int frame = 0; frame < 30; ++frame) {
+          world.step();
+          ASSERT_LE(measure(world).energy, most)
+              << stretch << " times, " << stiffness << " N/m, frame " << frame << " of " << frame_time << " s";
+        }
+      }
+}
+
+/// A body that bursts like this cannot be saved any more; a frame of a million substeps would but hide that.
+TEST(Substeps, OfALostFrameAreFew) {
+  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  place(world, glm::dvec3(1.0), 1e12);
+  world.step();
+  EXPECT_LT(world.profile().substeps, 100);
+}
+
 TEST(Substeps, FollowTheBound) {
   Scene scene = lone_body(spring_ball());
   for (const double stiffness : {10.0, 300.0, 30000.0}) {
