@@ -83,12 +83,9 @@ void Gui::begin_frame(const GuiInput& input) {
   ImGui::NewFrame();
 }
 
-void Gui::end_frame() {
-  ImGui::Render();
-  draw_again();
-}
+void Gui::end_frame() { ImGui::Render(); }
 
-void Gui::draw_again() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
+void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
 bool Gui::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }

@@ -32,8 +32,9 @@ class Gui {
 
   void begin_frame();                       // window
   void begin_frame(const GuiInput& input);  // headless
-  void end_frame();                         // draws into the bound framebuffer
-  void draw_again() const;                  // what the last frame drew; not between begin_frame() and end_frame()
+  void end_frame();
+  /// The last frame that was ended, into the bound framebuffer; as often as wanted, until the next one begins.
+  void draw() const;
 
   bool wants_mouse() const;     // the mouse is over a panel, or holds one of its widgets
   bool wants_keyboard() const;  // a text field has the focus

@@ -148,8 +148,9 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   if (moving_.empty()) return 0;
   if (asked_->automatic) choose(seconds);
   resize_scratch();
-  // A handful of bodies is done before a second thread has woken up.
-  active_threads_ = moving_.size() >= 4 ? workers_.threads() : 1;
+  std::size_t particles = 0;
+  for (const Batch* b : moving_) particles += b->values();
+  active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {

@@ -114,6 +114,7 @@ class Dynamics {
   std::string_view why_integrator() const { return why_; }
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
+  void set_least_shared(std::size_t count) { least_shared_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
   /// One a vertex, finite. The body's origin goes to their middle.
@@ -302,6 +303,7 @@ class Dynamics {
   std::vector<Batch*> moving_;
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
+  std::size_t least_shared_ = 0;
   int active_threads_ = 1;
 };
 

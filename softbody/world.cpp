@@ -73,6 +73,7 @@ void World::State::set_integrator() {
   check_stability(prototypes, plan);
   dynamics.set_integrator(*find_integrator(options.integrator));
   dynamics.set_substeps(options.substeps);
+  dynamics.set_least_shared(options.least_shared);
 }
 
 /// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.

@@ -1,7 +1,19 @@
 #include "app/demo/canvas.h"
 
+#include <algorithm>
+#include <array>
+#include <utility>
+
+#include <glm/common.hpp>
+
 namespace app {
 namespace {
+
+// From one to the next a picture costs at most 1.57 times as much: what is fast enough to become finer does not
+// become too slow by that.
+constexpr std::array levels{1.0f, 0.8f, 0.65f};
+constexpr double too_slow = 1.0 / 30, fast_enough = too_slow / 1.6;  // s
+constexpr int looked_at = 12;                                        // pictures
 
 GLuint id_of(const engine::Framebuffer& framebuffer) {
   framebuffer.bind();
@@ -10,33 +22,57 @@ GLuint id_of(const engine::Framebuffer& framebuffer) {
   return static_cast<GLuint>(id);
 }
 
-void copy(GLuint from, GLuint to, glm::ivec2 size, glm::ivec2 origin) {
-  glBindFramebuffer(GL_READ_FRAMEBUFFER, from);
+void copy(const engine::Framebuffer& from, GLuint to, glm::ivec2 size, glm::ivec2 origin) {
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, id_of(from));
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, to);
-  glBlitFramebuffer(0, 0, size.x, size.y, origin.x, origin.y, origin.x + size.x, origin.y + size.y, GL_COLOR_BUFFER_BIT,
-                    GL_NEAREST);
+  glBlitFramebuffer(0, 0, from.size().x, from.size().y, origin.x, origin.y, origin.x + size.x, origin.y + size.y,
+                    GL_COLOR_BUFFER_BIT, from.size() == size ? GL_NEAREST : GL_LINEAR);
 }
 
 }  // namespace
 
-void Canvas::update(glm::ivec2 size, bool changed, bool still,
-                    const std::function<void(const engine::Viewport&)>& draw) {
-  if (!plain_ || plain_->size() != size) {
-    plain_.emplace(size, 0);
+float Fineness::value() const { return levels[level_]; }
+
+void Fineness::add(double interval, double drawing) {
+  interval_ += interval;
+  drawing_ += drawing;
+  if (++pictures_ < looked_at) return;
+  const double mean = std::exchange(interval_, 0) / std::exchange(pictures_, 0);
+  const bool drawing_takes_it = std::exchange(drawing_, 0) > 0.5 * mean * looked_at;
+  if (mean > too_slow && drawing_takes_it && level_ + 1 < levels.size()) ++level_;
+  if (mean < fast_enough && level_ > 0) --level_;
+}
+
+const engine::Framebuffer& Canvas::coarse(glm::ivec2 size) {
+  const glm::ivec2 fewer = glm::max(glm::ivec2(fineness_.value() * glm::vec2(size)), 1);
+  if (!coarse_ || coarse_->size() != fewer) coarse_.emplace(fewer, 0);
+  return *coarse_;
+}
+
+void Canvas::update(glm::ivec2 size, bool changed, bool fine, const Draw& draw) {
+  if (!full_ || full_->size() != size) {
+    full_.emplace(size, 0);
     multisampled_.emplace(size, samples);
     changed = true;
   }
-  const bool refine = still && !changed && !is_smooth_;
-  if (!changed && !refine) return;
-  is_smooth_ = smooth_motion_ || refine;
-  (is_smooth_ ? *multisampled_ : *plain_).bind();
-  draw({{0, 0}, size});
-  if (is_smooth_) copy(id_of(*multisampled_), id_of(*plain_), size, {0, 0});
+  moved_ = changed;
+  if (!changed && (is_fine_ || !fine)) return;
+  is_fine_ = fine || !in_software_;
+  is_coarse_ = !is_fine_ && fineness_.value() < 1;
+  const engine::Framebuffer& target = is_fine_ ? *multisampled_ : is_coarse_ ? coarse(size) : *full_;
+  target.bind();
+  draw({{0, 0}, target.size()});
+  if (is_fine_) copy(*multisampled_, id_of(*full_), size, {0, 0});
+  glFlush();  // so that the driver begins while the program goes on
 }
 
 void Canvas::show(glm::ivec2 origin) const {
-  copy(id_of(*plain_), 0, plain_->size(), origin);
+  copy(is_coarse_ ? *coarse_ : *full_, 0, full_->size(), origin);
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
+}
+
+void Canvas::pace(double interval, double drawing) {
+  if (moved_ && !is_fine_) fineness_.add(interval, drawing);
 }
 
 }  // namespace app

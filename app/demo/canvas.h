@@ -12,25 +12,48 @@
 
 namespace app {
 
+/// How many of its pixels along each side a moving picture gets: all, or as many as let 30 pictures a second be shown.
+class Fineness {
+ public:
+  /// After each moving picture: s from the one before it to this one, and those of them that went into drawing.
+  void add(double interval, double drawing);
+  float value() const;
+
+ private:
+  std::size_t level_ = 0;
+  int pictures_ = 0;  // since the level was last looked at
+  double interval_ = 0, drawing_ = 0;
+};
+
 class Canvas {
  public:
-  /// Needs a current context. Drivers that draw in software take twice as long with smooth edges: for them moving
-  /// pictures do without (`smooth_motion` false), and a still one is drawn once more with them.
-  explicit Canvas(bool smooth_motion) : smooth_motion_(smooth_motion) {}
+  using Draw = std::function<void(const engine::Viewport& whole)>;
 
-  /// Calls draw with the canvas bound if `changed`, or if the picture is still but not yet smooth.
-  void update(glm::ivec2 size, bool changed, bool still, const std::function<void(const engine::Viewport&)>& draw);
+  /// Needs a current context. Drivers that draw in software (`in_software`) take time for each pixel, and twice as long
+  /// with smooth edges: for them moving pictures do without, and are coarser where they would come too slowly.
+  explicit Canvas(bool in_software) : in_software_(in_software) {}
+
+  /// Calls draw with a picture bound if `changed`, or if the one at hand is not `fine`, with smooth edges and all
+  /// pixels, but should be. What draw is told to draw into may be smaller than `size`.
+  void update(glm::ivec2 size, bool changed, bool fine, const Draw& draw);
   /// Copies the picture to the window, its lower left corner at `origin`.
   void show(glm::ivec2 origin) const;
-  /// The picture; empty before the first update().
-  engine::Image read() const { return plain_ ? plain_->read() : engine::Image{}; }
+  /// The picture, if the last update() wanted it fine; else it may be an older one. Empty before the first.
+  engine::Image read() const { return full_ ? full_->read() : engine::Image{}; }
+
+  /// How the last picture came, see Fineness::add(): one that moved tells how the next ones are to be drawn.
+  void pace(double interval, double drawing);
+  float fineness() const { return fineness_.value(); }
 
  private:
   static constexpr int samples = 4;
 
-  bool smooth_motion_;
-  bool is_smooth_ = false;
-  std::optional<engine::Framebuffer> plain_, multisampled_;
+  const engine::Framebuffer& coarse(glm::ivec2 size);
+
+  bool in_software_;
+  bool is_fine_ = false, is_coarse_ = false, moved_ = false;
+  Fineness fineness_;
+  std::optional<engine::Framebuffer> full_, multisampled_, coarse_;
 };
 
 }  // namespace app

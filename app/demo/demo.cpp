@@ -10,45 +10,20 @@
 #include <thread>
 #include <utility>
 
-#include "app/demo/canvas.h"
 #include "app/demo/interface.h"
+#include "app/demo/opening.h"
 #include "app/demo/overlay_request.h"
+#include "app/demo/pacer.h"
 #include "app/demo/preferences.h"
 #include "app/demo/scene_mouse.h"
+#include "app/demo/screen.h"
 #include "app/demo/shortcuts.h"
 #include "app/tour/card.h"
-#include "app/view/scene_view.h"
 #include "engine/context.h"
 #include "engine/gl.h"
-#include "engine/gui.h"
-#include "engine/resources.h"
-#include "engine/window.h"
 
 namespace app {
 namespace {
-
-double now() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
-
-/// Time between drawn frames. A monitor of 60 Hz never ticks at exactly the world's 1/60 s, and without rounding some
-/// frames would show two steps and some none.
-class Pacer {
- public:
-  double tick() {
-    const double time = now(), elapsed = time - last_;
-    last_ = time;
-    const double frames = std::round(elapsed * 60);
-    return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
-  }
-  /// Without a monitor to wait for, frames would follow one another at once and heat the machine for nothing.
-  void rest() const {
-    constexpr double shortest = 1.0 / 125;
-    const double left = shortest - (now() - last_);
-    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
-  }
-
- private:
-  double last_ = now();
-};
 
 /// All that a picture of the scene depends on.
 struct PictureKey {
@@ -64,23 +39,13 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
-/// All that lives in a context of OpenGL, and is made anew when the context is lost.
-struct Screen {
-  explicit Screen(glm::ivec2 size) : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}) {}
-
-  engine::Window window;  // before the others, which need its context
-  engine::Gui gui{window};
-  SceneView view{engine::find_folder("shaders")};
-  Canvas canvas{!engine::draws_in_software()};
-};
-
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
       : preferences_(preferences_path()),
         screen_(std::make_unique<Screen>(options.size_given ? glm::ivec2(options.width, options.height)
                                                             : preferences_.kept().size)),
-        opened_(open(options)),
+        opened_(open_session(options, *screen_)),
         session_(*opened_) {
     session_.set_integrator(options.integrator, options.substeps);
     apply(preferences_.kept(), session_, ui_);
@@ -101,31 +66,6 @@ class Demo {
   }
 
  private:
-  /// The balance of a large mesh takes long to find: meanwhile the window says so.
-  std::unique_ptr<Session> open(const DemoOptions& options) {
-    std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
-      return std::make_unique<Session>(options.scene, options.scene_folder, options.threads, options.scene_name);
-    });
-    std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
-    for (const double began = now(); status != std::future_status::ready;) {
-      status = opening.wait_for(std::chrono::milliseconds(30));
-      screen_->window.poll();
-      if (!screen_->window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
-      screen_->window.take_key_presses();                          // there is nothing yet that they could be meant for
-      if (screen_->window.minimised()) continue;
-      const std::string text =
-          "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
-      screen_->gui.begin_frame();
-      const ImVec2 room = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
-      ImGui::GetForegroundDrawList()->AddText({(room.x - size.x) / 2, (room.y - size.y) / 2},
-                                              ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-      clear_window();
-      screen_->gui.end_frame();
-      screen_->window.present();
-    }
-    return opening.get();
-  }
-
   void frame(double elapsed) {
     if (screen_->window.context_lost()) renew_screen();
     try {
@@ -164,20 +104,23 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.take_dropped_files(), session_);
-    advance(elapsed);
     screen_->gui.begin_frame();
     interface_.draw(session_, ui_, screen_->gui.scale(), seconds_);
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
     do_as_asked(viewport);
-    clear_window();
     draw_scene(viewport);
     if (const Spotlight* light = ui_.tour.spotlight())
       draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), screen_->gui.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     screen_->gui.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
+    const double before = now();
+    advance(elapsed);  // while the driver draws
+    const double step = now() - before;
+    compose(viewport);
     screen_->window.present();
+    screen_->canvas.pace(elapsed, elapsed - step);
     keep_preferences();
     pacer_.rest();
   }
@@ -207,17 +150,25 @@ class Demo {
     camera_.advance(elapsed);
     if (camera_.view() == drawn_.view) return;
     drawn_.view = camera_.view();
-    clear_window();
-    screen_->canvas.update(viewport.size, true, false,
-                           [&](const engine::Viewport& whole) { screen_->view.draw_again(camera_, whole); });
-    screen_->canvas.show(viewport.origin);
-    screen_->gui.draw_again();
+    screen_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
+      screen_->view.draw_again(camera_, whole, pixel_scale(whole, viewport));
+    });
+    compose(viewport);
     screen_->window.present();
+  }
+
+  /// The window's picture, of the scene's and the panel's.
+  void compose(const engine::Viewport& viewport) const {
+    screen_->clear();
+    if (viewport.size.x > 0 && viewport.size.y > 0) screen_->canvas.show(viewport.origin);
+    screen_->gui.draw();
   }
 
   /// Of what is about to be shown.
   engine::Image picture(bool with_panel) const {
-    return with_panel ? engine::read_pixels(0, screen_->window.framebuffer_size()) : screen_->canvas.read();
+    if (!with_panel) return screen_->canvas.read();
+    compose(scene_viewport());
+    return engine::read_pixels(0, screen_->window.framebuffer_size());
   }
 
   /// On an ordinary screen it would have this one.
@@ -285,24 +236,23 @@ class Demo {
       look_at(*session_.selected_body(), session_, camera_, viewport.size);
   }
 
-  /// To what stands beside the scene.
-  static void clear_window() {
-    const ImVec4 colour = dock_colour();
-    glBindFramebuffer(GL_FRAMEBUFFER, 0);
-    glClearColor(colour.x, colour.y, colour.z, 1.0f);
-    glClear(GL_COLOR_BUFFER_BIT);
-  }
-
   void draw_scene(const engine::Viewport& viewport) {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
-    screen_->canvas.update(viewport.size, key != drawn_, still, [&](const engine::Viewport& whole) {
-      screen_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, key.scale,
+    const bool fine = still || ui_.take_away.wants_picture();
+    screen_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
+      screen_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, pixel_scale(whole, viewport),
                          session_.drawn_positions(whole_steps(session_)));
     });
+    ui_.fineness = screen_->canvas.fineness();
     drawn_ = key;
-    screen_->canvas.show(viewport.origin);
+  }
+
+  float pixel_scale() const { return std::max(screen_->window.content_scale(), screen_->window.pixel_ratio()); }
+  /// In a picture `whole` that is to be stretched to the viewport.
+  float pixel_scale(const engine::Viewport& whole, const engine::Viewport& viewport) const {
+    return pixel_scale() * static_cast<float>(whole.size.y) / static_cast<float>(viewport.size.y);
   }
 
   PictureKey picture_key() const {
@@ -318,7 +268,7 @@ class Demo {
             .selected = session_.selected_body(),
             .grab = session_.world().grabbed(),
             .view = camera_.view(),
-            .scale = std::max(screen_->window.content_scale(), screen_->window.pixel_ratio()),
+            .scale = pixel_scale(),
             .between = whole_steps(session_) ? 1.0f : session_.between()};
   }
 

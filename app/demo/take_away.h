@@ -27,6 +27,8 @@ class TakeAway {
   /// Then the world moves by one step a frame, so that the recording misses none, but only if it may_step().
   bool recording() const { return recording_ && !recording_->progress().stopping; }
   bool may_step() const { return recording_->has_room(); }
+  /// frame() will ask for one.
+  bool wants_picture() const { return picture_asked || (recording() && recorded_->pictures); }
   /// The last recording is still being written: there cannot be another one yet.
   bool finishing() const { return recording_ && recording_->progress().stopping; }
 

@@ -27,7 +27,7 @@ std::string text(const char* format, double value) {
   return buffer.data();
 }
 
-void draw_curves(Widgets& w, const Session& session) {
+void draw_curves(Widgets& w, const Session& session, float fineness) {
   const History& history = session.history();
   const softbody::Profile& profile = session.world().profile();
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
@@ -35,6 +35,10 @@ void draw_curves(Widgets& w, const Session& session) {
   w.curve("Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
   w.curve("Picture", text("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
+  w.figure("drawn at", text("%.0f %%", 100 * double(fineness)),
+           "Of the pixels along each side of the scene's picture, so many are drawn while it moves. Less than 100 % only "
+           "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
+           "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
           {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
@@ -99,8 +103,8 @@ void draw_hashes(Widgets& w, const Session& session) {
 
 }  // namespace
 
-void draw_numbers(Widgets& w, const Session& session) {
-  draw_curves(w, session);
+void draw_numbers(Widgets& w, const Session& session, float fineness) {
+  draw_curves(w, session, fineness);
   const collide::Result& found = session.world().detection();
   const collide::Counters& counters = found.counters;
   w.figure("between bodies", grouped(found.contacts.size() - found.self_contacts),

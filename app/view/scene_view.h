@@ -48,7 +48,8 @@ class SceneView {
   }
 
   /// What the last draw() drew, from elsewhere. The world is not asked, but labels and hints stay those of then.
-  void draw_again(const engine::Camera& camera, const engine::Viewport& viewport) {
+  void draw_again(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
+    frame_.pixel_scale = pixel_scale;
     renderer_.draw(camera, viewport, frame_);
   }
 

@@ -26,6 +26,7 @@ class PanelRig {
     gui_.begin_frame(input_);
     interface.draw(session, ui, gui_.scale(), 0.0, &recorder);
     gui_.end_frame();
+    gui_.draw();
     ASSERT_EQ(collide::problem(session.world().collision()), "");
   }
   void frames(int count) {

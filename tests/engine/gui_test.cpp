@@ -18,6 +18,7 @@ bool frame_with_button(Gui& gui, const GuiInput& input) {
   const bool clicked = ImGui::Button("press", {150.0f, 40.0f});
   ImGui::End();
   gui.end_frame();
+  gui.draw();
   return clicked;
 }
 
@@ -64,6 +65,7 @@ TEST(Gui, HighDensityScalesFontAndSizes) {
     gui.begin_frame(GuiInput{});
     const float height = ImGui::GetFrameHeight();
     gui.end_frame();
+    gui.draw();
     EXPECT_EQ(gui.scale(), scale);
     if (scale == 1.0f) ordinary = height;
     if (scale == 2.0f) {

@@ -48,6 +48,7 @@ TEST(WindowTest, ShowsASceneAndAPanel) {
     renderer.draw(camera, {glm::ivec2(0), size}, frame);
     gui.begin_frame();
     gui.end_frame();
+    gui.draw();
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     window.present();
   }

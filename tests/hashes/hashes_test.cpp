@@ -62,6 +62,7 @@ std::string hash_of(const Row& row, const Way& way) {
   World::Options options;
   options.threads = way.threads;
   options.isa = way.isa;
+  options.least_shared = 0;
   World world(scene, options);
   if (way.over_snapshot) {
     run(world, row.frames / 2);

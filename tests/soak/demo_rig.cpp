@@ -31,12 +31,13 @@ void DemoRig::frame(bool draw) {
   mouse_.follow(app::read_mouse({}, over_scene), session, camera_, input.display_size);
   camera_.advance(input.seconds);
   if (draw)
-    canvas_.update(input.display_size, true, false, [this](const engine::Viewport& whole) {
+    canvas_.update(input.display_size, true, ui.take_away.wants_picture(), [this](const engine::Viewport& whole) {
       view_.draw(session.world(), app::overlay_request(session, ui), camera_, whole, 1,
                  session.drawn_positions(app::whole_steps(session)));
     });
   target_.bind();
   gui_.end_frame();
+  gui_.draw();
   ui.take_away.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
 }
 

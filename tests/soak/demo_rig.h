@@ -31,7 +31,7 @@ class DemoRig {
   engine::Framebuffer target_{{640, 480}, 0};
   engine::Gui gui_{1.0f};
   app::SceneView view_;
-  app::Canvas canvas_{false};
+  app::Canvas canvas_{true};
   app::Interface interface_;
   app::SceneMouse mouse_;
   engine::Camera camera_;

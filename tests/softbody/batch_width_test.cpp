@@ -199,8 +199,10 @@ class TwoLargeBodies : public testing::TestWithParam<Case> {};
 
 TEST_P(TwoLargeBodies, MoveTheSameByThemselvesAndInLanes) {
   const bool slow = GetParam().integrator == "explicit-euler";  // it would ask for hundreds of substeps
-  const World::Options options{
-      .threads = 2, .integrator = GetParam().integrator, .substeps = slow ? std::optional(60) : std::nullopt};
+  const World::Options options{.threads = 2,
+                               .integrator = GetParam().integrator,
+                               .substeps = slow ? std::optional(60) : std::nullopt,
+                               .least_shared = 0};
   const Scene scene = large_bodies(GetParam().surface);
   World solo(scene, options), mixed(scene, options), wide(scene, options);
   visit(mixed, 1);

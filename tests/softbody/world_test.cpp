@@ -48,7 +48,7 @@ TEST(World, MoreBodiesThanLanesMoveLikeOne) {
   Scene scene = lone_body(gas_ball(), {1, 2, 3});
   scene.gravity = {0, -9.81, 0};
   for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
-  World many(scene, {.threads = 3});
+  World many(scene, {.threads = 3, .least_shared = 0});
   scene.bodies.resize(1);
   World one(scene, {});
   run(many, 30);
@@ -124,7 +124,7 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
 }
 
 TEST(Dropper, IsDeterministic) {
-  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2});
+  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .least_shared = 0});
   for (World* w : {&a, &b})
     for (int i = 0; i < 12; ++i) {
       w->drop();
