@@ -31,7 +31,8 @@ void Dynamics::choose(double seconds) {
   const bool touches = !shield_.pairs.empty() || std::any_of(moving_.begin(), moving_.end(),
                                                              [](const Batch* m) { return !m->near_solids.empty(); });
   const double worth = (touches ? in_contact : in_flight) * b.fewest;
-  const bool cheaper = seconds / b.step <= (fixed_substeps_ ? double(*fixed_substeps_) : worth);
+  const bool cheaper =
+      std::max(seconds / b.step, seconds * b.deforming) <= (fixed_substeps_ ? double(*fixed_substeps_) : worth);
   const double rest = std::max(1e-3, 0.2 * scene_.sleep.speed);  // m/s
   if (cheaper && tremble(b.step) <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
@@ -43,7 +44,7 @@ void Dynamics::choose(double seconds) {
   } else {
     integrator_ = find_integrator("implicit");
     why_ = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
-                   : "so stiff that implicit steps are cheaper than explicit substeps";
+                   : "so stiff, or deforming so fast, that implicit steps are cheaper than explicit substeps";
   }
 }
 

@@ -120,13 +120,19 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  const double stable = integrator_->stable_step(stiffness, damping);
-  return {std::isfinite(stable) && deforming > 0 ? std::min(stable, 1 / deforming) : stable, fewest};
+  return {integrator_->stable_step(stiffness, damping), fewest, deforming};
 }
 
 int Dynamics::substeps(double seconds) const {
   const Bound b = bound(seconds);
   return int(std::min(most_substeps, std::ceil(std::max(b.fewest, seconds / b.step))));
+}
+
+/// Those, or as many as keep up with a body that is changing its shape.
+int Dynamics::needed_substeps(double seconds) const {
+  const Bound b = bound(seconds);
+  const double deforming = std::isfinite(b.step) ? seconds * b.deforming : 0;
+  return int(std::min(most_substeps, std::ceil(std::max({b.fewest, seconds / b.step, deforming}))));
 }
 
 bool Dynamics::moves(const Batch& b) {
@@ -149,16 +155,16 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   if (asked_->automatic) choose(seconds);
   resize_scratch();
   std::size_t particles = 0;
-  for (const Batch* b : moving_) particles += b->values();
+  for (const Batch* b : moving_) particles += b->particles() * std::size_t(b->used);
   active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {
-    const int asked = fixed ? fixed - total : substeps(left);
-    const int stable = asked < most_substeps ? asked : 1;  // the sooner its frame ends, the sooner it is seen
+    const int stable = fixed ? fixed - total : needed_substeps(left);
     if (has_surface_) find_surface_contacts(left, left / stable);
     const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
     int count = std::max(stable, rate);
+    if (count >= most_substeps) count = 1;  // the sooner its frame ends, the sooner it is seen
     // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
     if (integrator_->implicit && !fixed) {
       double length = seconds;
@@ -171,7 +177,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
       run(steps, static_cast<float>(h), total == 0, after_substep);
       total += steps;
     };
-    int now = fixed ? count : std::min(count, substeps_within_bound(h));
+    int now = fixed ? count : std::clamp(substeps_within_bound(h), 1, count);
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
     if (has_surface_) now = std::min(now, foreseen_substeps(left, h));
@@ -180,21 +186,21 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
       go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
       now = std::min(now, 1 + substeps_within_bound(h));
     }
-    go_on(now - (total - before));
+    if (now > total - before) go_on(now - (total - before));
     left = now == count ? 0 : left - now * h;
   }
   return total;
 }
 
-/// How many substeps of h seconds the bound of substeps() may be trusted for, one at least: it is worked out anew
-/// before the fastest body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
+/// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
+/// body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
 int Dynamics::substeps_within_bound(double h) const {
   constexpr double most = 16;
   double trusted = most;
   for (const Batch* b : moving_) {
     trusted = std::min(trusted, 0.2 * b->prototype->radius / (fastest(*b) * h));
   }
-  return std::max(1, static_cast<int>(trusted));
+  return static_cast<int>(trusted);
 }
 
 void Dynamics::run(int count, float h, bool first, const std::function<void()>& after_substep) {

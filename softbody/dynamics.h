@@ -242,10 +242,12 @@ class Dynamics {
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
   int substeps_within_bound(double h) const;
+  int needed_substeps(double seconds) const;
   /// What bounds a substep in the state at hand.
   struct Bound {
-    double step;    // s
-    double fewest;  // substeps that keep up with the fastest body near a solid
+    double step;       // s
+    double fewest;     // substeps that keep up with the fastest body near a solid
+    double deforming;  // 1/s, steps that keep up with the body that changes its shape fastest
   };
   Bound bound(double seconds) const;
   double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest

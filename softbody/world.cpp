@@ -43,6 +43,7 @@ World::State::State(Scene s, const Options& o)
       settings(scene.collision),
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
+  dynamics.set_least_shared(options.least_shared);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
   set_integrator();
@@ -73,7 +74,6 @@ void World::State::set_integrator() {
   check_stability(prototypes, plan);
   dynamics.set_integrator(*find_integrator(options.integrator));
   dynamics.set_substeps(options.substeps);
-  dynamics.set_least_shared(options.least_shared);
 }
 
 /// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.

@@ -36,7 +36,7 @@ class World {
     /// Exactly so many of the integrator's a frame, whatever becomes of it; none: as many as stability asks for.
     std::optional<int> substeps{};
     Isa isa = best_isa();
-    /// Moving particles; threads share no fewer: one has moved them before the others have woken up.
+    /// Particles of moving bodies; threads share no fewer: one has moved them before the others have woken up.
     std::size_t least_shared = 20'000;
   };
   static constexpr int max_substeps = 4000;  // a frame

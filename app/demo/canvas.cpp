@@ -9,11 +9,11 @@
 namespace app {
 namespace {
 
-// From one to the next a picture costs at most 1.57 times as much: what is fast enough to become finer does not
+// From one to the next drawing takes at most 1.57 times as long: what is fast enough to become finer does not
 // become too slow by that.
 constexpr std::array levels{1.0f, 0.8f, 0.65f};
-constexpr double too_slow = 1.0 / 30, fast_enough = too_slow / 1.6;  // s
-constexpr int looked_at = 12;                                        // pictures
+constexpr double growth = 0.6, wanted = 1.0 / 30, too_slow = 1.0 / 28;  // s; a screen of 60 Hz shows just 30 a second
+constexpr int looked_at = 12;                                           // pictures
 
 GLuint id_of(const engine::Framebuffer& framebuffer) {
   framebuffer.bind();
@@ -37,10 +37,10 @@ void Fineness::add(double interval, double drawing) {
   interval_ += interval;
   drawing_ += drawing;
   if (++pictures_ < looked_at) return;
-  const double mean = std::exchange(interval_, 0) / std::exchange(pictures_, 0);
-  const bool drawing_takes_it = std::exchange(drawing_, 0) > 0.5 * mean * looked_at;
-  if (mean > too_slow && drawing_takes_it && level_ + 1 < levels.size()) ++level_;
-  if (mean < fast_enough && level_ > 0) --level_;
+  const double mean = std::exchange(interval_, 0) / looked_at, mean_drawing = std::exchange(drawing_, 0) / looked_at;
+  pictures_ = 0;
+  if (mean > too_slow && mean_drawing > 0.5 * mean && level_ + 1 < levels.size()) ++level_;
+  if (mean + growth * mean_drawing < wanted && level_ > 0) --level_;
 }
 
 const engine::Framebuffer& Canvas::coarse(glm::ivec2 size) {

@@ -2,6 +2,7 @@
 // The scene's picture, kept between frames of the window. It is drawn again only if something in it has changed, so
 // that a world at rest costs nothing and the panel stays quick beside it.
 
+#include <cstddef>
 #include <functional>
 #include <optional>
 
@@ -15,7 +16,7 @@ namespace app {
 /// How many of its pixels along each side a moving picture gets: all, or as many as let 30 pictures a second be shown.
 class Fineness {
  public:
-  /// After each moving picture: s from the one before it to this one, and those of them that went into drawing.
+  /// After each moving picture: s from the one before it to this one, and s that drawing took.
   void add(double interval, double drawing);
   float value() const;
 

@@ -7,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
-#include <thread>
 #include <utility>
 
 #include "app/demo/interface.h"
@@ -109,18 +108,15 @@ class Demo {
     const engine::Viewport viewport = scene_viewport();
     move_camera(viewport, elapsed);
     do_as_asked(viewport);
-    draw_scene(viewport);
+    double drawing = timed([&] { draw_scene(viewport); });
     if (const Spotlight* light = ui_.tour.spotlight())
       draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), screen_->gui.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     screen_->gui.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
-    const double before = now();
     advance(elapsed);  // while the driver draws
-    const double step = now() - before;
-    compose(viewport);
-    screen_->window.present();
-    screen_->canvas.pace(elapsed, elapsed - step);
+    drawing += timed([&] { present(viewport); });
+    screen_->canvas.pace(elapsed, drawing);
     keep_preferences();
     pacer_.rest();
   }
@@ -134,6 +130,7 @@ class Demo {
         session_.advance(elapsed);
     };
     if (session_.world().profile().total_ms < long_step_ms) return advance();
+    present(scene_viewport());
     std::future<void> done = std::async(std::launch::async, advance);
     for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)
       look_around(now() - std::exchange(last, now()));
@@ -153,6 +150,10 @@ class Demo {
     screen_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
       screen_->view.draw_again(camera_, whole, pixel_scale(whole, viewport));
     });
+    present(viewport);
+  }
+
+  void present(const engine::Viewport& viewport) const {
     compose(viewport);
     screen_->window.present();
   }

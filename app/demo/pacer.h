@@ -12,6 +12,14 @@ inline double now() {
   return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
+/// s that it took.
+template <class Task>
+double timed(Task task) {
+  const double before = now();
+  task();
+  return now() - before;
+}
+
 /// Time between drawn frames. A monitor of 60 Hz never ticks at exactly the world's 1/60 s, and without rounding some
 /// frames would show two steps and some none.
 class Pacer {

@@ -20,10 +20,6 @@ void DemoRig::resize(glm::ivec2 size) {
 }
 
 void DemoRig::frame(bool draw) {
-  if (ui.take_away.recording())
-    session.advance_one(input.seconds, ui.take_away.may_step());
-  else
-    session.advance_one(input.seconds, true);
   target_.bind();
   gui_.begin_frame(input);
   interface_.draw(session, ui, gui_.scale(), 10);
@@ -39,6 +35,7 @@ void DemoRig::frame(bool draw) {
   gui_.end_frame();
   gui_.draw();
   ui.take_away.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
+  session.advance_one(input.seconds, !ui.take_away.recording() || ui.take_away.may_step());
 }
 
 }  // namespace soak

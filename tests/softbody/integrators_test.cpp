@@ -106,8 +106,10 @@ TEST_P(Integrators, LetNothingSinkIntoTheGround) {
 TEST_P(Integrators, GiveTheSameBitsOnOneAndTwoThreads) {
   std::uint64_t hash[2];
   for (const int threads : {1, 2}) {
-    World world(drop_scene(),
-                {.threads = threads, .integrator = std::string(GetParam().key), .substeps = about(GetParam(), 30)});
+    World world(drop_scene(), {.threads = threads,
+                               .integrator = std::string(GetParam().key),
+                               .substeps = about(GetParam(), 30),
+                               .least_shared = 0});
     run(world, 150);
     hash[threads - 1] = world.state_hash();
   }

@@ -7,7 +7,7 @@
 namespace softbody::test {
 namespace {
 
-/// Four balls that meet in mid-air, enough that a second thread takes part.
+/// Four balls that meet in mid-air.
 Scene crowd() {
   Scene scene = ball_in_space(rubber(), {4, 0, 0});
   scene.gravity = {0, -9.81, 0};
@@ -18,7 +18,7 @@ Scene crowd() {
   return scene;
 }
 
-/// Balls of several sizes that meet: so many prototypes that a second thread takes part.
+/// Balls of several sizes that meet, each with a prototype of its own: there is something for each thread.
 Scene sizes() {
   Scene scene = crowd();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].mesh.radius -= 0.02 * double(i);
@@ -45,6 +45,7 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     World::Options options;
     options.threads = threads;
     options.isa = isa;
+    options.least_shared = 0;
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
       world.step();

@@ -299,7 +299,7 @@ TEST(Changes, RefuseCompanyToABodyTooStiffForSurfaceContact) {
 
 /// All that hands can do, one after another.
 std::uint64_t hash_after_much(int threads) {
-  World world(pile(10), {.threads = threads});
+  World world(pile(10), {.threads = threads, .least_shared = 0});
   Scene solids = world.scene();
   Material material = world.scene().materials[0];
   material.friction = 0.1;
