@@ -35,10 +35,11 @@ void draw_curves(Widgets& w, const Session& session, float fineness) {
   w.curve("Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
   w.curve("Picture", text("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
-  w.figure("drawn at", text("%.0f %%", 100 * double(fineness)),
-           "Of the pixels along each side of the scene's picture, so many are drawn while it moves. Less than 100 % only "
-           "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
-           "taken away, has them all.");
+  w.figure(
+      "drawn at", text("%.0f %%", 100 * double(fineness)),
+      "Of the pixels along each side of the scene's picture, so many are drawn while it moves. Less than 100 % only "
+      "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
+      "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
           {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
