@@ -1,6 +1,5 @@
 #include "app/demo/canvas.h"
 
-#include <algorithm>
 #include <array>
 #include <utility>
 

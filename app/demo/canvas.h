@@ -13,7 +13,8 @@
 
 namespace app {
 
-/// How many of its pixels along each side a moving picture gets: all, or as many as let 30 pictures a second be shown.
+/// How many of its pixels along each side a moving picture gets: all, or where fewer than 30 pictures a second come as
+/// many as let them come, but never less than 65 %.
 class Fineness {
  public:
   /// After each moving picture: s from the one before it to this one, and s that drawing took.
