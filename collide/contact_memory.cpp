@@ -10,13 +10,20 @@ namespace collide {
 
 namespace {
 
-constexpr int pause_frames = 8;        // after bodies were too fast to remember anything
+constexpr int least_pause = 8, most_pause = 256;  // frames, after bodies were too fast or too many to remember
 constexpr int frames_to_last = 12;     // that candidates should, at the speed of nine tenths of the bodies, both ways
 constexpr float least_margin = 0.25f;  // of the tolerance
 constexpr float most_margin = 3.0f;    // of the tolerance: beyond it there are too many candidates
 constexpr std::uint8_t settled = 8;    // frames with the same move: noted down anew, it is none at all
 constexpr double most_stale = 0.3;     // of the bodies, for listing some groups anew rather than all
-constexpr std::size_t candidates_a_vertex = 8;  // at most
+
+// What things cost beside each other: about ns on a processor of 2022.
+struct Cost {
+  static constexpr double vertex = 3, contact = 20, test = 0.3;  // of a fresh search
+  static constexpr double move = 0.7, candidate = 1;             // of a frame that is remembered,
+  static constexpr double listed = 30, merged = 2;               // and of candidates when some are listed
+};
+constexpr double credit_frames = 16;  // of fresh searches: at the start, and the most that is put by
 
 Run run_of(const Frame& frame, Index body) {
   const Index first = frame.bodies->first[body];
@@ -33,13 +40,14 @@ bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSe
     return false;
   }
   try {
-    if (follow(frame, search, workers, result)) return true;
+    if (credit_ > 0 && follow(frame, search, workers, result)) return true;
   } catch (...) {  // half done
     forget();
     throw;
   }
+  const int pause = std::clamp(2 * last_pause_, least_pause, most_pause);
   forget();
-  pause_ = pause_frames;
+  pause_ = last_pause_ = pause;
   return false;
 }
 
@@ -48,10 +56,16 @@ bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& wor
   ++age_;
   if (!refresh(frame, search, workers, result)) return false;
   test(frame, workers, result);
+  const auto tests = static_cast<double>(result.counters.pair_tests);
+  credit_ += fresh_cost_ - Cost::move * static_cast<double>(frame.x.size()) - Cost::candidate * tests;
+  if (credit_ > credit_frames * fresh_cost_) {
+    credit_ = credit_frames * fresh_cost_;
+    last_pause_ = 0;
+  }
   return true;
 }
 
-void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers& workers) {
+void ContactMemory::watch(const Frame& frame, const Settings& settings, const Result& result, Workers& workers) {
   if (pause_ > 0) {
     --pause_;
     return;
@@ -61,6 +75,10 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, Workers&
     return;
   }
   age_ = 0;
+  fresh_cost_ = Cost::vertex * static_cast<double>(frame.x.size()) +
+                Cost::contact * static_cast<double>(result.contacts.size()) +
+                Cost::test * static_cast<double>(result.counters.pair_tests);
+  credit_ = credit_frames * fresh_cost_;
   settings_ = settings;
   first_ = frame.bodies->first;
   shape_ = frame.bodies->shape;
@@ -142,7 +160,7 @@ bool ContactMemory::choose_margin(const Frame& frame, float tolerance) {
   std::nth_element(moves_.begin(), ninth, moves_.end());
   const float speed = *ninth / static_cast<float>(age_);
   margin_ = std::clamp(frames_to_last * speed, least_margin * tolerance, most_margin * tolerance);
-  const float distance = query(frame).distance;
+  const float distance = query().distance;
   return speed * 4 < margin_ && std::isfinite(distance * distance);  // speed may not be finite either
 }
 
@@ -155,23 +173,24 @@ void ContactMemory::find_stale() {
   }
 }
 
-GroupSearch::Query ContactMemory::query(const Frame& frame) const {
+GroupSearch::Query ContactMemory::query() const {
   // A pair that is not found is farther apart than this, whatever rounding and underflow do to its squared distance.
   const double distance = double{contact_reach(settings_.tolerance)} + margin_;
   return {.distance = round_up(std::sqrt(distance * distance + 0x1p-146) * (1 + 0x1p-20)),
           .tolerance = settings_.tolerance,
           .self = settings_.self_collision,
           .levels = settings_.levels,
-          .most_pairs = std::max<std::size_t>(1u << 20, candidates_a_vertex * frame.x.size())};
+          .most_pairs = static_cast<std::size_t>(credit_ / Cost::listed)};
 }
 
 void ContactMemory::list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
   search.bound(frame, workers, result.non_finite_bodies);
-  search.find(frame, query(frame), workers);
+  search.find(frame, query(), workers);
   search.count(result);
   result.self_contacts = 0;  // those were of candidates
   lists_.clear(shape_.size());
   for (const Index body : search.live()) lists_.add(body, search.group(body), search.partners(body));
+  credit_ -= fresh_cost_ + Cost::listed * static_cast<double>(lists_.candidates.size());
   note_all(frame, workers);
   std::fill(move_.begin(), move_.end(), 0.0f);
   std::fill(still_.begin(), still_.end(), std::uint8_t{0});
@@ -189,13 +208,13 @@ void ContactMemory::list_stale(const Frame& frame, GroupSearch& search, Workers&
     find_stale();
   }
   search.bound(frame, workers, result.non_finite_bodies);
-  const GroupSearch::Query what = query(frame);
+  const GroupSearch::Query what = query();
   search.find_near(what.distance, workers);
   find_wanted(search);
   search.find_groups(frame, what, workers, [&](Index body) { return wanted_[body]; });
   search.count(result);
   result.self_contacts = 0;
-  merge(search, what.most_pairs);
+  merge(search);
   for (const Index body : stale_) {
     note(frame, body);
     move_[body] = 0;
@@ -219,17 +238,20 @@ void ContactMemory::find_wanted(const GroupSearch& search) {
 }
 
 /// The wanted groups as they were found, the others as they were.
-void ContactMemory::merge(const GroupSearch& search, std::size_t most_candidates) {
+void ContactMemory::merge(const GroupSearch& search) {
+  std::size_t listed = 0;
   merged_.clear(shape_.size());
   for (const Index body : search.live()) {
     if (wanted_[body]) {
       merged_.add(body, search.group(body), search.partners(body));
+      listed += search.group(body).size();
     } else {
       merged_.add(body, lists_.pairs_of(body), lists_.partners_of(body));
     }
   }
-  if (merged_.candidates.size() > most_candidates) throw std::length_error("too many candidates");
   std::swap(lists_, merged_);
+  credit_ -= Cost::vertex * static_cast<double>(x_.size()) + Cost::listed * static_cast<double>(listed) +
+             Cost::merged * static_cast<double>(lists_.candidates.size());
 }
 
 void ContactMemory::Lists::clear(std::size_t bodies) {

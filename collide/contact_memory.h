@@ -10,6 +10,11 @@
 //   where it was noted down until now: each of the two by m / 2 at most since the listing, so again no contact.
 // A body that has moved farther is stale: it is noted down anew, and every group that it is near is listed anew. Pairs
 // of which neither body has moved at all since the last frame have the contacts that they had.
+//
+// Why it pays. Where candidates are many or bodies soon stale, a fresh search is cheaper. What each way costs is counted
+// by what it has to look at (never by a clock, so that a run can be repeated); remembering starts on credit, each frame
+// adds what a fresh search would have cost and takes what was done, and where nothing is left it pauses, longer every
+// time.
 
 #include "collide/group_search.h"
 
@@ -22,8 +27,8 @@ class ContactMemory {
   /// remembered.
   bool recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers, Result& result);
 
-  /// To be called after a frame that was not recalled.
-  void watch(const Frame& frame, const Settings& settings, Workers& workers);
+  /// To be called after a frame that was not recalled, of which this is the result.
+  void watch(const Frame& frame, const Settings& settings, const Result& result, Workers& workers);
 
   void forget() { *this = {}; }
 
@@ -64,11 +69,11 @@ class ContactMemory {
   bool choose_margin(const Frame& frame, float tolerance);
   void find_stale();
   bool refresh(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
-  GroupSearch::Query query(const Frame& frame) const;
+  GroupSearch::Query query() const;
   void list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void find_wanted(const GroupSearch& search);
-  void merge(const GroupSearch& search, std::size_t most_candidates);
+  void merge(const GroupSearch& search);
   void test(const Frame& frame, Workers& workers, Result& result);
   void test_group(std::size_t thread, const Frame& frame, Index body);
   bool still(Index body) const { return still_[body] >= 2; }
@@ -76,7 +81,9 @@ class ContactMemory {
   bool follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
 
   State state_ = State::blank;
-  int pause_ = 0;  // frames not to be watched
+  int pause_ = 0;       // frames not to be watched
+  int last_pause_ = 0;  // what it was at first
+  double fresh_cost_ = 0, credit_ = 0;  // about ns
   Settings settings_;
   std::vector<Index> first_;
   std::vector<std::shared_ptr<const Shape>> shape_;

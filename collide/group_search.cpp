@@ -13,7 +13,7 @@ namespace collide {
 
 namespace {
 
-constexpr std::size_t pairs_between_counts = 1u << 16;  // of one thread
+constexpr std::size_t most_pairs_between_counts = 1u << 16;  // of one thread
 
 /// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the reach by 3u of
 /// it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
@@ -100,7 +100,7 @@ void GroupSearch::find_group(int thread, Index a) {
   slices_[a] = {static_cast<Index>(thread), own.pairs.size(), own.pairs.size() + own.group.size(), first_partner,
                 own.partners.size()};
   own.pairs.insert(own.pairs.end(), own.group.begin(), own.group.end());
-  if (own.pairs.size() - own.counted >= pairs_between_counts) count_pairs(own);
+  if (own.pairs.size() - own.counted >= std::min(most_pairs_between_counts, query_.most_pairs / 8)) count_pairs(own);
 }
 
 void GroupSearch::count_pairs(Thread& own) {

@@ -104,6 +104,14 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double fewest = 1;                  // that keep up with the fastest body near a solid
   double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
+  std::vector<float>& shield_damping = shield_damping_;  // N s/m, of each particle's contacts
+  shield_damping.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
+  for (const ShieldPair& p : shield_.pairs) {
+    const float c = shield_.damping_ahead(p, {x_[0].data(), x_[1].data(), x_[2].data()},
+                                          {v_[0].data(), v_[1].data(), v_[2].data()}, float(seconds));
+    shield_damping[p.slot_a] += c;
+    shield_damping[p.slot_b] += c;
+  }
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const Prototype& p = *b.prototype;
@@ -112,7 +120,8 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
-      damper += Shield::damping_bound(k, shield_.thickness);
+      const float* own = shield_damping.data() + b.base;
+      damper += double(*std::max_element(own, own + b.values()));
     }
     const Extent motion = extent(b, v_, v_);
     if (!b.near_solids.empty()) fewest = std::max(fewest, longest(motion) * seconds / (0.1 * p.radius));

@@ -282,7 +282,9 @@ class Dynamics {
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
   Components x_, v_, f_;
-  mutable Components area_;  // room of stiffness_per_mass(), and so of substeps(): not for two threads at once
+  // Room of bound(): not for two threads at once.
+  mutable Components area_;
+  mutable std::vector<float> shield_damping_;
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   /// What implicit steps keep: the matrices used last, and one workspace a prototype for each thread.

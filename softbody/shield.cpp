@@ -30,7 +30,7 @@ void Shield::evaluate(collide::Part part, Field<const float> x, Field<const floa
     const float damping = std::clamp(1 - separating / rebound_speed, 0.0f, approach_limit);
     const float push = p.stiffness * weight * std::min(h - s, h) * damping;
     const glm::vec3 slip = velocity - separating * p.normal;
-    const float viscous = 0.5f * p.stiffness * h / rebound_speed;
+    const float viscous = sticking_damping * p.stiffness * h / rebound_speed;
     p.stretch += seconds * slip;
     glm::vec3 drag = p.stiffness * p.stretch + viscous * slip;
     if (const float size = glm::length(drag), limit = p.friction * push; size > limit) {
@@ -61,7 +61,18 @@ Shield::Slopes Shield::slopes(const ShieldPair& p, Field<const float> x, Field<c
   // The weight falls with s, too: by 2 s / h^2 times a depth of h - s, together at most a half.
   const float spring = p.stiffness * damping * (weight + 0.5f);
   const float damper = p.stiffness * weight * depth / (rebound_speed * seconds);
-  return {spring, damper, p.stiffness, 0.5f * p.stiffness * h / (rebound_speed * seconds)};
+  return {spring, damper, p.stiffness, sticking_damping * p.stiffness * h / (rebound_speed * seconds)};
+}
+
+float Shield::damping_ahead(const ShieldPair& p, Field<const float> x, Field<const float> v, float seconds) const {
+  const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
+  const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
+  const float s = glm::dot(d, p.normal), u = glm::dot(velocity, p.normal);
+  const float nearer = seconds * glm::length(velocity - u * p.normal);
+  const float across = std::max(0.0f, glm::length(d - s * p.normal) - nearer) / thickness;
+  const float along = std::max(0.0f, s + seconds * std::min(u, 0.0f)) / thickness;
+  const float depth = (1 - across * across - along * along) * (1 - along);
+  return p.stiffness * thickness / rebound_speed * std::max(sticking_damping, most_damping(p.friction) * depth);
 }
 
 double Shield::energy(const ShieldPair& p, Field<const float> x) const {

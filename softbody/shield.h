@@ -14,6 +14,7 @@
 // normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between the two. k
 // is shared among the contacts of a particle: a wide shield is not stiffer.
 
+#include <cmath>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -80,8 +81,17 @@ struct Shield {
   void group(std::size_t batches, const auto& batch_of);
 
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
-  static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }                  // N/m
-  static float damping_bound(float k, float thickness) { return 1.5f * k * thickness / rebound_speed; }  // N s/m
+  static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
+  static float damping_bound(float k, float friction, float thickness) {  // N s/m
+    return most_damping(friction) * k * thickness / rebound_speed;
+  }
+  /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.
+  float damping_ahead(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+
+ private:
+  static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
+  /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.
+  static float most_damping(float friction) { return std::sqrt(1 + friction * friction); }
 };
 
 void Shield::group(std::size_t batches, const auto& batch_of) {
