@@ -59,19 +59,19 @@ SB_INLINE unsigned lanes_above(V a, V b) {
 
 SB_INLINE unsigned lanes_above(float a, float b) { return a > b; }
 
-/// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j.
+/// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j, so
+/// (k (L - L0) L + c dv . dx) dx / L^2: root and quotient need not wait for each other.
 /// A spring of length zero has no direction and pulls nowhere.
 template <class Real, int width>
 SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
                        Field<Real> f) {
   using V = Lane<Real, width>;
-  const V tiny = V{} + Real(1e-12);  // m; its inverse times any stiffness is finite, so that times dx = 0 it is 0
+  const V tiny = V{} + Real(1e-24);  // m^2; its inverse times any stiffness is finite, so that times dx = 0 it is 0
   for (const KernelSpring<Real>& s : list) {
     const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i), dv = load<V>(v, s.j) - load<V>(v, s.i);
-    const V length = square_root(dot(dx, dx));
-    const V inverse = Real(1) / larger(length, tiny);
-    const V tension = s.stiffness * (length - s.rest) + s.damping * (dot(dv, dx) * inverse);
-    const Vec<V> force = (tension * inverse) * dx;
+    const V square = dot(dx, dx), length = square_root(square);
+    const V pull = s.stiffness * (length - s.rest) * length + s.damping * dot(dv, dx);
+    const Vec<V> force = (pull * (Real(1) / larger(square, tiny))) * dx;
     store(f, s.i, load<V>(f, s.i) + force);
     store(f, s.j, load<V>(f, s.j) - force);
   }
@@ -246,6 +246,7 @@ SB_INLINE unsigned solid(const SolidArguments& s, const Shape& shape, Field<cons
     Vec<V> velocity = load<V>(v, at);
     const Vec<V> before = s.restitution > 0 ? load<V>(s.before, at) : Vec<V>{};
     const V change = respond(s, load<V>(s.moves), surface.distance, surface.normal, before, velocity);
+    if (!any_above(change, zero)) continue;
     impulse = impulse + (s.mass * change) * surface.normal;
     returned += s.restitution * s.mass * change;
     most = larger(change, most);

@@ -2,6 +2,8 @@
 // Arithmetic that reads the same for one value a lane and for a plain double: V is either.
 
 #include <cmath>
+#include <cstdint>
+#include <cstring>
 
 #include "softbody/lanes.h"
 
@@ -35,6 +37,18 @@ template <class V>
 SB_INLINE V smaller(V a, V b) {
   return a < b ? a : b;
 }
+
+/// Whether a > b in any lane.
+template <class V>
+SB_INLINE bool any_above(V a, V b) {
+  const auto above = a > b;
+  std::uint64_t word[sizeof above / sizeof(std::uint64_t)], any = 0;
+  std::memcpy(word, &above, sizeof above);
+  for (const std::uint64_t w : word) any |= w;
+  return any != 0;
+}
+
+SB_INLINE bool any_above(float a, float b) { return a > b; }
 
 /// Three components for all lanes.
 template <class V>

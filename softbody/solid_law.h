@@ -26,6 +26,7 @@ SB_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> be
   }
   const V wanted = target - normal_speed;
   const V change = moves * (wanted > s.slack ? wanted : zero);
+  if (!any_above(change, zero)) return change;
   const Vec<V> tangential = v - normal_speed * n;
   const V slip = square_root(dot(tangential, tangential));
   const V lost = smaller(s.friction * change, slip) / larger(slip, zero + std::numeric_limits<float>::min());
