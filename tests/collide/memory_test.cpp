@@ -85,6 +85,27 @@ TEST_P(Memory, FollowsASlowDrift) {
   EXPECT_EQ(kept_, 0u);
 }
 
+/// A margin as wide as an edge finds all neighbours inside each body, which a fresh search proves to be far enough.
+TEST_P(Memory, IsLeftWhereAFreshSearchIsCheaper) {
+  State state;
+  const Ball ball = icosphere(2, 0.5f);
+  const auto shape = std::make_shared<const Shape>(static_cast<Index>(ball.vertices.size()), ball.edges, ball.vertices);
+  for (int i = 0; i < 8; ++i)
+    state.add(shape, moved(ball.vertices, 0.95f * glm::vec3(float(i % 2), float(i / 2 % 2), float(i / 4))));
+  state.tolerance = tolerance;
+  std::mt19937 random(24);
+  const std::vector<glm::vec3> speed = random_points(random, 8, -0.1f * tolerance, 0.1f * tolerance);
+  int used = 0;
+  for (int frame = 0; frame < 100; ++frame) {
+    const std::uint64_t before = remembered_;
+    see(state);
+    used += remembered_ > before;
+    for (Index body = 0; body < state.bodies.count(); ++body)
+      shift(state, body, float(frame % 40 < 20 ? 1 : -1) * speed[body]);
+  }
+  EXPECT_LT(used, 30);
+}
+
 TEST_P(Memory, FollowsOneThatFliesPastAPileAtRest) {
   State state = pile(3);
   state.add(state.bodies.shape[0], moved(icosphere(1, 0.5f).vertices, glm::vec3(-3, 2.6f, 1)));
