@@ -132,16 +132,16 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
   return {integrator_->stable_step(stiffness, damping), fewest, deforming};
 }
 
-int Dynamics::substeps(double seconds) const {
-  const Bound b = bound(seconds);
-  return int(std::min(most_substeps, std::ceil(std::max(b.fewest, seconds / b.step))));
+int Dynamics::substeps(const Bound& b, double seconds, double at_least) {
+  return int(std::min(most_substeps, std::ceil(std::max({b.fewest, seconds / b.step, at_least}))));
 }
+
+int Dynamics::substeps(double seconds) const { return substeps(bound(seconds), seconds, 1); }
 
 /// Those, or as many as keep up with a body that is changing its shape.
 int Dynamics::needed_substeps(double seconds) const {
   const Bound b = bound(seconds);
-  const double deforming = std::isfinite(b.step) ? seconds * b.deforming : 0;
-  return int(std::min(most_substeps, std::ceil(std::max({b.fewest, seconds / b.step, deforming}))));
+  return substeps(b, seconds, std::isfinite(b.step) ? seconds * b.deforming : 1);
 }
 
 bool Dynamics::moves(const Batch& b) {

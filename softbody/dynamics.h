@@ -250,6 +250,7 @@ class Dynamics {
     double deforming;  // 1/s, steps that keep up with the body that changes its shape fastest
   };
   Bound bound(double seconds) const;
+  static int substeps(const Bound& bound, double seconds, double at_least);
   double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
   double tremble(double step) const;
   void choose(double seconds);
