@@ -11,10 +11,10 @@
 // A body that has moved farther is stale: it is noted down anew, and every group that it is near is listed anew. Pairs
 // of which neither body has moved at all since the last frame have the contacts that they had.
 //
-// Why it pays. Where candidates are many or bodies soon stale, a fresh search is cheaper. What each way costs is counted
-// by what it has to look at (never by a clock, so that a run can be repeated); remembering starts on credit, each frame
-// adds what a fresh search would have cost and takes what was done, and where nothing is left it pauses, longer every
-// time.
+// Why it pays. Where candidates are many or bodies soon stale, a fresh search is cheaper. What each way costs is
+// counted by what it has to look at (never by a clock, so that a run can be repeated); remembering starts on credit,
+// each frame adds what a fresh search would have cost and takes what was done, and where nothing is left it pauses,
+// longer every time.
 
 #include "collide/group_search.h"
 
@@ -81,8 +81,8 @@ class ContactMemory {
   bool follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
 
   State state_ = State::blank;
-  int pause_ = 0;       // frames not to be watched
-  int last_pause_ = 0;  // what it was at first
+  int pause_ = 0;                       // frames not to be watched
+  int last_pause_ = 0;                  // what it was at first
   double fresh_cost_ = 0, credit_ = 0;  // about ns
   Settings settings_;
   std::vector<Index> first_;

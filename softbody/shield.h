@@ -82,7 +82,7 @@ struct Shield {
 
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
   static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
-  static float damping_bound(float k, float friction, float thickness) {  // N s/m
+  static float damping_bound(float k, float friction, float thickness) {                 // N s/m
     return most_damping(friction) * k * thickness / rebound_speed;
   }
   /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.

@@ -181,9 +181,9 @@ TEST(Shield, ABoundHoldsTheDampingOfWhereItIsAndWhereItGoes) {
           }
         }
   Pair far({0, 0.08, 0}, 0.5);
-  EXPECT_LT(far.shield.damping_ahead(far.shield.pairs[0], std::as_const(far.x).field(), std::as_const(far.v).field(),
-                                     0.01f),
-            0.5f * Shield::damping_bound(100, 0.5f, 0.1f))
+  EXPECT_LT(
+      far.shield.damping_ahead(far.shield.pairs[0], std::as_const(far.x).field(), std::as_const(far.v).field(), 0.01f),
+      0.5f * Shield::damping_bound(100, 0.5f, 0.1f))
       << "a light contact is not taken for a deep one";
 }
 
