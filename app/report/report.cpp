@@ -30,6 +30,10 @@ const Report& find_report(const std::string& name) {
 
 }  // namespace
 
-void report(const Options& options) { find_report(options.report.name).make(options); }
+void report(const Options& options) {
+  const Report& report = find_report(options.report.name);
+  scene_folder();  // throws where there is none: some reports open their scenes only after minutes
+  report.make(options);
+}
 
 }  // namespace app
