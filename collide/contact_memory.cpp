@@ -34,9 +34,13 @@ Run run_of(const Frame& frame, Index body) {
 
 bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers,
                            Result& result) {
-  if (state_ == State::blank || state_ == State::seen) return false;
-  if (!same_bodies(frame, settings)) {
+  if (!same_settings(settings)) {
     forget();
+    settings_ = settings;
+  }
+  if (state_ == State::blank || state_ == State::seen) return false;
+  if (!same_bodies(frame)) {
+    start_over();
     return false;
   }
   try {
@@ -45,27 +49,38 @@ bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSe
     forget();
     throw;
   }
-  const int pause = std::clamp(2 * last_pause_, least_pause, most_pause);
-  forget();
-  pause_ = last_pause_ = pause;
+  const bool too_dear = credit_ <= 0;
+  start_over();
+  if (too_dear) longest_pause_ = std::clamp(2 * longest_pause_, least_pause, most_pause);
+  pause_ = too_dear ? longest_pause_ : least_pause;
   return false;
+}
+
+/// Forgets all but how it went with these settings.
+void ContactMemory::start_over() {
+  const Settings settings = settings_;
+  const int longest_pause = longest_pause_;
+  forget();
+  settings_ = settings;
+  longest_pause_ = longest_pause;
 }
 
 bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
   measure_moves(frame, workers);
   ++age_;
   if (!refresh(frame, search, workers, result)) return false;
+  const std::uint64_t before = result.counters.pair_tests;
   test(frame, workers, result);
-  const auto tests = static_cast<double>(result.counters.pair_tests);
+  const auto tests = static_cast<double>(result.counters.pair_tests - before);
   credit_ += fresh_cost_ - Cost::move * static_cast<double>(frame.x.size()) - Cost::candidate * tests;
   if (credit_ > credit_frames * fresh_cost_) {
     credit_ = credit_frames * fresh_cost_;
-    last_pause_ = 0;
+    longest_pause_ = 0;
   }
   return true;
 }
 
-void ContactMemory::watch(const Frame& frame, const Settings& settings, const Result& result, Workers& workers) {
+void ContactMemory::watch(const Frame& frame, const Result& result, Workers& workers) {
   if (pause_ > 0) {
     --pause_;
     return;
@@ -79,7 +94,6 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, const Re
                 Cost::contact * static_cast<double>(result.contacts.size()) +
                 Cost::test * static_cast<double>(result.counters.pair_tests);
   credit_ = credit_frames * fresh_cost_;
-  settings_ = settings;
   first_ = frame.bodies->first;
   shape_ = frame.bodies->shape;
   for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
@@ -88,9 +102,13 @@ void ContactMemory::watch(const Frame& frame, const Settings& settings, const Re
   state_ = State::noted;  // last: whatever throws before leaves nothing half noted
 }
 
-bool ContactMemory::same_bodies(const Frame& frame, const Settings& settings) const {
+bool ContactMemory::same_settings(const Settings& settings) const {
   return settings.tolerance == settings_.tolerance && settings.self_collision == settings_.self_collision &&
-         settings.levels == settings_.levels && frame.bodies->first == first_ && frame.bodies->shape == shape_;
+         settings.levels == settings_.levels;
+}
+
+bool ContactMemory::same_bodies(const Frame& frame) const {
+  return frame.bodies->first == first_ && frame.bodies->shape == shape_;
 }
 
 void ContactMemory::note(const Frame& frame, Index body) {
@@ -145,6 +163,7 @@ bool ContactMemory::refresh(const Frame& frame, GroupSearch& search, Workers& wo
     list_all(frame, search, workers, result);
     return true;
   } catch (const std::length_error&) {  // too many candidates; there may be few contacts
+    credit_ = 0;
     return false;
   }
 }

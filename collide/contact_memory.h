@@ -28,7 +28,7 @@ class ContactMemory {
   bool recall(const Frame& frame, const Settings& settings, GroupSearch& search, Workers& workers, Result& result);
 
   /// To be called after a frame that was not recalled, of which this is the result.
-  void watch(const Frame& frame, const Settings& settings, const Result& result, Workers& workers);
+  void watch(const Frame& frame, const Result& result, Workers& workers);
 
   void forget() { *this = {}; }
 
@@ -62,7 +62,9 @@ class ContactMemory {
     std::uint64_t self_contacts = 0, tests = 0, remembered = 0, kept = 0;
   };
 
-  bool same_bodies(const Frame& frame, const Settings& settings) const;
+  bool same_settings(const Settings& settings) const;
+  bool same_bodies(const Frame& frame) const;
+  void start_over();
   void measure_moves(const Frame& frame, Workers& workers);
   void note(const Frame& frame, Index body);
   void note_all(const Frame& frame, Workers& workers);
@@ -82,7 +84,7 @@ class ContactMemory {
 
   State state_ = State::blank;
   int pause_ = 0;                       // frames not to be watched
-  int last_pause_ = 0;                  // what it was at first
+  int longest_pause_ = 0;               // since remembering has paid
   double fresh_cost_ = 0, credit_ = 0;  // about ns
   Settings settings_;
   std::vector<Index> first_;

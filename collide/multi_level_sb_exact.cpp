@@ -29,7 +29,7 @@ class MultiLevelSbExact final : public Detector {
                  workers);
     search_.concatenate(workers, result.contacts);
     search_.count(result);
-    memory_.watch(frame, settings, result, workers);
+    memory_.watch(frame, result, workers);
   }
 
   void forget() override {

@@ -110,8 +110,12 @@ void Dynamics::move_lane(Batch& b, int from, int to) {
     for (auto& c : *components)
       for (std::size_t i = 0; i < b.values(); i += std::size_t(b.width)) move(c.data() + b.base + i);
   for (float* values : {b.moves.data(), b.impulse.x, b.impulse.y, b.impulse.z, b.returned.data()}) move(values);
-  b.body[std::size_t(to)] = b.body[std::size_t(from)];
-  bodies_[b.body[std::size_t(to)]].lane = to;
+  const BodyId body = b.body[std::size_t(to)] = b.body[std::size_t(from)];
+  bodies_[body].lane = to;
+  for (ShieldPair& p : shield_.pairs) {
+    if (p.body_a == body) p.slot_a = p.slot_a + std::size_t(to) - std::size_t(from);
+    if (p.body_b == body) p.slot_b = p.slot_b + std::size_t(to) - std::size_t(from);
+  }
 }
 
 void Dynamics::remove(BodyId id) {

@@ -104,13 +104,13 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double fewest = 1;                  // that keep up with the fastest body near a solid
   double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
-  std::vector<float>& shield_damping = shield_damping_;  // N s/m, of each particle's contacts
-  shield_damping.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
-  for (const ShieldPair& p : shield_.pairs) {
+  shield_damping_.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
+  for (ShieldPair p : shield_.pairs) {
+    p.offset = glm::vec3(bodies_[p.body_a].origin - bodies_[p.body_b].origin);  // moved with them at the frame's end
     const float c = shield_.damping_ahead(p, {x_[0].data(), x_[1].data(), x_[2].data()},
                                           {v_[0].data(), v_[1].data(), v_[2].data()}, float(seconds));
-    shield_damping[p.slot_a] += c;
-    shield_damping[p.slot_b] += c;
+    shield_damping_[p.slot_a] += c;
+    shield_damping_[p.slot_b] += c;
   }
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
@@ -120,7 +120,7 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
-      const float* own = shield_damping.data() + b.base;
+      const float* own = shield_damping_.data() + b.base;
       damper += double(*std::max_element(own, own + b.values()));
     }
     const Extent motion = extent(b, v_, v_);
@@ -202,12 +202,15 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
 }
 
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
-/// body has moved a fifth of its radius, for a body that is being crushed gets stiffer.
+/// body has moved a fifth of its radius, for a body that is being crushed gets stiffer, or about a quarter of the
+/// shield's thickness, for a contact that is being pressed damps more.
 int Dynamics::substeps_within_bound(double h) const {
   constexpr double most = 16;
   double trusted = most;
   for (const Batch* b : moving_) {
-    trusted = std::min(trusted, 0.2 * b->prototype->radius / (fastest(*b) * h));
+    const double radius = b->prototype->radius, pressed = std::max(0.25 * double(shield_.thickness), 0.05 * radius);
+    const double way = shield_.pairs.empty() ? 0.2 * radius : std::min(pressed, 0.2 * radius);
+    trusted = std::min(trusted, way / (fastest(*b) * h));
   }
   return static_cast<int>(trusted);
 }

@@ -66,7 +66,7 @@ template <class Real, int width>
 SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
                        Field<Real> f) {
   using V = Lane<Real, width>;
-  const V tiny = V{} + Real(1e-24);  // m^2; its inverse times any stiffness is finite, so that times dx = 0 it is 0
+  const V tiny = V{} + Real(1e-24);  // m^2: its inverse is finite, and times a pull of 0 it is 0
   for (const KernelSpring<Real>& s : list) {
     const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i), dv = load<V>(v, s.j) - load<V>(v, s.i);
     const V square = dot(dx, dx), length = square_root(square);

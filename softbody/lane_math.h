@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
+#include <type_traits>
 
 #include "softbody/lanes.h"
 
@@ -41,14 +42,16 @@ SB_INLINE V smaller(V a, V b) {
 /// Whether a > b in any lane.
 template <class V>
 SB_INLINE bool any_above(V a, V b) {
-  const auto above = a > b;
-  std::uint64_t word[sizeof above / sizeof(std::uint64_t)], any = 0;
-  std::memcpy(word, &above, sizeof above);
-  for (const std::uint64_t w : word) any |= w;
-  return any != 0;
+  if constexpr (std::is_floating_point_v<V>) {
+    return a > b;
+  } else {
+    const auto above = a > b;
+    std::uint64_t word[sizeof above / sizeof(std::uint64_t)], any = 0;
+    std::memcpy(word, &above, sizeof above);
+    for (const std::uint64_t w : word) any |= w;
+    return any != 0;
+  }
 }
-
-SB_INLINE bool any_above(float a, float b) { return a > b; }
 
 /// Three components for all lanes.
 template <class V>

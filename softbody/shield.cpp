@@ -71,7 +71,7 @@ float Shield::damping_ahead(const ShieldPair& p, Field<const float> x, Field<con
   const float nearer = seconds * glm::length(velocity - u * p.normal);
   const float across = std::max(0.0f, glm::length(d - s * p.normal) - nearer) / thickness;
   const float along = std::max(0.0f, s + seconds * std::min(u, 0.0f)) / thickness;
-  const float depth = (1 - across * across - along * along) * (1 - along);
+  const float depth = std::max(0.0f, 1 - across * across - along * along) * std::max(0.0f, 1 - along);
   return p.stiffness * thickness / rebound_speed * std::max(sticking_damping, most_damping(p.friction) * depth);
 }
 

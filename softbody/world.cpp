@@ -55,7 +55,10 @@ World::State::State(Scene s, const Options& o)
 
 /// Those that a frame of a moving body needs if the shield is so thick (m).
 double World::State::substeps(const Prototype& p, float thickness) const {
-  const float contact = float(p.material.contact_stiffness), friction = float(p.material.friction);
+  double most_friction = 0;
+  for (const Material& m : scene.materials) most_friction = std::max(most_friction, m.friction);
+  const auto contact = float(p.material.contact_stiffness);
+  const auto friction = float(std::sqrt(p.material.friction * most_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
   const double c = p.spring_damping_bound + Shield::damping_bound(contact, friction, thickness);

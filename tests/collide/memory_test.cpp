@@ -85,25 +85,49 @@ TEST_P(Memory, FollowsASlowDrift) {
   EXPECT_EQ(kept_, 0u);
 }
 
-/// A margin as wide as an edge finds all neighbours inside each body, which a fresh search proves to be far enough.
-TEST_P(Memory, IsLeftWhereAFreshSearchIsCheaper) {
+/// Bodies whose own neighbours are hardly farther apart than the tolerance: a fresh search proves that they are, but
+/// any margin finds them all. They sway.
+State dense_pile() {
   State state;
   const Ball ball = icosphere(2, 0.5f);
   const auto shape = std::make_shared<const Shape>(static_cast<Index>(ball.vertices.size()), ball.edges, ball.vertices);
   for (int i = 0; i < 8; ++i)
     state.add(shape, moved(ball.vertices, 0.95f * glm::vec3(float(i % 2), float(i / 2 % 2), float(i / 4))));
   state.tolerance = tolerance;
+  return state;
+}
+
+void sway(State& state, int frame) {
   std::mt19937 random(24);
   const std::vector<glm::vec3> speed = random_points(random, 8, -0.1f * tolerance, 0.1f * tolerance);
+  for (Index body = 0; body < state.bodies.count(); ++body)
+    shift(state, body, (frame % 40 < 20 ? 1.0f : -1.0f) * speed[body]);
+}
+
+TEST_P(Memory, IsLeftWhereAFreshSearchIsCheaper) {
+  State state = dense_pile();
   int used = 0;
   for (int frame = 0; frame < 100; ++frame) {
     const std::uint64_t before = remembered_;
     see(state);
     used += remembered_ > before;
-    for (Index body = 0; body < state.bodies.count(); ++body)
-      shift(state, body, float(frame % 40 < 20 ? 1 : -1) * speed[body]);
+    sway(state, frame);
   }
   EXPECT_LT(used, 30);
+}
+
+TEST_P(Memory, IsTakenUpAgainAtOnceWithOtherSettings) {
+  State state = dense_pile();
+  for (int frame = 0; frame < 75; ++frame) {  // pauses of 8, 16, 32 and, by now, 64 frames
+    see(state);
+    sway(state, frame);
+  }
+  const std::uint64_t before = remembered_ + kept_;
+  for (int frame = 0; frame < 8; ++frame) see(state);
+  EXPECT_EQ(remembered_ + kept_, before) << "it pauses";
+  state.tolerance = 0.2f * tolerance;
+  for (int frame = 0; frame < 8; ++frame) see(state);
+  EXPECT_GT(kept_, 0u);
 }
 
 TEST_P(Memory, FollowsOneThatFliesPastAPileAtRest) {
@@ -296,7 +320,7 @@ TEST_P(Memory, MissesNoneThatComeTogether) {
       speed.push_back(glm::vec3(moves ? -tolerance * uniform(random, 0, most) : 0.0f, 0, 0));
     }
     std::size_t first = 0, last = 0;
-    for (int frame = 0; frame < 60; ++frame) {
+    for (int frame = 0; frame < 75; ++frame) {  // pauses of 8, 16, 32 and, by now, 64 frames
       see(state);
       (frame == 0 ? first : last) = result_.contacts.size();
       for (std::size_t v = 0; v < speed.size(); ++v) state.x[v] += speed[v].x;
