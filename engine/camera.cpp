@@ -31,6 +31,11 @@ Orbit Camera::clamped(Orbit orbit) const {
   orbit.elevation = std::clamp(orbit.elevation, -max_elevation, max_elevation);
   const float reach = 10.0f * scene_radius_;
   orbit.target = glm::clamp(orbit.target, centre_ - reach, centre_ + reach);
+  if (floor_) {
+    const float rise = (*floor_ + 0.02f * scene_radius_ - orbit.target.y) / orbit.distance;  // at least
+    orbit.elevation =
+        std::clamp(orbit.elevation, std::min(std::asin(std::clamp(rise, -1.0f, 1.0f)), max_elevation), max_elevation);
+  }
   return orbit;
 }
 

@@ -28,6 +28,8 @@ class Camera {
   float fov = 0.7f;  // vertical opening angle, radians
 
   const Orbit& orbit() const { return now_; }
+  /// Height of a floor that the eye stays above; nothing: there is none.
+  void set_floor(std::optional<float> floor) { floor_ = floor; }
   /// Jumps there (clamped to the limits).
   void set_orbit(const Orbit& orbit);
   /// Jumps to where a sphere just fills the viewport, keeping the angles. Also sets the zoom limits and the depth
@@ -68,6 +70,7 @@ class Camera {
   Orbit now_, goal_;
   glm::vec3 centre_{0.0f};
   float scene_radius_ = 5.0f;
+  std::optional<float> floor_;
 };
 
 }  // namespace engine

@@ -29,6 +29,7 @@ struct TranslucentSet {
   std::vector<MeshDraw> meshes;
   float opacity = 0.4f;
   bool hides = true;  // what is behind them, other ones of the set and overlays, as if they were solid
+  float recess = 0;   // radii: what is so little before a solid is seen as behind it
 };
 
 struct Sphere {

@@ -20,13 +20,21 @@ class Ring {
     if (size_ < capacity) ++size_;
   }
   void clear() { next_ = size_ = 0; }
+  /// Forgets what was at this frame and after it.
+  void forget_from(int frame) {
+    for (; size_ > 0 && this->frame(size_ - 1) >= frame; --size_) next_ = (next_ + capacity - 1) % capacity;
+  }
   std::size_t size() const { return size_; }
   /// i = 0 is the oldest value kept.
   float operator[](std::size_t i) const { return values_[place(i)]; }
   int frame(std::size_t i) const { return frames_[place(i)]; }
   // 0 if there are no values.
-  float largest() const { return size_ == 0 ? 0 : *std::max_element(values_.begin(), end()); }
-  float smallest() const { return size_ == 0 ? 0 : *std::min_element(values_.begin(), end()); }
+  float largest() const {
+    return extreme([](float a, float b) { return std::max(a, b); });
+  }
+  float smallest() const {
+    return extreme([](float a, float b) { return std::min(a, b); });
+  }
   float latest() const { return size_ == 0 ? 0 : (*this)[size_ - 1]; }
   /// Of the last values, at most `last` of them; 0 if there are none.
   float median(std::size_t last) const {
@@ -40,9 +48,11 @@ class Ring {
 
  private:
   std::size_t place(std::size_t i) const { return (next_ + capacity - size_ + i) % capacity; }
-  std::array<float, capacity>::const_iterator end() const {
-    return values_.begin() + static_cast<std::ptrdiff_t>(size_);
-  }  // in no order
+  float extreme(float (*of)(float, float)) const {
+    float found = latest();
+    for (std::size_t i = 0; i < size_; ++i) found = of(found, (*this)[i]);
+    return found;
+  }
 
   std::array<float, capacity> values_{};
   std::array<int, capacity> frames_{};

@@ -162,7 +162,13 @@ void Session::rewind_to(int frame) {
       world_->set_collision(settings, default_cell_size);
   });
   paused = true;
-  stability_.went_back();
+  went_back();
+}
+
+void Session::went_back() {
+  stability_.went_back(*world_);
+  for (Ring* ring : {&history_.detect_ms, &history_.solve_ms, &history_.contacts, &history_.recall})
+    ring->forget_from(world_->frame());
   show_anew();
 }
 

@@ -211,7 +211,10 @@ class Session {
   void start(const softbody::Scene& scene, const IntegratorChoice& integrator);
   void leave_for(std::unique_ptr<softbody::World> world);
   void show_anew();
+  /// The world was restored to what it was.
+  void went_back();
   void follow();
+  void age_notice(double elapsed);
   void keep_world_settings(const softbody::Scene& in_use);
   void adopt(softbody::Scene scene);
   void remember(Past past);
@@ -262,7 +265,8 @@ class Session {
   CompareReport comparison_;
   mutable std::vector<softbody::SurfaceTouch> touches_;
   mutable std::uint64_t touches_revision_ = 0;
-  std::string notice_;
+  std::string notice_, aged_notice_;
+  double notice_age_ = 0;  // s, of aged_notice_
   CompareWorker compare_worker_;
   SurfaceWatch surfaces_;
   StabilityWatch stability_;

@@ -7,7 +7,16 @@
 
 namespace app {
 
+/// What the last action met with need not be said for ever.
+void Session::age_notice(double elapsed) {
+  constexpr double longest = 20;  // s
+  notice_age_ = notice_ == aged_notice_ ? notice_age_ + std::min(elapsed, longest_elapsed) : 0;
+  if (notice_age_ > longest) notice_.clear();
+  aged_notice_ = notice_;
+}
+
 void Session::advance(double elapsed) {
+  age_notice(elapsed);
   history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
   if (step_once_) {
     step_once_ = false;
@@ -19,6 +28,7 @@ void Session::advance(double elapsed) {
 }
 
 void Session::advance_one(double elapsed, bool one) {
+  age_notice(elapsed);
   history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
   if (one && (!paused || step_once_)) {
     step_once_ = false;

@@ -12,6 +12,7 @@ using softbody::BodyId;
 
 void Session::select_body(std::optional<BodyId> body) {
   selected_body_ = body && *body < world_->bodies().count() ? body : std::nullopt;
+  if (selected_body_) notice_.clear();
 }
 
 void Session::grab(const softbody::Grab& grab) {
@@ -121,8 +122,7 @@ void Session::undo() {
   }
   notice_.clear();
   succeeds([&] { world_->restore(*past.snapshot); });  // later worlds are gone again: it is the one of the snapshot
-  stability_.went_back();
-  show_anew();
+  went_back();
 }
 
 }  // namespace app

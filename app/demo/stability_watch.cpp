@@ -34,14 +34,17 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
-  record(world.frame(), softbody::total(bodies), energy_at_start(world));
+  record(world, bodies);
   if (!guarded || alarm_) return;
   alarm_ = guard_.look(world, bodies);
   if (!alarm_) good_frame_ = world.frame();
 }
 
-void StabilityWatch::record(int frame, const softbody::Measures& all, const softbody::Energy& start) {
+void StabilityWatch::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
   constexpr double most = 1e30;  // what has blown up is no longer drawn
+  const int frame = world.frame();
+  const softbody::Measures all = softbody::total(bodies);
+  const softbody::Energy start = energy_at_start(world);
   const auto push = [frame](Ring& ring, double value) {
     if (std::abs(value) < most) ring.push(frame, static_cast<float>(value));
   };
@@ -58,10 +61,15 @@ void StabilityWatch::record(int frame, const softbody::Measures& all, const soft
 
 void StabilityWatch::restart() { *this = {}; }
 
-void StabilityWatch::went_back() {
+void StabilityWatch::went_back(const softbody::World& world) {
   guard_.restart();
   alarm_.reset();
   margin_ = {};
+  StabilityHistory& h = history_;
+  for (Ring* ring :
+       {&h.kinetic, &h.elastic, &h.gas, &h.gravity, &h.total, &h.least_volume, &h.most_volume, &h.strain, &h.speed})
+    ring->forget_from(world.frame());
+  record(world, softbody::measure_bodies(world));
 }
 
 void StabilityWatch::keep_present(const softbody::World& world) {

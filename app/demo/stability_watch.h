@@ -15,8 +15,7 @@ struct StabilityHistory {
 };
 
 /// Substeps of a frame: those that were taken, and those that the stability bound asks for, of which a fifth is
-/// reserve.
-/// All 0 if nothing moves.
+/// reserve. All 0 if nothing moves, or no step was taken since the world went back.
 struct StepMargin {
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s
@@ -34,8 +33,8 @@ class StabilityWatch {
   void intervened() { guard_.restart(); }
   /// Another world, of which nothing is known.
   void restart();
-  /// The world has gone back to one of past().
-  void went_back();
+  /// The world has gone back to one of past(): what came later is forgotten, and what is so now is measured.
+  void went_back(const softbody::World& world);
   /// Keeps the present, so that one can come back to it, unless it is an exploded one or belongs to the past.
   void keep_present(const softbody::World& world);
 
@@ -47,7 +46,7 @@ class StabilityWatch {
   const StepMargin& margin() const { return margin_; }
 
  private:
-  void record(int frame, const softbody::Measures& all, const softbody::Energy& start);
+  void record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
 
   Rewind rewind_;
   Guard guard_;

@@ -153,7 +153,9 @@ void draw_legend(Widgets& w, const Session& session, bool of_which_method) {
   }
   if (shown.touches) touches_legend(w, session);
   if (shown.missed)
-    legend_line(w, contact_missed_colour, "missed by " + std::string(collide::methods()[session.misses_of()].name));
+    legend_line(w, contact_missed_colour,
+                std::string(session.missed() && session.missed()->empty() ? "none missed by " : "missed by ") +
+                    std::string(collide::methods()[session.misses_of()].name));
   if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");

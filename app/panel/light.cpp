@@ -39,8 +39,10 @@ void draw_light(Widgets& w, const Session& session, bool& explained) {
   const collide::Coverage now = session.world().detection().coverage;
   const Light light = light_of(now);
   const std::string fit = box_against_cell(session.paper(), session.world().collision().cell_size);
+  ImGui::BeginGroup();
   w.dot(light.colour);
   ImGui::TextWrapped("%s: %s", light.name, light.sentence);
+  ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();
   w.done("Coverage", joined("What the method and its settings promise on this frame (§2.2). ", fit,
                             explained ? " Click: less." : " Click: what the colours mean.")

@@ -22,8 +22,9 @@ std::string text(const char* format, Values... values) {
   return buffer.data();
 }
 
-std::string in_numbers(const StepMargin& margin) {
-  if (margin.taken == 0) return "nothing moves, so there is no step to judge";
+std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
+  if (margin.taken == 0)
+    return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
   return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3, margin.bound * 1e3);
 }
 
@@ -52,11 +53,11 @@ void draw_integrator(Widgets& w, Session& session) {
   IntegratorChoice choice{std::string(world.integrator().key), world.substeps()};
   const int proposed = std::max(session.stability().margin().needed, world.profile().substeps);
   if (draw_integrator_choice(w, "", choice, proposed)) session.set_integrator(choice.key, choice.substeps);
-  if (!world.integrator().automatic) return;
   const softbody::Dynamics& dynamics = world.dynamics();
   const bool chosen = !dynamics.used_integrator().automatic;  // not before the first step
-  w.figure("At work", chosen ? std::string(dynamics.used_integrator().name) : "from the next step on",
-           std::string("Because ").append(dynamics.why_integrator()).append(".").c_str());
+  const std::string why = world.integrator().automatic ? "Because " + std::string(dynamics.why_integrator()) + "."
+                                                       : "The one that was chosen.";
+  w.figure("At work", chosen ? std::string(dynamics.used_integrator().name) : "from the next step on", why.c_str());
 }
 
 struct Curve {
@@ -93,8 +94,10 @@ Light light_of(const StepMargin& margin) {
 void draw_step_light(Widgets& w, Session& session) {
   const StepMargin& margin = session.stability().margin();
   const Light light = light_of(margin);
+  ImGui::BeginGroup();
   w.dot(light.colour);
-  w.line(std::string(light.name).append(": ").append(in_numbers(margin)));
+  w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
+  ImGui::EndGroup();
   w.done("Step light", text("%s: %s Taken: %d substeps a frame; needed: %d, with a reserve of a fifth.", light.name,
                             light.sentence, margin.taken, margin.needed)
                            .c_str());

@@ -85,7 +85,7 @@ std::string counts(const SweepState& state) {
   const auto timed =
       static_cast<std::size_t>(std::ranges::count_if(rows, [](const SweepRow& row) { return !row.times.ms.empty(); }));
   std::string text = joined(grouped(checked < all ? checked : timed), " of ", grouped(all));
-  text += checked < all ? " checked" : " timed";
+  text += checked < all ? " checked" : state.progress < 1 ? " timed once" : " timed";
   if (all < rows.size()) text += joined(", ", grouped(rows.size() - all), " not run");
   return text;
 }

@@ -69,7 +69,8 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
 void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions& positions) {
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
-  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f};
+  // Where the two worlds hardly differ, neither surface may show through the other in patches.
+  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .recess = 0.05f};
   for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
   frame_.translucent.push_back(std::move(set));
 }
@@ -173,6 +174,7 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   const Bounds around = bounds(scene);
   engine::Camera camera;
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
+  if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));
   const softbody::View& view = scene.view;
   camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * step_back(size)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});

@@ -152,6 +152,7 @@ void Bodies::draw_translucent() {
   program_.use();
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   for (const auto& [set, batches] : translucent_) {
+    program_.set("recess", set->recess);
     if (set->hides) {  // depths first, so that only the nearest is seen
       glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
       draw_batches(batches, false);
@@ -167,6 +168,7 @@ void Bodies::draw_translucent() {
     glDisable(GL_BLEND);
   }
   program_.set("opacity", 1.0f);
+  program_.set("recess", 0.0f);
 }
 
 void Bodies::draw_batches(const Batches& batches, bool coarse) {

@@ -79,6 +79,23 @@ TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
   EXPECT_NE(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
 }
 
+/// Two surfaces that all but coincide would show through each other in patches.
+TEST_F(SceneViewTest, AGhostThatHardlyDiffersIsBehind) {
+  OverlayRequest request;
+  const auto plain = picture(request);
+  Positions nearly;
+  nearly.copy(session_.world().positions());
+  for (std::size_t i = 0; i < nearly.x.size(); ++i) nearly.x[i] += i % 2 ? 0.003f : -0.003f;
+  request.ghost = &session_.world();
+  request.ghost_positions = {session_.world().positions(), nearly.x, nearly.y, nearly.z, 0.0f};
+  const auto with_ghost = picture(request);
+  std::size_t differ = 0;
+  for (std::size_t i = 0; i < plain.size(); i += 4) differ += !std::equal(&plain[i], &plain[i] + 3, &with_ghost[i]);
+  EXPECT_LT(differ, plain.size() / 4 / 100) << "but for outlines";
+  for (float& x : nearly.x) x += 0.5f;
+  EXPECT_NE(picture(request), with_ghost);
+}
+
 TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {
   const auto file = std::filesystem::path(testing::TempDir()) / "sbcollide_capture_test.png";
   Capture capture(321, 123);

@@ -136,6 +136,22 @@ TEST(Session, RefusesSettingsWithAProblem) {
   EXPECT_TRUE(session.notice().empty());
 }
 
+TEST(Session, ANoticeGoesWithTimeAndWhenItIsHeeded) {
+  Session session = make_session();
+  session.paused = true;
+  session.remove_selected();
+  ASSERT_FALSE(session.notice().empty()) << "nothing is selected";
+  session.select_body(0);
+  EXPECT_TRUE(session.notice().empty());
+  session.select_body({});
+  session.remove_selected();
+  for (int i = 0; i < 30; ++i) session.advance(0.5);
+  EXPECT_FALSE(session.notice().empty());
+  session.remove_selected();  // the same words again
+  for (int i = 0; i < 15; ++i) session.advance(0.5);
+  EXPECT_TRUE(session.notice().empty());
+}
+
 TEST(Session, ShowsNewContactsWhilePausedAfterAChange) {
   Session session = make_session();
   session.paused = true;

@@ -216,6 +216,37 @@ TEST(Session, GoesBackAndOnFromThereToTheBit) {
   EXPECT_EQ(session.world().state_hash(), there);
 }
 
+TEST(Session, ShowsWhatIsSoWhereItWentBackTo) {
+  Session session(touching_pair(), {}, 1);
+  run(session, 63);
+  session.rewind_to(30);
+  const softbody::Measures now = softbody::measure(session.world());
+  const StabilityHistory& shown = session.stability().history();
+  EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
+  EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
+  EXPECT_FLOAT_EQ(shown.speed.latest(), float(now.max_speed));
+  for (const Ring* ring : {&shown.total, &session.history().contacts}) {
+    ASSERT_GT(ring->size(), 0u);
+    EXPECT_LE(ring->frame(ring->size() - 1), 30);
+  }
+  EXPECT_EQ(session.stability().margin().taken, 0);
+  EXPECT_FALSE(session.world().all_at_rest()) << "so the light may not say that nothing moves";
+}
+
+TEST(Ring, ForgetsFromAFrameOn) {
+  Ring ring;
+  for (int frame = 0; frame < 300; ++frame) ring.push(frame, static_cast<float>(frame));
+  ring.forget_from(250);
+  EXPECT_EQ(ring.latest(), 249);
+  EXPECT_EQ(ring.largest(), 249);
+  EXPECT_EQ(ring.smallest(), 120);
+  ring.push(250, -1);
+  EXPECT_EQ(ring.smallest(), -1);
+  EXPECT_EQ(ring.size(), 131u);
+  ring.forget_from(0);
+  EXPECT_EQ(ring.size(), 0u);
+}
+
 TEST(Session, GoesBackWithTheSettingsInUse) {
   Session session(touching_pair(), {}, 1);
   run(session, 20);

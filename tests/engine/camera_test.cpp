@@ -55,6 +55,22 @@ TEST(Camera, RotatingStopsBelowThePoles) {
   EXPECT_EQ(camera.orbit().elevation, -Camera::max_elevation);
 }
 
+TEST(Camera, StaysAboveAFloor) {
+  Camera camera;
+  camera.fit({0, 1, 0}, 3, size);
+  camera.set_floor(0.0f);
+  for (const float distance : {0.5f, 4.0f, 30.0f}) {
+    camera.set_orbit({{0, 1, 0}, distance, 0, 0.5f});
+    camera.rotate({0, -3000}, size);
+    camera.settle();
+    EXPECT_GT(camera.eye().y, 0.0f) << distance;
+  }
+  camera.set_floor({});
+  camera.rotate({0, -3000}, size);
+  camera.settle();
+  EXPECT_LT(camera.eye().y, 0.0f);
+}
+
 TEST(Camera, DraggingRightTurnsTheSceneRight) {
   Camera camera = looking_at_scene();
   const glm::vec3 front = camera.orbit().target + 0.3f * (camera.eye() - camera.orbit().target);
