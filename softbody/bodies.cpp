@@ -86,7 +86,9 @@ BodyId Dynamics::add(std::shared_ptr<const Prototype> prototype, const glm::dvec
                      const glm::dvec3& velocity) {
   Batch& batch = batch_with_room(prototype);
   const auto id = static_cast<BodyId>(bodies_.size());
+  const std::uint32_t number = bodies_.empty() ? 0 : bodies_.back().number + 1;  // they ascend
   Body& body = bodies_.emplace_back();
+  body.number = number;
   body.batch = static_cast<Index>(&batch - batches_.data());
   body.lane = batch.used++;
   body.origin = position;

@@ -47,8 +47,9 @@ struct Batch {
 struct Body {
   Index batch;
   int lane;
-  glm::dvec3 origin;  // m; particle positions are stored relative to it, so that floats stay fine far from zero
-  int release = 0;    // held in place until this frame
+  std::uint32_t number = 0;  // stays when bodies before it are taken out and ids move up
+  glm::dvec3 origin;         // m; particle positions are stored relative to it, so that floats stay fine far from zero
+  int release = 0;           // held in place until this frame
   bool held = false;
   bool asleep = false;
   int calm_frames = 0;  // for how long it has been slow enough to sleep

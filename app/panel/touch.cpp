@@ -39,7 +39,7 @@ const char* state_of(const softbody::World& world, softbody::BodyId id) {
 
 void draw_body(Widgets& w, const softbody::World& world, softbody::BodyId id) {
   const softbody::BodyMeasures m = softbody::measure(world, id);
-  w.chip(body_colour(id), ImGui::GetTextLineHeight());
+  w.chip(body_colour(world.body(id).number), ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
   ImGui::SameLine();

@@ -27,9 +27,9 @@ std::string with_sign(std::int64_t n) {
 }
 
 /// A body, in its colour.
-TourFigure body_figure(const char* label, softbody::BodyId body) {
+TourFigure body_figure(const char* label, const softbody::World& world, softbody::BodyId body) {
   return {label, std::to_string(body), "Bodies count from 0. A selected body is taken if it touches another.",
-          body_colour(body)};
+          body_colour(world.body(body).number)};
 }
 
 std::vector<TourFigure> hash_terms(const TourView& v) {
@@ -65,7 +65,7 @@ bool can_be_written_out(const HashedCorner& corner) {
 std::vector<TourFigure> figures_of_body(const TourView& v) {
   const auto& [lo, hi] = v.f.bounds[0];
   const collide::Bodies& bodies = v.world.bodies();
-  return {body_figure("Body", v.f.body),
+  return {body_figure("Body", v.world, v.f.body),
           {"Its vertices", grouped(bodies.size(v.f.body)), "Each is looked at once, to find the box."},
           {"Minimum point", place(lo), "In metres: the least x, y and z of its vertices."},
           {"Maximum point", place(hi), "In metres: the greatest x, y and z of its vertices."},
@@ -77,7 +77,7 @@ std::vector<TourFigure> figures_of_boxes(const TourView& v) {
   const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
   const int levels = v.world.collision().levels;
-  return {body_figure("Body", v.f.body),
+  return {body_figure("Body", v.world, v.f.body),
           {"n, the level of subdivision", joined(std::to_string(levels), ": 2^n = ", grouped(1ull << levels)),
            "Set it in the panel, or by [ and ]. The paper uses 3."},
           {"Boxes with vertices", grouped(v.f.boxes.size()), "Of this body."},
@@ -125,8 +125,8 @@ std::vector<TourFigure> figures_of_bucket(const TourView& v) {
 std::vector<TourFigure> figures_of_contact(const TourView& v) {
   const float tolerance = v.world.collision().tolerance;
   const bool self = v.f.body == v.f.other;
-  std::vector<TourFigure> figures{body_figure(self ? "Within body" : "Body", v.f.body)};
-  if (!self) figures.push_back(body_figure("Nearest to it", v.f.other));
+  std::vector<TourFigure> figures{body_figure(self ? "Within body" : "Body", v.world, v.f.body)};
+  if (!self) figures.push_back(body_figure("Nearest to it", v.world, v.f.other));
   figures.push_back({"Closest vertices", v.f.closest ? metres(v.f.distance) : "-", "Their distance d."});
   figures.push_back({"Tolerance", metres(tolerance), "d below it is a contact (§2.3)."});
   if (!v.f.touching) {

@@ -26,7 +26,7 @@ void add_body_boxes(const softbody::World& world, Points positions, bool tinted,
       lo = glm::min(lo, p);
       hi = glm::max(hi, p);
     }
-    set.boxes.push_back({lo, hi, glm::vec4(body_colour(b) * 0.72f, 0.95f)});
+    set.boxes.push_back({lo, hi, glm::vec4(body_colour(world.body(b).number) * 0.72f, 0.95f)});
   }
   frame.boxes.push_back(std::move(set));
 }

@@ -49,10 +49,10 @@ glm::vec3 oklch(float lightness, float chroma, float hue) {
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 
-glm::vec3 body_colour(std::uint32_t index) {
+glm::vec3 body_colour(std::uint32_t number) {
   constexpr std::array<float, 3> lightness{0.70f, 0.58f, 0.80f};
-  const float hue = 0.07f + golden * static_cast<float>(index);
-  return oklch(lightness[index % 3], 0.145f, hue - std::floor(hue));
+  const float hue = 0.07f + golden * static_cast<float>(number);
+  return oklch(lightness[number % 3], 0.145f, hue - std::floor(hue));
 }
 
 glm::vec3 bucket_colour(std::uint32_t bucket) {

@@ -10,8 +10,8 @@ namespace app {
 /// Lightness and chroma of OKLCH with a hue in turns, brought into sRGB's gamut. Equal lightness looks equally light.
 glm::vec3 oklch(float lightness, float chroma, float hue);
 
-/// The colour of body number `index`: hues by the golden ratio in three tiers of lightness, so that dozens differ.
-glm::vec3 body_colour(std::uint32_t index);
+/// The colour of a body of this number: hues by the golden ratio in three tiers of lightness, so that dozens differ.
+glm::vec3 body_colour(std::uint32_t number);
 
 /// The colour of a bucket of the hash table: neighbours in the table look unlike.
 glm::vec3 bucket_colour(std::uint32_t bucket);

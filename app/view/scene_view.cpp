@@ -121,8 +121,10 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   positions_.clear();
   gather_positions(positions);
   frame_.meshes = gather_bodies(world, 0);
-  for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b)
-    frame_.meshes[b].colour = dimmed ? glm::mix(body_colour(b), glm::vec3(0.86f), 0.6f) : body_colour(b);
+  for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b) {
+    const glm::vec3 colour = body_colour(world.body(b).number);
+    frame_.meshes[b].colour = dimmed ? glm::mix(colour, glm::vec3(0.86f), 0.6f) : colour;
+  }
   const auto vertices = positions_.size();
   if (overlays.ghost) gather_ghost(*overlays.ghost, overlays.ghost_positions);
   frame_.positions = positions_;

@@ -119,6 +119,7 @@ TEST(Undo, BringsADeletedBodyBackToTheBit) {
   const int frame = session.world().frame();
   session.select_body(0);
   session.remove_selected();
+  EXPECT_EQ(session.world().body(0).number, 1u) << "the other one keeps its colour";
   for (int i = 0; i < 10; ++i) session.advance(tick);
   session.reset();  // undone first
   session.undo();
