@@ -16,6 +16,7 @@ constexpr float least_margin = 0.25f;  // of the tolerance
 constexpr float most_margin = 3.0f;    // of the tolerance: beyond it there are too many candidates
 constexpr std::uint8_t settled = 8;    // frames with the same move: noted down anew, it is none at all
 constexpr double most_stale = 0.3;     // of the bodies, for listing some groups anew rather than all
+constexpr std::size_t candidates_a_vertex = 8;  // at most
 
 // What things cost beside each other: about ns on a processor of 2022.
 struct Cost {
@@ -199,7 +200,11 @@ GroupSearch::Query ContactMemory::query() const {
           .tolerance = settings_.tolerance,
           .self = settings_.self_collision,
           .levels = settings_.levels,
-          .most_pairs = static_cast<std::size_t>(credit_ / Cost::listed)};
+          .most_pairs = std::min(static_cast<std::size_t>(credit_ / Cost::listed), most_candidates())};
+}
+
+std::size_t ContactMemory::most_candidates() const {
+  return std::max<std::size_t>(1u << 20, candidates_a_vertex * x_.size());
 }
 
 void ContactMemory::list_all(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
@@ -268,6 +273,7 @@ void ContactMemory::merge(const GroupSearch& search) {
       merged_.add(body, lists_.pairs_of(body), lists_.partners_of(body));
     }
   }
+  if (merged_.candidates.size() > most_candidates()) throw std::length_error("too many candidates");
   std::swap(lists_, merged_);
   credit_ -= Cost::vertex * static_cast<double>(x_.size()) + Cost::listed * static_cast<double>(listed) +
              Cost::merged * static_cast<double>(lists_.candidates.size());

@@ -14,7 +14,7 @@
 // Why it pays. Where candidates are many or bodies soon stale, a fresh search is cheaper. What each way costs is
 // counted by what it has to look at (never by a clock, so that a run can be repeated); remembering starts on credit,
 // each frame adds what a fresh search would have cost and takes what was done, and where nothing is left it pauses,
-// longer every time.
+// twice as long as the last time, until it has paid again or the settings change.
 
 #include "collide/group_search.h"
 
@@ -76,6 +76,7 @@ class ContactMemory {
   void list_stale(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
   void find_wanted(const GroupSearch& search);
   void merge(const GroupSearch& search);
+  std::size_t most_candidates() const;  // so that memory is bounded, however many contacts a fresh search lists
   void test(const Frame& frame, Workers& workers, Result& result);
   void test_group(std::size_t thread, const Frame& frame, Index body);
   bool still(Index body) const { return still_[body] >= 2; }

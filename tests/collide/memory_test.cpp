@@ -116,6 +116,16 @@ TEST_P(Memory, IsLeftWhereAFreshSearchIsCheaper) {
   EXPECT_LT(used, 30);
 }
 
+/// All vertices in one point: a fresh search is dear enough to pay for any list, but lists have to be small.
+TEST_P(Memory, HoldsNoMoreCandidatesThanItMay) {
+  State state;
+  for (int body = 0; body < 2; ++body) state.add(std::vector<glm::vec3>(800, glm::vec3(0)));
+  state.tolerance = tolerance;
+  for (int frame = 0; frame < 5; ++frame) see(state);
+  ASSERT_GT(result_.contacts.size(), std::size_t{1} << 20);
+  EXPECT_EQ(remembered_ + kept_, 0u);
+}
+
 TEST_P(Memory, IsTakenUpAgainAtOnceWithOtherSettings) {
   State state = dense_pile();
   for (int frame = 0; frame < 75; ++frame) {  // pauses of 8, 16, 32 and, by now, 64 frames
