@@ -17,6 +17,8 @@
 
 namespace softbody {
 
+class ImplicitFrames;
+
 /// A prototype's springs, faces and shape as the kernels want them, shared by all its batches of one width.
 struct KernelMesh {
   KernelMesh(const Prototype& prototype, int width);
@@ -261,8 +263,9 @@ class Dynamics {
   std::array<bool, lanes> find_planes(const Batch& batch, ImplicitWork& work, double h) const;
   std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
   void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
-  void straighten_spin(const Batch& batch, ImplicitWork& work, const ImplicitProblem& second, double h) const;
-  std::array<bool, lanes> second_order_step(const Batch& batch, ImplicitWork& work, double h) const;
+  std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                                            double h) const;
+  void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void resist(BodyId id, double seconds);
   double undue_speed(BodyId id, double out, double impulse);

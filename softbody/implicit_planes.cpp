@@ -3,6 +3,9 @@
 #include <algorithm>
 
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "softbody/rigid_motion.h"
 
 namespace softbody {
 
@@ -17,6 +20,21 @@ double missing(const ImplicitWork& work, const PlaneContact& c) {
   for (std::size_t k = 0; k < 3; ++k)
     along += (work.end_x[c.at + k * stride] - work.x[c.at + k * stride]) * c.normal[int(k)];
   return c.need - along;
+}
+
+/// The shift of a whole body, m, that its planes leave of one that is meant; aside(i): how else particle i moves.
+template <class Aside>
+glm::dvec3 stopped(const ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& meant, const Aside& aside) {
+  constexpr double push_out = 1;  // m/s, of solids
+  const double reach = glm::length(meant) + h * push_out;
+  glm::dvec3 shift = meant;
+  for (int pass = 0; pass < most_passes; ++pass)
+    for (const PlaneContact& c : work.planes)
+      if (c.at % lanes == lane)
+        shift += std::max(0.0, c.need - glm::dot(shift + aside(c.at / lanes), c.normal)) * c.normal;
+  // Planes that face each other have no place for it.
+  if (const double length = glm::length(shift); length > reach) shift *= reach / length;
+  return shift;
 }
 
 }  // namespace
@@ -62,23 +80,33 @@ bool keeps_balance(const Prototype& p, const ImplicitWork& work, std::size_t lan
          share * (glm::length(given) + h * p.material.mass * glm::length(gravity)) + 1e-6 * p.material.mass;
 }
 
-void stop_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
-  constexpr double push_out = 1;  // m/s, of solids
+void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
   const std::size_t stride = work.x.size() / 3, particles = stride / lanes;
-  glm::dvec3 shift = h * h * gravity;
-  for (std::size_t i = 0; i < particles; ++i)
-    for (std::size_t k = 0; k < 3; ++k) shift[int(k)] += h * work.v[i * lanes + lane + k * stride] / double(particles);
-  const double reach = glm::length(shift) + h * push_out;
-  for (int pass = 0; pass < most_passes; ++pass)
-    for (const PlaneContact& c : work.planes)
-      if (c.at % lanes == lane) shift += std::max(0.0, c.need - glm::dot(shift, c.normal)) * c.normal;
-  // Planes that face each other have no place for it.
-  if (const double length = glm::length(shift); length > reach) shift *= reach / length;
-  for (std::size_t k = 0; k < 3; ++k)
-    for (std::size_t at = lane + k * stride; at < (k + 1) * stride; at += lanes) {
-      work.end_x[at] = work.x[at] + shift[int(k)];
-      work.end_v[at] = shift[int(k)] / h;
+  const auto field = [&](const Lanes& f) {
+    return [&f, lane, stride](std::size_t i) {
+      const std::size_t at = i * lanes + lane;
+      return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
+    };
+  };
+  const auto x = field(work.x), v = field(work.v);
+  const RigidMotion m = rigid_motion(particles, x, v);
+  const auto move = [&](const glm::dvec3& spin) {
+    const glm::dmat3 turned = rotation(h * spin);
+    const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
+    const glm::dvec3 shift = stopped(work, lane, h, h * (m.velocity + h * gravity), aside);
+    double gain = -2 * glm::dot(gravity, shift) * double(particles);
+    for (std::size_t i = 0; i < particles; ++i) {
+      const glm::dvec3 from = x(i), to = from + aside(i) + shift;
+      const glm::dvec3 velocity = shift / h + glm::cross(spin, turned * (from - m.centre)), before = v(i);
+      gain += glm::dot(velocity, velocity) - glm::dot(before, before);
+      for (std::size_t k = 0; k < 3; ++k) {
+        work.end_x[i * lanes + lane + k * stride] = to[int(k)];
+        work.end_v[i * lanes + lane + k * stride] = velocity[int(k)];
+      }
     }
+    return gain <= 0;
+  };
+  if (!move(m.spin)) move(glm::dvec3(0.0));
   for (PlaneContact& c : work.planes)
     if (c.at % lanes == lane) c.force = glm::dvec3(0.0);
 }

@@ -17,8 +17,8 @@ void clear_planes(ImplicitWork& work, double h);
 bool keeps_balance(const Prototype& prototype, const ImplicitWork& work, std::size_t lane, double h,
                    const glm::dvec3& gravity);
 
-/// The end of a step of h whose solve is not to be trusted: the body in the lane goes on as one and stops at its
-/// planes. Its shape stays, what moves within it is lost, and so no energy comes from it.
-void stop_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
+/// The end of a step of h whose solve is not to be trusted: the body in the lane flies and spins on as one and stops at
+/// its planes; if that would give it energy, without its spin. Its shape stays, what moves within it is lost.
+void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
 
 }  // namespace softbody

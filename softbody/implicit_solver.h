@@ -2,7 +2,7 @@
 // One implicit step of up to eight bodies of one prototype, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
 // 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials") for the positions X with
 //
-//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 gravity.
+//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 a.
 //
 // Directions come from the last few gradients (L-BFGS) around the prefactored matrix of implicit_matrix.h; a step that
 // passes the minimum along its direction is shortened by the secant of the slopes, so that no energy, and no logarithm
@@ -51,10 +51,10 @@ struct LinearShield {
 struct ImplicitProblem {
   const Prototype& prototype;
   const ImplicitMatrix& matrix;
-  double h;            // s
-  const float* moves;  // lanes values
-  const Lanes *x, *v;  // at the start
-  glm::dvec3 gravity;
+  double h;                           // s
+  const float* moves;                 // lanes values
+  const Lanes *x, *v;                 // at the start
+  const Lanes* a;                     // m/s^2, what acts beside the forces
   std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
   const std::vector<LinearShield>* shields;
 };
@@ -65,9 +65,6 @@ class ImplicitSolver {
 
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
-  /// Leaves of a field what the body's stiffness resists within a step: q - (A^-1 m / h^2)^2 q, as the last solve has
-  /// A.
-  void keep_stiff(const ImplicitProblem& problem, Lanes& q);
   bool converged(int lane) const { return converged_[std::size_t(lane)]; }
   int iterations() const { return iterations_; }  // of the last solve
 
@@ -106,7 +103,7 @@ class ImplicitSolver {
   std::size_t particles_, stride_;  // stride: of a component
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
-  Lanes target_, goal_, ahead_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
+  Lanes target_, goal_, midway_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
   std::array<Lanes, history> steps_, changes_;
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;
@@ -121,7 +118,9 @@ class ImplicitSolver {
 struct ImplicitWork {
   ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels);
   ImplicitSolver solver;
-  Lanes x, v, stage_x, stage_v, end_x, end_v, missing;
+  Lanes x, v, end_x, end_v;              // in the world
+  Lanes own_x, own_v, stage_x, stage_v;  // in the lanes' frames
+  Lanes a, stage_a;
   std::vector<PlaneContact> planes;
   std::vector<LinearShield> shields;
 };

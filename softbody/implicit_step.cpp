@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/dynamics.h"
 #include "softbody/implicit_energy.h"
+#include "softbody/implicit_frames.h"
 #include "softbody/implicit_planes.h"
 #include "softbody/implicit_stages.h"
 #include "softbody/integrator_steps.h"
@@ -16,9 +18,11 @@
 namespace softbody {
 namespace {
 
-ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, const glm::dvec3& gravity,
-                           ImplicitWork& work) {
-  return {*b.prototype, matrix, h, b.moves.data(), &work.x, &work.v, gravity, &work.planes, &work.shields};
+/// Takes the start into the lanes' frames, with what acts there.
+void enter(const ImplicitFrames& frames, ImplicitWork& work) {
+  work.own_x = work.x, work.own_v = work.v;
+  frames.enter(work.own_x, work.own_v);
+  frames.accelerations(work.own_x, work.own_v, work.a);
 }
 
 }  // namespace
@@ -141,28 +145,44 @@ void Dynamics::keep_momentum(const Batch& b, ImplicitWork& work, const std::arra
   }
 }
 
-/// end_x and end_v of the two stages; which lanes have converged.
-std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, ImplicitWork& work, double h) const {
-  const double length = implicit_stage * h;
-  work.planes.clear();
-  work.shields.clear();
-  ImplicitProblem problem =
-      problem_of(b, implicit_matrix(b, length), length, has_gravity_ ? scene_.gravity : glm::dvec3(0.0), work);
+/// end_x and end_v of the two stages; which lanes have converged. Springs, gas and dampers enter by Alexander's method,
+/// what else acts in a frame by the explicit one that goes with it (Ascher, Ruuth and Spiteri 1997, "Implicit-explicit
+/// Runge-Kutta methods", (2,2,2)).
+std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                                                    double h) const {
+  const double length = implicit_stage * h, second = 1 / (2 * implicit_stage);  // the second stage's share in them
+  enter(frames, work);
+  ImplicitProblem problem{
+      *b.prototype, implicit_matrix(b, length), length, b.moves.data(), &work.own_x, &work.own_v, &work.a, &work.planes,
+      &work.shields};
   std::array<bool, lanes> converged;
-  const Lanes& first = work.solver.solve(problem);
-  for (std::size_t i = 0; i < first.size(); ++i) {
-    const double v = (first[i] - work.x[i]) / length;
-    work.stage_x[i] = work.x[i] + (1 - implicit_stage) * h * v;
-    work.stage_v[i] = work.v[i] + (1 - implicit_stage) / implicit_stage * (v - work.v[i]);
-  }
-  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
-  problem.x = &work.stage_x;
-  problem.v = &work.stage_v;
   work.end_x = work.solver.solve(problem);
-  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
-  straighten_spin(b, work, problem, h);
+  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) {
+    const double v = work.end_v[i] = (work.end_x[i] - work.own_x[i]) / length;
+    work.stage_x[i] = work.own_x[i] + (1 - implicit_stage) * h * v;
+    work.stage_v[i] = work.own_v[i] + (1 - implicit_stage) / implicit_stage * (v - work.own_v[i]);
+  }
+  frames.accelerations(work.end_x, work.end_v, work.stage_a);
+  for (std::size_t i = 0; i < work.a.size(); ++i)
+    work.stage_a[i] = work.a[i] + second / implicit_stage * (work.stage_a[i] - work.a[i]);
+  problem.x = &work.stage_x, problem.v = &work.stage_v, problem.a = &work.stage_a;
+  work.end_x = work.solver.solve(problem);
   for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
+  frames.leave(h, work.end_x, work.end_v);
   return converged;
+}
+
+/// end_x and end_v.
+void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work, double h) const {
+  enter(frames, work);
+  const ImplicitProblem problem{*b.prototype,   implicit_matrix(b, h), h,
+                                b.moves.data(), &work.own_x,           &work.own_v,
+                                &work.a,        &work.planes,          &work.shields};
+  work.end_x = work.solver.solve(problem);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.own_x[i]) / h;
+  frames.leave(h, work.end_x, work.end_v);
 }
 
 void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
@@ -175,50 +195,43 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       work.x[k * stride + i] = double(x_[k][b.base + i]);
       work.v[k * stride + i] = double(v_[k][b.base + i]);
     }
-  const std::array<bool, lanes> solid = find_planes(b, work, h);
-  std::array<bool, lanes> first_order = find_shields(b, work, h);
-  bool any_second = false, any_first = false;
+  const std::array<bool, lanes> solid = find_planes(b, work, h), shielded = find_shields(b, work, h);
+  std::array<bool, lanes> free{}, again{};  // no contact; takes a step of first order
   for (std::size_t l = 0; l < lanes; ++l) {
-    first_order[l] = first_order[l] || solid[l];
-    any_second = any_second || (!first_order[l] && b.moves[l] > 0);
+    free[l] = b.moves[l] > 0 && !solid[l] && !shielded[l];
+    again[l] = b.moves[l] > 0 && !free[l];
   }
   Lanes x = work.x, v = work.v;
-  if (any_second) {
-    const auto planes = std::move(work.planes);
-    const auto shields = std::move(work.shields);
-    const std::array<bool, lanes> converged = second_order_step(b, work, h);
-    std::array<bool, lanes> free{};
-    for (std::size_t l = 0; l < lanes; ++l) {
-      free[l] = !first_order[l];
-      first_order[l] = first_order[l] || !converged[l];
-    }
+  if (std::ranges::count(free, true) > 0) {
+    const auto planes = std::exchange(work.planes, {});
+    const auto shields = std::exchange(work.shields, {});
+    const std::array<bool, lanes> converged =
+        second_order_step(b, ImplicitFrames(work.x, work.v, free, gravity), work, h);
     keep_momentum(b, work, free, h);
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
     const std::array<bool, lanes> behind = behind_planes(work);
     for (std::size_t l = 0; l < lanes; ++l)
-      first_order[l] =
-          first_order[l] || behind[l] || (b.moves[l] > 0 && gains_energy(*b.prototype, work, l, gravity, 0));
+      if (free[l]) again[l] = !converged[l] || behind[l] || gains_energy(*b.prototype, work, l, gravity, 0);
   }
-  for (std::size_t l = 0; l < lanes; ++l) any_first = any_first || (first_order[l] && b.moves[l] > 0);
-  if (any_first) {
-    std::erase_if(work.planes, [&](const PlaneContact& c) { return !first_order[c.at % lanes]; });
-    ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, gravity, work);
-    work.end_x = work.solver.solve(problem);
-    for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.x[i]) / h;
-    std::array<bool, lanes> apart = first_order;
+  if (std::ranges::count(again, true) > 0) {
+    std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
+    std::array<bool, lanes> turning = again;
+    for (std::size_t l = 0; l < lanes; ++l) turning[l] = again[l] && free[l];
+    for (const PlaneContact& c : work.planes) turning[c.at % lanes] = false;
+    first_order_step(b, ImplicitFrames(work.x, work.v, turning, gravity), work, h);
+    std::array<bool, lanes> apart = again;
     for (const PlaneContact& c : work.planes)
       if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
     keep_momentum(b, work, apart, h);
     clear_planes(work, h);
     for (std::size_t l = 0; l < lanes; ++l)
-      if (first_order[l] && b.moves[l] > 0 &&
-          (!keeps_balance(*b.prototype, work, l, h, gravity) ||
-           gains_energy(*b.prototype, work, l, gravity, contact_work(work, l))))
-        stop_as_one(work, l, h, gravity);
+      if (again[l] && (!keeps_balance(*b.prototype, work, l, h, gravity) ||
+                       gains_energy(*b.prototype, work, l, gravity, contact_work(work, l))))
+        go_on_as_one(work, l, h, gravity);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (first_order[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
+      if (again[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
     for (const PlaneContact& c : work.planes) {
       const std::size_t l = c.at % lanes;
       const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;

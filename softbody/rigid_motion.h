@@ -21,6 +21,21 @@ struct RigidMotion {
   }
 };
 
+/// About `turn` by its length in rad. By halves, as a sine has not the same last digits on all processors: (1, half) is
+/// a quaternion of an angle that is too small by its cube over twelve.
+inline glm::dmat3 rotation(const glm::dvec3& turn) {
+  constexpr int doublings = 8;
+  const glm::dvec3 half = turn / double(2 << doublings);
+  double w = 1 / std::sqrt(1 + glm::dot(half, half));
+  glm::dvec3 u = w * half;
+  for (int i = 0; i < doublings; ++i) {
+    u *= 2 * w;
+    w = 2 * w * w - 1;
+  }
+  const glm::dmat3 cross(0, u.z, -u.y, -u.z, 0, u.x, u.y, -u.x, 0);  // u x ...
+  return glm::dmat3(1) + 2.0 * (w * cross + cross * cross);
+}
+
 /// position(i) and velocity(i) for i < count.
 template <class Position, class Velocity>
 RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity) {
