@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/implicit_solver.h"
+#include "softbody/implicit_planes.h"
 
 namespace softbody {
 namespace {
@@ -98,16 +98,18 @@ glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneCo
   return press * c.normal + (size > limit ? drag * (limit / size) : drag);
 }
 
-/// The prediction ends where the first particle meets its plane: beyond, it would start far inside the solid.
+/// The prediction stops as one where planes stop it: behind, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
-  PerLane part;
-  part.fill(1.0);
-  for (const PlaneContact& c : *p.planes) {
-    const double along = glm::dot(read(x_, c.at) - read(*p.x, c.at), c.normal);
-    if (along < c.need) part[c.at % lanes] = std::min(part[c.at % lanes], std::max(0.0, c.need / along));
+  std::array<bool, lanes> any{};
+  for (const PlaneContact& c : *p.planes) any[c.at % lanes] = true;
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!any[l]) continue;
+    glm::dvec3 meant(0.0);
+    for (std::size_t i = l; i < stride_; i += lanes) meant += moved(p, x_, i) / double(particles_);
+    const glm::dvec3 less =
+        stopped(*p.planes, l, p.h, meant, [&](std::size_t i) { return moved(p, x_, i * lanes + l) - meant; }) - meant;
+    for (std::size_t i = l; i < stride_; i += lanes) add(x_, i, less);
   }
-  for (std::size_t i = 0; i < 3 * stride_; ++i)
-    if (part[i % lanes] < 1) x_[i] = (*p.x)[i] + part[i % lanes] * (x_[i] - (*p.x)[i]);
 }
 
 /// Rounds that each leave a fraction of the error where the matrix says what the body does. Returns in which lanes they
@@ -143,7 +145,7 @@ void ImplicitSolver::lead_by_springs(const ImplicitProblem& p) {
     const bool settled = minimise(p, iterations_of_round);
     double most = 0;
     for (PlaneContact& c : *p.planes) {
-      const glm::dvec3 force = contact_force(p, c, read(x_, c.at) - read(*p.x, c.at));
+      const glm::dvec3 force = contact_force(p, c, moved(p, x_, c.at));
       most = std::max(most, glm::length(force - c.force));
       c.force = force;
     }
@@ -181,8 +183,8 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
       for (int r = 0; r < 3; ++r) rotation[c][r] = rotation_[3 * c + r][lane];
   std::vector<Active> active;
   for (PlaneContact& c : all) {
-    const glm::dvec3 moved = read(x_, c.at) - read(*p.x, c.at);
-    if (c.force != glm::dvec3(0.0) || glm::dot(moved, c.normal) < c.need) active.push_back({&c, moved, c.force});
+    const glm::dvec3 by = moved(p, x_, c.at);
+    if (c.force != glm::dvec3(0.0) || glm::dot(by, c.normal) < c.need) active.push_back({&c, by, c.force});
   }
   const std::size_t n = active.size();
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square

@@ -1,6 +1,8 @@
 #include "softbody/implicit_energy.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -25,6 +27,12 @@ double spring_energy(const Prototype& p, const LaneView& x) {
       energy += s.stiffness / 2 * longer * longer;
     }
   return energy;
+}
+
+double kinetic_energy(const Prototype& p, const LaneView& v) {
+  double square = 0;
+  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v[i], v[i]);
+  return p.particle_mass / 2 * square;
 }
 
 double volume_of(const Prototype& p, const LaneView& x) {
@@ -56,23 +64,31 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   return sum;
 }
 
-bool gains_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
-                  double contact_work) {
+double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
+                    double contact_work) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
-  if (!p.goal.empty()) return false;
+  if (!p.goal.empty()) return 0;
   const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
   const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
-  const LaneView v{work.v, lane, stride}, end_v{work.end_v, lane, stride};
-  double before = 0, after = 0, fallen = 0;
-  for (std::size_t i = 0; i < n; ++i) {
-    before += p.particle_mass / 2 * glm::dot(v[i], v[i]);
-    after += p.particle_mass / 2 * glm::dot(end_v[i], end_v[i]);
-    fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
-  }
+  double fallen = 0;
+  for (std::size_t i = 0; i < n; ++i) fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
+  const double before = kinetic_energy(p, {work.v, lane, stride}),
+               after = kinetic_energy(p, {work.end_v, lane, stride});
   const double elastic = spring_energy(p, x);
   double gain = after - before - fallen - contact_work + spring_energy(p, end_x) - elastic;
   if (p.has_gas) gain -= gas_work(p, volume_of(p, x), volume_of(p, end_x));
-  return gain > share * (before + after) + rounding * elastic;
+  return std::isfinite(gain) ? std::max(0.0, gain - share * (before + after) - rounding * elastic)
+                             : std::numeric_limits<double>::infinity();
+}
+
+bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy) {
+  constexpr double most = 0.05;  // of the energy of motion
+  const std::size_t stride = p.mesh.vertices.size() * lanes;
+  const double kinetic = kinetic_energy(p, {work.end_v, lane, stride});
+  if (!(energy <= most * kinetic)) return false;
+  const double slower = kinetic > 0 ? std::sqrt(1 - energy / kinetic) : 1;
+  for (std::size_t i = lane; i < 3 * stride; i += lanes) work.end_v[i] *= slower;
+  return true;
 }
 
 }  // namespace softbody

@@ -14,56 +14,75 @@ void write(Lanes& f, std::size_t at, const glm::dvec3& value) {
 
 }  // namespace
 
-ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which,
-                               const glm::dvec3& gravity)
-    : which_(which), gravity_(gravity) {
-  for (std::size_t l = 0; l < lanes; ++l)
-    if (which[l])
-      start_[l] = rigid_motion(
-          x.size() / (3 * lanes), [&](std::size_t i) { return read(x, i * lanes + l); },
-          [&](std::size_t i) { return read(v, i * lanes + l); });
+ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
+                               const glm::dvec3& gravity, const glm::dvec3& fall)
+    : h_(h), gravity_(gravity), fall_(fall) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!which[l]) continue;
+    frames_[l].own = true;
+    frames_[l].start = rigid_motion(
+        x.size() / (3 * lanes), [&](std::size_t i) { return read(x, i * lanes + l); },
+        [&](std::size_t i) { return read(v, i * lanes + l); });
+    frames_[l].turned = rotation(h * frames_[l].start.spin);
+  }
 }
 
-/// change(l, x, v): of one particle of a lane that has a frame of its own.
+/// change(frame, x, v, at): of one particle of a lane that has a frame of its own.
 template <class Change>
 void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
   for (std::size_t l = 0; l < lanes; ++l) {
-    if (!which_[l]) continue;
+    if (!frames_[l].own) continue;
     for (std::size_t at = l; at < x.size() / 3; at += lanes) {
       glm::dvec3 place = read(x, at), velocity = read(v, at);
-      change(l, place, velocity);
+      change(frames_[l], place, velocity, at);
       write(x, at, place);
       write(v, at, velocity);
     }
   }
 }
 
-void ImplicitFrames::enter(Lanes& x, Lanes& v) const {
-  for_each(x, v, [this](std::size_t l, glm::dvec3& place, glm::dvec3& velocity) {
-    place -= start_[l].centre;
-    velocity -= start_[l].velocity + glm::cross(start_[l].spin, place);
+void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& carried) const {
+  std::fill(carried.begin(), carried.end(), 0.0);
+  for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
+    place -= f.start.centre;
+    velocity -= f.start.velocity + glm::cross(f.start.spin, place);
+    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.start.velocity - fall_));
   });
 }
 
-void ImplicitFrames::leave(double h, Lanes& x, Lanes& v) const {
-  std::array<glm::dmat3, lanes> turned;
-  for (std::size_t l = 0; l < lanes; ++l) turned[l] = rotation(h * start_[l].spin);
-  for_each(x, v, [&](std::size_t l, glm::dvec3& place, glm::dvec3& velocity) {
-    const RigidMotion& m = start_[l];
-    velocity = m.velocity + h * gravity_ + turned[l] * (velocity + glm::cross(m.spin, place));
-    place = m.centre + h * m.velocity + h * h / 2 * gravity_ + turned[l] * place;
-  });
+void ImplicitFrames::enter(std::span<PlaneContact> planes) const {
+  for (PlaneContact& c : planes) c.normal = glm::transpose(frames_[c.at % lanes].turned) * c.normal;
+}
+
+void ImplicitFrames::enter(std::span<LinearShield> shields) const {
+  for (LinearShield& s : shields)
+    for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.as_now})
+      *v = glm::transpose(frames_[s.at % lanes].turned) * *v;
 }
 
 void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) const {
+  const std::size_t stride = a.size() / 3;
   for (std::size_t k = 0; k < 3; ++k)
-    std::fill_n(a.begin() + std::ptrdiff_t(k * a.size() / 3), a.size() / 3, gravity_[int(k)]);
+    std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
   for (std::size_t l = 0; l < lanes; ++l) {
-    const glm::dvec3 spin = start_[l].spin;
-    if (!which_[l]) continue;
-    for (std::size_t at = l; at < x.size() / 3; at += lanes)
+    const glm::dvec3 spin = frames_[l].start.spin;
+    if (!frames_[l].own) continue;
+    for (std::size_t at = l; at < stride; at += lanes)
       write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
   }
+}
+
+void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
+  std::array<glm::dvec3, lanes> middle{};
+  for_each(x, v, [&](const Frame&, glm::dvec3& place, glm::dvec3&, std::size_t at) {
+    middle[at % lanes] += place / double(x.size() / (3 * lanes));
+  });
+  for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
+    // The middle moves as what pushes the body has it, which is told in the world's directions.
+    velocity += glm::cross(f.start.spin, place - middle[at % lanes]);
+    velocity = f.start.velocity + h_ * gravity_ + f.turned * velocity;
+    place = f.start.centre + h_ * f.start.velocity + fall_ + f.turned * place;
+  });
 }
 
 }  // namespace softbody

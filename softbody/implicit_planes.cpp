@@ -11,8 +11,6 @@ namespace softbody {
 
 namespace {
 
-constexpr int most_passes = 8;  // over planes that stand in each other's way
-
 /// m, by which a particle's end is short of what its plane needs.
 double missing(const ImplicitWork& work, const PlaneContact& c) {
   const std::size_t stride = work.x.size() / 3;
@@ -20,21 +18,6 @@ double missing(const ImplicitWork& work, const PlaneContact& c) {
   for (std::size_t k = 0; k < 3; ++k)
     along += (work.end_x[c.at + k * stride] - work.x[c.at + k * stride]) * c.normal[int(k)];
   return c.need - along;
-}
-
-/// The shift of a whole body, m, that its planes leave of one that is meant; aside(i): how else particle i moves.
-template <class Aside>
-glm::dvec3 stopped(const ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& meant, const Aside& aside) {
-  constexpr double push_out = 1;  // m/s, of solids
-  const double reach = glm::length(meant) + h * push_out;
-  glm::dvec3 shift = meant;
-  for (int pass = 0; pass < most_passes; ++pass)
-    for (const PlaneContact& c : work.planes)
-      if (c.at % lanes == lane)
-        shift += std::max(0.0, c.need - glm::dot(shift + aside(c.at / lanes), c.normal)) * c.normal;
-  // Planes that face each other have no place for it.
-  if (const double length = glm::length(shift); length > reach) shift *= reach / length;
-  return shift;
 }
 
 }  // namespace
@@ -48,7 +31,7 @@ std::array<bool, lanes> behind_planes(const ImplicitWork& work) {
 void clear_planes(ImplicitWork& work, double h) {
   const std::size_t stride = work.x.size() / 3;
   bool any = true;
-  for (int pass = 0; any && pass < most_passes; ++pass) {
+  for (int pass = 0; any && pass < plane_passes; ++pass) {
     any = false;
     for (const PlaneContact& c : work.planes) {
       const double by = missing(work, c);
@@ -93,7 +76,7 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
   const auto move = [&](const glm::dvec3& spin) {
     const glm::dmat3 turned = rotation(h * spin);
     const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
-    const glm::dvec3 shift = stopped(work, lane, h, h * (m.velocity + h * gravity), aside);
+    const glm::dvec3 shift = stopped(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
     double gain = -2 * glm::dot(gravity, shift) * double(particles);
     for (std::size_t i = 0; i < particles; ++i) {
       const glm::dvec3 from = x(i), to = from + aside(i) + shift;

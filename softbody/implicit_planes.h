@@ -1,9 +1,33 @@
 #pragma once
 // What an implicit step makes of planes that its solve has missed.
 
+#include <algorithm>
+#include <span>
+
+#include <glm/geometric.hpp>
+
 #include "softbody/implicit_solver.h"
 
 namespace softbody {
+
+inline constexpr int plane_passes = 8;  // over planes that stand in each other's way
+
+/// How far a lane's body shifts as one in a step of h, in m, if its planes stop what is meant. aside(i): m, by which
+/// particle i moves besides.
+template <class Aside>
+glm::dvec3 stopped(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
+                   const Aside& aside) {
+  constexpr double push_out = 1;  // m/s, of solids
+  const double reach = glm::length(meant) + h * push_out;
+  glm::dvec3 shift = meant;
+  for (int pass = 0; pass < plane_passes; ++pass)
+    for (const PlaneContact& c : planes)
+      if (c.at % lanes == lane)
+        shift += std::max(0.0, c.need - glm::dot(shift + aside(c.at / lanes), c.normal)) * c.normal;
+  // Planes that face each other have no place for it.
+  if (const double length = glm::length(shift); length > reach) shift *= reach / length;
+  return shift;
+}
 
 /// In which lanes work.end_x is behind one of work.planes.
 std::array<bool, lanes> behind_planes(const ImplicitWork& work);

@@ -25,7 +25,7 @@ ImplicitSolver::ImplicitSolver(const Prototype& p, const ImplicitKernels& kernel
 }
 
 ImplicitWork::ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels) : solver(prototype, kernels) {
-  for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a})
+  for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a, &carried})
     lane_field->resize(3 * prototype.mesh.vertices.size() * lanes);
 }
 
@@ -115,8 +115,8 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 }
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
-  for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, read(x, c.at) - read(*p.x, c.at)));
-  for (const LinearShield& s : *p.shields) add(f, s.at, s.after(read(x, s.at) - read(*p.x, s.at)));
+  for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, moved(p, x, c.at)));
+  for (const LinearShield& s : *p.shields) add(f, s.at, s.after(moved(p, x, s.at)));
 }
 
 glm::dvec3 LinearShield::after(const glm::dvec3& moved) const {

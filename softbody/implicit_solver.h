@@ -55,6 +55,7 @@ struct ImplicitProblem {
   const float* moves;                 // lanes values
   const Lanes *x, *v;                 // at the start
   const Lanes* a;                     // m/s^2, what acts beside the forces
+  const Lanes* carried;               // m, what particles move without leaving their places here (implicit_frames.h)
   std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
   const std::vector<LinearShield>* shields;
 };
@@ -78,6 +79,10 @@ class ImplicitSolver {
   glm::dvec3 read(const Lanes& v, std::size_t at) const { return {v[at], v[at + stride_], v[at + 2 * stride_]}; }
   void add(Lanes& v, std::size_t at, const glm::dvec3& d) const {
     v[at] += d.x, v[at + stride_] += d.y, v[at + 2 * stride_] += d.z;
+  }
+  /// m, in this step.
+  glm::dvec3 moved(const ImplicitProblem& p, const Lanes& x, std::size_t at) const {
+    return read(x, at) - read(*p.x, at) + read(*p.carried, at);
   }
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
@@ -120,7 +125,7 @@ struct ImplicitWork {
   ImplicitSolver solver;
   Lanes x, v, end_x, end_v;              // in the world
   Lanes own_x, own_v, stage_x, stage_v;  // in the lanes' frames
-  Lanes a, stage_a;
+  Lanes a, stage_a, carried;
   std::vector<PlaneContact> planes;
   std::vector<LinearShield> shields;
 };

@@ -18,10 +18,15 @@
 namespace softbody {
 namespace {
 
+ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, ImplicitWork& work) {
+  return {*b.prototype, matrix,       h, b.moves.data(), &work.own_x, &work.own_v, &work.a, &work.carried,
+          &work.planes, &work.shields};
+}
+
 /// Takes the start into the lanes' frames, with what acts there.
 void enter(const ImplicitFrames& frames, ImplicitWork& work) {
   work.own_x = work.x, work.own_v = work.v;
-  frames.enter(work.own_x, work.own_v);
+  frames.enter(work.own_x, work.own_v, work.carried);
   frames.accelerations(work.own_x, work.own_v, work.a);
 }
 
@@ -152,9 +157,7 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const Implic
                                                     double h) const {
   const double length = implicit_stage * h, second = 1 / (2 * implicit_stage);  // the second stage's share in them
   enter(frames, work);
-  ImplicitProblem problem{
-      *b.prototype, implicit_matrix(b, length), length, b.moves.data(), &work.own_x, &work.own_v, &work.a, &work.planes,
-      &work.shields};
+  ImplicitProblem problem = problem_of(b, implicit_matrix(b, length), length, work);
   std::array<bool, lanes> converged;
   work.end_x = work.solver.solve(problem);
   for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
@@ -170,19 +173,25 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const Implic
   work.end_x = work.solver.solve(problem);
   for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
-  frames.leave(h, work.end_x, work.end_v);
+  frames.leave(work.end_x, work.end_v);
   return converged;
 }
 
-/// end_x and end_v.
+/// end_x and end_v, and the planes' forces.
 void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work, double h) const {
   enter(frames, work);
-  const ImplicitProblem problem{*b.prototype,   implicit_matrix(b, h), h,
-                                b.moves.data(), &work.own_x,           &work.own_v,
-                                &work.a,        &work.planes,          &work.shields};
-  work.end_x = work.solver.solve(problem);
+  const auto planes = work.planes;
+  const auto shields = work.shields;
+  frames.enter(work.planes);
+  frames.enter(work.shields);
+  work.end_x = work.solver.solve(problem_of(b, implicit_matrix(b, h), h, work));
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.own_x[i]) / h;
-  frames.leave(h, work.end_x, work.end_v);
+  frames.leave(work.end_x, work.end_v);
+  for (std::size_t i = 0; i < planes.size(); ++i) {
+    work.planes[i].normal = planes[i].normal;
+    work.planes[i].force = frames.leave(planes[i].at % lanes, work.planes[i].force);
+  }
+  work.shields = shields;
 }
 
 void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
@@ -206,29 +215,27 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
     const auto planes = std::exchange(work.planes, {});
     const auto shields = std::exchange(work.shields, {});
     const std::array<bool, lanes> converged =
-        second_order_step(b, ImplicitFrames(work.x, work.v, free, gravity), work, h);
+        second_order_step(b, ImplicitFrames(work.x, work.v, free, h, gravity, h * h / 2 * gravity), work, h);
     keep_momentum(b, work, free, h);
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
     const std::array<bool, lanes> behind = behind_planes(work);
     for (std::size_t l = 0; l < lanes; ++l)
-      if (free[l]) again[l] = !converged[l] || behind[l] || gains_energy(*b.prototype, work, l, gravity, 0);
+      if (free[l]) again[l] = !converged[l] || behind[l] || undue_energy(*b.prototype, work, l, gravity, 0) > 0;
   }
   if (std::ranges::count(again, true) > 0) {
     std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
-    std::array<bool, lanes> turning = again;
-    for (std::size_t l = 0; l < lanes; ++l) turning[l] = again[l] && free[l];
-    for (const PlaneContact& c : work.planes) turning[c.at % lanes] = false;
-    first_order_step(b, ImplicitFrames(work.x, work.v, turning, gravity), work, h);
+    first_order_step(b, ImplicitFrames(work.x, work.v, again, h, gravity, h * h * gravity), work, h);
     std::array<bool, lanes> apart = again;
     for (const PlaneContact& c : work.planes)
       if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
     keep_momentum(b, work, apart, h);
     clear_planes(work, h);
     for (std::size_t l = 0; l < lanes; ++l)
-      if (again[l] && (!keeps_balance(*b.prototype, work, l, h, gravity) ||
-                       gains_energy(*b.prototype, work, l, gravity, contact_work(work, l))))
+      if (again[l] &&
+          (!keeps_balance(*b.prototype, work, l, h, gravity) ||
+           !take_back(*b.prototype, work, l, undue_energy(*b.prototype, work, l, gravity, contact_work(work, l)))))
         go_on_as_one(work, l, h, gravity);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (again[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
