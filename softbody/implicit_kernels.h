@@ -77,9 +77,9 @@ SB_INLINE void substitute(const CholeskyFactor& f, double* x, double* z) {
 }
 
 /// Hooke's springs at x, and their dampers for the displacements x - from within the step, along the directions at
-/// `midway`: fixed, so that the damping has a potential.
+/// `from`: fixed, so that the damping has a potential.
 SB_INLINE void implicit_springs(std::span<const KernelSpring<double>> list, double inverse_h, Field<const double> x,
-                                Field<const double> from, Field<const double> midway, Field<double> f) {
+                                Field<const double> from, Field<double> f) {
   using V = Lane<double, lanes>;
   const V tiny = V{} + 1e-12;  // m
   for (const KernelSpring<double>& s : list) {
@@ -87,9 +87,8 @@ SB_INLINE void implicit_springs(std::span<const KernelSpring<double>> list, doub
     const V length = square_root(dot(dx, dx));
     Vec<V> force = (s.stiffness * (length - s.rest) / larger(length, tiny)) * dx;
     if (s.damping > 0) {
-      const Vec<V> moved = dx - (load<V>(from, s.j) - load<V>(from, s.i)),
-                   along = load<V>(midway, s.j) - load<V>(midway, s.i);
-      force = force + (s.damping * inverse_h * dot(moved, along) / larger(dot(along, along), tiny * tiny)) * along;
+      const Vec<V> along = load<V>(from, s.j) - load<V>(from, s.i);
+      force = force + (s.damping * inverse_h * dot(dx - along, along) / larger(dot(along, along), tiny * tiny)) * along;
     }
     store(f, s.i, load<V>(f, s.i) + force);
     store(f, s.j, load<V>(f, s.j) - force);

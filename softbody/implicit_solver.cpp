@@ -7,7 +7,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/rigid_motion.h"
 #include "softbody/shape_matching.h"
 
 namespace softbody {
@@ -18,7 +17,7 @@ ImplicitSolver::ImplicitSolver(const Prototype& p, const ImplicitKernels& kernel
     for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
   if (p.has_gas)
     for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
-  for (Lanes* v : {&target_, &goal_, &midway_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &room_})
+  for (Lanes* v : {&target_, &goal_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &room_})
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * stride_);
@@ -39,28 +38,11 @@ void ImplicitSolver::add_scaled(const PerLane& times, const Lanes& a, Lanes& y) 
   kernels_.add_scaled(3 * particles_, times.data(), a.data(), y.data());
 }
 
-/// Where a rigid motion would lead: what is stiff ends there but for little, and what is soft is there after one step.
+/// Where the frame leads: what is stiff ends there but for little, and what is soft is there after one step.
 void ImplicitSolver::predict(const ImplicitProblem& p) {
-  const double h = p.h;
-  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = (*p.x)[i] + h * (*p.v)[i] + h * h * (*p.a)[i];
+  for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = (*p.x)[i] + p.h * (*p.v)[i] + p.h * p.h * (*p.a)[i];
   x_ = *p.x;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    if (p.moves[l] <= 0) continue;
-    const RigidMotion m = rigid_motion(
-        particles_, [&](std::size_t i) { return read(*p.x, i * lanes + l); },
-        [&](std::size_t i) { return read(*p.v, i * lanes + l); });
-    const glm::dvec3 half = 0.5 * h * m.spin * std::min(1.0, 1 / std::max(1e-9, h * glm::length(m.spin)));
-    const double scale = 2 / (1 + glm::dot(half, half));  // of the quaternion (1, half)
-    glm::dvec3 shift = h * m.velocity;
-    for (std::size_t i = l; i < stride_; i += lanes) shift += h * h / double(particles_) * read(*p.a, i);
-    for (std::size_t i = l; i < stride_; i += lanes) {
-      const glm::dvec3 r = read(*p.x, i) - m.centre, once = glm::cross(half, r);
-      add(x_, i, shift + scale * (once + glm::cross(half, once)));
-    }
-  }
   stop_at_planes(p);
-  // The chord on which a pair of particles turns is at right angles to where the pair is in between.
-  for (std::size_t i = 0; i < 3 * stride_; ++i) midway_[i] = ((*p.x)[i] + x_[i]) / 2;
   reach_.fill(0);
   for (std::size_t i = 0; i < 3 * stride_; ++i) reach_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
   for (double& r : reach_) r = p.prototype.radius + std::sqrt(r / double(particles_));
@@ -96,7 +78,7 @@ void ImplicitSolver::place_goal(const ImplicitProblem& p) {
 
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(midway_), field(g));
+  kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
   if (p.prototype.has_gas) {
     alignas(64) double volume[lanes], gauge[lanes];
     kernels_.volume(faces_, field(x), volume);

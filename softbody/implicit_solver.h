@@ -108,7 +108,7 @@ class ImplicitSolver {
   std::size_t particles_, stride_;  // stride: of a component
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
-  Lanes target_, goal_, midway_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
+  Lanes target_, goal_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
   std::array<Lanes, history> steps_, changes_;
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;

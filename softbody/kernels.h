@@ -123,7 +123,7 @@ struct Kernels {
 /// For implicit steps of eight bodies, in double; see implicit_kernels.h.
 struct ImplicitKernels {
   void (*springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
-                  Field<const double> from, Field<const double> midway, Field<double> f);
+                  Field<const double> from, Field<double> f);
   void (*volume)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
   void (*pressure)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
                    Field<double> f);

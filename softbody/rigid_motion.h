@@ -29,8 +29,9 @@ inline glm::dmat3 rotation(const glm::dvec3& turn) {
   double w = 1 / std::sqrt(1 + glm::dot(half, half));
   glm::dvec3 u = w * half;
   for (int i = 0; i < doublings; ++i) {
+    const double next = 1 - 2 * glm::dot(u, u);
     u *= 2 * w;
-    w = 2 * w * w - 1;
+    w = next;
   }
   const glm::dmat3 cross(0, u.z, -u.y, -u.z, 0, u.x, u.y, -u.x, 0);  // u x ...
   return glm::dmat3(1) + 2.0 * (w * cross + cross * cross);

@@ -96,28 +96,6 @@ TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
   EXPECT_TRUE(std::isfinite(glm::determinant(a.compliance(1, 1))));
 }
 
-/// Where its particles go on chords of their circles, their velocities still have to be tangents.
-TEST(Implicit, AStiffBodySpinsAsOnePiece) {
-  Material m = gas_ball();
-  m.structural = {1e7, 0.1};
-  m.bend = {2.5e6, 0.1};
-  m.gas_pressure = 1.6e7;
-  World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = "implicit", .substeps = 1});
-  const glm::dvec3 spin(3, 18, -5);  // rad/s
-  std::vector<Particle> particles;
-  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i) {
-    const glm::dvec3 place = world.dynamics().particle(0, i).position;
-    particles.push_back({place, glm::cross(spin, place)});
-  }
-  world.set_particles(0, particles);
-  run(world, 120);
-  const Motion whole = motion(world, 0);
-  for (Index i = 0; i < particles.size(); ++i) {
-    const Particle q = world.dynamics().particle(0, i);
-    EXPECT_NEAR(glm::dot(q.velocity, glm::normalize(q.position - whole.centre)), 0, 0.01) << "m/s outwards, of 9";
-  }
-}
-
 TEST(Implicit, StandsAnyStiffnessAtSixtyFramesASecond) {
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
     World world(ball_above_ground(stiffness, 0.8), {.integrator = "implicit", .substeps = 1});
