@@ -129,7 +129,7 @@ class Demo {
       else
         session_.advance(elapsed);
     };
-    if (session_.world().profile().total_ms < long_step_ms) return advance();
+    if (session_.step_ms() < long_step_ms) return advance();
     present(scene_viewport());
     std::future<void> done = std::async(std::launch::async, advance);
     for (double last = now(); done.wait_for(std::chrono::milliseconds(10)) != std::future_status::ready;)

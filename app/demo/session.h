@@ -64,6 +64,8 @@ class Session {
   void single_step();
   /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
   double pace() const { return pace_; }
+  /// How long the last step took, the ghost's with it.
+  double step_ms() const;
 
   /// How far a picture is on the way from the positions before the last step to the present ones, 0 .. 1: below 1 only
   /// in slow motion, which would jerk otherwise.

@@ -62,12 +62,16 @@ void Session::run(double elapsed) {
   while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
-    spent_ms += world_->profile().total_ms + (ghost_ ? ghost_->world().profile().total_ms : 0);
+    spent_ms += step_ms();
     ++steps;
   }
   // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
   if (accumulator_ >= frame) accumulator_ = std::fmod(accumulator_, frame);
   follow_pace(asked, steps);
+}
+
+double Session::step_ms() const {
+  return world_->profile().total_ms + (ghost_ ? ghost_->world().profile().total_ms : 0);
 }
 
 void Session::follow_pace(double asked, int steps) {

@@ -189,16 +189,16 @@ float text_on_scene(const Widgets& w, const char* text, float y, const SceneArea
 
 }  // namespace
 
-void draw_caption(Widgets& w, const Session& session, const SceneArea& area, double seconds) {
+float draw_caption(Widgets& w, const Session& session, const SceneArea& area, double seconds) {
   const float bottom = area.max.y - w.px(14), line = ImGui::GetTextLineHeight() + w.px(14);
   float hint = bottom - line;  // the caption's place stays free: the hint does not jump
   if (!session.caption().empty())
     hint = std::min(hint, text_on_scene(w, session.caption().c_str(), bottom, area, 1.0f) - w.px(10));
   const float left = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
-  if (left <= 0) return;
-  text_on_scene(w,
-                "Drag a body to pull it, drag beside it to turn, B throws a body, G explains the method, F1 for help",
-                hint, area, left);
+  if (left <= 0) return hint;
+  return text_on_scene(
+      w, "Drag a body to pull it, drag beside it to turn, B throws a body, G explains the method, F1 for help", hint,
+      area, left);
 }
 
 }  // namespace app

@@ -40,7 +40,7 @@ bool has_legend(const Session& session);
 void draw_legend(Widgets& widgets, const Session& session, bool of_which_method);
 /// The same, if any, over the scene in the upper left corner of the area.
 void draw_legend_plate(Widgets& widgets, const Session& session, const SceneArea& area);
-/// `seconds`: how long the window has been open; the hint fades out after a while.
-void draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
+/// Returns where it begins. `seconds`: how long the window has been open; the hint fades out after a while.
+float draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
 
 }  // namespace app

@@ -1,6 +1,8 @@
 #include "app/panel/panel.h"
 
 #include <cstdio>
+#include <filesystem>
+#include <string>
 
 namespace app {
 namespace {
@@ -19,13 +21,16 @@ void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
 
 void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const softbody::Scene& scene = session.world().scene();
+  const std::filesystem::path from = session.scene_file().name();
+  const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
   w.row("Scene", w.px(62));
   const float help_width = ImGui::GetFrameHeight(), tour_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_width - 2 * gap);
-  if (w.begin_choices("Scene", scene.name.c_str(), scene.look_at.c_str())) {
+  if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
-      if (w.choice(choice.name.c_str(), choice.key == scene.key, choice.look_at.c_str())) chosen = choice.key;
+      if (w.choice(choice.name.c_str(), choice.key == session.scene_file().name(), choice.look_at.c_str()))
+        chosen = choice.key;
     }
     ImGui::EndCombo();
     if (!chosen.empty()) session.choose_scene(chosen);
