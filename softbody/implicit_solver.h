@@ -2,7 +2,10 @@
 // One implicit step of up to eight bodies of one prototype, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
 // 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials") for the positions X with
 //
-//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 a.
+//   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 a,
+//
+// in a frame that moves with the body (implicit_frames.h), where a is what is felt there: springs, gas and dampers know
+// no other place or direction than each other's.
 //
 // Directions come from the last few gradients (L-BFGS) around the prefactored matrix of implicit_matrix.h; a step that
 // passes the minimum along its direction is shortened by the secant of the slopes, so that no energy, and no logarithm

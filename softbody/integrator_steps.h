@@ -26,7 +26,8 @@ void xpbd(Dynamics& dynamics, int thread, const Substep& substep);
 
 /// Where nothing touches: the L-stable diagonally implicit Runge-Kutta method of second order with two stages
 /// (Alexander 1977), both with the same matrix. Where bodies touch or its solves do not converge: backward Euler,
-/// contacts in the solve. Linear and angular momentum are restored after each.
+/// contacts in the solve. Both in a frame that moves with the body. Linear and angular momentum are restored after each
+/// step in which no solid pushes.
 void implicit_step(Dynamics& dynamics, int thread, const Substep& substep);
 
 }  // namespace softbody
