@@ -260,7 +260,8 @@ class Dynamics {
   void resize_scratch();
   void prepare_implicit(float h);
   const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
-  std::array<bool, lanes> find_planes(const Batch& batch, ImplicitWork& work, double h) const;
+  std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                                      double h) const;
   std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
   void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,

@@ -6,6 +6,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/rigid_motion.h"
+
 namespace softbody {
 namespace {
 
@@ -48,14 +50,13 @@ double gas_work(const Prototype& p, double from, double to) {
   return (to - from) / 6 * (gauge(from) + 4 * gauge((from + to) / 2) + gauge(to));
 }
 
-}  // namespace
-
+/// J that solids and shields may have done on the body in the step that ends at work.end_x.
 double contact_work(const ImplicitWork& work, std::size_t lane) {
   const std::size_t stride = work.x.size() / 3;
   const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
-    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * std::max(0.0, c.need);
+    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
   for (const LinearShield& s : work.shields) {
     if (s.at % lanes != lane) continue;
     const glm::dvec3 moved = end_x[s.at / lanes] - x[s.at / lanes];
@@ -64,30 +65,49 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   return sum;
 }
 
+}  // namespace
+
 double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
-                    double contact_work) {
+                    bool pushed) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
   if (!p.goal.empty()) return 0;
   const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
   const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
+  const LaneView v{work.v, lane, stride}, end_v{work.end_v, lane, stride};
   double fallen = 0;
-  for (std::size_t i = 0; i < n; ++i) fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
-  const double before = kinetic_energy(p, {work.v, lane, stride}),
-               after = kinetic_energy(p, {work.end_v, lane, stride});
-  const double elastic = spring_energy(p, x);
-  double gain = after - before - fallen - contact_work + spring_energy(p, end_x) - elastic;
+  glm::dvec3 before_mean(0.0), after_mean(0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
+    before_mean += v[i] / double(n), after_mean += end_v[i] / double(n);
+  }
+  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = spring_energy(p, x);
+  double gain = after - before - fallen - contact_work(work, lane) + spring_energy(p, end_x) - elastic;
   if (p.has_gas) gain -= gas_work(p, volume_of(p, x), volume_of(p, end_x));
-  return std::isfinite(gain) ? std::max(0.0, gain - share * (before + after) - rounding * elastic)
-                             : std::numeric_limits<double>::infinity();
+  double motion = before + after;
+  if (!pushed)  // then how fast it flies has no part in it
+    motion -= p.material.mass / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));
+  if (!std::isfinite(gain)) return std::numeric_limits<double>::infinity();
+  return gain > share * motion + rounding * (elastic + before) ? gain : 0;
 }
 
-bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy) {
-  constexpr double most = 0.05;  // of the energy of motion
-  const std::size_t stride = p.mesh.vertices.size() * lanes;
-  const double kinetic = kinetic_energy(p, {work.end_v, lane, stride});
-  if (!(energy <= most * kinetic)) return false;
-  const double slower = kinetic > 0 ? std::sqrt(1 - energy / kinetic) : 1;
-  for (std::size_t i = lane; i < 3 * stride; i += lanes) work.end_v[i] *= slower;
+bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {
+  constexpr double most = 0.05;  // of the energy of what is slowed
+  const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
+  if (energy <= 0) return true;
+  const LaneView x{work.end_x, lane, stride}, v{work.end_v, lane, stride};
+  const RigidMotion whole = rigid_motion(
+      n, [&](std::size_t i) { return x[i]; }, [&](std::size_t i) { return v[i]; });
+  const auto kept = [&](std::size_t i) {
+    return pushed ? glm::dvec3(0.0) : whole.velocity + glm::cross(whole.spin, x[i] - whole.centre);
+  };
+  double slowed = 0;  // J; a rigid motion and the rest of a motion have no part in each other's energy
+  for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v[i] - kept(i), v[i] - kept(i));
+  if (!std::isfinite(energy) || !(energy <= most * slowed)) return false;
+  const double part = std::sqrt(1 - energy / slowed);
+  for (std::size_t i = 0; i < n; ++i) {
+    const glm::dvec3 slower = kept(i) + part * (v[i] - kept(i));
+    for (std::size_t k = 0; k < 3; ++k) work.end_v[i * lanes + lane + k * stride] = slower[int(k)];
+  }
   return true;
 }
 

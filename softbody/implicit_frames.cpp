@@ -12,19 +12,57 @@ void write(Lanes& f, std::size_t at, const glm::dvec3& value) {
   for (std::size_t k = 0; k < 3; ++k) f[at + k * stride] = value[int(k)];
 }
 
+/// Near m.spin, but little about an axis to which all particles are so near that what swings there looks like a spin:
+/// any frame serves, if it does not jump about.
+glm::dvec3 steady_spin(const RigidMotion& m) {
+  constexpr double least = 0.01;  // of the moments' sum
+  const double floor = least * (m.inertia[0][0] + m.inertia[1][1] + m.inertia[2][2]);
+  if (!(floor > 0)) return glm::dvec3(0.0);
+  return glm::inverse(m.inertia * m.inertia + glm::dmat3(floor * floor)) * (m.inertia * m.momentum);
+}
+
 }  // namespace
 
 ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
-                               const glm::dvec3& gravity, const glm::dvec3& fall)
-    : h_(h), gravity_(gravity), fall_(fall) {
+                               const glm::dvec3& gravity)
+    : h_(h), gravity_(gravity), fall_(h * h * gravity) {
   for (std::size_t l = 0; l < lanes; ++l) {
     if (!which[l]) continue;
-    frames_[l].own = true;
-    frames_[l].start = rigid_motion(
+    const RigidMotion m = rigid_motion(
         x.size() / (3 * lanes), [&](std::size_t i) { return read(x, i * lanes + l); },
         [&](std::size_t i) { return read(v, i * lanes + l); });
-    frames_[l].turned = rotation(h * frames_[l].start.spin);
+    const glm::dvec3 spin = steady_spin(m);
+    frames_[l] = {true, m.centre, m.velocity, spin, rotation(h * spin)};
   }
+}
+
+ImplicitFrames ImplicitFrames::some(const std::array<bool, lanes>& which, const glm::dvec3& fall) const {
+  ImplicitFrames result = *this;
+  result.fall_ = fall;
+  for (std::size_t l = 0; l < lanes; ++l)
+    if (!which[l]) result.frames_[l] = {};
+  return result;
+}
+
+std::array<float, lanes> ImplicitFrames::moves() const {
+  std::array<float, lanes> moves{};
+  for (std::size_t l = 0; l < lanes; ++l) moves[l] = frames_[l].own ? 1.0f : 0.0f;
+  return moves;
+}
+
+glm::dvec3 ImplicitFrames::velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
+  return v - glm::cross(frames_[lane].spin, x - frames_[lane].centre);
+}
+
+glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
+  const Frame& f = frames_[lane];
+  return f.turned * (x - f.centre) - (x - f.centre);
+}
+
+glm::dvec3 ImplicitFrames::way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
+  const Frame& f = frames_[lane];
+  const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.velocity;
+  return h_ * f.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
 }
 
 /// change(frame, x, v, at): of one particle of a lane that has a frame of its own.
@@ -44,20 +82,16 @@ void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
 void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& carried) const {
   std::fill(carried.begin(), carried.end(), 0.0);
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
-    place -= f.start.centre;
-    velocity -= f.start.velocity + glm::cross(f.start.spin, place);
-    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.start.velocity - fall_));
+    place -= f.centre;
+    velocity -= f.velocity + glm::cross(f.spin, place);
+    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.velocity - fall_));
   });
 }
 
-void ImplicitFrames::enter(std::span<PlaneContact> planes) const {
-  for (PlaneContact& c : planes) c.normal = glm::transpose(frames_[c.at % lanes].turned) * c.normal;
-}
-
-void ImplicitFrames::enter(std::span<LinearShield> shields) const {
-  for (LinearShield& s : shields)
-    for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.as_now})
-      *v = glm::transpose(frames_[s.at % lanes].turned) * *v;
+LinearShield ImplicitFrames::enter(const LinearShield& shield) const {
+  LinearShield s = shield;
+  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.as_now}) *v = enter(s.at % lanes, *v);
+  return s;
 }
 
 void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) const {
@@ -65,7 +99,7 @@ void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) con
   for (std::size_t k = 0; k < 3; ++k)
     std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
   for (std::size_t l = 0; l < lanes; ++l) {
-    const glm::dvec3 spin = frames_[l].start.spin;
+    const glm::dvec3 spin = frames_[l].spin;
     if (!frames_[l].own) continue;
     for (std::size_t at = l; at < stride; at += lanes)
       write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
@@ -79,9 +113,9 @@ void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
   });
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     // The middle moves as what pushes the body has it, which is told in the world's directions.
-    velocity += glm::cross(f.start.spin, place - middle[at % lanes]);
-    velocity = f.start.velocity + h_ * gravity_ + f.turned * velocity;
-    place = f.start.centre + h_ * f.start.velocity + fall_ + f.turned * place;
+    velocity += glm::cross(f.spin, place - middle[at % lanes]);
+    velocity = f.velocity + h_ * gravity_ + f.turned * velocity;
+    place = f.centre + h_ * f.velocity + fall_ + f.turned * place;
   });
 }
 

@@ -12,25 +12,36 @@ namespace softbody {
 class ImplicitFrames {
  public:
   /// Of a step of h from x, v (m and m/s, in the world), for the lanes `which`; in the others the frame is the world's.
-  /// fall: m, of the origins.
+  /// The origins fall by h^2 gravity, as in a step of first order.
   ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
-                 const glm::dvec3& gravity, const glm::dvec3& fall);
+                 const glm::dvec3& gravity);
+  /// Those of some of its lanes, of which the origins fall by so many m.
+  ImplicitFrames some(const std::array<bool, lanes>& which, const glm::dvec3& fall) const;
+  /// 1 for lanes that have a frame of their own, else 0.
+  std::array<float, lanes> moves() const;
 
   /// Takes positions and velocities of the start into the frames. carried: m, how far the frame takes a particle along.
   void enter(Lanes& x, Lanes& v, Lanes& carried) const;
-  void enter(std::span<PlaneContact> planes) const;
-  void enter(std::span<LinearShield> shields) const;
+  /// Turns what is told in the world's directions, and back.
+  glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(frames_[lane].turned) * v; }
+  glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return frames_[lane].turned * v; }
+  LinearShield enter(const LinearShield& shield) const;
   /// m/s^2, what each particle feels there.
   void accelerations(const Lanes& x, const Lanes& v, Lanes& a) const;
   /// Takes positions and velocities of the end back into the world.
   void leave(Lanes& x, Lanes& v) const;
-  glm::dvec3 leave(std::size_t lane, const glm::dvec3& force) const { return frames_[lane].turned * force; }
+
+  // Of a particle at x, v of the start, in the world: velocity without that of the frame's turning; how far it goes in
+  // the step if nothing acts on it, and what of that is the turning's.
+  glm::dvec3 velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
+  glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
+  glm::dvec3 way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
 
  private:
   struct Frame {
     bool own = false;
-    RigidMotion start;
-    glm::dmat3 turned{1.0};  // by the end
+    glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0};  // at the start
+    glm::dmat3 turned{1.0};                            // by the end
   };
   template <class Change>
   void for_each(Lanes& x, Lanes& v, const Change& change) const;

@@ -77,17 +77,18 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
     const glm::dmat3 turned = rotation(h * spin);
     const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
     const glm::dvec3 shift = stopped(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
-    double gain = -2 * glm::dot(gravity, shift) * double(particles);
+    double gain = -2 * glm::dot(gravity, shift) * double(particles), all = 0;
     for (std::size_t i = 0; i < particles; ++i) {
       const glm::dvec3 from = x(i), to = from + aside(i) + shift;
       const glm::dvec3 velocity = shift / h + glm::cross(spin, turned * (from - m.centre)), before = v(i);
       gain += glm::dot(velocity, velocity) - glm::dot(before, before);
+      all += glm::dot(before, before);
       for (std::size_t k = 0; k < 3; ++k) {
         work.end_x[i * lanes + lane + k * stride] = to[int(k)];
         work.end_v[i * lanes + lane + k * stride] = velocity[int(k)];
       }
     }
-    return gain <= 0;
+    return gain <= 1e-9 * all;
   };
   if (!move(m.spin)) move(glm::dvec3(0.0));
   for (PlaneContact& c : work.planes)

@@ -20,10 +20,17 @@ glm::dvec3 stopped(std::span<const PlaneContact> planes, std::size_t lane, doubl
   constexpr double push_out = 1;  // m/s, of solids
   const double reach = glm::length(meant) + h * push_out;
   glm::dvec3 shift = meant;
-  for (int pass = 0; pass < plane_passes; ++pass)
-    for (const PlaneContact& c : planes)
-      if (c.at % lanes == lane)
-        shift += std::max(0.0, c.need - glm::dot(shift + aside(c.at / lanes), c.normal)) * c.normal;
+  bool stands = false;
+  for (int pass = 0; !stands && pass < plane_passes; ++pass) {
+    stands = true;
+    for (const PlaneContact& c : planes) {
+      if (c.at % lanes != lane) continue;
+      const double more = c.need - glm::dot(shift + aside(c.at / lanes), c.normal);
+      if (!(more > 0)) continue;
+      shift += more * c.normal;
+      stands = false;
+    }
+  }
   // Planes that face each other have no place for it.
   if (const double length = glm::length(shift); length > reach) shift *= reach / length;
   return shift;

@@ -34,6 +34,7 @@ struct PlaneContact {
   double friction, restitution;
   glm::dvec3 normal;      // unit
   double need;            // m, that the particle has to move along the normal in this step
+  double out;             // m, what of that takes it out of the solid
   glm::dvec3 force{0.0};  // N
 };
 
@@ -129,6 +130,7 @@ struct ImplicitWork {
   Lanes x, v, end_x, end_v;              // in the world
   Lanes own_x, own_v, stage_x, stage_v;  // in the lanes' frames
   Lanes a, stage_a, carried;
+  std::array<float, lanes> moves{};
   std::vector<PlaneContact> planes;
   std::vector<LinearShield> shields;
 };

@@ -19,12 +19,13 @@ namespace softbody {
 namespace {
 
 ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, ImplicitWork& work) {
-  return {*b.prototype, matrix,       h, b.moves.data(), &work.own_x, &work.own_v, &work.a, &work.carried,
+  return {*b.prototype, matrix,       h, work.moves.data(), &work.own_x, &work.own_v, &work.a, &work.carried,
           &work.planes, &work.shields};
 }
 
-/// Takes the start into the lanes' frames, with what acts there.
+/// Takes the start into the lanes' frames, with what acts there; only these lanes are solved for.
 void enter(const ImplicitFrames& frames, ImplicitWork& work) {
+  work.moves = frames.moves();
   work.own_x = work.x, work.own_v = work.v;
   frames.enter(work.own_x, work.own_v, work.carried);
   frames.accelerations(work.own_x, work.own_v, work.a);
@@ -67,27 +68,31 @@ const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const 
 }
 
 /// The planes of near solids before each particle; which lanes meet one by what moves them at the start.
-std::array<bool, lanes> Dynamics::find_planes(const Batch& b, ImplicitWork& work, double h) const {
+std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                                              double h) const {
   std::array<bool, lanes> touches{};
   const std::size_t n = b.particles() * lanes;
-  const glm::dvec3 fall = has_gravity_ ? h * scene_.gravity : glm::dvec3(0.0);
   work.planes.clear();
   for (std::size_t lane = 0; lane < lanes; ++lane) {
     if (b.moves[lane] <= 0) continue;
     for (const SolidArguments& s : b.near_solids)
       for (std::size_t at = lane; at < n; at += lanes) {
         const auto read = [&](const Lanes& field) { return glm::dvec3(field[at], field[at + n], field[at + 2 * n]); };
-        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]), v = read(work.v);
-        const auto surface = std::visit(
-            [&](const auto& shape) { return body::surface_at(shape, as_vec<double>(read(work.x) - place)); }, s.shape);
+        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]), x = read(work.x), v = read(work.v);
+        const auto surface =
+            std::visit([&](const auto& shape) { return body::surface_at(shape, as_vec<double>(x - place)); }, s.shape);
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         // As the velocities' contact has it: outside, not below the surface; inside, a tenth of the way out.
-        double need = surface.distance > 0 ? -surface.distance : std::min(-0.1 * surface.distance, h);
-        const bool meets = h * glm::dot(v + fall, normal) < need;
-        if (const double approach = -glm::dot(v, normal); meets && s.restitution > 0 && approach > double(impact_speed))
-          need = std::max(need, h * double(s.restitution) * approach);
+        const double out = surface.distance > 0 ? -surface.distance : std::min(-0.1 * surface.distance, h);
+        const bool meets = glm::dot(frames.way(lane, x, v), normal) < out;
         touches[lane] = touches[lane] || meets;
-        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need});
+        double need = out;
+        // It is thrown back by what brings it there but for the spin, which takes it on, along its circle.
+        const double approach = -glm::dot(frames.velocity_without_spin(lane, x, v), normal);
+        if (meets && s.restitution > 0 && approach > double(impact_speed))
+          need = std::max(need,
+                          std::min(0.0, glm::dot(frames.turn(lane, x), normal)) + h * double(s.restitution) * approach);
+        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need, std::max(0.0, out)});
       }
   }
   return touches;
@@ -180,18 +185,17 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const Implic
 /// end_x and end_v, and the planes' forces.
 void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work, double h) const {
   enter(frames, work);
-  const auto planes = work.planes;
-  const auto shields = work.shields;
-  frames.enter(work.planes);
-  frames.enter(work.shields);
-  work.end_x = work.solver.solve(problem_of(b, implicit_matrix(b, h), h, work));
+  std::vector<PlaneContact> planes = work.planes;
+  std::vector<LinearShield> shields = work.shields;
+  for (PlaneContact& c : planes) c.normal = frames.enter(c.at % lanes, c.normal);
+  for (LinearShield& s : shields) s = frames.enter(s);
+  ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, work);
+  problem.planes = &planes, problem.shields = &shields;
+  work.end_x = work.solver.solve(problem);
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.own_x[i]) / h;
   frames.leave(work.end_x, work.end_v);
-  for (std::size_t i = 0; i < planes.size(); ++i) {
-    work.planes[i].normal = planes[i].normal;
-    work.planes[i].force = frames.leave(planes[i].at % lanes, work.planes[i].force);
-  }
-  work.shields = shields;
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    work.planes[i].force = frames.leave(planes[i].at % lanes, planes[i].force);
 }
 
 void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
@@ -204,29 +208,30 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       work.x[k * stride + i] = double(x_[k][b.base + i]);
       work.v[k * stride + i] = double(v_[k][b.base + i]);
     }
-  const std::array<bool, lanes> solid = find_planes(b, work, h), shielded = find_shields(b, work, h);
-  std::array<bool, lanes> free{}, again{};  // no contact; takes a step of first order
+  std::array<bool, lanes> moving{}, free{}, again{};  // free: no contact; again: takes a step of first order
+  for (std::size_t l = 0; l < lanes; ++l) moving[l] = b.moves[l] > 0;
+  const ImplicitFrames frames(work.x, work.v, moving, h, gravity);
+  const std::array<bool, lanes> solid = find_planes(b, frames, work, h), shielded = find_shields(b, work, h);
   for (std::size_t l = 0; l < lanes; ++l) {
-    free[l] = b.moves[l] > 0 && !solid[l] && !shielded[l];
-    again[l] = b.moves[l] > 0 && !free[l];
+    free[l] = moving[l] && !solid[l] && !shielded[l];
+    again[l] = moving[l] && !free[l];
   }
   Lanes x = work.x, v = work.v;
   if (std::ranges::count(free, true) > 0) {
     const auto planes = std::exchange(work.planes, {});
     const auto shields = std::exchange(work.shields, {});
-    const std::array<bool, lanes> converged =
-        second_order_step(b, ImplicitFrames(work.x, work.v, free, h, gravity, h * h / 2 * gravity), work, h);
+    const std::array<bool, lanes> converged = second_order_step(b, frames.some(free, h * h / 2 * gravity), work, h);
     keep_momentum(b, work, free, h);
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
     const std::array<bool, lanes> behind = behind_planes(work);
     for (std::size_t l = 0; l < lanes; ++l)
-      if (free[l]) again[l] = !converged[l] || behind[l] || undue_energy(*b.prototype, work, l, gravity, 0) > 0;
+      if (free[l]) again[l] = !converged[l] || behind[l] || undue_energy(*b.prototype, work, l, gravity, false) > 0;
   }
   if (std::ranges::count(again, true) > 0) {
     std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
-    first_order_step(b, ImplicitFrames(work.x, work.v, again, h, gravity, h * h * gravity), work, h);
+    first_order_step(b, frames.some(again, h * h * gravity), work, h);
     std::array<bool, lanes> apart = again;
     for (const PlaneContact& c : work.planes)
       if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
@@ -235,7 +240,7 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
     for (std::size_t l = 0; l < lanes; ++l)
       if (again[l] &&
           (!keeps_balance(*b.prototype, work, l, h, gravity) ||
-           !take_back(*b.prototype, work, l, undue_energy(*b.prototype, work, l, gravity, contact_work(work, l)))))
+           !take_back(*b.prototype, work, l, undue_energy(*b.prototype, work, l, gravity, !apart[l]), !apart[l])))
         go_on_as_one(work, l, h, gravity);
     for (std::size_t i = 0; i < x.size(); ++i)
       if (again[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
@@ -246,6 +251,10 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
       b.returned[l] += float(c.restitution * glm::length(impulse));
     }
   }
+  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
+  if (has_restitution_)
+    for (LaneArray<float>& component : before_)
+      std::fill_n(component.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
   Components &during = components(mean), &after = components(rest);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < stride; ++i) {
