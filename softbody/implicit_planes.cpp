@@ -1,6 +1,7 @@
 #include "softbody/implicit_planes.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -73,24 +74,28 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
   };
   const auto x = field(work.x), v = field(work.v);
   const RigidMotion m = rigid_motion(particles, x, v);
-  const auto move = [&](const glm::dvec3& spin) {
-    const glm::dmat3 turned = rotation(h * spin);
+  // With a share of its spin: how much of the energy of that is more than the body has, as a part of it.
+  const auto move = [&](double share) {
+    const glm::dmat3 turned = rotation(share * h * m.spin);
+    const glm::dvec3 spin = share * (turned * m.spin_of(glm::transpose(turned) * m.momentum));
     const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
     const glm::dvec3 shift = stopped(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
-    double gain = -2 * glm::dot(gravity, shift) * double(particles), all = 0;
+    double gain = -2 * glm::dot(gravity, shift) * double(particles), before = 0, spinning = 0;
     for (std::size_t i = 0; i < particles; ++i) {
-      const glm::dvec3 from = x(i), to = from + aside(i) + shift;
-      const glm::dvec3 velocity = shift / h + glm::cross(spin, turned * (from - m.centre)), before = v(i);
-      gain += glm::dot(velocity, velocity) - glm::dot(before, before);
-      all += glm::dot(before, before);
+      const glm::dvec3 place = x(i) + aside(i) + shift, round = glm::cross(spin, turned * (x(i) - m.centre)),
+                       velocity = shift / h + round;
+      gain += glm::dot(velocity, velocity);
+      before += glm::dot(v(i), v(i));
+      spinning += glm::dot(round, round);
       for (std::size_t k = 0; k < 3; ++k) {
-        work.end_x[i * lanes + lane + k * stride] = to[int(k)];
+        work.end_x[i * lanes + lane + k * stride] = place[int(k)];
         work.end_v[i * lanes + lane + k * stride] = velocity[int(k)];
       }
     }
-    return gain <= 1e-9 * all;
+    constexpr double rounding = 1e-9;
+    return gain - before <= rounding * before ? 0 : (gain - before) / spinning;
   };
-  if (!move(m.spin)) move(glm::dvec3(0.0));
+  if (const double excess = move(1); excess > 0 && !(excess < 1 && move(std::sqrt(1 - excess)) <= 0)) move(0);
   for (PlaneContact& c : work.planes)
     if (c.at % lanes == lane) c.force = glm::dvec3(0.0);
 }
