@@ -37,6 +37,10 @@ void Widgets::done(const char* label, const char* tooltip) {
     recorder_->widgets.push_back({std::string(whole.substr(name == whole.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
                                   ImGui::GetItemRectMax(), enabled});
   }
+  explain(label, tooltip);
+}
+
+void Widgets::explain(const char* label, const char* tooltip) {
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
   if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) hover_ = {label, 0};
   hover_.seconds += ImGui::GetIO().DeltaTime;
@@ -259,9 +263,11 @@ void Widgets::line(const std::string& text) {
 void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
 
 void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
+  ImGui::BeginGroup();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine();
   value(value_text);
+  ImGui::EndGroup();
   done(label, tooltip);
 }
 
@@ -282,13 +288,27 @@ void Widgets::dot(const glm::vec3& colour) {
   ImGui::SameLine();
 }
 
+namespace {
+
+std::string range_of(const Axis& axis, const char* unit) {
+  std::array<char, 96> text{};
+  std::snprintf(text.data(), text.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
+                static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
+  return text.data();
+}
+
+}  // namespace
+
 void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
                     const glm::vec3& colour, const char* unit) {
   constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
-  ImGui::TextDisabled("%s", label);
   const float end = px(value_end);
+  ImGui::BeginGroup();
+  ImGui::TextDisabled("%s", label);
   ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
+  ImGui::EndGroup();
+  explain(label, range_of(axis, unit).c_str());
   ImGui::SameLine(end + px(12));
   sparkline(label, ring, axis, colour, unit);
 }
@@ -298,10 +318,7 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(hidden(label).c_str(), size);
-  std::array<char, 96> tip{};
-  std::snprintf(tip.data(), tip.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
-                static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
-  done(label, tip.data());
+  done(label, range_of(axis, unit).c_str());
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));

@@ -99,6 +99,8 @@ class Widgets {
 
   /// Notes the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void done(const char* label, const char* tooltip);
+  /// The tooltip alone.
+  void explain(const char* label, const char* tooltip);
   void show_tooltip(const char* text) const;
 
  private:
