@@ -1,5 +1,6 @@
-// The state that every shipped scene comes to, bit for bit: with any number of threads, any instruction set, over a
-// snapshot, and through the program. Where the simulation is meant to give other bits from now on,
+// The state that every shipped scene comes to, one of them by every integrator, bit for bit: with any number of
+// threads, any instruction set, over a snapshot, and through the program. Where the simulation is meant to give other
+// bits from now on,
 //   test_hashes --write
 // writes hashes.txt anew.
 
@@ -20,7 +21,7 @@ namespace softbody::test {
 namespace {
 
 struct Row {
-  std::string scene, surface;
+  std::string scene, surface, integrator;
   int frames = 0;
   std::string hash;  // 16 hexadecimal digits, as `simulate --json` prints them
 };
@@ -28,7 +29,7 @@ struct Row {
 std::vector<Row> read_rows() {
   std::vector<Row> rows;
   std::ifstream file(SBCOLLIDE_HASHES);
-  for (Row r; file >> r.scene >> r.surface >> r.frames >> r.hash;) rows.push_back(r);
+  for (Row r; file >> r.scene >> r.surface >> r.integrator >> r.frames >> r.hash;) rows.push_back(r);
   return rows;
 }
 
@@ -60,6 +61,7 @@ std::string hash_of(const Row& row, const Way& way) {
   Scene scene = find_scene(row.scene, SBCOLLIDE_SCENES);
   scene.contact_surface = find_contact_surface(row.surface)->value;
   World::Options options;
+  options.integrator = row.integrator;
   options.threads = way.threads;
   options.isa = way.isa;
   options.least_shared = 0;
@@ -85,13 +87,14 @@ TEST_P(Hashes, AreEqualHoweverTheSceneIsRun) {
 
 TEST_P(Hashes, AreThoseOfTheProgram) {
   const nlohmann::json document =
-      cli::test::simulate({"--scene", GetParam().scene, "--contact-surface", GetParam().surface, "--frames",
-                           std::to_string(GetParam().frames), "--threads", "2"});
+      cli::test::simulate({"--scene", GetParam().scene, "--contact-surface", GetParam().surface, "--integrator",
+                           GetParam().integrator, "--frames", std::to_string(GetParam().frames), "--threads", "2"});
   EXPECT_EQ(document["state_hash"], GetParam().hash);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, Hashes, testing::ValuesIn(read_rows()), [](const auto& one) {
-  std::string name = one.param.scene + "_" + one.param.surface + "_" + std::to_string(one.param.frames);
+  std::string name =
+      one.param.scene + "_" + one.param.surface + "_" + one.param.integrator + "_" + std::to_string(one.param.frames);
   std::replace(name.begin(), name.end(), '-', '_');
   return name;
 });
@@ -105,7 +108,8 @@ int write_rows() {
   std::vector<Row> rows = read_rows();
   for (Row& row : rows) row.hash = hash_of(row, ways().front());
   std::ofstream file(SBCOLLIDE_HASHES);
-  for (const Row& r : rows) file << r.scene << ' ' << r.surface << ' ' << r.frames << ' ' << r.hash << '\n';
+  for (const Row& r : rows)
+    file << r.scene << ' ' << r.surface << ' ' << r.integrator << ' ' << r.frames << ' ' << r.hash << '\n';
   return file ? 0 : 1;
 }
 
