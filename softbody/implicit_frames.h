@@ -7,8 +7,8 @@
 
 namespace softbody {
 
-/// During a step a frame's origin falls with the body's centre of mass, and it turns as fast as the body at the start.
-/// What is in it feels the centrifugal and the Coriolis acceleration, and of gravity nothing.
+/// During a step a frame's origin falls with the body's centre of mass, and it turns about as fast as the body at the
+/// start. What is in it feels the centrifugal and the Coriolis acceleration, and of gravity nothing.
 class ImplicitFrames {
  public:
   /// Of a step of h from x, v (m and m/s, in the world), for the lanes `which`; in the others the frame is the world's.
