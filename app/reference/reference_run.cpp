@@ -14,15 +14,6 @@ constexpr std::uint64_t bound_every = 4, look_every = 64;  // steps
 constexpr int calm_looks = 8;
 constexpr double top_of_flight = 1e-3;  // s: what gravity acts on is slow there, too, for a shorter time
 
-/// m/s: what shows that the body is not at rest. One that flies free of gravity and solids may fly on and turn.
-double restless_speed(const ReferenceBody& body, const BodyState& s) {
-  const softbody::Scene& scene = body.scene();
-  const bool free = scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
-                      return softbody::solid_depth(scene, p).depth > -body.prototype().material.thickness;
-                    });
-  return free ? internal_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
-}
-
 /// m/s, of a particle against the body's mean.
 double fastest(const BodyState& s) {
   const glm::dvec3 mean = rigid_motion(s).velocity;
@@ -37,6 +28,14 @@ double longest_step(const ReferenceBody& body, const BodyState& s) {
 }
 
 }  // namespace
+
+double restless_speed(const ReferenceBody& body, const BodyState& s) {
+  const softbody::Scene& scene = body.scene();
+  const bool free = scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
+                      return softbody::solid_depth(scene, p).depth > -body.prototype().material.thickness;
+                    });
+  return free ? internal_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
+}
 
 BodyState disturbed(BodyState s, double size) {
   std::mt19937 random(1);

@@ -15,10 +15,13 @@ struct Flight {
 struct FlightLimits {
   double seconds = 0.5;
   std::uint64_t steps = 200'000;
-  /// m/s: a body that moves more slowly for a while has settled; one that flies free of gravity and solids, that does
-  /// so in itself. 0: never.
+  /// m/s: a body whose restless_speed() is below this for a while has settled. 0: never.
   double settled_speed = 0;
 };
+
+/// m/s, RMS: what shows that the body has not come to rest. One that flies free of gravity and solids may fly on and
+/// turn; of any other all motion counts, so that one between two bounces is not at rest.
+double restless_speed(const ReferenceBody& body, const BodyState& state);
 
 /// With `fraction` of the stable step, or of that in which some particle goes a tenth of the radius if it is shorter;
 /// both are worked out anew every few steps.

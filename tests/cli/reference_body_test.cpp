@@ -157,6 +157,17 @@ TEST(Flight, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
   EXPECT_EQ(cut.steps, 100u);
 }
 
+TEST(Flight, OneBetweenTwoBouncesIsNotAtRest) {
+  BodyState falling{{{0, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, -1, 0}}};
+  Pair pair(100, 5);
+  EXPECT_LT(restless_speed(pair.body, falling), 1e-12) << "free of gravity it flies on";
+  pair.scene.gravity = {0, -9.81, 0};
+  EXPECT_DOUBLE_EQ(restless_speed({pair.prototype, pair.scene}, falling), 1);
+  pair.scene.gravity = {};
+  pair.scene.ground = softbody::Ground{};
+  EXPECT_DOUBLE_EQ(restless_speed({pair.prototype, pair.scene}, falling), 1) << "it touches the ground";
+}
+
 TEST(BodyShape, TellsShapeFromPlaceAndSpinFromDeformation) {
   BodyState s{{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {}};
   const dvec3 spin(0.3, -1, 0.5), velocity(1, 2, 3);

@@ -130,7 +130,7 @@ void find_truth(StabilityStart& start, std::uint64_t steps) {
   const auto flown = [&](const BodyState& from, double fraction, std::uint64_t most) {
     return fly(body, from, fraction, {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
   };
-  const auto settled = [](const Flight& f) { return internal_speed(f.end) <= stability_bounds.rest; };
+  const auto settled = [&](const Flight& f) { return restless_speed(body, f.end) <= stability_bounds.rest; };
   const BodyState first = state_of(world, 0);
   const Flight flight = flown(first, 0.5, steps);
   if (!flight.complete) return no("would take too many steps");
