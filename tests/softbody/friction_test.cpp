@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/solid_law.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -160,6 +161,34 @@ TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
     EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
     EXPECT_LT(glm::distance(glm::dvec3(impulse.x[l], impulse.y[l], impulse.z[l]), 0.25 * 2.0 * n), 1e-4);
   }
+}
+
+TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
+  SolidArguments s = arguments(0.25, SphereShape<float>{3});
+  std::mt19937 random(10);
+  int acted = 0;
+  for (int round = 0; round < 20'000; ++round) {
+    body::Vec<float> expected[lanes];
+    for (int l = 0; l < lanes; ++l) {
+      const auto direction = [&] {
+        return glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)));
+      };
+      const double gap = uniform(random, -1, 1) * std::pow(10, uniform(random, -7, 0.5));  // m
+      const glm::dvec3 n = direction();
+      x.set(0, l, (3 + gap) * n);
+      v.set(0, l, -gap / s.h * uniform(random, 0.9, 1.1) * n + uniform(random, 0, 1) * direction());
+      const glm::dvec3 at = x.at(0, l), speed = v.at(0, l);
+      const auto surface =
+          body::surface_at(SphereShape<float>{3}, body::Vec<float>{float(at.x), float(at.y), float(at.z)});
+      expected[l] = {float(speed.x), float(speed.y), float(speed.z)};
+      acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l]) > 0;
+    }
+    k.solid(s, std::as_const(x).field(), v.field());
+    for (int l = 0; l < lanes; ++l)
+      ASSERT_EQ(v.at(0, l), glm::dvec3(expected[l].x, expected[l].y, expected[l].z)) << "lane " << l;
+  }
+  EXPECT_GT(acted, 20'000);
+  EXPECT_LT(acted, 7 * 20'000);
 }
 
 TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {
