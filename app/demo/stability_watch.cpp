@@ -30,7 +30,8 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const double frame = world.frame_time();
   // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
   const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
-  margin_ = taken > 0 ? StepMargin{taken, needed, frame / taken, frame / needed} : StepMargin{};
+  const bool unconditional = std::isinf(world.dynamics().used_integrator().stable_step(1, 0));
+  margin_ = taken > 0 ? StepMargin{taken, needed, frame / taken, frame / needed, unconditional} : StepMargin{};
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);

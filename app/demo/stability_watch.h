@@ -19,6 +19,8 @@ struct StabilityHistory {
 struct StepMargin {
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s
+  /// The integrator is stable at any step: more are needed only to follow fast bodies near solids.
+  bool unconditional = false;
 };
 
 class StabilityWatch {

@@ -25,6 +25,7 @@ std::string text(const char* format, Values... values) {
 std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
+  if (margin.unconditional) return text("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
   return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3, margin.bound * 1e3);
 }
 
@@ -86,6 +87,8 @@ constexpr std::array<Curve, 9> curves{{
 
 Light light_of(const StepMargin& margin) {
   if (margin.taken >= margin.needed) return {light_green, "Green", "the step is within the stability bound."};
+  if (margin.unconditional)
+    return {light_amber, "Amber", "stable at any step, but bodies this fast near solids want shorter ones."};
   if (margin.taken >= 0.8 * margin.needed)
     return {light_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
   return {light_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
@@ -98,8 +101,8 @@ void draw_step_light(Widgets& w, Session& session) {
   w.dot(light.colour);
   w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
   ImGui::EndGroup();
-  w.done("Step light", text("%s: %s Taken: %d substeps a frame; needed: %d, with a reserve of a fifth.", light.name,
-                            light.sentence, margin.taken, margin.needed)
+  w.done("Step light", text("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence,
+                            margin.taken, margin.needed, margin.unconditional ? "" : ", with a reserve of a fifth")
                            .c_str());
   if (!session.stability().alarm()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));

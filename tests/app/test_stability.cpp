@@ -100,6 +100,20 @@ TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
 }
 
+TEST(StepLight, IsNeverRedForWhatIsStableAtAnyStep) {
+  EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, true}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, true}).name, "Green");
+  for (const softbody::Integrator& integrator : softbody::integrators()) {
+    softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
+    StabilityWatch watch;
+    watch.before_step(world);
+    world.step();
+    watch.after_step(world, true);
+    const std::string_view used = world.dynamics().used_integrator().key;
+    EXPECT_EQ(watch.margin().unconditional, used == "implicit" || used == "xpbd") << integrator.key;
+  }
+}
+
 TEST(StepLight, ComparesTheStepWithTheBound) {
   for (const std::optional<int> substeps : {std::optional<int>(), std::optional(1)}) {
     softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler", .substeps = substeps});
