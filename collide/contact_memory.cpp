@@ -10,21 +10,12 @@ namespace collide {
 
 namespace {
 
-constexpr int least_pause = 8, most_pause = 256;  // frames, after bodies were too fast or too many to remember
 constexpr int frames_to_last = 12;     // that candidates should, at the speed of nine tenths of the bodies, both ways
 constexpr float least_margin = 0.25f;  // of the tolerance
 constexpr float most_margin = 3.0f;    // of the tolerance: beyond it there are too many candidates
 constexpr std::uint8_t settled = 8;    // frames with the same move: noted down anew, it is none at all
 constexpr double most_stale = 0.3;     // of the bodies, for listing some groups anew rather than all
 constexpr std::size_t candidates_a_vertex = 8;  // at most
-
-// What things cost beside each other: about ns on a processor of 2022.
-struct Cost {
-  static constexpr double vertex = 3, contact = 20, test = 0.3;  // of a fresh search
-  static constexpr double move = 0.7, candidate = 1;             // of a frame that is remembered,
-  static constexpr double listed = 30, merged = 2;               // and of candidates when some are listed
-};
-constexpr double credit_frames = 16;  // of fresh searches: at the start, and the most that is put by
 
 Run run_of(const Frame& frame, Index body) {
   const Index first = frame.bodies->first[body];
@@ -41,29 +32,28 @@ bool ContactMemory::recall(const Frame& frame, const Settings& settings, GroupSe
   }
   if (state_ == State::blank || state_ == State::seen) return false;
   if (!same_bodies(frame)) {
+    account_.close();
     start_over();
     return false;
   }
   try {
-    if (credit_ > 0 && follow(frame, search, workers, result)) return true;
+    if (!account_.spent() && follow(frame, search, workers, result)) return true;
   } catch (...) {  // half done
     forget();
     throw;
   }
-  const bool too_dear = credit_ <= 0;
+  account_.pause();
   start_over();
-  if (too_dear) longest_pause_ = std::clamp(2 * longest_pause_, least_pause, most_pause);
-  pause_ = too_dear ? longest_pause_ : least_pause;
   return false;
 }
 
 /// Forgets all but how it went with these settings.
 void ContactMemory::start_over() {
   const Settings settings = settings_;
-  const int longest_pause = longest_pause_;
+  const MemoryAccount account = account_;
   forget();
   settings_ = settings;
-  longest_pause_ = longest_pause;
+  account_ = account;
 }
 
 bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result) {
@@ -72,29 +62,18 @@ bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& wor
   if (!refresh(frame, search, workers, result)) return false;
   const std::uint64_t before = result.counters.pair_tests;
   test(frame, workers, result);
-  const auto tests = static_cast<double>(result.counters.pair_tests - before);
-  credit_ += fresh_cost_ - Cost::move * static_cast<double>(frame.x.size()) - Cost::candidate * tests;
-  if (credit_ > credit_frames * fresh_cost_) {
-    credit_ = credit_frames * fresh_cost_;
-    longest_pause_ = 0;
-  }
+  account_.earn(frame.x.size(), result.counters.pair_tests - before);
   return true;
 }
 
 void ContactMemory::watch(const Frame& frame, const Result& result, Workers& workers) {
-  if (pause_ > 0) {
-    --pause_;
-    return;
-  }
+  if (account_.pauses()) return;
   if (state_ == State::blank) {
     state_ = State::seen;
     return;
   }
   age_ = 0;
-  fresh_cost_ = Cost::vertex * static_cast<double>(frame.x.size()) +
-                Cost::contact * static_cast<double>(result.contacts.size()) +
-                Cost::test * static_cast<double>(result.counters.pair_tests);
-  credit_ = credit_frames * fresh_cost_;
+  account_.open(frame.x.size(), result.contacts.size(), result.counters.pair_tests);
   first_ = frame.bodies->first;
   shape_ = frame.bodies->shape;
   for (auto* coordinate : {&x_, &y_, &z_}) coordinate->resize(frame.x.size());
@@ -164,7 +143,7 @@ bool ContactMemory::refresh(const Frame& frame, GroupSearch& search, Workers& wo
     list_all(frame, search, workers, result);
     return true;
   } catch (const std::length_error&) {  // too many candidates; there may be few contacts
-    credit_ = 0;
+    account_.spend_all();
     return false;
   }
 }
@@ -200,7 +179,7 @@ GroupSearch::Query ContactMemory::query() const {
           .tolerance = settings_.tolerance,
           .self = settings_.self_collision,
           .levels = settings_.levels,
-          .most_pairs = std::min(static_cast<std::size_t>(credit_ / Cost::listed), most_candidates())};
+          .most_pairs = std::min(account_.most_candidates(), most_candidates())};
 }
 
 std::size_t ContactMemory::most_candidates() const {
@@ -214,7 +193,7 @@ void ContactMemory::list_all(const Frame& frame, GroupSearch& search, Workers& w
   result.self_contacts = 0;  // those were of candidates
   lists_.clear(shape_.size());
   for (const Index body : search.live()) lists_.add(body, search.group(body), search.partners(body));
-  credit_ -= fresh_cost_ + Cost::listed * static_cast<double>(lists_.candidates.size());
+  account_.pay_for_all(lists_.candidates.size());
   note_all(frame, workers);
   std::fill(move_.begin(), move_.end(), 0.0f);
   std::fill(still_.begin(), still_.end(), std::uint8_t{0});
@@ -275,8 +254,7 @@ void ContactMemory::merge(const GroupSearch& search) {
   }
   if (merged_.candidates.size() > most_candidates()) throw std::length_error("too many candidates");
   std::swap(lists_, merged_);
-  credit_ -= Cost::vertex * static_cast<double>(x_.size()) + Cost::listed * static_cast<double>(listed) +
-             Cost::merged * static_cast<double>(lists_.candidates.size());
+  account_.pay_for_some(x_.size(), listed, lists_.candidates.size());
 }
 
 void ContactMemory::Lists::clear(std::size_t bodies) {

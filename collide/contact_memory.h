@@ -10,13 +10,9 @@
 //   where it was noted down until now: each of the two by m / 2 at most since the listing, so again no contact.
 // A body that has moved farther is stale: it is noted down anew, and every group that it is near is listed anew. Pairs
 // of which neither body has moved at all since the last frame have the contacts that they had.
-//
-// Why it pays. Where candidates are many or bodies soon stale, a fresh search is cheaper. What each way costs is
-// counted by what it has to look at (never by a clock, so that a run can be repeated); remembering starts on credit,
-// each frame adds what a fresh search would have cost and takes what was done, and where nothing is left it pauses,
-// twice as long as the last time, until it has paid again or the settings change.
 
 #include "collide/group_search.h"
+#include "collide/memory_account.h"
 
 namespace collide {
 
@@ -84,9 +80,7 @@ class ContactMemory {
   bool follow(const Frame& frame, GroupSearch& search, Workers& workers, Result& result);
 
   State state_ = State::blank;
-  int pause_ = 0;                       // frames not to be watched
-  int longest_pause_ = 0;               // since remembering has paid
-  double fresh_cost_ = 0, credit_ = 0;  // about ns
+  MemoryAccount account_;
   Settings settings_;
   std::vector<Index> first_;
   std::vector<std::shared_ptr<const Shape>> shape_;
