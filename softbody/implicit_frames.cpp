@@ -12,15 +12,6 @@ void write(Lanes& f, std::size_t at, const glm::dvec3& value) {
   for (std::size_t k = 0; k < 3; ++k) f[at + k * stride] = value[int(k)];
 }
 
-/// Near m.spin, but little about an axis to which all particles are so near that what swings there looks like a spin:
-/// any frame serves, if it does not jump about.
-glm::dvec3 steady_spin(const RigidMotion& m) {
-  constexpr double least = 0.01;  // of the moments' sum
-  const double floor = least * (m.inertia[0][0] + m.inertia[1][1] + m.inertia[2][2]);
-  if (!(floor > 0)) return glm::dvec3(0.0);
-  return glm::inverse(m.inertia * m.inertia + glm::dmat3(floor * floor)) * (m.inertia * m.momentum);
-}
-
 }  // namespace
 
 ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
@@ -31,7 +22,7 @@ ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<
     const RigidMotion m = rigid_motion(
         x.size() / (3 * lanes), [&](std::size_t i) { return read(x, i * lanes + l); },
         [&](std::size_t i) { return read(v, i * lanes + l); });
-    const glm::dvec3 spin = steady_spin(m);
+    const glm::dvec3 spin = m.steady_spin_of(m.momentum);  // any frame serves, if it does not jump about
     frames_[l] = {true, m.centre, m.velocity, spin, rotation(h * spin)};
   }
 }
