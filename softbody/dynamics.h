@@ -264,7 +264,8 @@ class Dynamics {
   std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                       double h) const;
   std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
-  void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
+  void keep_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                     const std::array<bool, lanes>& which, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                             double h) const;
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;

@@ -10,22 +10,6 @@
 namespace softbody::test {
 namespace {
 
-Material stiff_ball(double stiffness) {
-  Material m = gas_ball();
-  m.structural = {stiffness, 0.02};
-  m.bend = {stiffness / 4, 0.02};
-  m.gas_pressure = 1.6 * stiffness;
-  m.rolling_resistance = 0;
-  return m;
-}
-
-std::vector<Particle> particles_of(const World& world, BodyId body) {
-  std::vector<Particle> all;
-  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    all.push_back(world.dynamics().particle(body, i));
-  return all;
-}
-
 struct Flight {
   std::string name, integrator;
   std::optional<int> substeps;
@@ -36,10 +20,10 @@ class StiffBodyInFreeFlight : public testing::TestWithParam<Flight> {};
 
 TEST_P(StiffBodyInFreeFlight, KeepsItsMomenta) {
   const Flight& flight = GetParam();
-  Scene scene = lone_body(stiff_ball(1e6));
+  Scene scene = lone_body(gas_ball(1e6, 0.02));
   scene.gravity = {0, -9.81, 0};
   World world(scene, {.integrator = flight.integrator, .substeps = flight.substeps});
-  std::vector<Particle> start = particles_of(world, 0);
+  std::vector<Particle> start = particles_of(world);
   for (Particle& p : start) p.velocity = glm::dvec3(1, 2, 0.5) + glm::cross(glm::dvec3(0.5, 3, 1), p.position);
   world.set_particles(0, start);
   const Motion before = motion(world, 0);
@@ -65,8 +49,8 @@ INSTANTIATE_TEST_SUITE_P(By, StiffBodyInFreeFlight,
 
 /// Explicit steps of a method that changes the angular momentum itself show it, however many they are.
 TEST(ExplicitEuler, ShowsWhatItDoesToTheSpin) {
-  World world(lone_body(stiff_ball(1e3)), {.integrator = "explicit-euler", .substeps = 512});
-  std::vector<Particle> start = particles_of(world, 0);
+  World world(lone_body(gas_ball(1e3, 0.02)), {.integrator = "explicit-euler", .substeps = 512});
+  std::vector<Particle> start = particles_of(world);
   for (Particle& p : start) p.velocity = glm::cross(glm::dvec3(0.5, 3, 1), p.position);
   world.set_particles(0, start);
   const Motion before = motion(world, 0);
@@ -79,7 +63,7 @@ constexpr double stiffness = 1e5;
 const World::Options explicit_steps{.integrator = "semi-implicit-euler", .substeps = 200};
 
 TEST(StiffBody, IsThrownBackByASolid) {
-  Scene scene = lone_body(stiff_ball(stiffness), {0, -1, 0});
+  Scene scene = lone_body(gas_ball(stiffness), {0, -1, 0});
   scene.bodies[0].position = {0, 0.6, 0};
   scene.ground = Ground{};
   World world(scene, explicit_steps);
@@ -89,7 +73,7 @@ TEST(StiffBody, IsThrownBackByASolid) {
 
 TEST(StiffBody, PassesItsMomentumOn) {
   for (const ContactSurfaceInfo& surface : contact_surfaces) {
-    Scene scene = lone_body(stiff_ball(stiffness), {2, 0, 0});
+    Scene scene = lone_body(gas_ball(stiffness), {2, 0, 0});
     scene.contact_surface = surface.value;
     add_body(scene, {1.3, 0, 0}, glm::dvec3(0.0));
     World world(scene, explicit_steps);
@@ -101,14 +85,14 @@ TEST(StiffBody, PassesItsMomentumOn) {
 }
 
 TEST(StiffBody, FollowsAHand) {
-  World world(lone_body(stiff_ball(stiffness)), explicit_steps);
+  World world(lone_body(gas_ball(stiffness)), explicit_steps);
   world.grab({.body = 0, .target = {0, 2, 0}});
   run(world, 6);
   EXPECT_GT(motion(world, 0).velocity.y, 1);
 }
 
 TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
-  Scene scene = lone_body(stiff_ball(stiffness), {1, 2, 3});
+  Scene scene = lone_body(gas_ball(stiffness), {1, 2, 3});
   for (int i = 1; i < lanes + 2; ++i) add_body(scene, {0, 0, 2 * i}, {0.1 * i, 1, 0});
   std::vector<std::uint64_t> hashes;
   for (const Isa isa : isas())
@@ -123,7 +107,7 @@ TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
 
 /// Its neighbour in the lanes meets a solid, or does not.
 TEST(StiffBody, FliesTheSameWhateverItsNeighboursTouch) {
-  Scene scene = lone_body(stiff_ball(stiffness), {1, 0, 0});
+  Scene scene = lone_body(gas_ball(stiffness), {1, 0, 0});
   scene.contact_surface = ContactSurface::surfaces;
   scene.spheres = {{.centre = {0, 5, 0}, .radius = 1}};
   add_body(scene, {0, 3.4, 0}, {0, 1, 0});
