@@ -2,13 +2,73 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
 
 #include "softbody/dynamics.h"
 #include "softbody/rigid_motion.h"
 
 namespace softbody {
+namespace {
+
+glm::dvec3 read(const DoubleLaneVector& v, std::size_t lane) { return {v.x[lane], v.y[lane], v.z[lane]}; }
+void write(DoubleLaneVector& to, std::size_t lane, const glm::dvec3& v) {
+  to.x[lane] = v.x, to.y[lane] = v.y, to.z[lane] = v.z;
+}
+
+/// Of a lane's body; its centre is seen from the first particle.
+RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) {
+  RigidMotion m;
+  m.centre = read(sums.place, lane) / count;
+  m.velocity = read(sums.velocity, lane) / count;
+  m.momentum = read(sums.momentum, lane) - count * glm::cross(m.centre, m.velocity);
+  const glm::dvec3 square = read(sums.square, lane), mixed = read(sums.mixed, lane);
+  const glm::dmat3 products(square.x, mixed.z, mixed.y, mixed.z, square.y, mixed.x, mixed.y, mixed.x, square.z);
+  const glm::dmat3 about = products - count * glm::outerProduct(m.centre, m.centre);
+  m.inertia = glm::dmat3(about[0][0] + about[1][1] + about[2][2]) - about;
+  return m;
+}
+
+}  // namespace
+
+/// Of all moving bodies, at the start of a frame.
+void Dynamics::note_momenta() {
+  momenta_.resize(moving_.size());
+  for (std::size_t i = 0; i < moving_.size(); ++i) {
+    const Batch& b = *moving_[i];
+    kernels_of(b).rigid_sums(b.particles(), at(std::as_const(x_), b), at(std::as_const(v_), b), momenta_[i]);
+  }
+}
+
+/// The forces of springs and gas add up to none, nor to a torque. But those of stiff bodies are large and cancel each
+/// other at every particle, where floats round them: over many substeps the momenta walk at random. Bodies that nothing
+/// has touched get back the ones of note_momenta(), after `seconds` of gravity; what the integrator itself does to the
+/// angular one stays.
+void Dynamics::keep_momenta(double seconds) {
+  const glm::dvec3 fall = has_gravity_ ? seconds * scene_.gravity : glm::dvec3(0.0);
+  for (std::size_t i = 0; i < momenta_.size(); ++i) {
+    Batch& b = *moving_[i];
+    const auto count = double(b.particles());
+    RigidSums now;
+    kernels_of(b).rigid_sums(b.particles(), at(std::as_const(x_), b), at(std::as_const(v_), b), now);
+    RigidChange change{};
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+      if (b.moves[l] <= 0 || (b.touched >> l & 1u)) continue;
+      const RigidMotion before = rigid_motion(momenta_[i], l, count), after = rigid_motion(now, l, count);
+      const glm::dvec3 push = before.velocity + fall - after.velocity;
+      glm::dvec3 spin(0.0);
+      if (integrator_->keeps_spin) spin = after.steady_spin_of(before.momentum - after.momentum);
+      if (!std::isfinite(glm::dot(push, push) + glm::dot(spin, spin))) continue;
+      change.acts[l] = 1;
+      write(change.push, l, push);
+      write(change.spin, l, spin);
+      write(change.about, l, after.centre);
+    }
+    kernels_of(b).add_rigid(b.particles(), change, at(std::as_const(x_), b), at(v_, b));
+  }
+}
 
 void Dynamics::finish_frame(double seconds) {
   for (BodyId id = 0; id < bodies_.size(); ++id) {

@@ -12,6 +12,7 @@ namespace softbody {
 namespace {
 
 constexpr double most_substeps = 1e6;  // a state that asks for more is lost
+constexpr int many_substeps = 64;      // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 double longest(const Extent& e) {
   return std::sqrt(double(*std::max_element(std::begin(e.length2), std::end(e.length2))));
@@ -156,6 +157,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   for (Batch& b : batches_) {
     b.impulse = {};
     b.returned = {};
+    b.touched = 0;
     if (!moves(b)) continue;
     moving_.push_back(&b);
     prepare_solids(b, seconds);
@@ -166,11 +168,17 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   std::size_t particles = 0;
   for (const Batch* b : moving_) particles += b->particles() * std::size_t(b->used);
   active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
+  momenta_.clear();
+  for (const ShieldPair& p : shield_.pairs) touch(p.body_a), touch(p.body_b);
+  if (grab_) touch(grab_->body);
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   for (double left = seconds; left > 0;) {
     const int stable = fixed ? fixed - total : needed_substeps(left);
-    if (has_surface_) find_surface_contacts(left, left / stable);
+    if (has_surface_) {
+      find_surface_contacts(left, left / stable);
+      for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
+    }
     const int rate = fixed ? stable : int(std::min(most_substeps, std::ceil(left * surface_.rate())));
     int count = std::max(stable, rate);
     if (count >= most_substeps) count = 1;  // the sooner its frame ends, the sooner it is seen
@@ -181,6 +189,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
       while (length > left * (1 + 1e-9) || left / length < count * (1 - 1e-9) || !fits()) length /= 2;
       count = int(std::lround(left / length));
     }
+    if (total == 0 && !integrator_->implicit && count >= many_substeps) note_momenta();
     const double h = left / count;
     const auto go_on = [&](int steps) {
       run(steps, static_cast<float>(h), total == 0, after_substep);
@@ -198,6 +207,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
     if (now > total - before) go_on(now - (total - before));
     left = now == count ? 0 : left - now * h;
   }
+  keep_momenta(seconds);
   return total;
 }
 

@@ -39,6 +39,7 @@ struct Batch {
   alignas(32) std::array<float, lanes> moves{};     // 1: integrated; 0: asleep, held or an empty lane
   LaneVector impulse{};                             // N s, of solids along their normals, in the last advance()
   alignas(32) std::array<float, lanes> returned{};  // N s, the part of these impulses that restitution gives back
+  unsigned touched = 0;                             // bits: lanes that may have been pushed in the last advance()
   std::vector<SolidArguments> near_solids;          // for the frame at hand ...
   std::vector<SolidFeature> solid_features;         // ... and what of the bodies may meet them between vertices
 
@@ -263,11 +264,15 @@ class Dynamics {
   std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                       double h) const;
   std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
-  void keep_momentum(const Batch& batch, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const;
+  void keep_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                     const std::array<bool, lanes>& which, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                             double h) const;
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
+  void touch(BodyId id) { batches_[bodies_[id].batch].touched |= 1u << bodies_[id].lane; }
+  void note_momenta();
+  void keep_momenta(double seconds);  // since note_momenta()
   void resist(BodyId id, double seconds);
   double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);
@@ -311,6 +316,7 @@ class Dynamics {
   std::vector<ShieldPair> pairs_before_;               // of the frame before
   std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
   std::vector<Batch*> moving_;
+  std::vector<RigidSums> momenta_;  // of moving_, at the start of the frame; empty where keep_momenta() has no part
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   std::size_t least_shared_ = 0;

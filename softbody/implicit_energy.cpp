@@ -11,21 +11,11 @@
 namespace softbody {
 namespace {
 
-/// One lane of a field.
-struct LaneView {
-  const Lanes& field;
-  std::size_t lane, stride;
-  glm::dvec3 operator[](std::size_t i) const {
-    const std::size_t at = i * lanes + lane;
-    return {field[at], field[at + stride], field[at + 2 * stride]};
-  }
-};
-
 double spring_energy(const Prototype& p, const LaneView& x) {
   double energy = 0;
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) {
-      const double longer = glm::distance(x[s.i], x[s.j]) - s.rest;
+      const double longer = glm::distance(x(s.i), x(s.j)) - s.rest;
       energy += s.stiffness / 2 * longer * longer;
     }
   return energy;
@@ -33,14 +23,14 @@ double spring_energy(const Prototype& p, const LaneView& x) {
 
 double kinetic_energy(const Prototype& p, const LaneView& v) {
   double square = 0;
-  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v[i], v[i]);
+  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v(i), v(i));
   return p.particle_mass / 2 * square;
 }
 
 double volume_of(const Prototype& p, const LaneView& x) {
   double six = 0;
-  const glm::dvec3 from = x[0];
-  for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));
+  const glm::dvec3 from = x(0);
+  for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x(a) - from, glm::cross(x(b) - from, x(c) - from));
   return six / 6;
 }
 
@@ -52,14 +42,13 @@ double gas_work(const Prototype& p, double from, double to) {
 
 /// J that solids and shields may have done on the body in the step that ends at work.end_x.
 double contact_work(const ImplicitWork& work, std::size_t lane) {
-  const std::size_t stride = work.x.size() / 3;
-  const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
+  const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
     if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
   for (const LinearShield& s : work.shields) {
     if (s.at % lanes != lane) continue;
-    const glm::dvec3 moved = end_x[s.at / lanes] - x[s.at / lanes];
+    const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
     sum += std::max(0.0, glm::dot(s.after(moved), moved));
   }
   return sum;
@@ -71,14 +60,13 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
                     bool pushed) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
   if (!p.goal.empty()) return 0;
-  const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
-  const LaneView x{work.x, lane, stride}, end_x{work.end_x, lane, stride};
-  const LaneView v{work.v, lane, stride}, end_v{work.end_v, lane, stride};
+  const std::size_t n = p.mesh.vertices.size();
+  const LaneView x{work.x, lane}, v{work.v, lane}, end_x{work.end_x, lane}, end_v{work.end_v, lane};
   double fallen = 0;
   glm::dvec3 before_mean(0.0), after_mean(0.0);
   for (std::size_t i = 0; i < n; ++i) {
-    fallen += p.particle_mass * glm::dot(gravity, end_x[i] - x[i]);
-    before_mean += v[i] / double(n), after_mean += end_v[i] / double(n);
+    fallen += p.particle_mass * glm::dot(gravity, end_x(i) - x(i));
+    before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
   }
   const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = spring_energy(p, x);
   double gain = after - before - fallen - contact_work(work, lane) + spring_energy(p, end_x) - elastic;
@@ -92,22 +80,18 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
 
 bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {
   constexpr double most = 0.05;  // of the energy of what is slowed
-  const std::size_t n = p.mesh.vertices.size(), stride = n * lanes;
+  const std::size_t n = p.mesh.vertices.size();
   if (energy <= 0) return true;
-  const LaneView x{work.end_x, lane, stride}, v{work.end_v, lane, stride};
-  const RigidMotion whole = rigid_motion(
-      n, [&](std::size_t i) { return x[i]; }, [&](std::size_t i) { return v[i]; });
+  const LaneView x{work.end_x, lane}, v{work.end_v, lane};
+  const RigidMotion whole = rigid_motion(n, x, v);
   const auto kept = [&](std::size_t i) {
-    return pushed ? glm::dvec3(0.0) : whole.velocity + glm::cross(whole.spin, x[i] - whole.centre);
+    return pushed ? glm::dvec3(0.0) : whole.velocity + glm::cross(whole.spin, x(i) - whole.centre);
   };
   double slowed = 0;  // J; a rigid motion and the rest of a motion have no part in each other's energy
-  for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v[i] - kept(i), v[i] - kept(i));
+  for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v(i) - kept(i), v(i) - kept(i));
   if (!std::isfinite(energy) || !(energy <= most * slowed)) return false;
   const double part = std::sqrt(1 - energy / slowed);
-  for (std::size_t i = 0; i < n; ++i) {
-    const glm::dvec3 slower = kept(i) + part * (v[i] - kept(i));
-    for (std::size_t k = 0; k < 3; ++k) work.end_v[i * lanes + lane + k * stride] = slower[int(k)];
-  }
+  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * lanes + lane, kept(i) + part * (v(i) - kept(i)));
   return true;
 }
 

@@ -1,46 +1,28 @@
 #include "softbody/implicit_frames.h"
 
 namespace softbody {
-namespace {
-
-glm::dvec3 read(const Lanes& f, std::size_t at) {
-  const std::size_t stride = f.size() / 3;
-  return {f[at], f[at + stride], f[at + 2 * stride]};
-}
-void write(Lanes& f, std::size_t at, const glm::dvec3& value) {
-  const std::size_t stride = f.size() / 3;
-  for (std::size_t k = 0; k < 3; ++k) f[at + k * stride] = value[int(k)];
-}
-
-/// Near m.spin, but little about an axis to which all particles are so near that what swings there looks like a spin:
-/// any frame serves, if it does not jump about.
-glm::dvec3 steady_spin(const RigidMotion& m) {
-  constexpr double least = 0.01;  // of the moments' sum
-  const double floor = least * (m.inertia[0][0] + m.inertia[1][1] + m.inertia[2][2]);
-  if (!(floor > 0)) return glm::dvec3(0.0);
-  return glm::inverse(m.inertia * m.inertia + glm::dmat3(floor * floor)) * (m.inertia * m.momentum);
-}
-
-}  // namespace
 
 ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
                                const glm::dvec3& gravity)
     : h_(h), gravity_(gravity), fall_(h * h * gravity) {
   for (std::size_t l = 0; l < lanes; ++l) {
     if (!which[l]) continue;
-    const RigidMotion m = rigid_motion(
-        x.size() / (3 * lanes), [&](std::size_t i) { return read(x, i * lanes + l); },
-        [&](std::size_t i) { return read(v, i * lanes + l); });
-    const glm::dvec3 spin = steady_spin(m);
-    frames_[l] = {true, m.centre, m.velocity, spin, rotation(h * spin)};
+    const RigidMotion body = rigid_motion(x.size() / (3 * lanes), LaneView{x, l}, LaneView{v, l});
+    const glm::dvec3 spin = body.steady_spin_of(body.momentum);  // any frame serves, if it does not jump about
+    frames_[l] = {true, body, spin, rotation(h * spin)};
   }
 }
 
-ImplicitFrames ImplicitFrames::some(const std::array<bool, lanes>& which, const glm::dvec3& fall) const {
+ImplicitFrames ImplicitFrames::some(const std::array<bool, lanes>& which) const {
   ImplicitFrames result = *this;
-  result.fall_ = fall;
   for (std::size_t l = 0; l < lanes; ++l)
     if (!which[l]) result.frames_[l] = {};
+  return result;
+}
+
+ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
+  ImplicitFrames result = *this;
+  result.fall_ = fall;
   return result;
 }
 
@@ -51,18 +33,18 @@ std::array<float, lanes> ImplicitFrames::moves() const {
 }
 
 glm::dvec3 ImplicitFrames::velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
-  return v - glm::cross(frames_[lane].spin, x - frames_[lane].centre);
+  return v - glm::cross(frames_[lane].spin, x - frames_[lane].body.centre);
 }
 
 glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
   const Frame& f = frames_[lane];
-  return f.turned * (x - f.centre) - (x - f.centre);
+  return f.turned * (x - f.body.centre) - (x - f.body.centre);
 }
 
 glm::dvec3 ImplicitFrames::way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
   const Frame& f = frames_[lane];
-  const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.velocity;
-  return h_ * f.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
+  const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.body.velocity;
+  return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
 }
 
 /// change(frame, x, v, at): of one particle of a lane that has a frame of its own.
@@ -82,9 +64,9 @@ void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
 void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& carried) const {
   std::fill(carried.begin(), carried.end(), 0.0);
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
-    place -= f.centre;
-    velocity -= f.velocity + glm::cross(f.spin, place);
-    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.velocity - fall_));
+    place -= f.body.centre;
+    velocity -= f.body.velocity + glm::cross(f.spin, place);
+    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
   });
 }
 
@@ -114,8 +96,8 @@ void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     // The middle moves as what pushes the body has it, which is told in the world's directions.
     velocity += glm::cross(f.spin, place - middle[at % lanes]);
-    velocity = f.velocity + h_ * gravity_ + f.turned * velocity;
-    place = f.centre + h_ * f.velocity + fall_ + f.turned * place;
+    velocity = f.body.velocity + h_ * gravity_ + f.turned * velocity;
+    place = f.body.centre + h_ * f.body.velocity + fall_ + f.turned * place;
   });
 }
 

@@ -15,10 +15,14 @@ class ImplicitFrames {
   /// The origins fall by h^2 gravity, as in a step of first order.
   ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
                  const glm::dvec3& gravity);
-  /// Those of some of its lanes, of which the origins fall by so many m.
-  ImplicitFrames some(const std::array<bool, lanes>& which, const glm::dvec3& fall) const;
+  /// Those of some of its lanes.
+  ImplicitFrames some(const std::array<bool, lanes>& which) const;
+  /// The same with origins that fall by so many m.
+  ImplicitFrames falling(const glm::dvec3& fall) const;
   /// 1 for lanes that have a frame of their own, else 0.
   std::array<float, lanes> moves() const;
+  /// How the body in a lane that has a frame moves in the world at the start.
+  const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
   /// Takes positions and velocities of the start into the frames. carried: m, how far the frame takes a particle along.
   void enter(Lanes& x, Lanes& v, Lanes& carried) const;
@@ -40,8 +44,9 @@ class ImplicitFrames {
  private:
   struct Frame {
     bool own = false;
-    glm::dvec3 centre{0.0}, velocity{0.0}, spin{0.0};  // at the start
-    glm::dmat3 turned{1.0};                            // by the end
+    RigidMotion body;        // at the start
+    glm::dvec3 spin{0.0};    // rad/s, of the frame
+    glm::dmat3 turned{1.0};  // by the end
   };
   template <class Change>
   void for_each(Lanes& x, Lanes& v, const Change& change) const;

@@ -14,11 +14,7 @@ namespace {
 
 /// m, by which a particle's end is short of what its plane needs.
 double missing(const ImplicitWork& work, const PlaneContact& c) {
-  const std::size_t stride = work.x.size() / 3;
-  double along = 0;
-  for (std::size_t k = 0; k < 3; ++k)
-    along += (work.end_x[c.at + k * stride] - work.x[c.at + k * stride]) * c.normal[int(k)];
-  return c.need - along;
+  return c.need - glm::dot(read(work.end_x, c.at) - read(work.x, c.at), c.normal);
 }
 
 }  // namespace
@@ -30,7 +26,6 @@ std::array<bool, lanes> behind_planes(const ImplicitWork& work) {
 }
 
 void clear_planes(ImplicitWork& work, double h) {
-  const std::size_t stride = work.x.size() / 3;
   bool any = true;
   for (int pass = 0; any && pass < plane_passes; ++pass) {
     any = false;
@@ -38,10 +33,8 @@ void clear_planes(ImplicitWork& work, double h) {
       const double by = missing(work, c);
       if (!(by > 0)) continue;
       any = true;
-      for (std::size_t k = 0; k < 3; ++k) {
-        work.end_x[c.at + k * stride] += by * c.normal[int(k)];
-        work.end_v[c.at + k * stride] += by / h * c.normal[int(k)];
-      }
+      add(work.end_x, c.at, by * c.normal);
+      add(work.end_v, c.at, by / h * c.normal);
     }
   }
 }
@@ -49,12 +42,8 @@ void clear_planes(ImplicitWork& work, double h) {
 bool keeps_balance(const Prototype& p, const ImplicitWork& work, std::size_t lane, double h,
                    const glm::dvec3& gravity) {
   constexpr double share = 0.1;
-  const std::size_t stride = work.x.size() / 3;
-  const auto read = [&](const Lanes& f, std::size_t at) {
-    return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
-  };
   glm::dvec3 gained(0.0), given(0.0);
-  for (std::size_t at = lane; at < stride; at += lanes)
+  for (std::size_t at = lane; at < work.x.size() / 3; at += lanes)
     gained += p.particle_mass * (read(work.end_v, at) - read(work.v, at) - h * gravity);
   for (const PlaneContact& c : work.planes)
     if (c.at % lanes == lane) given += h * c.force;
@@ -65,14 +54,8 @@ bool keeps_balance(const Prototype& p, const ImplicitWork& work, std::size_t lan
 }
 
 void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
-  const std::size_t stride = work.x.size() / 3, particles = stride / lanes;
-  const auto field = [&](const Lanes& f) {
-    return [&f, lane, stride](std::size_t i) {
-      const std::size_t at = i * lanes + lane;
-      return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
-    };
-  };
-  const auto x = field(work.x), v = field(work.v);
+  const std::size_t particles = work.x.size() / (3 * lanes);
+  const LaneView x{work.x, lane}, v{work.v, lane};
   const RigidMotion m = rigid_motion(particles, x, v);
   // With a share of its spin: how much of the energy of that is more than the body has, as a part of it.
   const auto move = [&](double share) {
@@ -87,10 +70,8 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
       gain += glm::dot(velocity, velocity);
       before += glm::dot(v(i), v(i));
       spinning += glm::dot(round, round);
-      for (std::size_t k = 0; k < 3; ++k) {
-        work.end_x[i * lanes + lane + k * stride] = place[int(k)];
-        work.end_v[i * lanes + lane + k * stride] = velocity[int(k)];
-      }
+      write(work.end_x, i * lanes + lane, place);
+      write(work.end_v, i * lanes + lane, velocity);
     }
     constexpr double rounding = 1e-9;
     return gain - before <= rounding * before ? 0 : (gain - before) / spinning;

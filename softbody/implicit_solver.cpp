@@ -50,9 +50,9 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
 
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
   for (std::size_t l = 0; l < lanes; ++l) {
+    const LaneView x{x_, l};
     glm::dmat3 covariance(0.0);
-    for (std::size_t i = 0; i < particles_; ++i)
-      covariance += glm::outerProduct(read(x_, i * lanes + l) - read(x_, l), p.matrix.shape()[i]);
+    for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - x(0), p.matrix.shape()[i]);
     const glm::dmat3 r = best_rotation(covariance);
     for (int c = 0; c < 3; ++c)
       for (int row = 0; row < 3; ++row) rotation_[3 * c + row][l] = r[c][row];
@@ -63,16 +63,13 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 void ImplicitSolver::place_goal(const ImplicitProblem& p) {
   const std::vector<glm::dvec3>& shape = p.prototype.goal;
   for (std::size_t l = 0; l < lanes; ++l) {
+    const LaneView x{x_, l};
     glm::dvec3 centre(0.0);
-    for (std::size_t i = 0; i < particles_; ++i) centre += read(x_, i * lanes + l) / double(particles_);
+    for (std::size_t i = 0; i < particles_; ++i) centre += x(i) / double(particles_);
     glm::dmat3 covariance(0.0);
-    for (std::size_t i = 0; i < particles_; ++i)
-      covariance += glm::outerProduct(read(x_, i * lanes + l) - centre, shape[i]);
+    for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - centre, shape[i]);
     const glm::dmat3 r = best_rotation(covariance);
-    for (std::size_t i = 0; i < particles_; ++i) {
-      const glm::dvec3 place = centre + r * shape[i];
-      for (std::size_t k = 0; k < 3; ++k) goal_[i * lanes + l + k * stride_] = place[int(k)];
-    }
+    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * lanes + l, centre + r * shape[i]);
   }
 }
 

@@ -25,9 +25,6 @@
 
 namespace softbody {
 
-/// A field over the particles of a batch: component k of particle i of lane l at (k * particles + i) * lanes + l.
-using Lanes = LaneArray<double>;
-
 /// A solid's plane before a particle, and the force with which they meet.
 struct PlaneContact {
   std::size_t at;  // particle * lanes + lane
@@ -80,10 +77,6 @@ class ImplicitSolver {
 
   Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
-  glm::dvec3 read(const Lanes& v, std::size_t at) const { return {v[at], v[at + stride_], v[at + 2 * stride_]}; }
-  void add(Lanes& v, std::size_t at, const glm::dvec3& d) const {
-    v[at] += d.x, v[at + stride_] += d.y, v[at + 2 * stride_] += d.z;
-  }
   /// m, in this step.
   glm::dvec3 moved(const ImplicitProblem& p, const Lanes& x, std::size_t at) const {
     return read(x, at) - read(*p.x, at) + read(*p.carried, at);

@@ -77,8 +77,8 @@ std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFram
     if (b.moves[lane] <= 0) continue;
     for (const SolidArguments& s : b.near_solids)
       for (std::size_t at = lane; at < n; at += lanes) {
-        const auto read = [&](const Lanes& field) { return glm::dvec3(field[at], field[at + n], field[at + 2 * n]); };
-        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]), x = read(work.x), v = read(work.v);
+        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
+        const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
         const auto surface =
             std::visit([&](const auto& shape) { return body::surface_at(shape, as_vec<double>(x - place)); }, s.shape);
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
@@ -125,33 +125,26 @@ std::array<bool, lanes> Dynamics::find_shields(const Batch& b, ImplicitWork& wor
 
 /// Restores what the solve has lost of the lanes' linear and angular momentum, in end_v: springs and gas change
 /// neither, gravity and the other forces by as much as they act.
-void Dynamics::keep_momentum(const Batch& b, ImplicitWork& work, const std::array<bool, lanes>& which, double h) const {
-  const std::size_t n = b.particles(), stride = n * lanes;
+void Dynamics::keep_momentum(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                             const std::array<bool, lanes>& which, double h) const {
+  const std::size_t n = b.particles();
   const double mass = b.prototype->particle_mass;
   const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
   for (std::size_t l = 0; l < lanes; ++l) {
     if (!which[l] || b.moves[l] <= 0) continue;
-    const auto field = [&](const Lanes& f) {
-      return [&f, l, stride](std::size_t i) {
-        const std::size_t at = i * lanes + l;
-        return glm::dvec3(f[at], f[at + stride], f[at + 2 * stride]);
-      };
-    };
-    const auto x = field(work.x), v = field(work.v), end_x = field(work.end_x);
-    const RigidMotion before = rigid_motion(n, x, v), after = rigid_motion(n, end_x, field(work.end_v));
+    const LaneView end_x{work.end_x, l};
+    const RigidMotion &before = frames.start(l), after = rigid_motion(n, end_x, LaneView{work.end_v, l});
     glm::dvec3 total(0.0), torque(0.0);
     for (const LinearShield& s : work.shields) {
       if (s.at % lanes != l) continue;
-      const glm::dvec3 force = s.after(end_x(s.at / lanes) - x(s.at / lanes));
+      const glm::dvec3 end = read(work.end_x, s.at), force = s.after(end - read(work.x, s.at));
       total += force;
-      torque += glm::cross(end_x(s.at / lanes) - after.centre, force);
+      torque += glm::cross(end - after.centre, force);
     }
     const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + gravity) - after.velocity;
     const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
-    for (std::size_t i = 0; i < n; ++i) {
-      const glm::dvec3 more = push + glm::cross(spin, end_x(i) - after.centre);
-      for (std::size_t k = 0; k < 3; ++k) work.end_v[i * lanes + l + k * stride] += more[int(k)];
-    }
+    for (std::size_t i = 0; i < n; ++i)
+      softbody::add(work.end_v, i * lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
   }
 }
 
@@ -220,8 +213,9 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
   if (std::ranges::count(free, true) > 0) {
     const auto planes = std::exchange(work.planes, {});
     const auto shields = std::exchange(work.shields, {});
-    const std::array<bool, lanes> converged = second_order_step(b, frames.some(free, h * h / 2 * gravity), work, h);
-    keep_momentum(b, work, free, h);
+    const std::array<bool, lanes> converged =
+        second_order_step(b, frames.some(free).falling(h * h / 2 * gravity), work, h);
+    keep_momentum(b, frames, work, free, h);
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.shields = shields;
@@ -231,11 +225,11 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
   }
   if (std::ranges::count(again, true) > 0) {
     std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
-    first_order_step(b, frames.some(again, h * h * gravity), work, h);
+    first_order_step(b, frames.some(again), work, h);
     std::array<bool, lanes> apart = again;
     for (const PlaneContact& c : work.planes)
       if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
-    keep_momentum(b, work, apart, h);
+    keep_momentum(b, frames, work, apart, h);
     clear_planes(work, h);
     for (std::size_t l = 0; l < lanes; ++l)
       if (again[l] &&

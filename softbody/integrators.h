@@ -25,10 +25,11 @@ struct Integrator {
   /// Largest stable step times 0.8 in s, for sums of stiffness/mass (1/s^2) and of damping/mass (1/s) at one particle;
   /// infinite for what is stable at any step. See stable_step() in prototype.h.
   double (*stable_step)(double k_m, double c_m);
-  int substeps = 1;        // that belong to the method: of every step asked for
-  int scratch = 0;         // copies of a field over all particles that it needs
-  bool implicit = false;   // solves with the matrices of implicit_matrix.h
-  bool automatic = false;  // chooses another one for each frame, see Dynamics::choose()
+  int substeps = 1;         // that belong to the method: of every step asked for
+  int scratch = 0;          // copies of a field over all particles that it needs
+  bool implicit = false;    // solves with the matrices of implicit_matrix.h
+  bool automatic = false;   // chooses another one for each frame, see Dynamics::choose()
+  bool keeps_spin = false;  // conserves the angular momentum of a free body but for rounding; all do the linear one
 };
 
 std::span<const Integrator> integrators();

@@ -44,10 +44,30 @@ SB_INLINE void store(Field<Real> f, std::size_t at, const Vec<V>& v) {
   store(f.z + at, v.z);
 }
 
+/// As many lanes of doubles as registers hold a dozen sums of, and the same of floats.
+template <int width>
+using DoublePart = std::conditional_t<width == one_lane, double, DoubleLane::Half>;
+typedef float HalfLane __attribute__((vector_size(lanes / 2 * sizeof(float))));
+template <int width>
+using FloatPart = std::conditional_t<width == one_lane, float, HalfLane>;
+
+SB_INLINE double widened(float v) { return double(v); }
+SB_INLINE DoubleLane::Half widened(HalfLane v) { return __builtin_convertvector(v, DoubleLane::Half); }
+SB_INLINE float narrowed(double v) { return float(v); }
+SB_INLINE HalfLane narrowed(DoubleLane::Half v) { return __builtin_convertvector(v, HalfLane); }
+
+template <class V>
+SB_INLINE auto widened(const Vec<V>& v) {
+  return Vec<decltype(widened(v.x))>{widened(v.x), widened(v.y), widened(v.z)};
+}
+
 template <class V>
 SB_INLINE Vec<V> load(const LaneVector& v) {
   return {load<V>(v.x), load<V>(v.y), load<V>(v.z)};
 }
+
+SB_INLINE Field<double> field(DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
+SB_INLINE Field<const double> field(const DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
 
 /// The lanes in which a > b, as bits.
 template <class V>
@@ -296,6 +316,46 @@ SB_INLINE void extent(std::size_t particles, Field<const float> boxed, Field<con
   store(Field<float>{e.lo.x, e.lo.y, e.lo.z}, 0, lo);
   store(Field<float>{e.hi.x, e.hi.y, e.hi.z}, 0, hi);
   store(e.length2, length2);
+}
+
+template <int width>
+SB_INLINE void rigid_sums(std::size_t particles, Field<const float> x, Field<const float> v, RigidSums& sums) {
+  using V = DoublePart<width>;
+  using F = FloatPart<width>;
+  for (std::size_t lane = 0; lane < width; lane += sizeof(V) / sizeof(double)) {
+    const Vec<V> first = widened(load<F>(x, lane));
+    Vec<V> place{}, velocity{}, momentum{}, square{}, mixed{};
+    for (std::size_t at = lane; at < particles * width; at += width) {
+      const Vec<V> r = widened(load<F>(x, at)) - first, u = widened(load<F>(v, at));
+      place = place + r;
+      velocity = velocity + u;
+      momentum = momentum + cross(r, u);
+      square = square + Vec<V>{r.x * r.x, r.y * r.y, r.z * r.z};
+      mixed = mixed + Vec<V>{r.y * r.z, r.z * r.x, r.x * r.y};
+    }
+    store(field(sums.place), lane, place);
+    store(field(sums.velocity), lane, velocity);
+    store(field(sums.momentum), lane, momentum);
+    store(field(sums.square), lane, square);
+    store(field(sums.mixed), lane, mixed);
+  }
+}
+
+template <int width>
+SB_INLINE void add_rigid(std::size_t particles, const RigidChange& change, Field<const float> x, Field<float> v) {
+  using V = DoublePart<width>;
+  using F = FloatPart<width>;
+  for (std::size_t lane = 0; lane < width; lane += sizeof(V) / sizeof(double)) {
+    const F acts = load<F>(change.acts + lane), zero{};
+    const auto either = [&](F before, V after) { return acts > zero ? narrowed(after) : before; };
+    const Vec<V> push = load<V>(field(change.push), lane), spin = load<V>(field(change.spin), lane);
+    const Vec<V> centre = widened(load<F>(x, lane)) + load<V>(field(change.about), lane);
+    for (std::size_t at = lane; at < particles * width; at += width) {
+      const Vec<F> before = load<F>(v, at);
+      const Vec<V> after = widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
+      store(v, at, Vec<F>{either(before.x, after.x), either(before.y, after.y), either(before.z, after.z)});
+    }
+  }
 }
 
 }  // namespace softbody::body

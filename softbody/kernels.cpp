@@ -52,8 +52,15 @@ using Triangles = std::span<const KernelTriangle>;
     target static void extent(std::size_t n, ConstField x, ConstField v, Extent& e) {                              \
       body::extent<width>(n, x, v, e);                                                                             \
     }                                                                                                              \
-    static constexpr Kernels table{springs,       project_springs, volume, medians, stretch, square_sum, pressure, \
-                                   shape_moments, shape_pull,      kick,   solid,   drift,   extent};              \
+    target static void rigid_sums(std::size_t n, ConstField x, ConstField v, RigidSums& s) {                       \
+      body::rigid_sums<width>(n, x, v, s);                                                                         \
+    }                                                                                                              \
+    target static void add_rigid(std::size_t n, const RigidChange& c, ConstField x, Field<float> v) {              \
+      body::add_rigid<width>(n, c, x, v);                                                                          \
+    }                                                                                                              \
+    static constexpr Kernels table{springs,    project_springs, volume,        medians,    stretch,                \
+                                   square_sum, pressure,        shape_moments, shape_pull, kick,                   \
+                                   solid,      drift,           extent,        rigid_sums, add_rigid};             \
   };
 
 #define SB_IMPLICIT_TABLE(name, target)                                                                         \

@@ -49,6 +49,9 @@ struct ShapePose {
 struct LaneVector {
   alignas(32) float x[lanes], y[lanes], z[lanes];
 };
+struct DoubleLaneVector {
+  alignas(64) double x[lanes], y[lanes], z[lanes];
+};
 
 struct KickArguments {
   std::size_t particles;
@@ -101,6 +104,19 @@ struct Extent {
   alignas(32) float length2[lanes];  // squared length of the longest vector of another
 };
 
+/// Of a lane's body: sums over its particles, with their places r seen from the first one.
+struct RigidSums {
+  DoubleLaneVector place, velocity;
+  DoubleLaneVector momentum;       // r x v
+  DoubleLaneVector square, mixed;  // of r: xx, yy, zz and yz, zx, xy
+};
+
+/// What is added to the velocities of the lanes in which `acts` is 1: push + spin x (r - about), r as in RigidSums.
+struct RigidChange {
+  alignas(32) float acts[lanes];       // 0 or 1
+  DoubleLaneVector push, spin, about;  // m/s, rad/s, m
+};
+
 /// For batches of one width.
 struct Kernels {
   void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
@@ -118,6 +134,8 @@ struct Kernels {
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);
   void (*extent)(std::size_t particles, Field<const float> boxed, Field<const float> measured, Extent&);
+  void (*rigid_sums)(std::size_t particles, Field<const float> x, Field<const float> v, RigidSums&);
+  void (*add_rigid)(std::size_t particles, const RigidChange&, Field<const float> x, Field<float> v);
 };
 
 /// For implicit steps of eight bodies, in double; see implicit_kernels.h.

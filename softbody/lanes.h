@@ -9,6 +9,8 @@
 #include <type_traits>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 namespace softbody {
 
 inline constexpr int lanes = 8;
@@ -67,6 +69,31 @@ struct CacheLineAllocator {
 };
 template <class Real>
 using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
+
+/// A field of vectors over the particles of eight bodies: component k of particle i of lane l stands at
+/// (k * particles + i) * lanes + l.
+using Lanes = LaneArray<double>;
+
+// The vector `at` particle * lanes + lane.
+inline glm::dvec3 read(const Lanes& field, std::size_t at) {
+  const std::size_t stride = field.size() / 3;
+  return {field[at], field[at + stride], field[at + 2 * stride]};
+}
+inline void write(Lanes& field, std::size_t at, const glm::dvec3& value) {
+  const std::size_t stride = field.size() / 3;
+  field[at] = value.x, field[at + stride] = value.y, field[at + 2 * stride] = value.z;
+}
+inline void add(Lanes& field, std::size_t at, const glm::dvec3& more) {
+  const std::size_t stride = field.size() / 3;
+  field[at] += more.x, field[at + stride] += more.y, field[at + 2 * stride] += more.z;
+}
+
+/// One lane of a field, by its particles.
+struct LaneView {
+  const Lanes& field;
+  std::size_t lane;
+  glm::dvec3 operator()(std::size_t particle) const { return read(field, particle * lanes + lane); }
+};
 
 /// Three components of a field over the particles of one batch.
 template <class Real>

@@ -19,6 +19,13 @@ struct RigidMotion {
   glm::dvec3 spin_of(const glm::dvec3& angular) const {
     return turns ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
   }
+  /// Nearly that, but little about an axis to which all particles are so near that what swings there looks like a spin.
+  glm::dvec3 steady_spin_of(const glm::dvec3& angular) const {
+    constexpr double least = 0.01;  // of the moments' sum
+    const double floor = least * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
+    if (!(floor > 0)) return glm::dvec3(0.0);
+    return glm::inverse(inertia * inertia + glm::dmat3(floor * floor)) * (inertia * angular);
+  }
 };
 
 /// About `turn` by its length in rad. By halves, as a sine has not the same last digits on all processors: (1, half) is

@@ -34,6 +34,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
       const unsigned now = kernels_of(b).solid(s, at(x_, b), at(v_, b));
       more = more || (acted & now) || (pass && now);
       acted |= now;
+      b.touched |= now;
     }
     if (!more) break;
   }

@@ -175,6 +175,7 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
   const float impulse = s.mass / square * change;
   s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
   s.returned[lane] += s.restitution * impulse;
+  b.touched |= 1u << lane;
   return true;
 }
 

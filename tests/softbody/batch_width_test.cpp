@@ -128,6 +128,26 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
     });
 }
 
+TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
+  for (int which = 0; which < 15; ++which)
+    expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values, float* result) {
+      RigidSums s;
+      k.rigid_sums(n, xs, vs, s);
+      const DoubleLaneVector* const vectors[]{&s.place, &s.velocity, &s.momentum, &s.square, &s.mixed};
+      const DoubleLaneVector& sum = *vectors[which / 3];
+      const double* const components[]{sum.x, sum.y, sum.z};
+      std::copy_n(components[which % 3], width, result);
+    });
+  expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values vs, Values, float*) {
+    RigidChange change{};
+    for (int l = 0; l < width; ++l) {
+      change.acts[l] = moves[first + l];
+      change.push.x[l] = 0.1 * (first + l), change.spin.y[l] = 3, change.about.z[l] = 0.25;
+    }
+    k.add_rigid(n, change, xs, vs);
+  });
+}
+
 TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},

@@ -22,6 +22,15 @@ Material gas_ball() {
   return m;
 }
 
+Material gas_ball(double stiffness, double damping_ratio) {
+  Material m = gas_ball();
+  m.structural = {stiffness, damping_ratio};
+  m.bend = {stiffness / 4, damping_ratio};
+  m.gas_pressure = 1.6 * stiffness;
+  m.rolling_resistance = 0;
+  return m;
+}
+
 Scene lone_body(const Material& material, const glm::dvec3& velocity) {
   Scene scene;
   scene.key = "test";
@@ -55,6 +64,13 @@ Scene drop_scene() { return load_scene(std::filesystem::path(SBCOLLIDE_SCENES) /
 
 void run(World& world, int frames) {
   for (int i = 0; i < frames; ++i) world.step();
+}
+
+std::vector<Particle> particles_of(const World& world, BodyId body) {
+  std::vector<Particle> all;
+  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
+    all.push_back(world.dynamics().particle(body, i));
+  return all;
 }
 
 Motion motion(const World& world, BodyId body) {

@@ -13,6 +13,8 @@ namespace softbody::test {
 Material spring_ball();
 /// Springs and gas in balance, without any of the frame's dampers.
 Material gas_ball();
+/// gas_ball() of another stiffness in N/m, to which its pressure is in proportion.
+Material gas_ball(double stiffness, double damping_ratio = 0.1);
 /// One icosphere of 162 particles and 0.5 m: no gravity, no solids, no self-collision, no sleep.
 Scene lone_body(const Material& material, const glm::dvec3& velocity = glm::dvec3(0.0));
 /// A second body of the same mesh and material.
@@ -22,6 +24,7 @@ Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dve
 Scene drop_scene();
 
 void run(World& world, int frames);
+std::vector<Particle> particles_of(const World& world, BodyId body = 0);
 
 /// A body's rigid part.
 struct Motion {

@@ -1,0 +1,126 @@
+// The momenta of stiff bodies, of which explicit steps in floats lose a part at every step: what nothing touches keeps
+// them, and what is touched does not.
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+struct Flight {
+  std::string name, integrator;
+  std::optional<int> substeps;
+  bool keeps_spin;
+};
+
+class StiffBodyInFreeFlight : public testing::TestWithParam<Flight> {};
+
+TEST_P(StiffBodyInFreeFlight, KeepsItsMomenta) {
+  const Flight& flight = GetParam();
+  Scene scene = lone_body(gas_ball(1e6, 0.02));
+  scene.gravity = {0, -9.81, 0};
+  World world(scene, {.integrator = flight.integrator, .substeps = flight.substeps});
+  std::vector<Particle> start = particles_of(world);
+  for (Particle& p : start) p.velocity = glm::dvec3(1, 2, 0.5) + glm::cross(glm::dvec3(0.5, 3, 1), p.position);
+  world.set_particles(0, start);
+  const Motion before = motion(world, 0);
+  for (int frame = 1; frame <= 60; ++frame) {
+    world.step();
+    const Motion now = motion(world, 0);
+    const glm::dvec3 velocity = before.velocity + frame / 60.0 * scene.gravity;
+    ASSERT_GE(world.profile().substeps, 64);
+    ASSERT_LT(glm::distance(now.velocity, velocity), 1e-5 * glm::length(before.velocity)) << "frame " << frame;
+    if (!flight.keeps_spin) continue;
+    ASSERT_LT(glm::distance(now.spin_momentum, before.spin_momentum), 2e-6 * glm::length(before.spin_momentum))
+        << "frame " << frame;
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(By, StiffBodyInFreeFlight,
+                         testing::Values(Flight{"semi_implicit_euler", "semi-implicit-euler", std::nullopt, true},
+                                         Flight{"semi_implicit_euler_in_short_steps", "semi-implicit-euler", 1024,
+                                                true},
+                                         Flight{"velocity_verlet", "velocity-verlet", std::nullopt, true},
+                                         Flight{"rk4", "rk4", std::nullopt, false}),
+                         [](const auto& one) { return one.param.name; });
+
+/// Explicit steps of a method that changes the angular momentum itself show it, however many they are.
+TEST(ExplicitEuler, ShowsWhatItDoesToTheSpin) {
+  World world(lone_body(gas_ball(1e3, 0.02)), {.integrator = "explicit-euler", .substeps = 512});
+  std::vector<Particle> start = particles_of(world);
+  for (Particle& p : start) p.velocity = glm::cross(glm::dvec3(0.5, 3, 1), p.position);
+  world.set_particles(0, start);
+  const Motion before = motion(world, 0);
+  run(world, 15);
+  EXPECT_GT(glm::distance(motion(world, 0).spin_momentum, before.spin_momentum),
+            1e-5 * glm::length(before.spin_momentum));
+}
+
+constexpr double stiffness = 1e5;
+const World::Options explicit_steps{.integrator = "semi-implicit-euler", .substeps = 200};
+
+TEST(StiffBody, IsThrownBackByASolid) {
+  Scene scene = lone_body(gas_ball(stiffness), {0, -1, 0});
+  scene.bodies[0].position = {0, 0.6, 0};
+  scene.ground = Ground{};
+  World world(scene, explicit_steps);
+  run(world, 30);
+  EXPECT_GT(motion(world, 0).velocity.y, -0.1);
+}
+
+TEST(StiffBody, PassesItsMomentumOn) {
+  for (const ContactSurfaceInfo& surface : contact_surfaces) {
+    Scene scene = lone_body(gas_ball(stiffness), {2, 0, 0});
+    scene.contact_surface = surface.value;
+    add_body(scene, {1.3, 0, 0}, glm::dvec3(0.0));
+    World world(scene, explicit_steps);
+    run(world, 30);
+    const double first = motion(world, 0).velocity.x, second = motion(world, 1).velocity.x;
+    EXPECT_GT(second, 0.5);
+    EXPECT_NEAR(first + second, 2, 1e-3);
+  }
+}
+
+TEST(StiffBody, FollowsAHand) {
+  World world(lone_body(gas_ball(stiffness)), explicit_steps);
+  world.grab({.body = 0, .target = {0, 2, 0}});
+  run(world, 6);
+  EXPECT_GT(motion(world, 0).velocity.y, 1);
+}
+
+TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
+  Scene scene = lone_body(gas_ball(stiffness), {1, 2, 3});
+  for (int i = 1; i < lanes + 2; ++i) add_body(scene, {0, 0, 2 * i}, {0.1 * i, 1, 0});
+  std::vector<std::uint64_t> hashes;
+  for (const Isa isa : isas())
+    for (const int threads : {1, 2}) {
+      World world(scene, {.threads = threads, .integrator = "velocity-verlet", .isa = isa, .least_shared = 0});
+      run(world, 5);
+      EXPECT_GE(world.profile().substeps, 64);
+      hashes.push_back(world.state_hash());
+    }
+  for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
+}
+
+/// Its neighbour in the lanes meets a solid, or does not.
+TEST(StiffBody, FliesTheSameWhateverItsNeighboursTouch) {
+  Scene scene = lone_body(gas_ball(stiffness), {1, 0, 0});
+  scene.contact_surface = ContactSurface::surfaces;
+  scene.spheres = {{.centre = {0, 5, 0}, .radius = 1}};
+  add_body(scene, {0, 3.4, 0}, {0, 1, 0});
+  World hit(scene, explicit_steps);
+  scene.bodies[1].velocity = {0, -1, 0};
+  World miss(scene, explicit_steps);
+  for (World* world : {&hit, &miss}) run(*world, 20);
+  EXPECT_LT(motion(hit, 1).velocity.y, 0.9) << "it hits";
+  for (Index i = 0; i < hit.bodies().size(0); ++i) {
+    const Particle a = hit.dynamics().particle(0, i), b = miss.dynamics().particle(0, i);
+    ASSERT_TRUE(a.position == b.position && a.velocity == b.velocity) << i;
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
