@@ -75,11 +75,13 @@ void Widgets::show_tooltip(const char* text) const {
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_place(size, px(6));
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // what explains a disabled widget is not faint itself
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + pad.x);
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 bool Widgets::button(const char* label, const char* tooltip, float width) {
