@@ -29,7 +29,7 @@ ImVec4 rgba(unsigned rgb, float alpha = 1.0f) {
 void set_colours(ImVec4* colours) {
   const unsigned ink = 0x22272e, accent = 0x2f6fb5;
   colours[ImGuiCol_Text] = rgba(ink);
-  colours[ImGuiCol_TextDisabled] = rgba(0x6b7480);
+  colours[ImGuiCol_TextDisabled] = rgba(0x5f6873);  // 5 to 1 on the docks
   colours[ImGuiCol_WindowBg] = rgba(0xf8f9fa, 0.95f);
   colours[ImGuiCol_ChildBg] = rgba(0xffffff, 0.0f);
   colours[ImGuiCol_PopupBg] = rgba(0xffffff, 0.98f);
@@ -78,6 +78,7 @@ void apply_theme(float scale) {
   style = ImGuiStyle();
   ImGui::StyleColorsLight(&style);
   set_colours(style.Colors);
+  style.DisabledAlpha = 0.7f;  // text still 5 to 1 on a button
   style.WindowPadding = {14.0f, 12.0f};
   style.FramePadding = {8.0f, 4.0f};
   style.ItemSpacing = {8.0f, 6.0f};

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "engine/context.h"
 #include "engine/gl.h"
 #include "engine/render/blocks.h"
 #include "engine/render/bodies.h"
@@ -51,6 +52,7 @@ struct Renderer::Passes {
   void find_casters(const FrameData& frame);
   FrameBlock describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
 
+  const bool in_software = draws_in_software();
   glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
   LightView light{};
   Occlusion occlusion;
@@ -132,6 +134,7 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   spheres.draw();
   blocks.draw();
   studio.draw(frame.ground.has_value());
+  if (in_software) glFlush();  // so that other cores begin while this one gets the overlays ready
   bodies.draw_translucent();
   overlays.draw(frame);
 }

@@ -73,6 +73,7 @@ Window::Window(const WindowOptions& options) {
   glfwSetMouseButtonCallback(window_, &Window::on_button);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(options.vsync);
+  measure();
 }
 
 Window::~Window() { glfwTerminate(); }
@@ -86,6 +87,16 @@ void Window::poll() {
   } else {
     glfwPollEvents();
   }
+  measure();
+}
+
+void Window::measure() {
+  glfwGetFramebufferSize(window_, &framebuffer_size_.x, &framebuffer_size_.y);
+  int width = 0, height = 0;
+  glfwGetWindowSize(window_, &width, &height);
+  pixel_ratio_ = width > 0 ? std::max(1.0f, static_cast<float>(framebuffer_size_.x) / static_cast<float>(width)) : 1.0f;
+  minimised_ =
+      glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || framebuffer_size_.x <= 0 || framebuffer_size_.y <= 0;
 }
 
 std::vector<KeyPress> Window::take_key_presses() { return std::exchange(key_presses_, {}); }
@@ -107,27 +118,10 @@ void Window::wait_for_reset() const {
   for (int i = 0; i < most && context_lost(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
-bool Window::minimised() const {
-  const glm::ivec2 size = framebuffer_size();
-  return glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || size.x <= 0 || size.y <= 0;
-}
-
-glm::ivec2 Window::framebuffer_size() const {
-  glm::ivec2 size(0);
-  glfwGetFramebufferSize(window_, &size.x, &size.y);
-  return size;
-}
-
 float Window::content_scale() const {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
   return std::clamp(std::max(x, y), 0.5f, 8.0f);  // some X servers report nonsense
-}
-
-float Window::pixel_ratio() const {
-  int width = 0, height = 0;
-  glfwGetWindowSize(window_, &width, &height);
-  return width > 0 ? std::max(1.0f, static_cast<float>(framebuffer_size().x) / static_cast<float>(width)) : 1.0f;
 }
 
 glm::vec2 Window::cursor() const {

@@ -50,21 +50,30 @@ class Window {
   /// After such a loss: until the reset is over, for a few seconds at most, so that another window can be made.
   void wait_for_reset() const;
 
-  bool minimised() const;  // nothing to draw: framebuffer_size() may be 0 x 0
-  glm::ivec2 framebuffer_size() const;
+  // As they were when poll() returned last.
+  bool minimised() const { return minimised_; }  // nothing to draw: framebuffer_size() may be 0 x 0
+  glm::ivec2 framebuffer_size() const { return framebuffer_size_; }
+  /// Framebuffer pixels per screen coordinate; not the same as content_scale() on X11.
+  float pixel_ratio() const { return pixel_ratio_; }
+
   float content_scale() const;  // 1 on an ordinary screen, 2 on a high-density one
-  float pixel_ratio() const;    // framebuffer pixels per screen coordinate; not the same as content_scale() on X11
   glm::vec2 cursor() const;     // framebuffer pixels from the top left corner
   bool left_button_down() const;
 
   GLFWwindow* handle() const { return window_; }
 
  private:
+  void measure();
+
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
 
   GLFWwindow* window_ = nullptr;
+  // Kept, as X11 must be asked for each, and waited for: a dozen times a frame that would be.
+  glm::ivec2 framebuffer_size_{0};
+  float pixel_ratio_ = 1.0f;
+  bool minimised_ = false;
   bool clicked_ = false;
   std::vector<KeyPress> key_presses_;
   std::vector<std::string> dropped_files_;

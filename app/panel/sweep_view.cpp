@@ -216,16 +216,17 @@ void SweepView::draw(Widgets& w, Session& session, const SceneArea& area, bool& 
   ImGui::SetNextWindowSize({std::min(w.px(most_width), area.max.x - area.min.x - 2 * margin),
                             std::clamp(room, w.px(least_height), w.px(most_height))});
   ImGui::SetNextWindowBgAlpha(1.0f);  // points on coloured bodies would be hard to tell apart
-  ImGui::Begin("Error against run time###Sweep view", &open,
-               ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
-                   ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoScrollbar |
-                   ImGuiWindowFlags_NoFocusOnAppearing);
-  draw_controls(w, session);
-  ImGui::Spacing();
-  draw_legend(w);
-  const ImGuiStyle& style = ImGui::GetStyle();
-  draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-  draw_footing(w);
+  // Folded it is a line at the scene's lower edge, and the scene is to be seen.
+  if (ImGui::Begin("Error against run time###Sweep view", &open,
+                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
+                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    draw_controls(w, session);
+    ImGui::Spacing();
+    draw_legend(w);
+    const ImGuiStyle& style = ImGui::GetStyle();
+    draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
+    draw_footing(w);
+  }
   ImGui::End();
 }
 

@@ -75,11 +75,13 @@ void Widgets::show_tooltip(const char* text) const {
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_place(size, px(6));
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // what explains a disabled widget is not faint itself
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + pad.x);
   ImGui::TextUnformatted(text);
   ImGui::PopTextWrapPos();
   ImGui::EndTooltip();
+  ImGui::PopStyleVar();
 }
 
 bool Widgets::button(const char* label, const char* tooltip, float width) {
@@ -323,12 +325,17 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));
   std::array<ImVec2, Ring::capacity> points;
+  int count = 0;
   for (std::size_t i = 0; i < ring.size(); ++i) {
     const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
-    points[i] = {at.x + x * size.x,
-                 at.y + size.y * (1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f))};
+    const float y = 1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f);
+    const ImVec2 point{at.x + x * size.x, at.y + y * size.y};
+    const auto level = [&](int before) { return points[static_cast<std::size_t>(count - before)].y == point.y; };
+    if (count >= 2 && level(1) && level(2)) --count;
+    points[static_cast<std::size_t>(count++)] = point;
   }
-  draw->AddPolyline(points.data(), static_cast<int>(ring.size()), to_imgui(colour), ImDrawFlags_None, px(1.25f));
+  // ImGui takes a third of the triangles for lines of whole pixels.
+  draw->AddPolyline(points.data(), count, to_imgui(colour), ImDrawFlags_None, std::max(1.0f, std::round(px(1.25f))));
 }
 
 }  // namespace app
