@@ -37,6 +37,7 @@ int run(const app::Options& options) {
   return app::run_demo({.scene = app::load_scene(options),
                         .scene_name = options.scene,
                         .scene_folder = app::scene_folder(),
+                        .meshes = options.meshes,
                         .integrator = options.integrator,
                         .substeps = options.substeps,
                         .threads = options.threads,

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -11,6 +12,7 @@ namespace softbody {
 
 namespace {
 
+constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_substeps = 1e6;  // a state that asks for more is lost
 constexpr int many_substeps = 64;      // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
@@ -103,6 +105,7 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
 
 Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
+  double own_damping = infinite;      // over mass, the least that springs give a moving body
   double fewest = 1;                  // that keep up with the fastest body near a solid
   double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
   shield_damping_.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
@@ -118,6 +121,7 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     const Prototype& p = *b.prototype;
     double stiffest = stiffness_per_mass(b);
     double damper = p.spring_damping_bound;
+    own_damping = std::min(own_damping, damper / p.particle_mass);
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
@@ -130,7 +134,10 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  return {integrator_->stable_step(stiffness, damping), fewest, deforming};
+  // Explicit Euler is stable only by damping: it must not count on that of contacts, or of another body.
+  const double step = std::min(integrator_->stable_step(stiffness, damping),
+                               integrator_->stable_step(stiffness, std::min(own_damping, damping)));
+  return {step, fewest, deforming};
 }
 
 int Dynamics::substeps(const Bound& b, double seconds, double at_least) {

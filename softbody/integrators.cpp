@@ -54,9 +54,14 @@ constexpr std::array table{
                .advance = semi_implicit_euler,
                .stable_step = stable_step,
                .automatic = true},
-    Integrator{"explicit-euler", "Explicit Euler",
-               "The paper's era: position and velocity from the old state; gains energy unless the steps are tiny.", 1,
-               explicit_euler, explicit_euler_step},
+    Integrator{
+        .key = "explicit-euler",
+        .name = "Explicit Euler",
+        .summary = "The paper's era: position and velocity from the old state; gains energy unless the steps are tiny.",
+        .order = 1,
+        .advance = explicit_euler,
+        .stable_step = explicit_euler_step,
+        .by_damping = true},
     Integrator{
         .key = "semi-implicit-euler",
         .name = "Semi-implicit Euler",

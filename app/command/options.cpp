@@ -182,6 +182,9 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   cli.require_subcommand(0, 1);
   add_scene_options(cli, options);
   cli.add_option("--size", size, "size of the window or the pictures in pixels")->type_name("WxH");
+  cli.add_option("--mesh", options.meshes, "OBJ files whose bodies join the scene in the window")
+      ->type_name("FILE.obj")
+      ->check(CLI::ExistingFile);
 
   const CLI::App* simulate = add_simulate(cli, options, size, captures);
   const CLI::App* detect = add_detect(cli, options);
@@ -210,6 +213,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
                     : *report ? Command::report
                     : *list   ? Command::list
                               : Command::demo;
+  if (!options.meshes.empty() && options.command != Command::demo)
+    throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
   if (!size.empty()) parse_size(size, options);
   options.size_given = !size.empty();
   if (simulate->count("--capture")) parse_captures(captures, options);

@@ -44,9 +44,10 @@ struct Options {
   std::string integrator;
   std::optional<int> substeps;  // a frame, of the integrator's; none: the stability bound's
   int threads = 1;
-  double frame_time = 1.0 / 60.0;  // s
-  int width = 1280, height = 720;  // pixels
-  bool size_given = false;         // the window opens in this size, whatever it had last
+  double frame_time = 1.0 / 60.0;   // s
+  int width = 1280, height = 720;   // pixels
+  bool size_given = false;          // the window opens in this size, whatever it had last
+  std::vector<std::string> meshes;  // OBJ files to open in the window
   int frames = 800;
   std::vector<int> captures;     // frames to write a picture of, ascending
   std::optional<int> obj_every;  // frames between those whose bodies are written as OBJ files

@@ -49,6 +49,7 @@ class Demo {
     session_.set_integrator(options.integrator, options.substeps);
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
+    ui_.import.drop(options.meshes, session_);
   }
 
   void run() {

@@ -12,6 +12,7 @@ struct DemoOptions {
   softbody::Scene scene;
   std::string scene_name;              // its key or file
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
+  std::vector<std::string> meshes;     // OBJ files that join the scene, as if dropped on the window
   std::string integrator{softbody::default_integrator};
   std::optional<int> substeps;  // as World::Options
   int threads = 1;

@@ -81,8 +81,8 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
   if (now.energy <= energy) return {};
   const softbody::BodyId body = culprit(bodies);
   return Alarm{body, frame,
-               text("Body %u gained energy from nothing: all bodies have %.3g J, and %.3g J is all there can be", body,
-                    now.energy, energy)};
+               text("Body %u gained energy from nothing: all bodies have %.3g J more than there can be", body,
+                    now.energy - energy)};
 }
 
 std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {

@@ -17,7 +17,8 @@ namespace app {
 namespace {
 
 constexpr std::size_t many_vertices = 10'000;
-constexpr double finest_edge = 0.2;  // tolerances
+// In tolerances. A vertex over the middle of a regular face is 1 / sqrt(3) of its edge away from the corners.
+constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
 
 /// The height at which a ball of this radius is clear of what is below, from `at` upwards.
 double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
@@ -42,9 +43,13 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   const std::string changed = softbody::remarks(f);
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");
-  const bool by_vertices = world.scene().contact_surface == softbody::ContactSurface::vertices;
-  if (by_vertices && read.prototype->mean_edge < finest_edge * static_cast<double>(world.collision().tolerance))
-    lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
+  if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
+    const double edge = read.prototype->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
+    if (edge < finest_edge * tolerance)
+      lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
+    if (edge > coarsest_edge * tolerance)
+      lines.push_back("faces wider than the tolerance: vertices may slip in between vertices, F is for surfaces");
+  }
   lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
   return lines;
 }

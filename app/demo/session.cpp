@@ -63,7 +63,7 @@ void Session::begin() {
   as_scripted_ = true;
   history_.clear();
   notice_.clear();
-  stability_.restart();
+  stability_.restart(*world_);
   show_anew();
 }
 

@@ -201,7 +201,7 @@ class Session {
     SceneFile file;
     SolidList solids;
   };
-  static constexpr std::size_t most_past = 4;
+  static constexpr std::size_t most_past = 8;
   static constexpr std::uint64_t most_work =
       1'000'000'000;  // pair tests of a frame in the window's thread: about half a second
   template <class Value>
@@ -220,6 +220,7 @@ class Session {
   void keep_world_settings(const softbody::Scene& in_use);
   void adopt(softbody::Scene scene);
   void remember(Past past);
+  void remember_present();
   void begin();
   void run(double elapsed);
   void step();

@@ -25,11 +25,19 @@ void Session::grab(const softbody::Grab& grab) {
 void Session::pull_to(const glm::dvec3& target) { world_->pull_to(target); }
 void Session::release() { world_->release(); }
 
+/// But for the hand that may hold a body: nobody will be there to let go.
+void Session::remember_present() {
+  softbody::Snapshot present = world_->snapshot();
+  present.dynamics.grab.reset();
+  remember({nullptr, std::move(present), scene_, scene_file_, solids_});
+}
+
 void Session::drop(int count) {
   if (!can_drop()) return;
   notice_.clear();
   as_scripted_ = false;
-  succeeds([&] { world_->drop(count); });
+  remember_present();
+  if (!succeeds([&] { world_->drop(count); })) past_.pop_back();
   intervened();
   ++revision_;
 }
@@ -38,12 +46,14 @@ void Session::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
   if (!can_drop()) return;
   notice_.clear();
   as_scripted_ = false;
-  const bool done = succeeds([&] {
-    if (const auto body = world_->throw_body(eye, throw_speed * direction))
-      select_body(body);
-    else
-      notice_ = "there is no room for a body before the camera: turn or move it";
-  });
+  remember_present();
+  std::optional<BodyId> body;
+  const bool done = succeeds([&] { body = world_->throw_body(eye, throw_speed * direction); });
+  if (body)
+    select_body(body);
+  else
+    past_.pop_back();
+  if (done && !body) notice_ = "there is no room for a body before the camera: turn or move it";
   intervened();
   if (done) ++revision_;
 }
@@ -55,8 +65,8 @@ void Session::remove_selected() {
   }
   notice_.clear();
   as_scripted_ = false;
+  remember_present();
   world_->release();
-  remember({nullptr, world_->snapshot(), scene_, scene_file_, solids_});
   succeeds([&] { world_->remove(*selected_body_); });
   selected_body_.reset();
   intervened();

@@ -19,6 +19,11 @@ softbody::Energy energy_at_start(const softbody::World& world) {
   return sum;
 }
 
+StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
+  if (std::isinf(integrator.stable_step(1, 0))) return StepMargin::Bound::unconditional;
+  return integrator.by_damping ? StepMargin::Bound::by_damping : StepMargin::Bound::stable;
+}
+
 }  // namespace
 
 void StabilityWatch::before_step(const softbody::World& world) {
@@ -30,8 +35,8 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const double frame = world.frame_time();
   // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
   const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
-  const bool unconditional = std::isinf(world.dynamics().used_integrator().stable_step(1, 0));
-  margin_ = taken > 0 ? StepMargin{taken, needed, frame / taken, frame / needed, unconditional} : StepMargin{};
+  margin_ = {};
+  if (taken > 0) margin_ = {taken, needed, frame / taken, frame / needed, kind_of(world.dynamics().used_integrator())};
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
@@ -60,7 +65,10 @@ void StabilityWatch::record(const softbody::World& world, const std::vector<soft
   push(history_.speed, all.max_speed);
 }
 
-void StabilityWatch::restart() { *this = {}; }
+void StabilityWatch::restart(const softbody::World& world) {
+  *this = {};
+  record(world, softbody::measure_bodies(world));
+}
 
 void StabilityWatch::went_back(const softbody::World& world) {
   guard_.restart();

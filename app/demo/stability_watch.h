@@ -14,13 +14,20 @@ struct StabilityHistory {
   Ring strain, speed;                          // the largest; m/s
 };
 
-/// Substeps of a frame: those that were taken, and those that the stability bound asks for, of which a fifth is
-/// reserve. All 0 if nothing moves, or no step was taken since the world went back.
+/// Substeps of a frame: those that were taken, and those that the stability bound asks for. All 0 if nothing moves, or
+/// no step was taken since the world went back.
 struct StepMargin {
+  /// What the bound means for the integrator at work.
+  enum class Bound {
+    stable,         // shorter steps than it are; a fifth of it is kept in reserve
+    by_damping,     // they are where springs are all that swings: gas and contacts may still gain energy
+    unconditional,  // all are: it is only to follow fast bodies near solids
+  };
+  static constexpr double reserve = 0.2;
+
   int taken = 0, needed = 0;
-  double substep = 0, bound = 0;  // s
-  /// The integrator is stable at any step: more are needed only to follow fast bodies near solids.
-  bool unconditional = false;
+  double substep = 0, bound = 0;  // s, the reserve taken off
+  Bound kind = Bound::stable;
 };
 
 class StabilityWatch {
@@ -33,8 +40,8 @@ class StabilityWatch {
   void after_step(const softbody::World& world, bool guarded);
   /// The user has changed something: energy may have come with it.
   void intervened() { guard_.restart(); }
-  /// Another world, of which nothing is known.
-  void restart();
+  /// Another world, of which nothing is known but what is so now.
+  void restart(const softbody::World& world);
   /// The world has gone back to one of past(): what came later is forgotten, and what is so now is measured.
   void went_back(const softbody::World& world);
   /// Keeps the present, so that one can come back to it, unless it is an exploded one or belongs to the past.

@@ -195,11 +195,13 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
 }
 
-void draw_reason(const Grid& grid, const Row& row) {
+/// Beside its time, if there is one.
+void draw_reason(const Session& session, const Grid& grid, const Row& row) {
   std::string reason = row.chosen ? "measuring" : "not chosen";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
-  ImGui::GetWindowDrawList()->AddText({grid.left(time), grid.text_top()}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
-                                      reason.c_str());
+  const bool timed = session.history().method_ms[row.index].size() > 0;
+  ImGui::GetWindowDrawList()->AddText({grid.left(timed ? tests : time), grid.text_top()},
+                                      ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
 }
 
 void draw_row(Widgets& w, Session& session, Grid& grid, const Row& row, const Scale& scale) {
@@ -214,7 +216,7 @@ void draw_row(Widgets& w, Session& session, Grid& grid, const Row& row, const Sc
   if (row.scored())
     draw_score(w, grid, row);
   else
-    draw_reason(grid, row);
+    draw_reason(session, grid, row);
   const Ring& times = session.history().method_ms[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});

@@ -25,8 +25,10 @@ std::string text(const char* format, Values... values) {
 std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
-  if (margin.unconditional) return text("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
-  return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3, margin.bound * 1e3);
+  if (margin.kind == StepMargin::Bound::unconditional)
+    return text("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
+  return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3,
+              margin.bound * 1e3 / (1 - StepMargin::reserve));
 }
 
 /// From the first snapshot to the newest; dragging goes there and pauses.
@@ -86,10 +88,14 @@ constexpr std::array<Curve, 9> curves{{
 }  // namespace
 
 Light light_of(const StepMargin& margin) {
-  if (margin.taken >= margin.needed) return {light_green, "Green", "the step is within the stability bound."};
-  if (margin.unconditional)
+  using Bound = StepMargin::Bound;
+  const bool within = margin.taken >= margin.needed;
+  if (margin.kind == Bound::unconditional && !within)
     return {light_amber, "Amber", "stable at any step, but bodies this fast near solids want shorter ones."};
-  if (margin.taken >= 0.8 * margin.needed)
+  if (margin.kind == Bound::by_damping && within && margin.taken > 0)
+    return {light_amber, "Amber", "stable where dampers are strong enough: gas and contacts may still gain energy."};
+  if (within) return {light_green, "Green", "the step is within the stability bound."};
+  if (margin.taken >= (1 - StepMargin::reserve) * margin.needed)
     return {light_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
   return {light_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
 }
@@ -101,12 +107,14 @@ void draw_step_light(Widgets& w, Session& session) {
   w.dot(light.colour);
   w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
   ImGui::EndGroup();
-  w.done("Step light", text("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence,
-                            margin.taken, margin.needed, margin.unconditional ? "" : ", with a reserve of a fifth")
-                           .c_str());
+  w.done("Step light",
+         text("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
+              margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
+             .c_str());
   if (!session.stability().alarm()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
-  ImGui::TextWrapped("%s (frame %d).", session.stability().alarm()->what.c_str(), session.stability().alarm()->frame);
+  ImGui::TextWrapped("%s (frame %d). Rewind, then take more substeps, Auto or softer springs.",
+                     session.stability().alarm()->what.c_str(), session.stability().alarm()->frame);
   ImGui::PopStyleColor();
   w.done("Alarm", nullptr);
   if (w.button("Rewind to the last good frame", "The world as it was before; then try other settings, or go on."))

@@ -304,14 +304,14 @@ std::string range_of(const Axis& axis, const char* unit) {
 void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
                     const glm::vec3& colour, const char* unit) {
   constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
-  const float end = px(value_end);
+  const float end = px(value_end), start = ImGui::GetCursorPosX();
   ImGui::BeginGroup();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
   ImGui::EndGroup();
   explain(label, range_of(axis, unit).c_str());
-  ImGui::SameLine(end + px(12));
+  ImGui::SameLine(start + end + px(10));
   sparkline(label, ring, axis, colour, unit);
 }
 

@@ -100,9 +100,12 @@ TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
 }
 
-TEST(StepLight, IsNeverRedForWhatIsStableAtAnyStep) {
-  EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, true}).name, "Amber");
-  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, true}).name, "Green");
+TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
+  using Bound = StepMargin::Bound;
+  EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
     StabilityWatch watch;
@@ -110,7 +113,10 @@ TEST(StepLight, IsNeverRedForWhatIsStableAtAnyStep) {
     world.step();
     watch.after_step(world, true);
     const std::string_view used = world.dynamics().used_integrator().key;
-    EXPECT_EQ(watch.margin().unconditional, used == "implicit" || used == "xpbd") << integrator.key;
+    const Bound expected = used == "implicit" || used == "xpbd" ? Bound::unconditional
+                           : used == "explicit-euler"           ? Bound::by_damping
+                                                                : Bound::stable;
+    EXPECT_EQ(watch.margin().kind, expected) << integrator.key;
   }
 }
 

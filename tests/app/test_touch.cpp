@@ -105,11 +105,29 @@ TEST(Undo, BringsTheWorldBackToTheBitAndItGoesOnAsIfNothingHadBeen) {
   ASSERT_TRUE(session.can_undo());
   session.undo();
   EXPECT_EQ(session.world().state_hash(), before);
-  EXPECT_FALSE(session.can_undo());
   for (Session* s : {&session, &undisturbed})
     for (int i = 0; i < 20; ++i) s->advance(tick);
   EXPECT_EQ(session.world().frame(), undisturbed.world().frame());
   EXPECT_EQ(session.world().state_hash(), undisturbed.world().state_hash());
+}
+
+TEST(Undo, TakesADropAndAThrowBackToTheBit) {
+  Session session(touching_pair(), {}, 1);
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  const std::uint64_t before = session.world().state_hash();
+  session.grab({.body = 0, .target = {0, 4, 0}});
+  session.drop(20);
+  EXPECT_TRUE(session.world().grabbed()) << "a drop does not make the hand let go";
+  session.throw_body({0, 3, 9}, {0, 0, -1});
+  ASSERT_EQ(session.world().bodies().count(), 23u);
+  session.advance(tick);
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 22u);
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_FALSE(session.world().grabbed());
+  EXPECT_FALSE(session.can_undo());
 }
 
 TEST(Undo, BringsADeletedBodyBackToTheBit) {
