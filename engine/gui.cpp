@@ -3,8 +3,13 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <imgui_internal.h>
+// After the backend's.
+#include <GLFW/glfw3.h>
 
+#include <cfloat>
 #include <cmath>
+#include <utility>
 
 #include "engine/gui_theme.h"
 #include "engine/window.h"
@@ -14,15 +19,21 @@ namespace {
 
 constexpr float font_height = 15.0f;  // pixels of the design
 
-void feed(ImGuiIO& io, const GuiInput& input) {
+void feed_mouse(ImGuiIO& io, const glm::vec2& at, const std::array<bool, 3>& buttons) {
 #if IMGUI_VERSION_NUM >= 18700
-  io.AddMousePosEvent(input.mouse.x, input.mouse.y);
-  for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, input.buttons[static_cast<std::size_t>(i)]);
-  if (input.wheel != 0.0f) io.AddMouseWheelEvent(0.0f, input.wheel);
+  io.AddMousePosEvent(at.x, at.y);
+  for (int i = 0; i < 3; ++i) io.AddMouseButtonEvent(i, buttons[static_cast<std::size_t>(i)]);
 #else
-  io.MousePos = {input.mouse.x, input.mouse.y};
-  for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = input.buttons[i];
-  io.MouseWheel += input.wheel;
+  io.MousePos = {at.x, at.y};
+  for (std::size_t i = 0; i < 3; ++i) io.MouseDown[i] = buttons[i];
+#endif
+}
+
+void feed_wheel(ImGuiIO& io, float steps) {
+#if IMGUI_VERSION_NUM >= 18700
+  if (steps != 0.0f) io.AddMouseWheelEvent(0.0f, steps);
+#else
+  io.MouseWheel += steps;
 #endif
 }
 
@@ -30,7 +41,9 @@ void feed(ImGuiIO& io, const GuiInput& input) {
 
 Gui::Gui(Window& window, const std::filesystem::path& settings) : window_(&window) {
   create(settings);
-  ImGui_ImplGlfw_InitForOpenGL(window.handle(), true);
+  ImGui_ImplGlfw_InitForOpenGL(window.handle(), false);  // the window queues mouse and keys: see take_input()
+  glfwSetWindowFocusCallback(window.handle(), ImGui_ImplGlfw_WindowFocusCallback);
+  glfwSetCursorEnterCallback(window.handle(), ImGui_ImplGlfw_CursorEnterCallback);
   ImGui_ImplOpenGL3_Init("#version 330 core");
   apply_scale(window.content_scale(), window.pixel_ratio());
 }
@@ -44,7 +57,11 @@ Gui::Gui(float scale) {
 
 Gui::~Gui() {
   ImGui_ImplOpenGL3_Shutdown();
-  if (window_ != nullptr) ImGui_ImplGlfw_Shutdown();
+  if (window_ != nullptr) {
+    glfwSetWindowFocusCallback(window_->handle(), nullptr);
+    glfwSetCursorEnterCallback(window_->handle(), nullptr);
+    ImGui_ImplGlfw_Shutdown();
+  }
   ImGui::DestroyContext();
 }
 
@@ -71,14 +88,51 @@ void Gui::begin_frame() {
   apply_scale(window_->content_scale(), window_->pixel_ratio());
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
+  take_input();
   ImGui::NewFrame();
 }
+
+void Gui::take_input() {
+  ImGuiIO& io = ImGui::GetIO();
+  const bool typing = wants_keyboard();
+#if IMGUI_VERSION_NUM >= 18700
+  glm::vec2 mouse = window_->cursor() / window_->pixel_ratio();  // its backend wants to be told
+#else
+  glm::vec2 mouse(io.MousePos.x, io.MousePos.y);
+#endif
+  for (const InputEvent& event : window_->take_input()) {
+    if (const auto* key = std::get_if<KeyEvent>(&event)) {
+      ImGui_ImplGlfw_KeyCallback(window_->handle(), key->key, key->scancode, key->action, key->mods);
+      if (!typing && key->action != GLFW_RELEASE)
+        key_presses_.push_back({key->labelled, key->mods, key->action == GLFW_REPEAT});
+    } else if (const auto* character = std::get_if<CharacterEvent>(&event)) {
+      // Shortcuts before a click would else be the first that the clicked field gets.
+      if (typing) ImGui_ImplGlfw_CharCallback(window_->handle(), character->code);
+    } else if (const auto* scroll = std::get_if<ScrollEvent>(&event)) {
+      ImGui_ImplGlfw_ScrollCallback(window_->handle(), scroll->steps.x, scroll->steps.y);
+    } else if (const auto& button = std::get<ButtonEvent>(event);
+               button.button >= 0 && button.button < static_cast<int>(buttons_.size())) {
+      const auto which = static_cast<std::size_t>(button.button);
+      buttons_[which] = button.down;
+      mouse = button.at;
+      if (!button.down) continue;
+      // ImGui counts the time by frames; slow ones would make every double-click two clicks.
+      constexpr double double_click = 0.3;  // s
+      io.MouseDoubleClickTime = button.earliest - pressed_[which] < double_click ? FLT_MAX : 0.0f;
+      pressed_[which] = button.latest;
+    }
+  }
+  feed_mouse(io, mouse, buttons_);
+}
+
+std::vector<KeyPress> Gui::take_key_presses() { return std::exchange(key_presses_, {}); }
 
 void Gui::begin_frame(const GuiInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {static_cast<float>(input.display_size.x), static_cast<float>(input.display_size.y)};
   io.DeltaTime = input.seconds;
-  feed(io, input);
+  feed_mouse(io, input.mouse, input.buttons);
+  feed_wheel(io, input.wheel);
   ImGui_ImplOpenGL3_NewFrame();
   ImGui::NewFrame();
 }
@@ -88,6 +142,9 @@ void Gui::end_frame() { ImGui::Render(); }
 void Gui::draw() const { ImGui_ImplOpenGL3_RenderDrawData(ImGui::GetDrawData()); }
 
 bool Gui::wants_mouse() const { return ImGui::GetIO().WantCaptureMouse; }
-bool Gui::wants_keyboard() const { return ImGui::GetIO().WantTextInput; }
+bool Gui::wants_keyboard() const {
+  // Not io.WantTextInput, which is a frame late.
+  return ImGui::IsAnyItemActive() && ImGui::GetInputTextState(ImGui::GetActiveID()) != nullptr;
+}
 
 }  // namespace engine

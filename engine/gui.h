@@ -6,6 +6,9 @@
 #include <filesystem>
 #include <glm/vec2.hpp>
 #include <string>
+#include <vector>
+
+#include "engine/input_queue.h"
 
 namespace engine {
 
@@ -20,6 +23,13 @@ struct GuiInput {
   float seconds = 1.0f / 60.0f;   // since the last frame, > 0
 };
 
+/// A key that went down (or repeats). Letters follow the keyboard's layout: 'Q' is the key labelled Q, as GLFW_KEY_Q.
+struct KeyPress {
+  int key;   // GLFW_KEY_*
+  int mods;  // GLFW_MOD_*
+  bool repeat;
+};
+
 class Gui {
  public:
   /// For a window, with its mouse and keyboard. `settings` is where ImGui keeps its windows' places; empty: nowhere.
@@ -30,7 +40,7 @@ class Gui {
   Gui(const Gui&) = delete;
   Gui& operator=(const Gui&) = delete;
 
-  void begin_frame();                       // window
+  void begin_frame();                       // window, whose input it takes
   void begin_frame(const GuiInput& input);  // headless
   void end_frame();
   /// The last frame that was ended, into the bound framebuffer; as often as wanted, until the next one begins.
@@ -38,16 +48,24 @@ class Gui {
 
   bool wants_mouse() const;     // the mouse is over a panel, or holds one of its widgets
   bool wants_keyboard() const;  // a text field has the focus
+  /// What the window's frames since the last call were told of keys, less what was typed into text fields.
+  std::vector<KeyPress> take_key_presses();
 
   /// ImGui units per pixel of the design: multiply every fixed width by it.
   float scale() const { return scale_; }
 
  private:
+  static constexpr double never = -1e9;
+
   void create(const std::filesystem::path& settings);
+  void take_input();
   void apply_scale(float content_scale, float pixel_ratio);
 
   Window* window_ = nullptr;
   std::string settings_;  // ImGui keeps a pointer to it
+  std::vector<KeyPress> key_presses_;
+  std::array<bool, 3> buttons_{};
+  std::array<double, 3> pressed_{never, never, never};  // s: when each button went down last
   float content_scale_ = 0.0f, pixel_ratio_ = 0.0f, scale_ = 1.0f;
 };
 

@@ -71,6 +71,9 @@ Window::Window(const WindowOptions& options) {
   glfwSetKeyCallback(window_, &Window::on_key);
   glfwSetDropCallback(window_, &Window::on_drop);
   glfwSetMouseButtonCallback(window_, &Window::on_button);
+  glfwSetCursorPosCallback(window_, &Window::on_cursor);
+  glfwSetScrollCallback(window_, &Window::on_scroll);
+  glfwSetCharCallback(window_, &Window::on_character);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
   set_vsync(options.vsync);
   measure();
@@ -87,6 +90,7 @@ void Window::poll() {
   } else {
     glfwPollEvents();
   }
+  polled_ = glfwGetTime();
   measure();
 }
 
@@ -99,9 +103,7 @@ void Window::measure() {
       glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || framebuffer_size_.x <= 0 || framebuffer_size_.y <= 0;
 }
 
-std::vector<KeyPress> Window::take_key_presses() { return std::exchange(key_presses_, {}); }
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(dropped_files_, {}); }
-bool Window::take_clicked() { return std::exchange(clicked_, false); }
 
 void Window::present() { glfwSwapBuffers(window_); }
 void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
@@ -132,23 +134,36 @@ glm::vec2 Window::cursor() const {
 
 bool Window::left_button_down() const { return glfwGetMouseButton(window_, GLFW_MOUSE_BUTTON_LEFT) == GLFW_PRESS; }
 
+namespace {
+
+Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUserPointer(window)); }
+
+}  // namespace
+
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
-  auto& files = static_cast<Window*>(glfwGetWindowUserPointer(window))->dropped_files_;
+  auto& files = self(window).dropped_files_;
   files.insert(files.end(), paths, paths + count);
 }
 
-void Window::on_button(GLFWwindow* window, int, int action, int) {
-  if (action == GLFW_PRESS) static_cast<Window*>(glfwGetWindowUserPointer(window))->clicked_ = true;
+void Window::on_cursor(GLFWwindow* window, double x, double y) { self(window).cursor_ = {x, y}; }
+
+void Window::on_button(GLFWwindow* window, int button, int action, int) {
+  Window& w = self(window);
+  w.input_.push(ButtonEvent{button, action == GLFW_PRESS, w.cursor_, w.polled_, glfwGetTime()});
 }
 
+void Window::on_scroll(GLFWwindow* window, double x, double y) { self(window).input_.push(ScrollEvent{{x, y}}); }
+
+void Window::on_character(GLFWwindow* window, unsigned int code) { self(window).input_.push(CharacterEvent{code}); }
+
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  if (action == GLFW_RELEASE) return;
   // GLFW names keys by their place on a US keyboard; a shortcut means the letter printed on the key.
+  int labelled = key;
   const char* label = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, scancode) : nullptr;
   if (label != nullptr && label[1] == '\0' && std::isalpha(static_cast<unsigned char>(label[0]))) {
-    key = std::toupper(static_cast<unsigned char>(label[0]));
+    labelled = std::toupper(static_cast<unsigned char>(label[0]));
   }
-  static_cast<Window*>(glfwGetWindowUserPointer(window))->key_presses_.push_back({key, mods, action == GLFW_REPEAT});
+  self(window).input_.push(KeyEvent{key, labelled, scancode, action, mods});
 }
 
 }  // namespace engine

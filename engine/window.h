@@ -1,9 +1,11 @@
 #pragma once
-// A window with an OpenGL 3.3 core context, the keys pressed in it and the files dropped on it. One window per program.
+// A window with an OpenGL 3.3 core context, its mouse and keyboard and the files dropped on it. One window per program.
 
 #include <glm/vec2.hpp>
 #include <string>
 #include <vector>
+
+#include "engine/input_queue.h"
 
 struct GLFWwindow;
 
@@ -15,13 +17,6 @@ struct WindowOptions {
   int samples = 4;             // multisampling of the window's own framebuffer; 0 for none
   bool vsync = true;
   bool visible = true;
-};
-
-/// A key that went down (or repeats). Letters follow the keyboard's layout: 'Q' is the key labelled Q, as GLFW_KEY_Q.
-struct KeyPress {
-  int key;   // GLFW_KEY_*
-  int mods;  // GLFW_MOD_*
-  bool repeat;
 };
 
 class Window {
@@ -37,10 +32,11 @@ class Window {
 
   /// Handles what happened since the last call. Sleeps up to 0.1 s while minimised, so that a loop does not spin.
   void poll();
+  /// Of what happened in all calls of poll() until now, what the next frame may be told.
+  std::vector<InputEvent> take_input() { return input_.take(); }
+  bool input_waits() const { return !input_.empty(); }  // for another frame
   // What happened in all calls of poll() since it was last taken.
-  std::vector<KeyPress> take_key_presses();
   std::vector<std::string> take_dropped_files();  // paths
-  bool take_clicked();                            // some button went down
   /// Shows the frame; with vsync, waits for the monitor.
   void present();
   void set_vsync(bool on);
@@ -66,6 +62,9 @@ class Window {
   void measure();
 
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
+  static void on_character(GLFWwindow* window, unsigned int code);
+  static void on_cursor(GLFWwindow* window, double x, double y);
+  static void on_scroll(GLFWwindow* window, double x, double y);
   static void on_drop(GLFWwindow* window, int count, const char** paths);
   static void on_button(GLFWwindow* window, int button, int action, int mods);
 
@@ -74,8 +73,9 @@ class Window {
   glm::ivec2 framebuffer_size_{0};
   float pixel_ratio_ = 1.0f;
   bool minimised_ = false;
-  bool clicked_ = false;
-  std::vector<KeyPress> key_presses_;
+  InputQueue input_;
+  glm::vec2 cursor_{0.0f};  // screen coordinates, as the events tell: while they are handled, it is further already
+  double polled_ = 0;       // s: what is not handled yet happened since
   std::vector<std::string> dropped_files_;
 };
 

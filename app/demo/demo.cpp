@@ -56,7 +56,6 @@ class Demo {
     while (screen_->window.open() && !ui_.quit) {
       screen_->window.poll();
       const double elapsed = pacer_.tick();
-      handle_keys();
       if (screen_->window.minimised()) continue;  // poll() has slept; the world waits for its window
       frame(elapsed);
     }
@@ -92,30 +91,37 @@ class Demo {
   }
 
   void handle_keys() {
-    // What is typed in the same moment as a click, on a slow machine, may be meant for the field that was clicked.
-    const bool clicked = screen_->window.take_clicked();
-    const std::vector<engine::KeyPress> keys = screen_->window.take_key_presses();
-    if (screen_->gui.wants_keyboard() || clicked) return;
-    for (const engine::KeyPress& key : keys) {
+    for (const engine::KeyPress& key : screen_->gui.take_key_presses())
       if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
-    }
+  }
+
+  /// Begins a frame of the Gui, and does what it is told of mouse and keyboard.
+  void take_input(double elapsed) {
+    screen_->gui.begin_frame();
+    handle_keys();
+    interface_.draw(session_, ui_, screen_->gui.scale(), seconds_);
+    const engine::Viewport viewport = scene_viewport();
+    move_camera(viewport, elapsed);
+    do_as_asked(viewport);
   }
 
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.take_dropped_files(), session_);
-    screen_->gui.begin_frame();
-    interface_.draw(session_, ui_, screen_->gui.scale(), seconds_);
+    // Whatever waits of mouse and keyboard, a click at a time: a slow world does not keep those who type or click.
+    take_input(elapsed);
+    while (screen_->window.input_waits()) {
+      screen_->gui.end_frame();
+      take_input(0);
+    }
     const engine::Viewport viewport = scene_viewport();
-    move_camera(viewport, elapsed);
-    do_as_asked(viewport);
     double drawing = timed([&] { draw_scene(viewport); });
     if (const Spotlight* light = ui_.tour.spotlight())
       draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), screen_->gui.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     screen_->gui.end_frame();
     ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
-    advance(elapsed);  // while the driver draws
+    if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
     screen_->canvas.pace(elapsed, drawing);
     keep_preferences();

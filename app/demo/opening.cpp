@@ -20,11 +20,11 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Screen& screen
     status = opening.wait_for(std::chrono::milliseconds(30));
     screen.window.poll();
     if (!screen.window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
-    screen.window.take_key_presses();                          // there is nothing yet that they could be meant for
     if (screen.window.minimised()) continue;
     const std::string text =
         "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
     screen.gui.begin_frame();
+    screen.gui.take_key_presses();  // there is nothing yet that they could be meant for
     const ImVec2 room = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
     ImGui::GetForegroundDrawList()->AddText({(room.x - size.x) / 2, (room.y - size.y) / 2},
                                             ImGui::GetColorU32(ImGuiCol_Text), text.c_str());

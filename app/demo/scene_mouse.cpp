@@ -2,6 +2,8 @@
 
 #include <imgui.h>
 
+#include <utility>
+
 #include <glm/geometric.hpp>
 
 namespace app {
@@ -41,11 +43,10 @@ engine::Ray SceneMouse::ray(const engine::Camera& camera, glm::ivec2 size) const
 void SceneMouse::follow(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
   at_.reset();
   if (in.over_scene) at_ = in.at;
-  const bool pressed = in.down[0] && !was_down_ && in.over_scene;
-  was_down_ = in.down[0];
-  if (pressed) press(in, session, camera, size);
-  if (!in.down[0]) let_go(session);
   drag(in, session, camera, size);
+  const auto before = std::exchange(down_, in.down);
+  if (in.down[0] && !before[0] && in.over_scene) press(in, session, camera, size);
+  if (!in.down[0]) let_go(session);
   last_at_ = in.at;
   turned_on_ = {};
   on_body_ = drag_ == Drag::body || (in.over_scene && drag_ == Drag::nothing &&
@@ -77,13 +78,15 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   }
 }
 
+// By the buttons that were down in the last frame: the way to where one went down is no drag, the way to where it went
+// up is.
 void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
   travelled_ += glm::length(in.moved);
   const auto& held = session.world().grabbed();
   if (drag_ == Drag::body && held) session.pull_to(beside(camera.pick_ray(in.at, size), camera, held->target));
   if (drag_ == Drag::turn) camera.rotate(in.moved - turned_on_, size);
   if (!in.over_scene) return;
-  if (in.down[1] || in.down[2]) camera.pan(in.moved, size);
+  if (down_[1] || down_[2]) camera.pan(in.moved, size);
   if (in.wheel != 0) camera.zoom(in.wheel);
 }
 

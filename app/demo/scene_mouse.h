@@ -9,7 +9,8 @@
 
 namespace app {
 
-/// One frame's mouse. Pixels are the framebuffer's; `at` from the viewport's top left corner.
+/// One frame's mouse, with a button's change at its end. Pixels are the framebuffer's; `at` from the viewport's top
+/// left corner.
 struct MouseInput {
   glm::vec2 at{0.0f}, moved{0.0f};
   std::array<bool, 3> down{};  // left, right, middle
@@ -45,7 +46,8 @@ class SceneMouse {
   void let_go(Session& session);
 
   Drag drag_ = Drag::nothing;
-  bool was_down_ = false, on_body_ = false, pressed_on_body_ = false;
+  std::array<bool, 3> down_{};  // as in the last frame
+  bool on_body_ = false, pressed_on_body_ = false;
   float travelled_ = 0;  // pixels, since the left button went down
   std::optional<glm::vec2> at_;
   glm::vec2 last_at_{0.0f}, turned_on_{0.0f};  // pixels: the second by turn_on(), since follow()

@@ -1,5 +1,7 @@
 #include "app/panel/widgets.h"
 
+#include <imgui_internal.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -42,9 +44,17 @@ void Widgets::done(const char* label, const char* tooltip) {
 
 void Widgets::explain(const char* label, const char* tooltip) {
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) hover_ = {label, 0};
+  if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    hover_.label = label;
+    hover_.seconds = 0;
+  }
   hover_.seconds += ImGui::GetIO().DeltaTime;
   if (hover_.seconds >= Hover::delay) show_tooltip(tooltip);
+}
+
+void Widgets::done_with_number(const char* label, const char* tooltip) {
+  constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
+  done(label, tooltip ? joined(tooltip, "\n", how).c_str() : how);
 }
 
 namespace {
@@ -147,39 +157,68 @@ void mark_slider(float place, float steps, float bar) {
 constexpr float slider_bar = 2.5f;  // design pixels
 constexpr ImGuiSliderFlags kept_inside = ImGuiSliderFlags_AlwaysClamp;
 
+/// By double-click. One in a field that is open already selects a word there.
+bool opens_field() { return ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive(); }
+
+/// ImGui's sliders open a field for typing by Ctrl+click alone, its drags by double-click too.
+struct OpensByDoubleClick {
+  const bool before = ImGui::GetIO().KeyCtrl;
+  OpensByDoubleClick() { ImGui::GetIO().KeyCtrl |= opens_field(); }
+  ~OpensByDoubleClick() { ImGui::GetIO().KeyCtrl = before; }
+};
+
 }  // namespace
 
-bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
+template <class Value, class Show>
+bool Widgets::slide(const char* label, Value& value, const Show& show) {
+  const Value now = value;
+  const bool twice = opens_field() && hover_.pressed == label;
+  if (twice) value = static_cast<Value>(hover_.before);
   const bool changed = [&] {
     const HiddenGrab hide;
-    return ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
+    const OpensByDoubleClick opens;
+    return show(twice);
   }();
+  if (twice) {
+    if (!ImGui::IsItemActive()) value = now;  // the second click was beside it
+    hover_.pressed.clear();
+  } else if (ImGui::IsItemActivated()) {
+    hover_.pressed = label;
+    hover_.before = static_cast<double>(now);
+  }
+  return changed || value != now;
+}
+
+bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
+  const bool changed = slide(label, value, [&](bool) {
+    return ImGui::SliderInt(hidden(label).c_str(), &value, least, most, format, kept_inside);
+  });
   mark_slider(place_of(value, least, most, false), static_cast<float>(most - least), px(slider_bar));
-  done(label, tooltip);
+  done_with_number(label, tooltip);
   return changed;
 }
 
 bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const bool changed = [&] {
-    const HiddenGrab hide;
-    const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const bool changed = slide(label, value, [&](bool) {
     return ImGui::SliderFloat(hidden(label).c_str(), &value, least, most, format, flags);
-  }();
-  mark_slider(place_of(double{value}, double{least}, double{most}, logarithmic), 0, px(slider_bar));
-  done(label, tooltip);
+  });
+  // ImGui's logarithmic sliders begin where the shown digits do, if at 0.
+  const double begin = logarithmic ? std::max(double{least}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : least;
+  mark_slider(place_of(double{value}, begin, double{most}, logarithmic), 0, px(slider_bar));
+  done_with_number(label, tooltip);
   return changed;
 }
 
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
-  const bool changed = [&] {
-    const HiddenGrab hide;
-    return ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, "",
+  const bool changed = slide(label, value, [&](bool typed) {
+    return ImGui::SliderScalar(hidden(label).c_str(), ImGuiDataType_U32, &value, &least, &most, typed ? "%u" : "",
                                kept_inside | ImGuiSliderFlags_Logarithmic);
-  }();
+  });
   mark_slider(place_of(value, least, most, true), 0, px(slider_bar));
-  done(label, tooltip);
+  done_with_number(label, tooltip);
   return changed;
 }
 
@@ -188,7 +227,7 @@ bool Widgets::drag(const char* label, glm::dvec3& value, float least, float most
   std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
   const bool changed =
       ImGui::DragFloat3(hidden(label).c_str(), shown.data(), metres_a_pixel, least, most, "%.2f", kept_inside);
-  done(label, tooltip);
+  done_with_number(label, tooltip);
   const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
   if (usable) value = {shown[0], shown[1], shown[2]};
   return usable;

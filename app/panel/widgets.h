@@ -28,11 +28,15 @@ struct Recorder {
   const Widget* find(std::string_view label) const;
 };
 
-/// What the mouse rests on, kept from frame to frame, so that tooltips come only to a mouse that rests.
+/// What the mouse does, kept from frame to frame.
 struct Hover {
   static constexpr float delay = 0.4f;  // s
+  // What it rests on and for how long, so that tooltips come only to a mouse that rests.
   std::string label;
   float seconds = 0;
+  // The slider that it was pressed on last, and the value till then, which a double-click brings back.
+  std::string pressed;
+  double before = 0;
 };
 
 ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
@@ -63,6 +67,7 @@ class Widgets {
   bool heading(const char* label, const char* tooltip);
   /// A section that folds; true if it is open.
   bool section(const char* label, bool open_at_first);
+  /// Sliders take a double-click too, which opens a field for typing.
   bool slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip);
   bool slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
               bool logarithmic);
@@ -104,6 +109,12 @@ class Widgets {
   void show_tooltip(const char* text) const;
 
  private:
+  /// As done(); the tooltip also says how to change a number that is dragged.
+  void done_with_number(const char* label, const char* tooltip);
+  /// An ImGui slider of `value`, by show(whether its value is about to be typed).
+  template <class Value, class Show>
+  bool slide(const char* label, Value& value, const Show& show);
+
   float scale_, usual_alpha_;
   Hover& hover_;
   std::map<std::string, bool>& sections_;

@@ -94,7 +94,7 @@ constexpr float far = 20, least_size = 0.02f, most_size = 10;  // m
 
 bool drag_place(Widgets& w, glm::dvec3& place) {
   w.row("Place", w.px(column));
-  return w.drag("Solid place", place, -far, far, "x, y and z in metres: drag sideways, or double-click to type.");
+  return w.drag("Solid place", place, -far, far, "x, y and z in metres.");
 }
 
 bool slide_radius(Widgets& w, double& radius) {

@@ -16,7 +16,8 @@ class PanelRig {
   explicit PanelRig(float scale = 1, const softbody::Scene& scene = touching_pair())
       : gui_(scale), scale_(scale), session(scene, {}, 1) {
     input_.display_size = {static_cast<int>(1280 * scale), static_cast<int>(1150 * scale)};
-    frames(3);  // ImGui sizes its windows in the first frames
+    ImGui::GetIO().MouseDoubleClickTime = 0;  // a test's clicks follow one another faster than a hand's
+    frames(3);                                // ImGui sizes its windows in the first frames
   }
 
   /// One frame of the demo's loop, a 60th of a second of real time.
@@ -77,9 +78,19 @@ class PanelRig {
     const auto [name, min, max, enabled] = widget(label);
     click_at(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
   }
+  void double_click(std::string_view label) {
+    click(label);
+    ImGui::GetIO().MouseDoubleClickTime = 1;
+    click(label);
+    ImGui::GetIO().MouseDoubleClickTime = 0;
+  }
   /// Clicks into a field, which selects all that is in it, and types.
   void type(std::string_view label, std::string_view text) {
     click(label);
+    type(text);
+  }
+  /// Types into the field that is active.
+  void type(std::string_view text) {
     for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
     frames(static_cast<int>(text.size()) + 2);  // newer versions of ImGui take one key a frame
   }

@@ -69,6 +69,32 @@ TEST(PanelTouch, DragsEverythingOfTheWorldToItsEndsWhileItRuns) {
   EXPECT_FALSE(world.plan().has(softbody::Stage::gravity));
 }
 
+TEST(PanelTouch, ADoubleClickOnASliderTakesItsValueFromTheKeyboard) {
+  PanelRig rig;
+  const std::uint32_t buckets = rig.session.world().collision().buckets;
+  rig.double_click("Buckets");
+  EXPECT_EQ(rig.session.world().collision().buckets, buckets);
+  rig.type("4321");
+  EXPECT_EQ(rig.session.world().collision().buckets, 4321u);
+  rig.click("Detection");
+  rig.click("World");
+  const auto gravity = [&] { return glm::length(rig.session.world().scene().gravity); };
+  const double before = gravity();
+  rig.click("Gravity");
+  EXPECT_NE(gravity(), before) << "a click goes to its place";
+  rig.click("Scene's world");
+  rig.double_click("Gravity");
+  EXPECT_NEAR(gravity(), before, 1e-6) << "a double-click leaves the value";
+  rig.type("3.5");
+  EXPECT_NEAR(gravity(), 3.5, 1e-6);
+  rig.double_click("Gravity");
+  EXPECT_NEAR(gravity(), 3.5, 1e-6) << "into its own field";
+  rig.type("99");
+  EXPECT_NEAR(gravity(), 30, 1e-6) << "its end";
+  rig.double_click("Bend stiffness");
+  EXPECT_NEAR(gravity(), 30, 1e-6) << "another slider";
+}
+
 TEST(PanelTouch, SwitchesAndChoosesSolids) {
   PanelRig rig;
   rig.click("Detection");

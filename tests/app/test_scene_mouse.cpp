@@ -200,6 +200,35 @@ TEST_F(Mouse, BesideAllBodiesTurnsAndAClickSelectsNothing) {
   EXPECT_FALSE(session.selected_body());
 }
 
+/// In one slow frame: the way to the place of the press is no drag, and the way from there to the release is one.
+TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
+  const engine::Orbit before = camera.orbit();
+  const auto jump = [&](const glm::vec2& to, std::size_t which, bool down) {
+    input.moved = to - input.at;
+    input.at = to;
+    button(which, down);
+    camera.settle();
+  };
+  session.select_body(0);
+  for (const std::size_t which : {0u, 1u}) {
+    jump({400, 5}, which, true);
+    jump({400, 5}, which, false);
+    jump({5, 5}, 2, false);
+    EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
+    EXPECT_EQ(camera.orbit().target, before.target);
+  }
+  EXPECT_FALSE(session.selected_body()) << "that was a click beside all bodies";
+  session.paused = true;
+  jump(body_pixel(1), 0, true);
+  jump(input.at, 0, false);
+  EXPECT_EQ(session.selected_body(), 1u);
+  EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
+  jump({5, 5}, 0, true);
+  jump({205, 5}, 0, false);
+  EXPECT_GT(std::abs(camera.orbit().azimuth - before.azimuth), 0.1f);
+  EXPECT_EQ(session.selected_body(), 1u) << "that was a drag";
+}
+
 TEST_F(Mouse, WhilePausedSelectsAndTurns) {
   session.paused = true;
   move(body_pixel(0));

@@ -128,9 +128,10 @@ open_only() {
 open_only Files
 start
 xdotool windowfocus "$window" 2>/dev/null
-click 150 "$field" 1  # the field of the file to open
-xdotool type --delay 300 mesh.obj
-press Return
+# Into the field of the file to open, faster than many a frame: nothing is lost, and nothing taken for a shortcut.
+xdotool mousemove 150 "$field"; sleep 0.3
+xdotool click 1 type --delay 20 mesh.obj
+xdotool key Return
 sleep 1
 click 150 $((field + 58)) 1  # and that of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdlib>
 #include <string>
 
@@ -13,6 +14,7 @@
 #include "engine/resources.h"
 // After GLEW, which wants to be first.
 #include <GLFW/glfw3.h>
+#include <imgui.h>
 
 namespace engine {
 namespace {
@@ -65,6 +67,91 @@ TEST(WindowTest, ShowsASceneAndAPanel) {
   EXPECT_TRUE(window.take_dropped_files().empty());
   window.close();
   EXPECT_FALSE(window.open());
+}
+
+/// Mouse and keyboard as they come to the window, and a frame with a field at a known place.
+class InputTest : public testing::Test {
+ protected:
+  void frame() {
+    gui.begin_frame();
+    ImGui::SetNextWindowPos({0, 0});
+    ImGui::SetNextWindowSize({200, 200});
+    ImGui::Begin("panel", nullptr, ImGuiWindowFlags_NoTitleBar);
+    ImGui::SetCursorScreenPos({20, 20});
+    ImGui::InputText("##field", text.data(), text.size());
+    ImGui::End();
+    double_clicked |= ImGui::IsMouseDoubleClicked(0);
+    clicked += ImGui::IsMouseClicked(0);
+    if (ImGui::IsMouseClicked(0)) clicked_at = {ImGui::GetMousePos().x, ImGui::GetMousePos().y};
+    gui.end_frame();
+    gui.draw();
+    for (const KeyPress& key : gui.take_key_presses()) shortcuts += static_cast<char>(key.key);
+  }
+  void frames() {
+    do frame();
+    while (window.input_waits());
+  }
+  void move(double x, double y) { on_cursor(window.handle(), x, y); }
+  void click() {
+    for (const int action : {GLFW_PRESS, GLFW_RELEASE}) on_button(window.handle(), GLFW_MOUSE_BUTTON_LEFT, action, 0);
+  }
+  void type(const std::string& capitals) {
+    for (const char c : capitals) {
+      on_key(window.handle(), c, 0, GLFW_PRESS, 0);
+      on_character(window.handle(), static_cast<unsigned char>(c));
+      on_key(window.handle(), c, 0, GLFW_RELEASE, 0);
+    }
+  }
+
+  Window window{{.title = "test", .size = {400, 300}, .samples = 0, .vsync = false}};
+  Gui gui{window};
+  const GLFWcursorposfun on_cursor = glfwSetCursorPosCallback(window.handle(), nullptr);
+  const GLFWmousebuttonfun on_button = glfwSetMouseButtonCallback(window.handle(), nullptr);
+  const GLFWkeyfun on_key = glfwSetKeyCallback(window.handle(), nullptr);
+  const GLFWcharfun on_character = glfwSetCharCallback(window.handle(), nullptr);
+  std::array<char, 32> text{};
+  std::string shortcuts;
+  int clicked = 0;
+  bool double_clicked = false;
+  glm::vec2 clicked_at{0.0f};
+};
+
+TEST_F(InputTest, KeysAfterAClickOfOnePollAreForWhatItChose) {
+  frames();
+  type("12");
+  move(30, 30);
+  click();
+  type("34");
+  move(300, 200);
+  frames();
+  EXPECT_EQ(shortcuts, "12");
+  EXPECT_STREQ(text.data(), "34");
+  click();  // beside the field
+  type("5");
+  frames();
+  EXPECT_EQ(shortcuts, "125");
+  EXPECT_STREQ(text.data(), "34");
+}
+
+TEST_F(InputTest, AClickIsWhereTheButtonWentDown) {
+  frames();
+  move(321, 234);
+  click();
+  move(20, 10);
+  frames();
+  EXPECT_EQ(clicked, 1);
+  EXPECT_EQ(clicked_at, glm::vec2(321, 234));
+  EXPECT_FALSE(double_clicked);
+}
+
+TEST_F(InputTest, TwoClicksOfOnePollAreADoubleClick) {
+  frames();
+  move(300, 200);
+  click();
+  click();
+  frames();
+  EXPECT_EQ(clicked, 2);
+  EXPECT_TRUE(double_clicked);
 }
 
 }  // namespace
