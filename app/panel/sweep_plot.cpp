@@ -69,8 +69,12 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
   draw_front(w);
   for (const Point& point : points_) {
     if (emphasis.row != point.row) continue;
-    ImGui::GetWindowDrawList()->AddCircle(point.at, w.px(2 * mark_radius), to_imgui(in_use), 24, w.px(2));
+    draw_ring(w, point.at);
   }
+}
+
+void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {
+  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(in_use), 24, w.px(2));
 }
 
 /// Whole decades, a few of them from the start, so that the axes hardly ever change while points come in.
@@ -101,6 +105,7 @@ void SweepPlot::draw_axes(const Widgets& w) const {
   draw->AddRectFilled({time_.start, error_.end}, {time_.end, floor_}, to_imgui(band));
   draw_time_axis(w, top);
   draw_error_axis(w);
+  pale_text({time_.end - w.px(6), floor_ - ImGui::GetTextLineHeight() - w.px(2)}, 1, "none missed; a lane a method");
   draw->AddRect({time_.start, top}, {time_.end, floor_}, ImGui::GetColorU32(ImGuiCol_Border));
   pale_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
             "1 - recall: missed share of the true contacts");

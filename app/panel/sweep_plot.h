@@ -32,6 +32,8 @@ class SweepPlot {
 
   /// The mark of a level: disc, square, triangle, triangle upside down.
   static void draw_mark(ImVec2 at, float radius, std::size_t level, ImU32 colour);
+  /// Round the mark of the settings in use.
+  static void draw_ring(const Widgets& w, ImVec2 at);
 
  private:
   struct Axis {

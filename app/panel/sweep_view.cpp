@@ -180,6 +180,7 @@ void SweepView::draw_legend(Widgets& w) {
     ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
                                         w.px(1.5f));
   });
+  legend_entry(w, "in use", "What drives the bodies now.", false, [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
 }
 
 void SweepView::draw_plot(Widgets& w, Session& session, float height) {

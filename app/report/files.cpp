@@ -48,11 +48,13 @@ std::string command_of(const ReportOptions& o) {
 }
 
 void write_report(const std::filesystem::path& folder, const ReportFiles& files) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%60s\r", "");
+  const bool watched = isatty(STDERR_FILENO) != 0;
+  if (watched) std::fprintf(stderr, "\r%60s\r", "");
   const auto pictures = draw_all(files.plots);
   write_file(folder / files.csv_name, files.csv);
   for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
   write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
+  if (watched) std::fprintf(stderr, "written: %s\n", (folder / files.markdown_name).c_str());
 }
 
 }  // namespace app

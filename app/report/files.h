@@ -26,7 +26,7 @@ struct ReportFiles {
 };
 
 /// Writes all of them into a folder that is there. Without gnuplot the plots are left out, which is said: the figures
-/// are worth having without them.
+/// are worth having without them. A terminal is told where they are.
 void write_report(const std::filesystem::path& folder, const ReportFiles& files);
 
 }  // namespace app

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <iostream>
 
 #include "app/report/contact/contact.h"
 #include "app/report/detection/detection.h"
@@ -35,7 +34,6 @@ void report(const Options& options) {
   const Report& report = find_report(options.report.name);
   scene_folder();  // throws where there is none: some reports open their scenes only after minutes
   report.make(options);
-  std::cout << "written: " << (options.out / (options.report.name + ".md")).string() << ", with its tables and plots\n";
 }
 
 }  // namespace app
