@@ -67,7 +67,7 @@ bool ContactMemory::follow(const Frame& frame, GroupSearch& search, Workers& wor
 }
 
 void ContactMemory::watch(const Frame& frame, const Result& result, Workers& workers) {
-  if (account_.pauses()) return;
+  if (account_.take_pause()) return;
   if (state_ == State::blank) {
     state_ = State::seen;
     return;

@@ -14,12 +14,12 @@ class MemoryAccount {
  public:
   /// A fresh search found so many contacts by so many tests: what it took is what a remembered frame saves.
   void open(std::size_t vertices, std::size_t contacts, std::uint64_t tests) {
-    fresh_ = 3.0 * double(vertices) + 20.0 * double(contacts) + 0.3 * double(tests);
+    fresh_ = a_vertex * double(vertices) + a_contact * double(contacts) + a_test * double(tests);
     credit_ = most_frames * fresh_;
   }
   /// A frame was told by tests of candidates alone.
   void earn(std::size_t vertices, std::uint64_t candidate_tests) {
-    credit_ += fresh_ - 0.7 * double(vertices) - 1.0 * double(candidate_tests);
+    credit_ += fresh_ - a_move * double(vertices) - a_candidate_test * double(candidate_tests);
     if (credit_ <= most_frames * fresh_) return;
     credit_ = most_frames * fresh_;
     longest_pause_ = 0;
@@ -28,7 +28,7 @@ class MemoryAccount {
   void pay_for_all(std::size_t listed) { credit_ -= fresh_ + a_candidate * double(listed); }
   /// or by one for some of the vertices' bodies, and merged with others, which made `candidates`.
   void pay_for_some(std::size_t vertices, std::size_t listed, std::size_t candidates) {
-    credit_ -= 3.0 * double(vertices) + a_candidate * double(listed) + 2.0 * double(candidates);
+    credit_ -= a_vertex * double(vertices) + a_candidate * double(listed) + a_merge * double(candidates);
   }
   void spend_all() { credit_ = 0; }
   bool spent() const { return credit_ <= 0; }
@@ -44,16 +44,20 @@ class MemoryAccount {
     close();
     pause_ = frames;
   }
-  /// Whether it pauses in this frame; to be asked once a frame.
-  bool pauses() { return pause_ > 0 && pause_-- > 0; }
+  /// Whether it pauses in this frame, of which there is then one less.
+  bool take_pause() { return pause_ > 0 && pause_-- > 0; }
 
  private:
-  static constexpr double a_candidate = 30;                // as all costs, about ns on a processor of 2022
+  // About ns on a processor of 2022: of a fresh search, of a remembered frame, and of listing candidates.
+  static constexpr double a_vertex = 3, a_contact = 20, a_test = 0.3;
+  static constexpr double a_move = 0.7, a_candidate_test = 1;
+  static constexpr double a_candidate = 30, a_merge = 2;
   static constexpr double most_frames = 16;                // of fresh searches: at the start, and the most put by
   static constexpr int least_pause = 8, most_pause = 256;  // frames
 
   double fresh_ = 0, credit_ = 0;
-  int pause_ = 0, longest_pause_ = 0;  // since remembering has paid
+  int pause_ = 0;          // frames left
+  int longest_pause_ = 0;  // since remembering has paid
 };
 
 }  // namespace collide

@@ -15,16 +15,22 @@ bool is_control(int key) {
   return std::ranges::find(all, key) != std::end(all);
 }
 
-/// Keys that end the typing into a text field.
-bool ends_typing(int key) { return key == GLFW_KEY_ENTER || key == GLFW_KEY_KP_ENTER || key == GLFW_KEY_ESCAPE; }
+/// Keys that do something by themselves, to what was typed before them and for what is typed after them.
+bool is_command(int key) {
+  return key >= GLFW_KEY_ESCAPE && !is_control(key) && key != GLFW_KEY_LEFT_SHIFT && key != GLFW_KEY_RIGHT_SHIFT;
+}
+
+bool contains(const std::vector<int>& keys, int key) { return std::ranges::find(keys, key) != keys.end(); }
 
 }  // namespace
 
 std::vector<InputEvent> InputQueue::take() {
+  if (std::exchange(focus_moves_, false)) return {};
   std::vector<InputEvent> told, later;
-  std::vector<int> pressed;  // keys
-  bool button = false;       // one's change is told
-  bool receiver = true;      // of keys is known
+  std::vector<int> pressed, released;   // keys
+  bool button = false;                  // one's change is told
+  bool receiver = true;                 // of keys is known
+  bool control = false, typed = false;  // a control, and another key or a character, is told
   auto next = events_.begin();
   for (; next != events_.end(); ++next) {
     if (const auto* b = std::get_if<ButtonEvent>(&*next)) {
@@ -33,14 +39,22 @@ std::vector<InputEvent> InputQueue::take() {
     } else if (!receiver) {
       break;
     }
+    typed = typed || std::holds_alternative<CharacterEvent>(*next);
     if (const auto* k = std::get_if<KeyEvent>(&*next)) {
-      if (k->action == GLFW_RELEASE && is_control(k->key) && !pressed.empty()) break;
-      if (k->action == GLFW_RELEASE && std::ranges::find(pressed, k->key) != pressed.end()) {
-        later.push_back(*next);  // down for one frame; the rest need not wait
-        continue;
+      if (is_control(k->key) && (typed || (control && k->action == GLFW_RELEASE))) break;
+      if (k->action == GLFW_PRESS) {
+        if (contains(released, k->key) || (is_command(k->key) && typed)) break;
+        pressed.push_back(k->key);
+        (is_control(k->key) ? control : typed) = true;
+        if (is_command(k->key)) receiver = false;
+        focus_moves_ = k->key == GLFW_KEY_TAB;
+      } else if (k->action == GLFW_RELEASE) {
+        if (contains(pressed, k->key)) {
+          later.push_back(*next);  // down for one frame; the rest need not wait
+          continue;
+        }
+        released.push_back(k->key);
       }
-      if (k->action == GLFW_PRESS) pressed.push_back(k->key);
-      if (k->action == GLFW_PRESS && ends_typing(k->key)) receiver = false;
     }
     told.push_back(*next);
   }

@@ -33,10 +33,11 @@ class InputQueue {
   bool empty() const { return events_.empty(); }
   void push(const InputEvent& event) { events_.push_back(event); }
   /// What the next frame may be told: one mouse button's change at most, and of keys and characters only those whose
-  /// receiver is known before that frame.
+  /// receiver and whose order do not matter to each other: a key that sends no character has its frame to itself.
   std::vector<InputEvent> take();
 
  private:
+  bool focus_moves_ = false;  // in the next frame, which is to be told nothing
   std::vector<InputEvent> events_;
 };
 

@@ -18,7 +18,7 @@ void write(DoubleLaneVector& to, std::size_t lane, const glm::dvec3& v) {
   to.x[lane] = v.x, to.y[lane] = v.y, to.z[lane] = v.z;
 }
 
-/// Of a lane's body; its centre is seen from the first particle.
+/// Of a lane's body, but for its spin; its centre is seen from the first particle.
 RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) {
   RigidMotion m;
   m.centre = read(sums.place, lane) / count;

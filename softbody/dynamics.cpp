@@ -105,7 +105,7 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
 
 Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
-  double own_damping = infinite;      // over mass, the least that springs give a moving body
+  double own_step = infinite;         // s: of the body that bears the shortest by itself
   double fewest = 1;                  // that keep up with the fastest body near a solid
   double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
   shield_damping_.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
@@ -121,23 +121,21 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     const Prototype& p = *b.prototype;
     double stiffest = stiffness_per_mass(b);
     double damper = p.spring_damping_bound;
-    own_damping = std::min(own_damping, damper / p.particle_mass);
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
       const float* own = shield_damping_.data() + b.base;
       damper += double(*std::max_element(own, own + b.values()));
     }
+    // What is stable only by damping must not count on that of contacts, or of another body.
+    own_step = std::min(own_step, integrator_->stable_step(stiffest, p.spring_damping_bound / p.particle_mass));
     const Extent motion = extent(b, v_, v_);
     if (!b.near_solids.empty()) fewest = std::max(fewest, longest(motion) * seconds / (0.1 * p.radius));
     deforming = std::max(deforming, widest(motion) / (0.25 * p.radius));
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  // Explicit Euler is stable only by damping: it must not count on that of contacts, or of another body.
-  const double step = std::min(integrator_->stable_step(stiffness, damping),
-                               integrator_->stable_step(stiffness, std::min(own_damping, damping)));
-  return {step, fewest, deforming};
+  return {std::min(own_step, integrator_->stable_step(stiffness, damping)), fewest, deforming};
 }
 
 int Dynamics::substeps(const Bound& b, double seconds, double at_least) {

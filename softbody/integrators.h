@@ -29,7 +29,7 @@ struct Integrator {
   int scratch = 0;          // copies of a field over all particles that it needs
   bool implicit = false;    // solves with the matrices of implicit_matrix.h
   bool automatic = false;   // chooses another one for each frame, see Dynamics::choose()
-  bool by_damping = false;  // stable only where all that swings is damped; the bound counts on the springs' dampers
+  bool by_damping = false;  // stable only where all that swings is damped enough
   bool keeps_spin = false;  // conserves the angular momentum of a free body but for rounding; all do the linear one
 };
 

@@ -61,8 +61,9 @@ double World::State::substeps(const Prototype& p, float thickness) const {
   const auto friction = float(std::sqrt(p.material.friction * most_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
-  const double c = p.spring_damping_bound + Shield::damping_bound(contact, friction, thickness);
-  return options.frame_time / find_integrator(options.integrator)->stable_step(k, c / p.particle_mass);
+  const double own = p.spring_damping_bound, all = own + Shield::damping_bound(contact, friction, thickness);
+  const auto stable_step = find_integrator(options.integrator)->stable_step;
+  return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }
 
 /// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.

@@ -33,6 +33,7 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Screen& screen
     screen.gui.draw();
     screen.window.present();
   }
+  while (screen.window.input_waits()) screen.window.take_input();  // nor is what is left of it for the session
   return opening.get();
 }
 

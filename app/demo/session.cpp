@@ -139,10 +139,8 @@ void Session::reset() {
   }
 }
 
-void Session::rewind_to(int frame) {
-  stability_.keep_present(*world_);
-  const auto& past = stability_.past();
-  if (past.snapshots().empty()) return;
+/// The bodies as they were, with the settings in use.
+void Session::restore(const softbody::Snapshot& snapshot) {
   const std::string method(world_->method().key);
   const softbody::ContactSurface surface = world_->scene().contact_surface;
   const collide::Settings settings = world_->collision();
@@ -152,7 +150,7 @@ void Session::rewind_to(int frame) {
   const softbody::Scene in_use = world_->scene();
   notice_.clear();
   succeeds([&] {
-    world_->restore(past.snapshots()[past.at(frame)]);
+    world_->restore(snapshot);
     if (integrator != world_->integrator().key || substeps != world_->substeps())
       world_->set_integrator(integrator, substeps);
     if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
@@ -161,6 +159,13 @@ void Session::rewind_to(int frame) {
     if (settings != world_->collision() || default_cell_size != world_->uses_default_cell_size())
       world_->set_collision(settings, default_cell_size);
   });
+}
+
+void Session::rewind_to(int frame) {
+  stability_.keep_present(*world_);
+  const auto& past = stability_.past();
+  if (past.snapshots().empty()) return;
+  restore(past.snapshots()[past.at(frame)]);
   paused = true;
   went_back();
 }
@@ -214,6 +219,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
   notice_.clear();
   as_scripted_ = false;
   try {
+    Past present = as_it_is();
     const std::size_t known = find_material(scene_.materials, material);
     body.material = static_cast<int>(known);
     if (known == scene_.materials.size()) {
@@ -224,6 +230,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
     for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
       world_->add_material(scene_.materials[i]);
     world_->add(body);
+    remember(std::move(present));
     intervened();
   } catch (const std::exception& error) {
     notice_ = error.what();

@@ -214,13 +214,14 @@ class Session {
   void leave_for(std::unique_ptr<softbody::World> world);
   void show_anew();
   /// The world was restored to what it was.
+  void restore(const softbody::Snapshot& snapshot);
   void went_back();
   void follow();
   void age_notice(double elapsed);
   void keep_world_settings(const softbody::Scene& in_use);
   void adopt(softbody::Scene scene);
   void remember(Past past);
-  void remember_present();
+  Past as_it_is() const;
   void begin();
   void run(double elapsed);
   void step();

@@ -26,18 +26,18 @@ void Session::pull_to(const glm::dvec3& target) { world_->pull_to(target); }
 void Session::release() { world_->release(); }
 
 /// But for the hand that may hold a body: nobody will be there to let go.
-void Session::remember_present() {
+Session::Past Session::as_it_is() const {
   softbody::Snapshot present = world_->snapshot();
   present.dynamics.grab.reset();
-  remember({nullptr, std::move(present), scene_, scene_file_, solids_});
+  return {nullptr, std::move(present), scene_, scene_file_, solids_};
 }
 
 void Session::drop(int count) {
   if (!can_drop()) return;
   notice_.clear();
   as_scripted_ = false;
-  remember_present();
-  if (!succeeds([&] { world_->drop(count); })) past_.pop_back();
+  Past present = as_it_is();
+  if (succeeds([&] { world_->drop(count); })) remember(std::move(present));
   intervened();
   ++revision_;
 }
@@ -46,13 +46,13 @@ void Session::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
   if (!can_drop()) return;
   notice_.clear();
   as_scripted_ = false;
-  remember_present();
+  Past present = as_it_is();
   std::optional<BodyId> body;
   const bool done = succeeds([&] { body = world_->throw_body(eye, throw_speed * direction); });
-  if (body)
+  if (body) {
+    remember(std::move(present));
     select_body(body);
-  else
-    past_.pop_back();
+  }
   if (done && !body) notice_ = "there is no room for a body before the camera: turn or move it";
   intervened();
   if (done) ++revision_;
@@ -65,9 +65,9 @@ void Session::remove_selected() {
   }
   notice_.clear();
   as_scripted_ = false;
-  remember_present();
+  Past present = as_it_is();
   world_->release();
-  succeeds([&] { world_->remove(*selected_body_); });
+  if (succeeds([&] { world_->remove(*selected_body_); })) remember(std::move(present));
   selected_body_.reset();
   intervened();
   show_anew();
@@ -125,13 +125,13 @@ void Session::undo() {
   past_.pop_back();
   scene_ = std::move(past.scene);
   scene_file_ = std::move(past.file);
-  solids_ = std::move(past.solids);
   if (past.world) {
+    solids_ = std::move(past.solids);
     world_ = std::move(past.world);
     return begin();
   }
   notice_.clear();
-  succeeds([&] { world_->restore(*past.snapshot); });  // later worlds are gone again: it is the one of the snapshot
+  restore(*past.snapshot);  // later worlds are gone again: it is the one of the snapshot
   went_back();
 }
 

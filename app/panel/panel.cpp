@@ -56,7 +56,8 @@ void draw_transport(Widgets& w, Session& session) {
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.can_undo());
   if (w.button("Undo",
-               "Brings the world back that was there before the last reset, choice of scene, drop, throw or deletion "
+               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
+               "deletion "
                "(Ctrl+Z).",
                width))
     session.undo();

@@ -130,6 +130,26 @@ TEST(Undo, TakesADropAndAThrowBackToTheBit) {
   EXPECT_FALSE(session.can_undo());
 }
 
+TEST(Undo, LeavesTheSettingsInUseAlone) {
+  Session session(touching_pair(), {}, 1);
+  session.drop();
+  session.set_method("grid-hash");
+  session.set_gravity(1.5);
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_EQ(session.world().method().key, "grid-hash");
+  EXPECT_DOUBLE_EQ(glm::length(session.world().scene().gravity), 1.5);
+}
+
+TEST(Undo, HasNothingToTakeBackWhereNothingCame) {
+  Session session(touching_pair(), {}, 1);
+  const glm::dvec3 inside(0, 0, 0);  // of the solid sphere
+  session.throw_body(inside, {0, 0, -1});
+  ASSERT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_FALSE(session.notice().empty());
+  EXPECT_FALSE(session.can_undo());
+}
+
 TEST(Undo, BringsADeletedBodyBackToTheBit) {
   Session session(touching_pair(), {}, 1);
   for (int i = 0; i < 10; ++i) session.advance(tick);

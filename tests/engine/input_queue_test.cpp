@@ -17,6 +17,8 @@ std::string text_of(const std::vector<InputEvent>& events) {
       text += key->action == GLFW_RELEASE         ? '-'
               : key->key == GLFW_KEY_ENTER        ? '\n'
               : key->key == GLFW_KEY_LEFT_CONTROL ? '^'
+              : key->key == GLFW_KEY_BACKSPACE    ? '<'
+              : key->key == GLFW_KEY_TAB          ? '>'
                                                   : static_cast<char>(key->key);
     } else if (const auto* character = std::get_if<CharacterEvent>(&event)) {
       text += static_cast<char>(character->code);
@@ -37,6 +39,10 @@ struct Hands {
     key(capital, GLFW_PRESS);
     queue.push(CharacterEvent{static_cast<unsigned int>(capital - 'A' + 'a')});
     key(capital, GLFW_RELEASE);
+  }
+  void tap(int code) {
+    key(code, GLFW_PRESS);
+    key(code, GLFW_RELEASE);
   }
   void button(bool down) { queue.push(ButtonEvent{.button = 0, .down = down, .at = {1, 2}}); }
   void click() {
@@ -76,16 +82,42 @@ TEST(InputQueue, AKeyIsDownForAFrameAndTheRestDoNotWait) {
 TEST(InputQueue, WhatFollowsEnterOrControlWaits) {
   Hands hands;
   hands.type('A');
-  hands.key(GLFW_KEY_ENTER, GLFW_PRESS);
-  hands.key(GLFW_KEY_ENTER, GLFW_RELEASE);
+  hands.tap(GLFW_KEY_ENTER);
   hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
   hands.key('Z', GLFW_PRESS);
   hands.key('Z', GLFW_RELEASE);
   hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
   hands.type('B');
-  EXPECT_EQ(hands.told(), "Aa\n");
-  EXPECT_EQ(hands.told(), "--^Z");
+  EXPECT_EQ(hands.told(), "Aa");
+  EXPECT_EQ(hands.told(), "-\n");
+  EXPECT_EQ(hands.told(), "-^Z");
   EXPECT_EQ(hands.told(), "--Bb");
+}
+
+TEST(InputQueue, WhatIsTypedBeforeAControlKeyIsToldBeforeIt) {
+  Hands hands;
+  hands.type('A');
+  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
+  hands.key('V', GLFW_PRESS);
+  hands.key('V', GLFW_RELEASE);
+  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
+  for (const char* frame : {"Aa", "-^V", "--", ""}) EXPECT_EQ(hands.told(), frame);
+}
+
+TEST(InputQueue, EachBackspaceHasItsFrame) {
+  Hands hands;
+  hands.type('A');
+  hands.tap(GLFW_KEY_BACKSPACE);
+  hands.tap(GLFW_KEY_BACKSPACE);
+  hands.type('B');
+  for (const char* frame : {"Aa", "-<", "-", "<", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame);
+}
+
+TEST(InputQueue, ATabHasTwoFrames) {
+  Hands hands;
+  hands.tap(GLFW_KEY_TAB);
+  hands.type('B');
+  for (const char* frame : {">", "", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame);
 }
 
 }  // namespace

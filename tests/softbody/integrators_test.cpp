@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -165,6 +166,22 @@ TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
     const Measures m = measure(world);
     EXPECT_TRUE(!m.finite || m.max_speed > 1e3) << key;
   }
+}
+
+TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
+  const World::Options options{.integrator = "explicit-euler"};
+  Scene undamped = lone_body(gas_ball(100, 0));
+  EXPECT_THROW(World(undamped, options), SceneError);
+  add_body(undamped, {0, 0, 5}, {});
+  EXPECT_THROW(World(undamped, options), SceneError) << "contacts damp, but only where they are";
+
+  const Scene slack = lone_body(gas_ball(100, 0.2)), stiff = lone_body(gas_ball(1e4, 0.5));
+  Scene both = slack;
+  both.materials.push_back(stiff.materials[0]);
+  add_body(both, {0, 0, 5}, {});
+  both.bodies[1].material = 1;
+  const auto needed = [&](const Scene& scene) { return World(scene, options).dynamics().substeps(1 / 60.0); };
+  EXPECT_EQ(needed(both), std::max(needed(slack), needed(stiff))) << "each by its own damping";
 }
 
 }  // namespace
