@@ -33,8 +33,6 @@ std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
 
 Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
   if (name.ends_with(".toml")) return load_scene(name);
-  if (name.ends_with(".obj"))
-    throw SceneError("'" + name + "' is a mesh, not a scene: `sbcollide --mesh` opens it in the window");
   const auto keys = scene_keys(folder);
   if (std::find(keys.begin(), keys.end(), name) != keys.end()) return load_scene(folder / (name + ".toml"));
   std::string known;

@@ -223,6 +223,8 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 }
 
 softbody::Scene load_scene(const Options& options) {
+  if (options.scene.ends_with(".obj"))
+    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   apply(options.detection, scene.collision);

@@ -14,7 +14,7 @@
 namespace app {
 
 /// How many of its pixels along each side a moving picture gets: all, or where fewer than 30 pictures a second come as
-/// many as let them come, but never less than 65 %.
+/// many as let them come, but never less than 55 %.
 class Fineness {
  public:
   /// After each moving picture: s from the one before it to this one, and s that drawing took.
@@ -45,7 +45,8 @@ class Canvas {
 
   /// How the last picture came, see Fineness::add(): one that moved tells how the next ones are to be drawn.
   void pace(double interval, double drawing);
-  float fineness() const { return fineness_.value(); }
+  /// Of the picture at hand.
+  float fineness() const { return is_coarse_ ? fineness_.value() : 1.0f; }
 
  private:
   static constexpr int samples = 4;

@@ -207,21 +207,30 @@ void add_springs(const softbody::World& world, const Sight& sight, Points positi
   frame.lines.push_back(std::move(structural));
 }
 
-/// Edges between a face that is turned to the eye and one that is not, and borders.
+/// Edges between a face that is turned to the eye and one that is not, and borders; a little outside of the body, which
+/// is drawn rounder than its mesh is.
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  engine::FrameData& frame) {
+  constexpr float outside = 0.08f;  // of the length of an edge
   engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.5f};
   const collide::Surface& surface = *world.prototype(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
-  const auto faces_eye = [&](collide::Index face) {
+  const auto normal_of = [&](collide::Index face) {  // twice as long as its area
     const auto& [a, b, c] = surface.triangles()[face];
-    return glm::dot(glm::cross(body[b] - body[a], body[c] - body[a]), eye - body[a]) > 0;
+    return glm::cross(body[b] - body[a], body[c] - body[a]);
+  };
+  const auto faces_eye = [&](collide::Index face) {
+    return glm::dot(normal_of(face), eye - body[surface.triangles()[face][0]]) > 0;
   };
   for (std::size_t e = 0; e < surface.edges().size(); ++e) {
     const auto [one, other] = surface.edge_triangles()[e];
     if (one != other && faces_eye(one) == faces_eye(other)) continue;
     const auto [a, b] = surface.edges()[e];
-    lines.lines.push_back({body[a], body[b], glm::vec4(hand_colour, 1.0f)});
+    const glm::vec3 normal = normal_of(one) + normal_of(other);
+    const float length2 = glm::dot(normal, normal);
+    const glm::vec3 out =
+        length2 > 0 ? normal * (outside * glm::distance(body[a], body[b]) / std::sqrt(length2)) : glm::vec3(0);
+    lines.lines.push_back({body[a] + out, body[b] + out, glm::vec4(hand_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));
 }

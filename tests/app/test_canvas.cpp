@@ -27,7 +27,7 @@ TEST(Fineness, IsLessWhereDrawingTakesTooLong) {
   EXPECT_EQ(fineness.value(), 1);
   EXPECT_EQ(after(100, fineness, {0.005, 0.020, 0.005}), 1);
   EXPECT_EQ(after(100, fineness, {0.005, 0.030, 0.005}), 0.8f);
-  EXPECT_EQ(after(100, fineness, {0.010, 0.080, 0.005}), 0.65f);
+  EXPECT_EQ(after(100, fineness, {0.010, 0.080, 0.005}), 0.55f);
   EXPECT_EQ(after(100, fineness, {0.001, 0.004, 0.025}), 1) << "it comes back";
 }
 
@@ -82,8 +82,10 @@ TEST_F(CanvasTest, DrawsWhatChangedOnceAndFineOnce) {
 TEST_F(CanvasTest, MovingPicturesAreCoarseOnlyWhereTheyComeTooSlowly) {
   EXPECT_EQ(drawn(true, false), size);
   let_it_be_slow();
-  EXPECT_EQ(drawn(true, false), glm::ivec2(0.65f * glm::vec2(size)));
+  EXPECT_EQ(drawn(true, false), glm::ivec2(0.55f * glm::vec2(size)));
+  EXPECT_EQ(canvas_.fineness(), 0.55f);
   EXPECT_EQ(drawn(false, true), size) << "and fine when they stand still";
+  EXPECT_EQ(canvas_.fineness(), 1);
   const engine::Image picture = canvas_.read();
   EXPECT_EQ(picture.width, size.x);
   EXPECT_EQ(picture.height, size.y);
@@ -93,11 +95,10 @@ TEST_F(CanvasTest, MovingPicturesAreCoarseOnlyWhereTheyComeTooSlowly) {
 TEST_F(CanvasTest, StillPicturesSayNothingOfThePace) {
   EXPECT_TRUE(drawn(true, true));
   let_it_be_slow();
-  EXPECT_EQ(canvas_.fineness(), 1);
-  EXPECT_TRUE(drawn(true, false));
+  EXPECT_EQ(drawn(true, false), size);
   EXPECT_FALSE(drawn(false, false));
   let_it_be_slow();
-  EXPECT_EQ(canvas_.fineness(), 1);
+  EXPECT_EQ(drawn(true, false), size);
 }
 
 TEST_F(CanvasTest, WithAGraphicsCardEveryPictureIsFine) {

@@ -42,6 +42,7 @@ TEST(WindowTest, ShowsASceneAndAPanel) {
   FrameData frame;
   frame.ground = 0.0f;
   frame.spheres = {{{0.0f, 1.0f, 0.0f}, 1.0f, {0.9f, 0.2f, 0.2f}}};
+  frame.lines = {{.lines = {{{-1, 0, 0}, {1, 2, 0}, glm::vec4(1)}}, .width = 3}};  // not every context has wide ones
   Camera camera;
   for (int i = 0; i < 3; ++i) {
     window.poll();
