@@ -8,8 +8,8 @@
 namespace engine {
 namespace {
 
-/// Keys in capitals, their characters in small letters, their release as '-'; a mouse button as ( and ), the wheel as
-/// *.
+/// Keys in capitals, their characters in small letters, keys without one as #, their release as '-'; a mouse button as
+/// ( and ), the wheel as *.
 std::string text_of(const std::vector<InputEvent>& events) {
   std::string text;
   for (const InputEvent& event : events) {
@@ -19,6 +19,7 @@ std::string text_of(const std::vector<InputEvent>& events) {
               : key->key == GLFW_KEY_LEFT_CONTROL ? '^'
               : key->key == GLFW_KEY_BACKSPACE    ? '<'
               : key->key == GLFW_KEY_TAB          ? '>'
+              : key->key >= GLFW_KEY_ESCAPE       ? '#'
                                                   : static_cast<char>(key->key);
     } else if (const auto* character = std::get_if<CharacterEvent>(&event)) {
       text += static_cast<char>(character->code);
@@ -111,6 +112,16 @@ TEST(InputQueue, EachBackspaceHasItsFrame) {
   hands.tap(GLFW_KEY_BACKSPACE);
   hands.type('B');
   for (const char* frame : {"Aa", "-<", "-", "<", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame);
+}
+
+TEST(InputQueue, WhatMovesTheCaretStandsBetweenWhatIsTypedBeforeAndAfter) {
+  for (const int key : {GLFW_KEY_HOME, GLFW_KEY_END, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_DELETE}) {
+    Hands hands;
+    hands.type('A');
+    hands.tap(key);
+    hands.type('B');
+    for (const char* frame : {"Aa", "-#", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame) << key;
+  }
 }
 
 TEST(InputQueue, ATabHasTwoFrames) {
