@@ -61,6 +61,10 @@ void draw_bucket(Widgets& w, Session& session) {
   const BucketContents* bucket = session.bucket();
   const std::string title = joined("Bucket ", grouped(bucket->bucket), "###Bucket");
   const bool close = w.heading(title.c_str(), "Releases the bucket (Esc).");
+  std::uint32_t number = bucket->bucket;
+  w.row("Number", w.px(70));
+  const bool another = w.number("Bucket number", number, 0, session.world().collision().buckets - 1,
+                                "Type the number of another bucket: from 0, below the number of buckets (§2.2).");
   const std::size_t cells = bucket->groups.size();
   w.figure(count_of(bucket->items, *bucket).c_str(), joined(std::to_string(cells), cells == 1 ? " cell" : " cells"),
            "What is in the bucket, and the different cells that it comes from (§2.2).");
@@ -72,7 +76,10 @@ void draw_bucket(Widgets& w, Session& session) {
                 "Pairs that meet in this bucket: in one cell, as neighbours should, and of different cells, which the "
                 "modulo put together. Aliased pairs cost tests and find nothing that is near (§2.2).");
   draw_meetings(w, "Whole table", session.table().sharing(), "The same, summed over all buckets.");
-  if (close) session.select_bucket(std::nullopt);
+  if (close)
+    session.select_bucket(std::nullopt);
+  else if (another)
+    session.select_bucket(number);
 }
 
 }  // namespace app

@@ -30,6 +30,19 @@ TEST(BucketInspector, GroupsTheBucketByCellsAndLetsOneBeChosen) {
   EXPECT_EQ(rig.session.selected_cell(), second);
 }
 
+TEST(BucketInspector, TakesTheNumberOfAnother) {
+  PanelRig rig;
+  rig.session.paused = true;
+  rig.session.select_bucket(3);
+  rig.frames(2);
+  rig.type("Bucket number", "622");
+  EXPECT_EQ(rig.session.selected_bucket(), 622u);
+  rig.type("Bucket number", "5000");
+  EXPECT_EQ(rig.session.selected_bucket(), rig.session.world().collision().buckets - 1) << "the last one";
+  rig.click("Close Bucket");
+  EXPECT_EQ(rig.session.bucket(), nullptr);
+}
+
 TEST(BucketInspector, ShowsVerticesWhereTheMethodHashesThese) {
   PanelRig rig;
   rig.session.set_method("grid-hash");
