@@ -4,8 +4,16 @@
 
 namespace collide {
 
+namespace {
+
+constexpr std::size_t worth_returning = 1u << 20;  // offsets, of 4 MiB
+
+}  // namespace
+
 void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
-  first_.assign(buckets + std::size_t{1}, 0);
+  const std::size_t offsets = buckets + std::size_t{1};
+  if (first_.capacity() > std::max(worth_returning, 4 * offsets)) first_ = std::vector<Index>();  // it was larger by far
+  first_.assign(offsets, 0);
   for (const std::uint32_t bucket : bucket_of_entry) ++first_[bucket];
 
   meetings_ = used_ = longest_ = 0;

@@ -16,7 +16,10 @@ const collide::Method& Session::shown_method() const {
 }
 
 const collide::DebugGeometry& Session::debug() const {
-  if (!world_->method().uses_hash) return paper();
+  if (!world_->method().uses_hash) {
+    debug_ = {};  // a table may be large
+    return paper();
+  }
   if (debug_.revision != revision_) debug_ = {revision_, world_->detector().debug()};
   return debug_.value;
 }

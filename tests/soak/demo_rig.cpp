@@ -36,6 +36,7 @@ void DemoRig::frame(bool draw) {
   gui_.draw();
   ui.take_away.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
   session.advance_one(input.seconds, !ui.take_away.recording() || ui.take_away.may_step());
+  glFinish();  // as a window that shows the picture: else drivers in software hold what they have not drawn yet
 }
 
 }  // namespace soak
