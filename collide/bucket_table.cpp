@@ -12,7 +12,7 @@ constexpr std::size_t worth_returning = 1u << 20;  // offsets, of 4 MiB
 
 void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
   const std::size_t offsets = buckets + std::size_t{1};
-  if (first_.capacity() > std::max(worth_returning, 4 * offsets)) first_ = std::vector<Index>();  // it was larger by far
+  if (first_.capacity() > std::max(worth_returning, 4 * offsets)) first_ = std::vector<Index>();  // was larger by far
   first_.assign(offsets, 0);
   for (const std::uint32_t bucket : bucket_of_entry) ++first_[bucket];
 
