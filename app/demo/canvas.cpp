@@ -11,8 +11,8 @@ namespace {
 // From one to the next drawing takes at most 1.57 times as long: what is fast enough to become finer does not
 // become too slow by that.
 constexpr std::array levels{1.0f, 0.8f, 0.65f, 0.55f};
-constexpr double growth = 0.6, wanted = 1.0 / 30, too_slow = 1.0 / 28;  // s; a screen of 60 Hz shows just 30 a second
-constexpr int looked_at = 12;                                           // pictures
+constexpr double growth = 0.6, wanted = 1.0 / 30, too_slow = 1.0 / 29.5;  // s; a screen of 60 Hz shows just 30 a second
+constexpr int looked_at = 12;                                             // pictures
 
 GLuint id_of(const engine::Framebuffer& framebuffer) {
   framebuffer.bind();
