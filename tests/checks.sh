@@ -7,7 +7,7 @@
 #   tsan       thread sanitizer, all tests
 #   coverage   lines of collide/ and softbody/ that their tests run: at least 95 %, what is missing by file and line
 #   soak       ten simulated minutes of every scene, changed at random every second; a bounded one is among the tests of
-#              every preset, those with sanitizers included
+#              every preset with graphics, those with sanitizers included
 #   fuzz       five minutes of every fuzz target
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"

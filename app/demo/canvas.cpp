@@ -12,7 +12,7 @@ namespace {
 // become too slow by that.
 constexpr std::array levels{1.0f, 0.8f, 0.65f, 0.55f};
 constexpr double growth = 0.6, wanted = 1.0 / 30, too_slow = 1.0 / 29.5;  // s; a screen of 60 Hz shows just 30 a second
-constexpr int looked_at = 12;                                             // pictures
+constexpr int looked_at = 36;                                             // pictures
 
 GLuint id_of(const engine::Framebuffer& framebuffer) {
   framebuffer.bind();
@@ -43,7 +43,8 @@ void Fineness::add(double interval, double drawing) {
 }
 
 const engine::Framebuffer& Canvas::coarse(glm::ivec2 size) {
-  const glm::ivec2 fewer = glm::max(glm::ivec2(fineness_.value() * glm::vec2(size)), 1);
+  drawn_at_ = fineness_.value();
+  const glm::ivec2 fewer = glm::max(glm::ivec2(drawn_at_ * glm::vec2(size)), 1);
   if (!coarse_ || coarse_->size() != fewer) coarse_.emplace(fewer, 0);
   return *coarse_;
 }

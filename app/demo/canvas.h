@@ -46,7 +46,7 @@ class Canvas {
   /// How the last picture came, see Fineness::add(): one that moved tells how the next ones are to be drawn.
   void pace(double interval, double drawing);
   /// Of the picture at hand.
-  float fineness() const { return is_coarse_ ? fineness_.value() : 1.0f; }
+  float fineness() const { return is_coarse_ ? drawn_at_ : 1.0f; }
 
  private:
   static constexpr int samples = 4;
@@ -56,6 +56,7 @@ class Canvas {
   bool in_software_;
   bool is_fine_ = false, is_coarse_ = false, moved_ = false;
   Fineness fineness_;
+  float drawn_at_ = 1;  // of the last coarse picture
   std::optional<engine::Framebuffer> full_, multisampled_, coarse_;
 };
 

@@ -23,7 +23,7 @@ struct UiState {
   bool throw_body = false;    // likewise
   bool list_open = false;     // a list to choose from, in the last frame
   bool quit = false;
-  float fineness = 1;                    // of moving pictures, see Fineness
+  float fineness = 1;                    // of the scene's picture, see Canvas
   std::map<std::string, bool> sections;  // of the panel: whether they are open, by their labels
   softbody::View view;                   // the camera, as a scene file has it
   TakeAway take_away;

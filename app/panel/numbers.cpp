@@ -37,7 +37,7 @@ void draw_curves(Widgets& w, const Session& session, float fineness) {
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
       "drawn at", text("%.0f %%", 100 * double(fineness)),
-      "Of the pixels along each side of the scene's picture, so many are drawn while it moves. Less than 100 % only "
+      "Of the pixels along each side, the scene's picture has so many. Less than 100 % only while it moves, "
       "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
       "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,

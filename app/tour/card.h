@@ -10,8 +10,8 @@ namespace app {
 /// Draws the step as a card that fills the area. Between begin_frame() and end_frame() of the Gui.
 void draw_tour(Widgets& widgets, Session& session, Tour& tour, const SceneArea& area);
 
-/// Texts beside their points, clear of one another. scale: ImGui units per design pixel; size: of the scene's picture,
-/// framebuffer pixels.
+/// Texts beside their points, clear of one another where there is room. scale: ImGui units per design pixel; size: of
+/// the scene's picture, framebuffer pixels.
 void draw_labels(std::span<const SceneLabel> labels, const engine::Camera& camera, glm::ivec2 size,
                  const SceneArea& area, float scale);
 

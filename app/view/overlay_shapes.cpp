@@ -207,8 +207,8 @@ void add_springs(const softbody::World& world, const Sight& sight, Points positi
   frame.lines.push_back(std::move(structural));
 }
 
-/// Edges between a face that is turned to the eye and one that is not, and borders; a little outside of the body, which
-/// is drawn rounder than its mesh is.
+/// Edges between a face that is turned to the eye and one that is not, and borders; a little outside of the body or
+/// before it, for it is drawn rounder than its mesh is.
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  engine::FrameData& frame) {
   constexpr float outside = 0.08f;  // of the length of an edge
@@ -226,7 +226,8 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
     const auto [one, other] = surface.edge_triangles()[e];
     if (one != other && faces_eye(one) == faces_eye(other)) continue;
     const auto [a, b] = surface.edges()[e];
-    const glm::vec3 normal = normal_of(one) + normal_of(other);
+    glm::vec3 normal = normal_of(one) + normal_of(other);
+    if (one == other && !faces_eye(one)) normal = -normal;  // a border seen from behind
     const float length2 = glm::dot(normal, normal);
     const glm::vec3 out =
         length2 > 0 ? normal * (outside * glm::distance(body[a], body[b]) / std::sqrt(length2)) : glm::vec3(0);

@@ -104,7 +104,8 @@ class Soak {
     session.paused = false;
   }
 
-  /// Methods may keep the largest table that they have had: so each has it once before memory is compared.
+  /// Methods keep the largest table that they have had until they build another: so each has it once before memory is
+  /// compared.
   void fill_tables() {
     app::Session& session = demo_.session;
     session.compare.on = true;
