@@ -32,7 +32,8 @@ run_tests() {
   local preset=$1
   shift
   cd "$root"
-  xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24" ctest --preset "$preset" --parallel "$(nproc)" "$@"
+  # Without -noreset the server starts over when its last client leaves, and turns away who comes just then.
+  xvfb-run --auto-servernum --server-args="-screen 0 1600x1000x24 -noreset" ctest --preset "$preset" --parallel "$(nproc)" "$@"
 }
 
 # build_and_test PRESET: two steps.
