@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 #include "collide/frame.h"
@@ -29,6 +30,11 @@ struct Box {
 inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
+}
+/// From a point to the nearest of a box's; 0 inside.
+inline double squared_distance_to(const Box& box, const glm::dvec3& p) {
+  const glm::dvec3 outside = glm::max(glm::max(box.lo - p, p - box.hi), 0.0);
+  return glm::dot(outside, outside);
 }
 
 /// Split at medians along the widest axis, one item a leaf, nodes in the order of a walk, so that it needs no stack.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/geometric.hpp>
 
@@ -38,39 +37,6 @@ Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r
       edge_shares(glm::dot(d1, d1), glm::dot(d1, d2), glm::dot(d1, between), glm::dot(d2, d2), glm::dot(d2, between));
   const glm::vec3 apart = between + m.along * d1 - m.across * d2;
   return {{1 - m.along, m.along, 1 - m.across, m.across}, apart, m.inner};
-}
-
-bool inside(const glm::vec3& point, const Surface& surface, const Run& at) {
-  const glm::dvec3 from(point), way(0.5377, 0.7141, 0.4486);  // along nothing that a mesh is likely to be aligned with
-  bool odd = false;
-  for (const Triangle& f : surface.triangles()) {
-    glm::dvec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k) corner[k] = glm::dvec3(at.x[f[k]], at.y[f[k]], at.z[f[k]]) - from;
-    // Moeller and Trumbore (1997) by signed volumes: a side that two faces share is judged alike for both.
-    const double u = glm::dot(way, glm::cross(corner[0], corner[1])),
-                 v = glm::dot(way, glm::cross(corner[1], corner[2])),
-                 w = glm::dot(way, glm::cross(corner[2], corner[0]));
-    if ((u > 0) != (v > 0) || (v > 0) != (w > 0)) continue;
-    const glm::dvec3 normal = glm::cross(corner[1] - corner[0], corner[2] - corner[0]);
-    const double along = glm::dot(way, normal);
-    if (along != 0 && glm::dot(corner[0], normal) / along > 0) odd = !odd;
-  }
-  return odd;
-}
-
-NearestFace nearest_face(const glm::vec3& point, const Surface& surface, const Run& at) {
-  Index nearest = 0;
-  float least = std::numeric_limits<float>::infinity();
-  for (Index i = 0; i < surface.triangles().size(); ++i) {
-    glm::vec3 corner[3];
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Index v = surface.triangles()[i][k];
-      corner[k] = {at.x[v], at.y[v], at.z[v]};
-    }
-    const glm::vec3 apart = closest_vertex_face(point, corner[0], corner[1], corner[2]).apart;
-    if (const float d2 = glm::dot(apart, apart); d2 < least) least = d2, nearest = i;
-  }
-  return {nearest, std::sqrt(least)};
 }
 
 }  // namespace collide

@@ -22,13 +22,4 @@ struct Closest {
 Closest closest_vertex_face(const glm::vec3& vertex, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 Closest closest_edges(const glm::vec3& p, const glm::vec3& q, const glm::vec3& r, const glm::vec3& s);  // pq, rs
 
-/// Whether a point lies inside a closed surface with its vertices at `at`: by the parity of a ray, in double.
-bool inside(const glm::vec3& point, const Surface& surface, const Run& at);
-struct NearestFace {
-  Index face;
-  float distance;  // m
-};
-/// Of a surface with at least one face.
-NearestFace nearest_face(const glm::vec3& point, const Surface& surface, const Run& at);
-
 }  // namespace collide

@@ -33,11 +33,6 @@ glm::dvec3 nearest_point(const glm::dvec3& p, const Corners& corners) {
   return a + ab * (in_b / (in_a + in_b + in_c)) + ac * (in_c / (in_a + in_b + in_c));
 }
 
-double squared_distance_to(const Box& box, const glm::dvec3& p) {
-  const glm::dvec3 outside = glm::max(glm::max(box.lo - p, p - box.hi), 0.0);
-  return glm::dot(outside, outside);
-}
-
 class OverlapSearch {
  public:
   OverlapSearch(const Frame& frame, const Surfaces& surfaces) : frame_(frame), surfaces_(surfaces) {

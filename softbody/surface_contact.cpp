@@ -86,8 +86,9 @@ void SurfaceContact::take_candidates(const collide::Frame& now) {
   for (const Pair& p : pairs_)
     if (p.range.a == p.range.b) leave_room(p);
   deep_.clear();
+  Shells shells(bodies_.size());
   for (Pair& p : pairs_)
-    if (p.overlap) find_deep(p, now);
+    if (p.overlap) find_deep(p, now, shells);
   foresee_speeds();
   colour();
 }
@@ -165,7 +166,7 @@ void SurfaceContact::inherit() {
 }
 
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
-void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now) {
+void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& shells) {
   const auto run = [&](Index body) {
     const Index first = now.bodies->first[body];
     return collide::Run{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
@@ -175,12 +176,12 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now) {
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
-    const collide::Run vertices = run(own), shell = run(other);
-    const collide::Bound bound = collide::bound_of(shell);
+    const collide::Run vertices = run(own);
+    if (!shells[other]) shells[other].emplace(*traits_[other].surface, run(other));
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
-      if (!collide::near({p, p}, bound.box, 0.0f) || !collide::inside(p, *traits_[other].surface, shell)) continue;
-      const collide::NearestFace nearest = collide::nearest_face(p, *traits_[other].surface, shell);
+      if (!shells[other]->inside(p)) continue;
+      const collide::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
       deepest = std::max(deepest, nearest.distance);
       deep_.push_back({v, nearest.face, of_b});
     }

@@ -24,9 +24,11 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "collide/closed_shell.h"
 #include "collide/surface_search.h"
 #include "softbody/kernels.h"
 
@@ -175,10 +177,12 @@ class SurfaceContact {
     float same;  // the length of this substep over that of the last one; 0: there was none
   };
 
+  using Shells = std::vector<std::optional<collide::ClosedShell>>;  // of the bodies, where one was needed
+
   void take_candidates(const collide::Frame& now);
   void inherit();
   Pair make_pair(const collide::SurfacePair& range) const;
-  void find_deep(Pair& pair, const collide::Frame& now);
+  void find_deep(Pair& pair, const collide::Frame& now, Shells& shells);
   void leave_room(const Pair& pair);
   void foresee_speeds();
   void colour();

@@ -14,6 +14,7 @@ using collide::Closest;
 using collide::FeaturePair;
 
 constexpr float push_share = 0.1f;  // of an overlap, a substep
+constexpr float push_kept = 0.8f;   // of an impulse that pushes out, from one substep to the next
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility, const collide::Triangle& face,
                       std::size_t face_slot, std::size_t stride, float face_mobility) {
@@ -256,8 +257,11 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
   if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
   row.friction = step.pair.friction;
-  row.pressed = step.same * memory.pressed;
-  row.drag = step.same * (memory.drag - glm::dot(memory.drag, normal) * normal);
+  // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
+  // would grow with every substep.
+  const float kept = spare > 0 ? step.same : push_kept * step.same;
+  row.pressed = kept * memory.pressed;
+  row.drag = kept * (memory.drag - glm::dot(memory.drag, normal) * normal);
 }
 
 }  // namespace softbody

@@ -21,6 +21,13 @@ std::string range(double lo, double hi) {
   return s.str();
 }
 
+/// A quoted key may hold anything, and toml++ quotes what it stumbled over, line breaks included.
+std::string one_line(std::string message) {
+  for (char& c : message)
+    if (static_cast<unsigned char>(c) < ' ') c = '?';
+  return message;
+}
+
 }  // namespace
 
 toml::table read_toml(const std::filesystem::path& file) {
@@ -33,7 +40,8 @@ toml::table read_toml(const std::filesystem::path& file) {
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& e) {
-    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
+    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
+                     one_line(std::string(e.description())));
   }
 }
 
@@ -143,10 +151,8 @@ const toml::node* Table::find(const std::string& key) {
 }
 
 void Table::fail(const toml::node& node, const std::string& key, const std::string& what) const {
-  std::string line = (name_.empty() ? "" : name_ + ".") + key + " " + what;
-  for (char& c : line)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';  // a quoted key may hold anything; the message stays one line
-  throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " + line);
+  throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
+                   one_line((name_.empty() ? "" : name_ + ".") + key + " " + what));
 }
 
 }  // namespace softbody

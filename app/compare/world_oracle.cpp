@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "collide/closest_features.h"
+#include "collide/closed_shell.h"
 
 namespace app {
 
@@ -46,8 +46,8 @@ std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& wor
 bool WorldOracle::came_inside(const collide::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
-    return collide::inside({p.x[vertex], p.y[vertex], p.z[vertex]}, *surfaces_[crossing.other],
-                           {&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)});
+    const collide::Run at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
+    return collide::ClosedShell(*surfaces_[crossing.other], at).inside({p.x[vertex], p.y[vertex], p.z[vertex]});
   };
   return inside(before_) && !inside(earlier_);
 }

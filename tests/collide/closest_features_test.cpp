@@ -1,5 +1,4 @@
-// Closest points against the least over corners, sides and insides worked out in double, and inside() against the exact
-// oracle.
+// Closest points against the least over corners, sides and insides worked out in double.
 
 #include "collide/closest_features.h"
 
@@ -141,42 +140,6 @@ TEST(ClosestFeatures, OfDegenerateAndParallelEdges) {
     expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0])}, "parallel");
     expect_closest_edges({c[0], c[1], c[0] + t * (c[1] - c[0]), c[1] + t * (c[1] - c[0])}, "on one line");
     expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0]) + 1e-4f * c[3]}, "almost parallel", slight);
-  }
-}
-
-TEST(ClosestFeatures, InsideIsWhatTheExactOracleSays) {
-  std::mt19937 random(54);
-  SurfaceMesh dented = ball(1);
-  for (glm::vec3& v : dented.vertices) v *= uniform(random, 0.5f, 1.0f);
-  for (const SurfaceMesh& mesh :
-       {ball(1), box(glm::vec3(-1), glm::vec3(1)), moved(valley(), {-2, -2, -0.5f}), dented}) {
-    const std::vector<glm::vec3> points = random_points(random, 2000, -2, 2);
-    Scene scene{mesh};
-    scene.add({points, {}});
-    std::vector<bool> expected(points.size(), false);
-    for (const Penetration& p : overlaps_of(scene).penetrations) expected[p.vertex - mesh.vertices.size()] = true;
-    const Points3 at(mesh.vertices);
-    int within = 0;
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      EXPECT_EQ(inside(points[i], *scene.surfaces[0], at.run()), expected[i]) << i;
-      within += expected[i];
-    }
-    EXPECT_GT(within, 50);
-  }
-}
-
-TEST(ClosestFeatures, NearestFaceIsThatOfTheLeastDistance) {
-  const SurfaceMesh mesh = moved(valley(), {-2, -2, -0.5f});
-  const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
-  const Points3 at(mesh.vertices);
-  const auto distance = [&](const glm::vec3& p, const Triangle& f) {
-    return to_face(dvec3(p), dvec3(mesh.vertices[f[0]]), dvec3(mesh.vertices[f[1]]), dvec3(mesh.vertices[f[2]]));
-  };
-  std::mt19937 random(55);
-  for (const glm::vec3& p : random_points(random, 1000, -3, 3)) {
-    double least = std::numeric_limits<double>::infinity();
-    for (const Triangle& f : mesh.triangles) least = std::min(least, distance(p, f));
-    EXPECT_NEAR(distance(p, mesh.triangles[nearest_face(p, surface, at.run()).face]), least, 1e-5);
   }
 }
 

@@ -53,6 +53,7 @@ const Bad bad_scenes[]{
     {"unknown_key_in_caption", "[[body]]\n[[caption]]\nwords = \"\"\n", 3, "caption[0].words"},
     {"unknown_table", "[[body]]\n[grounds]\n", 2, "grounds is not known here"},
     {"key_with_a_line_break", "\"a\\nb\" = 1\n[[body]]\n", 1, "is not known here"},
+    {"value_cut_short_by_a_line_break", "thickness =t\n", 1, "expected 'true'"},
     {"number_as_text", "[[material]]\nmass = \"1\"\n[[body]]\n", 2, "material[0].mass must be a number"},
     {"number_as_bool", "[[material]]\nfriction = true\n[[body]]\n", 2, "must be a number"},
     {"text_as_number", "name = 5\n[[body]]\n", 1, "name must be a string"},

@@ -1,0 +1,72 @@
+// inside() against the exact oracle, nearest_face() against a look at every face.
+
+#include "collide/closed_shell.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "collide/closest_features.h"
+#include "every_target.h"
+#include "surface_meshes.h"
+
+namespace collide::test {
+namespace {
+
+TEST(ClosedShell, InsideIsWhatTheExactOracleSays) {
+  std::mt19937 random(54);
+  SurfaceMesh dented = ball(1);
+  for (glm::vec3& v : dented.vertices) v *= uniform(random, 0.5f, 1.0f);
+  for (const SurfaceMesh& mesh :
+       {ball(1), box(glm::vec3(-1), glm::vec3(1)), moved(valley(), {-2, -2, -0.5f}), dented}) {
+    const std::vector<glm::vec3> points = random_points(random, 2000, -2, 2);
+    Scene scene{mesh};
+    scene.add({points, {}});
+    std::vector<bool> expected(points.size(), false);
+    for (const Penetration& p : overlaps_of(scene).penetrations) expected[p.vertex - mesh.vertices.size()] = true;
+    const Points3 at(mesh.vertices);
+    const ClosedShell shell(*scene.surfaces[0], at.run());
+    int within = 0;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      EXPECT_EQ(shell.inside(points[i]), expected[i]) << i;
+      within += expected[i];
+    }
+    EXPECT_GT(within, 50);
+  }
+}
+
+TEST(ClosedShell, NearestFaceIsTheFirstOfThoseAtTheLeastDistance) {
+  const SurfaceMesh mesh = moved(valley(), {-2, -2, -0.5f});
+  const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+  const Points3 at(mesh.vertices);
+  const ClosedShell shell(surface, at.run());
+  std::mt19937 random(55);
+  std::vector<glm::vec3> points = random_points(random, 1000, -3, 3);
+  points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());  // several faces are equally close
+  for (const glm::vec3& p : points) {
+    Index nearest = 0;
+    float least = std::numeric_limits<float>::infinity();
+    for (Index t = 0; t < mesh.triangles.size(); ++t) {
+      const auto& [a, b, c] = mesh.triangles[t];
+      const glm::vec3 apart = closest_vertex_face(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]).apart;
+      if (const float squared = glm::dot(apart, apart); squared < least) least = squared, nearest = t;
+    }
+    EXPECT_EQ(shell.nearest_face(p).face, nearest);
+    EXPECT_EQ(shell.nearest_face(p).distance, std::sqrt(least));
+  }
+}
+
+TEST(ClosedShell, OfWhatIsNotFiniteNothingIsInside) {
+  for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+    SurfaceMesh mesh = ball(1);
+    const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+    mesh.vertices[3].y = bad;
+    const Points3 at(mesh.vertices);
+    EXPECT_FALSE(ClosedShell(surface, at.run()).inside(glm::vec3(0)));
+  }
+}
+
+}  // namespace
+}  // namespace collide::test
