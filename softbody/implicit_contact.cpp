@@ -13,6 +13,8 @@
 namespace softbody {
 namespace {
 
+constexpr double held_within = 1e-7;  // of the radius: what is left to move where forces hold planes
+
 /// A contact that presses or is passed.
 struct Active {
   PlaneContact* contact;
@@ -29,16 +31,25 @@ class ForceSweeps {
   ForceSweeps(std::vector<Active>& active, std::vector<glm::dmat3> compliance)
       : active_(active), compliance_(std::move(compliance)) {}
 
-  /// Until no force's change moves its particle by more than `enough` m. Returns how far one has at most. As few
-  /// particles of a stiff body move together, plain sweeps would hardly converge: they are the gradient of a nonlinear
-  /// conjugate gradient method (Silcowitz, Niebe and Erleben 2010).
-  double run(double enough) {
-    constexpr int most_sweeps = 600;
-    double most = 0, before = 0;
+  struct Moved {
+    double most, last;  // m: how far a force's change has moved its particle, in any sweep and in the last one
+  };
+  /// Until no force's change moves its particle by more than `enough` m, or sweeps no longer help: where a crushed body
+  /// is pressed together there may be no such forces. As few particles of a stiff body move together, plain sweeps
+  /// would hardly converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and
+  /// Erleben 2010).
+  Moved run(double enough) {
+    constexpr int most_sweeps = 600, look_every = 50;
+    double most = 0, before = 0, least = std::numeric_limits<double>::infinity(), least_before = least;
     for (int s = 1;; ++s) {
       const double moved = sweep();
       most = std::max(most, moved);
-      if (moved <= enough || s == most_sweeps) return most;
+      least = std::min(least, moved);
+      if (moved <= enough || s == most_sweeps) return {most, moved};
+      if (s % look_every == 0) {
+        if (!(least < 0.5 * least_before)) return {most, moved};
+        least_before = least;
+      }
       double square = 0;
       for (const Active& a : active_) square += glm::dot(a.change, a.change);
       follow(before > 0 ? square / before : 0);
@@ -116,7 +127,7 @@ void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
 /// have come to an end.
 std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
   constexpr int most_rounds = 30, look_every = 4;
-  const double enough = 1e-7 * p.prototype.radius;
+  const double enough = held_within * p.prototype.radius;
   contact_springs_ = false;
   std::array<bool, lanes> held{}, lost{};
   PerLane limit;
@@ -188,7 +199,8 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
   }
   const std::size_t n = active.size();
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square
-  if (n > most_active) return contact_springs_ ? 0 : std::numeric_limits<double>::infinity();
+  constexpr double lost = std::numeric_limits<double>::infinity();
+  if (n > most_active) return contact_springs_ ? 0 : lost;
   std::vector<glm::dmat3> compliance(n * n);
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
@@ -196,7 +208,8 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
       compliance[i * n + j] =
           rotation * p.matrix.compliance(Index(active[i].contact->at / lanes), Index(active[j].contact->at / lanes)) *
           back;
-  const double most = ForceSweeps(active, std::move(compliance)).run(1e-9 * p.prototype.radius);
+  const auto [most, last] = ForceSweeps(active, std::move(compliance)).run(1e-9 * p.prototype.radius);
+  if (!contact_springs_ && last > held_within * p.prototype.radius) return lost;
   // So far the matrix says nothing of a body that is crushed: then the springs of contact_force() have to do.
   const bool trusted = !contact_springs_ || most <= p.prototype.radius;
   for (const Active& a : active) {

@@ -23,7 +23,7 @@ namespace {
 constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
-constexpr int many_bodies = 150;             // with more the scene begins anew, as frames would last too long
+constexpr int many_bodies = 60;              // with more the scene begins anew, as frames would last too long
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
 // What a frame may cost, in counted work.
@@ -47,17 +47,22 @@ class Soak {
       if (second % warm_up_seconds != warm_up_seconds - 1) continue;
       if (!warm) fill_tables();
       compare(warm, scene);
+      say(scene, second + 1);
     }
-    std::printf("%-10s %4d s, %llu frames so far: at most %d substeps and %llu pair tests; %s\n", scene.c_str(),
-                seconds, static_cast<unsigned long long>(frames_), substeps_,
-                static_cast<unsigned long long>(pair_tests_), describe(resources()).c_str());
-    std::fflush(stdout);
+    if (seconds % warm_up_seconds != 0) say(scene, seconds);
   }
 
   const std::string& last() const { return last_; }
   int explosions() const { return explosions_; }
 
  private:
+  void say(const std::string& scene, int seconds) const {
+    std::printf("%-10s %4d s, %llu frames so far: at most %d substeps and %llu pair tests; %s\n", scene.c_str(),
+                seconds, static_cast<unsigned long long>(frames_), substeps_,
+                static_cast<unsigned long long>(pair_tests_), describe(resources()).c_str());
+    std::fflush(stdout);
+  }
+
   void begin(const std::string& scene) {
     demo_.session.choose_scene(scene);
     if (demo_.session.world().scene().key != scene) fail("the scene cannot be loaded: " + demo_.session.notice());
