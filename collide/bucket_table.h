@@ -1,6 +1,7 @@
 #pragma once
 // Things sorted into buckets (§2.2) by counting: one array of slots, in which each bucket is a run.
-// Memory: 4 bytes a bucket (64 MiB for max_buckets) and 4 an entry; after a larger table up to four times as much.
+// Memory: 4 bytes a bucket (64 MiB for max_buckets) and 4 an entry; after a larger table up to
+// four times as much, or 4 MiB.
 
 #include "collide/detector.h"
 #include "collide/points.h"

@@ -34,7 +34,7 @@ void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui,
   SceneArea above_caption = area;
   above_caption.max.y = draw_caption(widgets, session, area, seconds);
   SceneArea below_status = area;
-  below_status.min.y = draw_status(widgets, session, area, ui.light);
+  below_status.min.y = draw_status(widgets, session, layout_.no_room, area, ui.light);
   if (!layout_.column) draw_legend_plate(widgets, session, below_status);
   if (ui.sweep) sweep_view_.draw(widgets, session, area, ui.sweep);
   draw_import_report(widgets, ui.import, above_caption);

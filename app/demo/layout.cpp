@@ -45,10 +45,15 @@ Layout lay_out(const Session& session, const UiState& ui, float scale) {
   if (session.compare.on && compare_top >= least_height * scale) {
     layout.compare = {{scene.min.x, compare_top}, display};
     scene.max.y = compare_top;
+  } else if (session.compare.on) {
+    layout.no_room = "No room for the comparison: enlarge the window.";
   }
   if (has_column(session, ui) && width_of(scene) >= (column_width + least_scene_width) * scale) {
     layout.column = {{scene.max.x - column_width * scale, scene.min.y}, scene.max};
     scene.max.x = layout.column->min.x;
+  } else if (ui.table && layout.no_room.empty()) {
+    layout.no_room = "No room for the hash table: enlarge the window";
+    layout.no_room += ui.panel ? " or hide the panel (H)." : ".";
   }
   return layout;
 }

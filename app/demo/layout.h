@@ -2,6 +2,7 @@
 // Where the interface's parts stand, and what is left for the scene.
 
 #include <optional>
+#include <string>
 
 #include "app/demo/session.h"
 #include "app/demo/ui_state.h"
@@ -18,6 +19,7 @@ struct Layout {
   std::optional<SceneArea> compare;  // at the lower one
   std::optional<SceneArea> tour;     // in place of the two
   SceneArea scene;                   // the rest, or all behind the panel that covers it
+  std::string no_room;               // a sentence on what is switched on and finds no place here, or empty
 };
 
 /// For ImGui's display as it is.

@@ -57,7 +57,7 @@ std::string reference_sentence(const CompareReport& report) {
   return report.stands_in.empty() ? text : text + ": " + report.stands_in;
 }
 
-float draw_status(Widgets& w, Session& session, const SceneArea& area, bool& explained) {
+float draw_status(Widgets& w, Session& session, const std::string& no_room, const SceneArea& area, bool& explained) {
   const float margin = w.px(12);
   const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
@@ -72,6 +72,10 @@ float draw_status(Widgets& w, Session& session, const SceneArea& area, bool& exp
           against)
              .c_str());
   draw_step_light(w, session);
+  if (!no_room.empty()) {
+    ImGui::TextWrapped("%s", no_room.c_str());
+    w.done("No room", nullptr);
+  }
   if (!session.notice().empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
     ImGui::TextWrapped("%s", session.notice().c_str());

@@ -96,31 +96,27 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, const SceneArea& area) 
 
 namespace {
 
-struct LabelBox {
-  ImVec2 min, max;
-};
-
-bool overlap(const LabelBox& a, const LabelBox& b) {
+bool overlap(const SceneArea& a, const SceneArea& b) {
   return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
 }
 
 /// A box for a label beside a point: above it to the right, or in the first other corner, then further up or down,
 /// where it lies within the area and on none of those that are there. Where all is full it stays in the first place.
-LabelBox place_beside(const ImVec2& point, const ImVec2& size, const SceneArea& area, std::span<const LabelBox> taken,
-                      float scale) {
+SceneArea place_beside(const ImVec2& point, const ImVec2& size, const SceneArea& area, std::span<const SceneArea> taken,
+                       float scale) {
   const auto label_at = [&](bool right, bool above, int rows) {
     const float x = right ? point.x + 5 * scale : point.x - 5 * scale - size.x;
     const float gap = 2 * scale + static_cast<float>(rows) * (size.y + scale);
     const float y = above ? point.y - gap - size.y : point.y + gap;
-    return LabelBox{{std::floor(x), std::floor(y)}, {std::floor(x) + size.x, std::floor(y) + size.y}};
+    return SceneArea{{std::floor(x), std::floor(y)}, {std::floor(x) + size.x, std::floor(y) + size.y}};
   };
-  const auto is_free = [&](const LabelBox& box) {
+  const auto is_free = [&](const SceneArea& box) {
     return box.min.x >= area.min.x && box.min.y >= area.min.y && box.max.x <= area.max.x && box.max.y <= area.max.y &&
-           std::ranges::none_of(taken, [&](const LabelBox& t) { return overlap(t, box); });
+           std::ranges::none_of(taken, [&](const SceneArea& t) { return overlap(t, box); });
   };
   for (int rows = 0; rows < 3; ++rows)
     for (const auto& [right, above] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}})
-      if (const LabelBox box = label_at(right, above, rows); is_free(box)) return box;
+      if (const SceneArea box = label_at(right, above, rows); is_free(box)) return box;
   return label_at(true, true, 0);
 }
 
@@ -131,13 +127,13 @@ void draw_labels(std::span<const SceneLabel> labels, const engine::Camera& camer
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const glm::vec2 ratio = glm::vec2(area.max.x - area.min.x, area.max.y - area.min.y) / glm::vec2(glm::max(size, 1));
   const ImVec2 pad{4 * scale, 1 * scale};
-  std::vector<LabelBox> taken;
+  std::vector<SceneArea> taken;
   for (const SceneLabel& label : labels) {
     const auto pixel = camera.project(label.at, size);
     if (!pixel) continue;
     const ImVec2 text = ImGui::CalcTextSize(label.text.c_str());
-    const LabelBox box = place_beside({area.min.x + pixel->x * ratio.x, area.min.y + pixel->y * ratio.y},
-                                      {text.x + 2 * pad.x, text.y + 2 * pad.y}, area, taken, scale);
+    const SceneArea box = place_beside({area.min.x + pixel->x * ratio.x, area.min.y + pixel->y * ratio.y},
+                                       {text.x + 2 * pad.x, text.y + 2 * pad.y}, area, taken, scale);
     taken.push_back(box);
     draw->AddRectFilled(box.min, box.max, to_imgui(glm::vec3(1.0f), 0.85f), 4 * scale);
     draw->AddText({box.min.x + pad.x, box.min.y + pad.y}, to_imgui(glm::vec3(0.1f)), label.text.c_str());

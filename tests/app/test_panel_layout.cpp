@@ -44,6 +44,23 @@ TEST(Panel, EscapeClosesAnOpenListAndNothingElse) {
   EXPECT_FALSE(rig.session.selected_body());
 }
 
+TEST(Panel, WhatFindsNoRoomIsNamed) {
+  PanelRig rig;
+  rig.frames(2);
+  ASSERT_TRUE(rig.ui.table);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+  rig.resize(800, 500);
+  EXPECT_TRUE(rig.recorder.find("No room")) << "for the hash table";
+  rig.ui.table = false;
+  rig.resize(800, 350);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+  rig.session.compare.on = true;
+  rig.frames(2);
+  EXPECT_TRUE(rig.recorder.find("No room")) << "for the comparison";
+  rig.resize(1280, 1150);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+}
+
 TEST(Panel, TheTourFitsSmallWindows) {
   PanelRig rig;
   for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
