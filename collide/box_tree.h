@@ -31,7 +31,7 @@ inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
 }
-/// From a point to the nearest of a box's; 0 inside.
+/// m^2, from a point to the nearest point of a box; 0 inside.
 inline double squared_distance_to(const Box& box, const glm::dvec3& p) {
   const glm::dvec3 outside = glm::max(glm::max(box.lo - p, p - box.hi), 0.0);
   return glm::dot(outside, outside);

@@ -2,24 +2,26 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/geometric.hpp>
 
 #include "collide/closest_features.h"
+#include "collide/vertex_kernels.h"
 
 namespace collide {
 
 ClosedShell::ClosedShell(const Surface& surface, const Run& at) : surface_(surface), at_(at) {
   const Bound bound = bound_of(at);
   if (!bound.finite) return;
-  // Larger by what rounding may leave out.
+  // Distances to faces are rounded in float: they may be this much less than those to the exact boxes.
   const glm::dvec3 hair(1e-6 * double(bound.largest));
   std::vector<Box> boxes(surface.triangles().size());
-  for (Index t = 0; t < boxes.size(); ++t)
-    for (std::size_t k = 0; k < 3; ++k) {
-      boxes[t].add(glm::dvec3(corner(t, k)) - hair);
-      boxes[t].add(glm::dvec3(corner(t, k)) + hair);
-    }
+  for (Index t = 0; t < boxes.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) boxes[t].add(glm::dvec3(corner(t, k)));
+    boxes[t].lo -= hair;
+    boxes[t].hi += hair;
+  }
   faces_ = BoxTree(boxes);
 }
 

@@ -4,7 +4,7 @@
 
 #include "collide/box_tree.h"
 #include "collide/surface.h"
-#include "collide/vertex_kernels.h"
+#include "collide/vertex_run.h"
 
 namespace collide {
 
@@ -20,7 +20,7 @@ class ClosedShell {
     Index face;
     float distance;  // m
   };
-  /// The face closest to a point, of those equally close the first. Needs finite vertices and at least one face.
+  /// The face closest to a point inside or near it, of those equally close the first. Needs finite vertices and a face.
   Nearest nearest_face(const glm::vec3& point) const;
 
  private:

@@ -1,8 +1,5 @@
 #include "collide/closest_features.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "collide/closest_shares.h"

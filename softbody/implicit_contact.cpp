@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -13,7 +14,7 @@
 namespace softbody {
 namespace {
 
-constexpr double held_within = 1e-7;  // of the radius: what is left to move where forces hold planes
+constexpr double held_within = 1e-7;  // of the radius: forces hold where their changes move no particle further
 
 /// A contact that presses or is passed.
 struct Active {
@@ -34,21 +35,21 @@ class ForceSweeps {
   struct Moved {
     double most, last;  // m: how far a force's change has moved its particle, in any sweep and in the last one
   };
-  /// Until no force's change moves its particle by more than `enough` m, or sweeps no longer help: where a crushed body
-  /// is pressed together there may be no such forces. As few particles of a stiff body move together, plain sweeps
-  /// would hardly converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and
-  /// Erleben 2010).
+  /// Until no force's change moves its particle by more than `enough` m, or a window of sweeps does not halve these
+  /// moves: there may be no such forces where a crushed body is pressed together. As few particles of a stiff body move
+  /// together, plain sweeps would hardly converge: they are the gradient of a nonlinear conjugate gradient method
+  /// (Silcowitz, Niebe and Erleben 2010).
   Moved run(double enough) {
-    constexpr int most_sweeps = 600, look_every = 50;
-    double most = 0, before = 0, least = std::numeric_limits<double>::infinity(), least_before = least;
+    constexpr int most_sweeps = 600, window = 50;
+    double most = 0, before = 0, sum = 0, sum_before = std::numeric_limits<double>::infinity();
     for (int s = 1;; ++s) {
       const double moved = sweep();
       most = std::max(most, moved);
-      least = std::min(least, moved);
+      sum += moved;
       if (moved <= enough || s == most_sweeps) return {most, moved};
-      if (s % look_every == 0) {
-        if (!(least < 0.5 * least_before)) return {most, moved};
-        least_before = least;
+      if (s % window == 0) {
+        if (!(sum < 0.5 * sum_before)) return {most, moved};
+        sum_before = std::exchange(sum, 0.0);
       }
       double square = 0;
       for (const Active& a : active_) square += glm::dot(a.change, a.change);
@@ -129,7 +130,8 @@ std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
   constexpr int most_rounds = 30, look_every = 4;
   const double enough = held_within * p.prototype.radius;
   contact_springs_ = false;
-  std::array<bool, lanes> held{}, lost{};
+  std::array<bool, lanes> held{};
+  given_up_ = {};
   PerLane limit;
   limit.fill(std::numeric_limits<double>::infinity());
   for (int round = 0; round < most_rounds; ++round) {
@@ -137,10 +139,10 @@ std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
     const PerLane moved = press(p);
     bool open = false;
     for (std::size_t l = 0; l < lanes; ++l) {
-      held[l] = !lost[l] && converged_[l] && moved[l] <= enough;
-      lost[l] = lost[l] || (!held[l] && !(moved[l] < limit[l]));
+      held[l] = !given_up_[l] && converged_[l] && moved[l] <= enough;
+      given_up_[l] = given_up_[l] || (!held[l] && !(moved[l] < limit[l]));
       if (round % look_every == 0 && moved[l] > 0) limit[l] = moved[l];
-      open = open || !(held[l] || lost[l]);
+      open = open || !(held[l] || given_up_[l]);
     }
     if (!open) break;
   }
@@ -151,6 +153,7 @@ std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
 void ImplicitSolver::lead_by_springs(const ImplicitProblem& p) {
   constexpr int most_rounds = 8;
   contact_springs_ = true;
+  given_up_ = {};
   for (int round = 0; round < most_rounds; ++round) {
     press(p);
     const bool settled = minimise(p, iterations_of_round);
@@ -164,8 +167,8 @@ void ImplicitSolver::lead_by_springs(const ImplicitProblem& p) {
   }
 }
 
-/// Brings the contact forces up to date with the positions, and these with the forces' changes. Returns how far these
-/// have moved a particle at most, in m.
+/// Brings the contact forces up to date with the positions, and these with the forces' changes, but for lanes that are
+/// given up. Returns how far these have moved a particle at most, in m; infinity: there are none to be found.
 ImplicitSolver::PerLane ImplicitSolver::press(const ImplicitProblem& p) {
   PerLane moved{}, once;
   direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move
@@ -174,7 +177,7 @@ ImplicitSolver::PerLane ImplicitSolver::press(const ImplicitProblem& p) {
     const std::size_t lane = planes[first].at % lanes;
     std::size_t end = first;
     while (end < planes.size() && planes[end].at % lanes == lane) ++end;
-    moved[lane] = press_lane(p, std::span(planes).subspan(first, end - first));
+    if (!given_up_[lane]) moved[lane] = press_lane(p, std::span(planes).subspan(first, end - first));
     first = end;
   }
   if (std::ranges::max(moved) <= 0) return moved;
@@ -184,8 +187,8 @@ ImplicitSolver::PerLane ImplicitSolver::press(const ImplicitProblem& p) {
   return moved;
 }
 
-/// The forces of one lane's contacts that press or are passed. Adds their changes to direction_; returns how far these
-/// have moved a particle at most, in m.
+/// The forces of one lane's contacts that press or are passed. Adds their changes to direction_; returns what press()
+/// does.
 double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneContact> all) {
   const std::size_t lane = all.front().at % lanes;
   glm::dmat3 rotation(1.0);
@@ -199,8 +202,8 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
   }
   const std::size_t n = active.size();
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square
-  constexpr double lost = std::numeric_limits<double>::infinity();
-  if (n > most_active) return contact_springs_ ? 0 : lost;
+  const double none_found = contact_springs_ ? 0 : std::numeric_limits<double>::infinity();
+  if (n > most_active) return none_found;
   std::vector<glm::dmat3> compliance(n * n);
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
@@ -209,14 +212,13 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
           rotation * p.matrix.compliance(Index(active[i].contact->at / lanes), Index(active[j].contact->at / lanes)) *
           back;
   const auto [most, last] = ForceSweeps(active, std::move(compliance)).run(1e-9 * p.prototype.radius);
-  if (!contact_springs_ && last > held_within * p.prototype.radius) return lost;
-  // So far the matrix says nothing of a body that is crushed: then the springs of contact_force() have to do.
-  const bool trusted = !contact_springs_ || most <= p.prototype.radius;
+  // While springs lead the matrix may say nothing of a body that is crushed: then those of contact_force() have to do.
+  const bool trusted = contact_springs_ ? most <= p.prototype.radius : last <= held_within * p.prototype.radius;
   for (const Active& a : active) {
     if (!trusted) a.contact->force = a.before;
     add(direction_, a.contact->at, a.contact->force - a.before);
   }
-  return trusted ? most : 0;
+  return trusted ? most : none_found;
 }
 
 }  // namespace softbody

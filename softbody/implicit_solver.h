@@ -111,7 +111,8 @@ class ImplicitSolver {
   std::size_t remembered_ = 0, newest_ = 0;
   PerLane step_{}, reach_{};  // reach: m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][lanes];
-  bool contact_springs_ = false;  // while they lead
+  bool contact_springs_ = false;        // while they lead
+  std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
   std::array<bool, lanes> converged_{};
   int iterations_ = 0;
 };

@@ -86,7 +86,7 @@ void SurfaceContact::take_candidates(const collide::Frame& now) {
   for (const Pair& p : pairs_)
     if (p.range.a == p.range.b) leave_room(p);
   deep_.clear();
-  Shells shells(bodies_.size());
+  Shells shells;
   for (Pair& p : pairs_)
     if (p.overlap) find_deep(p, now, shells);
   foresee_speeds();
@@ -177,6 +177,8 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
     const collide::Run vertices = run(own);
+    if (!collide::near(collide::bound_of(vertices).box, collide::bound_of(run(other)).box, 0.0f)) continue;
+    shells.resize(bodies_.size());
     if (!shells[other]) shells[other].emplace(*traits_[other].surface, run(other));
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);

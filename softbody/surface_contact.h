@@ -13,8 +13,8 @@
 // distance itself is held by a spring with a damper, integrated implicitly as in a soft constraint (Catto 2011): what
 // rests neither sinks in nor trembles; friction takes at most mu times them from the slip (Coulomb). The rows of a
 // substep are solved by projected Gauss-Seidel with accumulated impulses, started from those of the substep before
-// (Catto 2005; many substeps of few iterations, Macklin et al. 2019). Bodies' pairs are coloured, so that those of a
-// colour share no body and the result does not depend on threads.
+// (Catto 2005; many substeps of few iterations, Macklin et al. 2019), of rows that push out from a part of them.
+// Bodies' pairs are coloured, so that those of a colour share no body and the result does not depend on threads.
 //
 // Which side a feature is on: outside a closed body the normal is simply from the one closest point to the other. A
 // vertex is inside if it lies behind the face that it is closest to; it then has only that row. Open surfaces and a

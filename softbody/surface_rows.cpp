@@ -14,7 +14,7 @@ using collide::Closest;
 using collide::FeaturePair;
 
 constexpr float push_share = 0.1f;  // of an overlap, a substep
-constexpr float push_kept = 0.8f;   // of an impulse that pushes out, from one substep to the next
+constexpr float push_kept = 0.8f;   // of an impulse that pushes out is handed on to the next substep; by trial
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility, const collide::Triangle& face,
                       std::size_t face_slot, std::size_t stride, float face_mobility) {

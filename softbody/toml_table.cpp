@@ -1,8 +1,10 @@
 #include "softbody/toml_table.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
+#include <utility>
 
 #include <glm/common.hpp>
 
@@ -21,10 +23,11 @@ std::string range(double lo, double hi) {
   return s.str();
 }
 
+bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
+
 /// A quoted key may hold anything, and toml++ quotes what it stumbled over, line breaks included.
-std::string one_line(std::string message) {
-  for (char& c : message)
-    if (static_cast<unsigned char>(c) < ' ') c = '?';
+std::string without_controls(std::string message) {
+  std::ranges::replace_if(message, is_control, '?');
   return message;
 }
 
@@ -41,7 +44,7 @@ toml::table read_toml(const std::filesystem::path& file) {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& e) {
     throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                     one_line(std::string(e.description())));
+                     without_controls(std::string(e.description())));
   }
 }
 
@@ -74,6 +77,12 @@ std::string Table::text(const std::string& key, std::string fallback) {
   if (!node) return fallback;
   if (!node->is_string()) fail(*node, key, "must be a string");
   return *node->value<std::string>();
+}
+
+std::string Table::line(const std::string& key, std::string fallback) {
+  std::string value = text(key, std::move(fallback));
+  if (std::ranges::any_of(value, is_control)) fail(key, "must be one line of text, without control characters");
+  return value;
 }
 
 glm::dvec3 Table::vector(const std::string& key, glm::dvec3 fallback, double lo, double hi) {
@@ -152,7 +161,7 @@ const toml::node* Table::find(const std::string& key) {
 
 void Table::fail(const toml::node& node, const std::string& key, const std::string& what) const {
   throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
-                   one_line((name_.empty() ? "" : name_ + ".") + key + " " + what));
+                   without_controls((name_.empty() ? "" : name_ + ".") + key + " " + what));
 }
 
 }  // namespace softbody

@@ -6,7 +6,6 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 
 #include "collide/closest_features.h"
 #include "every_target.h"
@@ -37,17 +36,20 @@ TEST(ClosedShell, InsideIsWhatTheExactOracleSays) {
   }
 }
 
-TEST(ClosedShell, NearestFaceIsTheFirstOfThoseAtTheLeastDistance) {
-  const SurfaceMesh mesh = moved(valley(), {-2, -2, -0.5f});
+class NearestFace : public testing::TestWithParam<SurfaceMesh> {};
+
+TEST_P(NearestFace, IsTheFirstOfThoseAtTheLeastDistance) {
+  const SurfaceMesh& mesh = GetParam();
   const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
   const Points3 at(mesh.vertices);
   const ClosedShell shell(surface, at.run());
   std::mt19937 random(55);
-  std::vector<glm::vec3> points = random_points(random, 1000, -3, 3);
+  std::vector<glm::vec3> points;
+  for (const glm::vec3& p : random_points(random, 1000, -1.5, 1.5)) points.push_back(mesh.vertices[0] + p);
   points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());  // several faces are equally close
   for (const glm::vec3& p : points) {
     Index nearest = 0;
-    float least = std::numeric_limits<float>::infinity();
+    float least = infinity;
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
       const glm::vec3 apart = closest_vertex_face(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]).apart;
@@ -58,10 +60,16 @@ TEST(ClosedShell, NearestFaceIsTheFirstOfThoseAtTheLeastDistance) {
   }
 }
 
+INSTANTIATE_TEST_SUITE_P(ClosedShell, NearestFace,
+                         testing::Values(moved(valley(), {-2, -2, -0.5f}), ball(3), moved(ball(2), {100, 70, -100})));
+
 TEST(ClosedShell, OfWhatIsNotFiniteNothingIsInside) {
-  for (const float bad : {std::numeric_limits<float>::infinity(), std::numeric_limits<float>::quiet_NaN()}) {
+  for (const float bad : {infinity, -infinity, nan}) {
     SurfaceMesh mesh = ball(1);
     const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
+    const Points3 whole(mesh.vertices);
+    EXPECT_TRUE(ClosedShell(surface, whole.run()).inside(glm::vec3(0)));
+    EXPECT_FALSE(ClosedShell(surface, whole.run()).inside({0, bad, 0}));
     mesh.vertices[3].y = bad;
     const Points3 at(mesh.vertices);
     EXPECT_FALSE(ClosedShell(surface, at.run()).inside(glm::vec3(0)));

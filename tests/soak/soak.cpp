@@ -23,7 +23,7 @@ namespace {
 constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
-constexpr int many_bodies = 60;              // with more the scene begins anew, as frames would last too long
+constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
 // What a frame may cost, in counted work.
@@ -66,6 +66,7 @@ class Soak {
   void begin(const std::string& scene) {
     demo_.session.choose_scene(scene);
     if (demo_.session.world().scene().key != scene) fail("the scene cannot be loaded: " + demo_.session.notice());
+    bodies_ = demo_.session.world().bodies().count();
     demo_.session.paused = false;
     demo_.restart_camera();
   }
@@ -76,7 +77,7 @@ class Soak {
     demo_.input.buttons = {};
     demo_.input.wheel = 0;
     action.act(demo_, dice_);
-    if (demo_.session.world().bodies().count() > many_bodies || dice_.pick(100) == 0) begin(scene);
+    if (demo_.session.world().bodies().count() > bodies_ + many_more_bodies || dice_.pick(100) == 0) begin(scene);
     demo_.session.paused = false;
     demo_.ui.quit = false;
   }
@@ -138,6 +139,7 @@ class Soak {
   DemoRig demo_;
   Dice dice_;
   std::string last_ = "nothing";
+  collide::Index bodies_ = 0;  // of the scene as it begins
   int substeps_ = 0, explosions_ = 0;
   std::uint64_t frames_ = 0, pair_tests_ = 0;
 };
