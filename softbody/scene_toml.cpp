@@ -27,7 +27,7 @@ SpringLaw read_springs(Table table, SpringLaw law) {
 
 Material read_material(Table& table) {
   Material m;
-  m.name = table.line("name", "");
+  m.name = table.text("name", "");
   m.mass = table.number("mass", m.mass, tiny, 1e9);
   m.structural = read_springs(table.child("structural"), m.structural);
   m.bend = read_springs(table.child("bend"), m.bend);

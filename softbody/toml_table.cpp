@@ -4,7 +4,6 @@
 #include <cmath>
 #include <optional>
 #include <sstream>
-#include <utility>
 
 #include <glm/common.hpp>
 
@@ -23,11 +22,10 @@ std::string range(double lo, double hi) {
   return s.str();
 }
 
-bool is_control(char c) { return static_cast<unsigned char>(c) < ' ' || c == 0x7f; }
-
 /// A quoted key may hold anything, and toml++ quotes what it stumbled over, line breaks included.
 std::string without_controls(std::string message) {
-  std::ranges::replace_if(message, is_control, '?');
+  std::ranges::replace_if(
+      message, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
   return message;
 }
 
@@ -77,12 +75,6 @@ std::string Table::text(const std::string& key, std::string fallback) {
   if (!node) return fallback;
   if (!node->is_string()) fail(*node, key, "must be a string");
   return *node->value<std::string>();
-}
-
-std::string Table::line(const std::string& key, std::string fallback) {
-  std::string value = text(key, std::move(fallback));
-  if (std::ranges::any_of(value, is_control)) fail(key, "must be one line of text, without control characters");
-  return value;
 }
 
 glm::dvec3 Table::vector(const std::string& key, glm::dvec3 fallback, double lo, double hi) {

@@ -35,8 +35,6 @@ class Table {
   int integer(const std::string& key, int fallback, int lo, int hi);
   bool boolean(const std::string& key, bool fallback);
   std::string text(const std::string& key, std::string fallback);
-  /// Text that messages may quote: without line breaks and other control characters.
-  std::string line(const std::string& key, std::string fallback);
   glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo = -any, double hi = any);
   glm::dmat3 matrix(const std::string& key);  // its columns; must be there
   glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);

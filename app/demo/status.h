@@ -31,8 +31,8 @@ double rounded_down(double share);
 /// "Measured against ...", with the reason if that is not brute force.
 std::string reference_sentence(const CompareReport& report);
 
-/// The light, its sentence and the recall; below it Layout::no_room and the session's notice(), if any. Returns where it
-/// ends. `explained`: with what the light's colours mean.
+/// The light, its sentence and the recall; below it Layout::no_room and the session's notice(), if any. Returns where
+/// it ends. `explained`: with what the light's colours mean.
 float draw_status(Widgets& widgets, Session& session, const std::string& no_room, const SceneArea& area,
                   bool& explained);
 /// What the colours of the overlays mean; has_legend(): whether any that is shown needs it. `of_which_method`: also
