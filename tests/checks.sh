@@ -34,9 +34,11 @@ coverage() {
   step "coverage: build" build_for_coverage && step "coverage: tests" run_for_coverage && step "coverage" report_coverage
 }
 
+# A process for each scene, as many at once as there are processors.
 run_soak() {
   cd "$root/build/release"
-  bin/soak 600
+  for scene in "$root"/assets/scenes/*.toml; do basename "$scene" .toml; done |
+    LP_NUM_THREADS=0 xargs --max-args=1 --max-procs="$(nproc)" bin/soak 600
 }
 
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }

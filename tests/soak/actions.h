@@ -9,10 +9,13 @@
 
 namespace soak {
 
-/// The same numbers with every standard library.
+/// The same numbers for a word with every standard library, others for another word.
 class Dice {
  public:
-  explicit Dice(std::uint32_t seed) : random_(seed) {}
+  explicit Dice(std::string_view word) {
+    std::seed_seq seed(word.begin(), word.end());
+    random_.seed(seed);
+  }
   /// 0 .. count - 1.
   std::size_t pick(std::size_t count) { return random_() % count; }
   double between(double lo, double hi) { return lo + (hi - lo) * double(random_()) / 4294967296.0; }
