@@ -11,7 +11,7 @@
 namespace softbody {
 
 LineReader::LineReader(const std::filesystem::path& file)
-    : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(longest_line) {
+    : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(std::size_t{1} << 16) {
   if (file_ < 0) throw std::system_error(errno, std::generic_category());
 }
 
@@ -51,7 +51,10 @@ bool LineReader::read_more() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;
   begin_ = 0;
-  if (end_ == buffer_.size()) throw std::length_error("the line is longer than 1 MiB");
+  if (end_ == buffer_.size()) {
+    if (end_ == longest_line) throw std::length_error("the line is longer than 1 MiB");
+    buffer_.resize(2 * end_);
+  }
   ssize_t count;
   do count = ::read(file_, buffer_.data() + end_, buffer_.size() - end_);
   while (count < 0 && errno == EINTR);

@@ -43,11 +43,12 @@ run_soak() {
 
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }
 
-# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build.
+# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build. The file that
+# readers are given anew for each input stays in memory: on a disk there are 25 times fewer inputs a second.
 run_fuzzer() {
   cd "$root/build/fuzz"
   mkdir -p "found/$1"
-  "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 -artifact_prefix="found/$1/" -print_final_stats=1 \
+  TMPDIR=/dev/shm "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 -artifact_prefix="found/$1/" -print_final_stats=1 \
     "found/$1" "$root/tests/fuzz/corpus/$1"
 }
 
