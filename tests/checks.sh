@@ -44,7 +44,7 @@ run_soak() {
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }
 
 # run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build. The file that
-# readers are given anew for each input stays in memory: on a disk there are 25 times fewer inputs a second.
+# readers are given anew for each input stays in memory: with a disk there are far fewer inputs a second.
 run_fuzzer() {
   cd "$root/build/fuzz"
   mkdir -p "found/$1"
