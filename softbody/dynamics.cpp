@@ -310,7 +310,7 @@ void Dynamics::gas_pressure(Batch& b) {
   const Gas& gas = b.prototype->gas;
   alignas(32) float volume[lanes], gauge[lanes]{};
   kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
-  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.pressure(double(volume[l])) - gas.ambient);
+  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
   kernels_of(b).pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
 }
 

@@ -29,7 +29,7 @@ class Relaxation {
     if (!prototype_.has_gas) return;
     double v;
     body::volume<double, one_lane>(prototype_.mesh.triangles, constant(x_), &v);
-    const double gauge = prototype_.gas.pressure(v) - prototype_.gas.ambient;
+    const double gauge = prototype_.gas.gauge(v);
     body::pressure<double, one_lane>(prototype_.mesh.triangles, constant(x_), &gauge, field(f_));
   }
 

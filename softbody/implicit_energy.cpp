@@ -34,10 +34,11 @@ double volume_of(const Prototype& p, const LaneView& x) {
   return six / 6;
 }
 
-/// J that the gas loses. By Simpson's rule: a logarithm has not the same last digits on all processors.
-double gas_work(const Prototype& p, double from, double to) {
-  const auto gauge = [&p](double volume) { return p.gas.pressure(volume) - p.gas.ambient; };
-  return (to - from) / 6 * (gauge(from) + 4 * gauge((from + to) / 2) + gauge(to));
+/// J that the gas and what is around lose. By Simpson's rule: a logarithm has not the same last digits on all
+/// processors.
+double gas_work(const Gas& gas, double from, double to) {
+  const double by_gas = (to - from) / 6 * (gas.pressure(from) + 4 * gas.pressure((from + to) / 2) + gas.pressure(to));
+  return by_gas - (gas.outside_energy(to) - gas.outside_energy(from));
 }
 
 /// J that solids and shields may have done on the body in the step that ends at work.end_x.
@@ -70,7 +71,7 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
   }
   const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = spring_energy(p, x);
   double gain = after - before - fallen - contact_work(work, lane) + spring_energy(p, end_x) - elastic;
-  if (p.has_gas) gain -= gas_work(p, volume_of(p, x), volume_of(p, end_x));
+  if (p.has_gas) gain -= gas_work(p.gas, volume_of(p, x), volume_of(p, end_x));
   double motion = before + after;
   if (!pushed)  // then how fast it flies has no part in it
     motion -= p.material.mass / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));

@@ -43,10 +43,10 @@ glm::dmat3 block(const Shape& x, const Spring& s, double h, bool turns, Tension 
   return along * direction + s.stiffness * across * (glm::dmat3(1) - direction);
 }
 
-/// -(P - P_ambient) d2V/dx2: a corner's gradient is a sixth of the cross product of the two others.
+/// -P d2V/dx2, P being the gauge pressure: a corner's gradient is a sixth of the cross product of the two others.
 void add_gas(const Prototype& p, const Shape& x, Entries& entries) {
   const int n = int(x.size());
-  const double sixth = (p.gas.pressure(volume(x, p.mesh.triangles)) - p.gas.ambient) / 6;
+  const double sixth = p.gas.gauge(volume(x, p.mesh.triangles)) / 6;
   for (const auto& triangle : p.mesh.triangles)
     for (std::size_t corner = 0; corner < 3; ++corner) {
       const int a = int(triangle[corner]), b = int(triangle[(corner + 1) % 3]);

@@ -79,7 +79,7 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
   if (p.prototype.has_gas) {
     alignas(64) double volume[lanes], gauge[lanes];
     kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.prototype.gas.pressure(volume[l]) - p.prototype.gas.ambient;
+    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.prototype.gas.gauge(volume[l]);
     kernels_.pressure(faces_, field(x), gauge, field(g));
   }
   if (!p.prototype.goal.empty()) {

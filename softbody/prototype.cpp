@@ -89,17 +89,24 @@ double Gas::pressure(double v) const {
   return amount / bend * (2 - v / bend);
 }
 
+double Gas::outside(double v) const { return ambient * std::clamp(v / (linear_below * rest_volume), -1.0, 1.0); }
+
 double Gas::slope(double v) const {
-  const double held = std::max(v, linear_below * rest_volume);
-  return -amount / (held * held);
+  const double bend = linear_below * rest_volume, held = std::max(v, bend);
+  return -amount / (held * held) - (std::abs(v) < bend ? ambient / bend : 0);
+}
+
+double Gas::outside_energy(double v) const {
+  const double bend = linear_below * rest_volume;
+  const double pushed_away = std::abs(v) < bend ? (v * v + bend * bend) / (2 * bend) : std::abs(v);
+  return ambient * (pushed_away - rest_volume);
 }
 
 double Gas::energy(double v) const {
   const double bend = linear_below * rest_volume;
-  const double against_ambient = ambient * (v - rest_volume);
-  if (v >= bend) return against_ambient - amount * std::log(v / rest_volume);
+  if (v >= bend) return outside_energy(v) - amount * std::log(v / rest_volume);
   const double beyond = bend - v;  // the integral of the linear law from v to the bend
-  return against_ambient - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
+  return outside_energy(v) - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
 }
 
 double stable_step(double k_m, double c_m) {
@@ -114,15 +121,15 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
-  // Gas: F_i = (P - P_ambient) A_i, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum |A_i|^2, plus
-  // (P - P_ambient) d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
+  // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum |A_i|^2, plus
+  // P d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
   // its bound and a = A / |A|, q = a^T L a is far below l. An eigenvalue x > l of L + s a a^T has
   // 1 = s a^T (x - L)^-1 a <= s ((1 - q/l) / x + (q/l) / (x - l)), for 1 / (x - y) is convex in y, and so is at most
   // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
   // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
   // a row is at most two medians a face at i.
   const double slope = -p.gas.slope(surface.volume);
-  const double gauge = std::abs(p.gas.pressure(surface.volume) - p.gas.ambient);
+  const double gauge = std::abs(p.gas.gauge(surface.volume));
   const double l = 2 * p.spring_stiffness_bound, s = slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
   const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);

@@ -22,11 +22,19 @@ struct Gas {
   double ambient = 0;      // Pa
   double rest_volume = 0;  // V0 in m^3: below 0.1 V0 the law goes on linearly
 
-  /// Absolute pressure in Pa at volume v, which may be zero or negative (an inverted body).
+  // All at volume v, which may be zero or negative (an inverted body).
+  /// Absolute pressure in Pa.
   double pressure(double v) const;
+  /// Pa, of what is around. It presses from outside, wherever the faces look: within 0.1 V0 of a flat body it turns its
+  /// sign, or a body with little gas in it, once inverted, would be blown up without end.
+  double outside(double v) const;
+  /// Pa, what drives the faces out.
+  double gauge(double v) const { return pressure(v) - outside(v); }
   /// Its derivative in Pa/m^3, never positive.
   double slope(double v) const;
-  /// Work done against the ambient pressure and by the gas, 0 at V0, in J; d(energy)/dV = ambient - pressure.
+  /// J, work done against what is around, 0 at V0; d/dV = outside().
+  double outside_energy(double v) const;
+  /// With that by the gas, 0 at V0, in J; d/dV = -gauge().
   double energy(double v) const;
 };
 

@@ -23,7 +23,7 @@ void Dynamics::project_gas(Batch& b, Quantity d, float h) {
   const double h2_m = double(h) * double(h) / p.particle_mass;
   float shift[lanes];
   for (std::size_t l = 0; l < width; ++l) {
-    const double gauge = p.gas.pressure(double(volume[l])) - p.gas.ambient;
+    const double gauge = p.gas.gauge(double(volume[l]));
     shift[l] = b.moves[l] * float(h2_m * gauge / (1 - p.gas.slope(double(volume[l])) * h2_m * square[l]));
   }
   for (std::size_t k = 0; k < 3; ++k)

@@ -24,12 +24,23 @@ double absolute_pressure(const softbody::Gas& gas, double volume) {
   return gas.amount / touch + gas.amount / (touch * touch) * (touch - volume);
 }
 
-/// The integral of ambient - pressure from V0.
+/// The ambient pressure stays on the outer side of faces that are turned inside out: its sign goes over between the
+/// two touches.
+double ambient_pressure(const softbody::Gas& gas, double volume) {
+  const double touch = tangent_below * gas.rest_volume;
+  if (volume > touch) return gas.ambient;
+  return volume < -touch ? -gas.ambient : gas.ambient * (volume / touch);
+}
+
+/// The integral of the ambient less the absolute pressure from V0.
 double gas_energy(const softbody::Gas& gas, double volume) {
   const double touch = tangent_below * gas.rest_volume, low = std::min(volume, touch);
   const double ideal = -gas.amount * std::log(std::max(volume, touch) / gas.rest_volume);
   const double tangent = (touch - low) * (gas.amount / touch + absolute_pressure(gas, low)) / 2;
-  return gas.ambient * (volume - gas.rest_volume) + ideal + tangent;
+  const double flat = std::clamp(volume, -touch, touch);  // from the upper touch to there the ambient's is a parabola
+  const double ambient = gas.ambient * (std::max(volume, touch) - gas.rest_volume + std::max(0.0, -touch - volume)) +
+                         gas.ambient * (flat * flat - touch * touch) / (2 * touch);
+  return ambient + ideal + tangent;
 }
 
 /// a + s b for all particles.
@@ -75,7 +86,8 @@ void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state
 
 void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
   const auto& faces = prototype_.mesh.triangles;
-  const double gauge = absolute_pressure(prototype_.gas, volume_of(state.x, faces)) - prototype_.gas.ambient;
+  const double volume = volume_of(state.x, faces);
+  const double gauge = absolute_pressure(prototype_.gas, volume) - ambient_pressure(prototype_.gas, volume);
   for (const auto& [i, j, k] : faces) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
     for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / prototype_.particle_mass * area;

@@ -156,11 +156,33 @@ TEST(GasLaw, AnInvertedBodyFeelsAFiniteOutwardPressureThatGrows) {
   EXPECT_TRUE(std::isfinite(last));
 }
 
+TEST(GasLaw, WhatIsAroundPressesOnTheOuterSideOfAnInvertedBodyToo) {
+  for (const double v : {0.05, 0.5, 3.0}) EXPECT_NEAR(gas.outside(v), 101325, 1e-9);
+  for (const double v : {-0.05, -0.5, -3.0}) EXPECT_NEAR(gas.outside(v), -101325, 1e-9);
+  for (const double v : {-0.04, 0.0, 0.01}) EXPECT_NEAR(gas.outside(v), 101325 * v / 0.05, 1e-9);
+}
+
+TEST(GasLaw, SlopeIsTheGaugesAndNeverPositive) {
+  for (const double v : {-0.7, -0.02, 0.0, 0.03, 0.06, 0.5, 3.0}) {
+    const double e = 1e-6;
+    EXPECT_NEAR(gas.slope(v), (gas.gauge(v + e) - gas.gauge(v - e)) / (2 * e), 1e-6 * -gas.slope(v)) << "V = " << v;
+    EXPECT_LT(gas.slope(v), 0);
+  }
+}
+
+TEST(GasLaw, AnEmptyBodyHasLeastEnergyWhereItIsFlat) {
+  const Gas none{.amount = 0, .ambient = 101325, .rest_volume = 0.5};
+  for (const double v : {-100.0, -0.5, -0.05, -0.01, 0.01, 0.05, 0.5, 100.0}) {
+    EXPECT_GT(none.energy(v), none.energy(0)) << "V = " << v;
+    EXPECT_EQ(none.gauge(v) > 0, v < 0) << "V = " << v;
+  }
+}
+
 TEST(GasLaw, EnergyIsThePotentialOfThePressureOnBothSides) {
   for (const double v : {-0.7, -0.05, -1e-3, 0.0, 1e-3, 0.02, 0.049, 0.05, 0.051, 0.2, 0.5, 1.0, 3.0}) {
     const double e = 1e-6;
     const double slope = (gas.energy(v + e) - gas.energy(v - e)) / (2 * e);
-    EXPECT_NEAR(slope, gas.ambient - gas.pressure(v), 1e-5 * (gas.ambient + gas.pressure(v))) << "V = " << v;
+    EXPECT_NEAR(slope, -gas.gauge(v), 1e-5 * (gas.ambient + gas.pressure(v))) << "V = " << v;
   }
   EXPECT_EQ(gas.energy(0.5), 0.0);
   EXPECT_NEAR(gas.energy(0.05 - 1e-12), gas.energy(0.05 + 1e-12), 1e-4) << "no jump at the turn";

@@ -114,8 +114,9 @@ std::vector<glm::dvec3> forces(const Prototype& p, const std::vector<glm::dvec3>
   const double turn = 0.1 * p.gas.rest_volume;
   const double pressure =
       v >= turn ? p.gas.amount / v : p.gas.amount / turn - p.gas.amount / (turn * turn) * (v - turn);
+  const double outside = std::abs(v) < turn ? p.gas.ambient * v / turn : std::copysign(p.gas.ambient, v);
   for (const auto& t : p.mesh.triangles) {
-    const glm::dvec3 third = (pressure - p.gas.ambient) / 3 * 0.5 * glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
+    const glm::dvec3 third = (pressure - outside) / 3 * 0.5 * glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
     for (const Index corner : t) f[corner] += third;
   }
   return f;
