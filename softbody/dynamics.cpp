@@ -13,7 +13,7 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e6;  // a state that asks for more is lost
+constexpr double most_substeps = 1e9;  // a state that asks for more is lost
 constexpr int many_substeps = 64;      // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 double longest(const Extent& e) {
@@ -154,7 +154,7 @@ bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }
 
-int Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
+Advance Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
   found_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
@@ -167,7 +167,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
     moving_.push_back(&b);
     prepare_solids(b, seconds);
   }
-  if (moving_.empty()) return 0;
+  if (moving_.empty()) return {0, seconds};
   if (asked_->automatic) choose(seconds);
   resize_scratch();
   std::size_t particles = 0;
@@ -178,7 +178,8 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
   if (grab_) touch(grab_->body);
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  for (double left = seconds; left > 0;) {
+  double left = seconds;
+  while (left > 0 && (fixed || total < max_substeps)) {
     const int stable = fixed ? fixed - total : needed_substeps(left);
     if (has_surface_) {
       find_surface_contacts(left, left / stable);
@@ -204,6 +205,7 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
     if (has_surface_) now = std::min(now, foreseen_substeps(left, h));
+    if (!fixed) now = std::min(now, max_substeps - total);
     const int before = total;
     if (total == 0 && now > 1 && !fixed) {
       go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
@@ -212,8 +214,8 @@ int Dynamics::advance(double seconds, const std::function<void()>& after_substep
     if (now > total - before) go_on(now - (total - before));
     left = now == count ? 0 : left - now * h;
   }
-  keep_momenta(seconds);
-  return total;
+  keep_momenta(seconds - left);
+  return {total, seconds - left};
 }
 
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest

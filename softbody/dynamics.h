@@ -91,8 +91,15 @@ struct SeenContacts {
   const std::vector<collide::Contact>& contacts;
 };
 
+/// What a frame came to.
+struct Advance {
+  int substeps = 0;
+  double seconds = 0;
+};
+
 class Dynamics {
  public:
+  static constexpr int max_substeps = 4000;                         // a frame
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -134,9 +141,10 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds` in equal substeps, see set_substeps(); the bound is worked out anew as bodies move. Returns
-  /// their number. after_substep: called by one thread while the others wait.
-  int advance(double seconds, const std::function<void()>& after_substep = {});
+  /// Advances by `seconds`, or by less of them in max_substeps: unless substeps are fixed, the bound is worked out anew
+  /// as bodies move, and those that are crushed may ask for any number. after_substep: called by one thread while the
+  /// others wait.
+  Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.

@@ -171,8 +171,10 @@ void World::step(const std::function<void()>& after_substep) {
     after_substep();
     looking_ms += ms_since(from);
   };
-  s.profile.substeps = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
-  s.dynamics.finish_frame(s.options.frame_time);
+  const Advance done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
+  s.dynamics.finish_frame(done.seconds);
+  s.profile.substeps = done.substeps;
+  s.profile.seconds = done.seconds;
   s.gather();
   s.profile.solve_ms = ms_since(start) - looking_ms;
   s.detect();

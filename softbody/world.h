@@ -12,6 +12,7 @@ namespace softbody {
 struct Profile {
   double detect_ms = 0, solve_ms = 0, total_ms = 0;
   int substeps = 0;
+  double seconds = 0;  // simulated: less than a frame's where that would have taken more than max_substeps
 };
 
 struct SolidContact {
@@ -39,7 +40,7 @@ class World {
     /// Particles of moving bodies; threads share no fewer: one has moved them before the others have woken up.
     std::size_t least_shared = 20'000;
   };
-  static constexpr int max_substeps = 4000;  // a frame
+  static constexpr int max_substeps = Dynamics::max_substeps;  // a frame
 
   /// Throws SceneError if a material is too stiff for its mass, or the tolerance too wide: if a frame would take more
   /// than max_substeps.

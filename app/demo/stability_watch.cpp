@@ -35,8 +35,15 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const double frame = world.frame_time();
   // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
   const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
+  const double seconds = world.profile().seconds;
   margin_ = {};
-  if (taken > 0) margin_ = {taken, needed, frame / taken, frame / needed, kind_of(world.dynamics().used_integrator())};
+  if (taken > 0)
+    margin_ = {.taken = taken,
+               .needed = needed,
+               .substep = seconds / taken,
+               .bound = frame / needed,
+               .kind = kind_of(world.dynamics().used_integrator()),
+               .share = seconds / frame};
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);

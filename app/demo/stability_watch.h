@@ -28,6 +28,7 @@ struct StepMargin {
   int taken = 0, needed = 0;
   double substep = 0, bound = 0;  // s, the reserve taken off
   Bound kind = Bound::stable;
+  double share = 1;  // of the frame: less where it would take more substeps than there may be
 };
 
 class StabilityWatch {

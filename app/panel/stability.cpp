@@ -25,6 +25,7 @@ std::string text(const char* format, Values... values) {
 std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
+  if (margin.share < 1) return text("slow motion: %.2g of a frame in %d substeps", margin.share, margin.taken);
   if (margin.kind == StepMargin::Bound::unconditional)
     return text("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
   return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3,
@@ -89,6 +90,8 @@ constexpr std::array<Curve, 9> curves{{
 
 Light light_of(const StepMargin& margin) {
   using Bound = StepMargin::Bound;
+  if (margin.share < 1)
+    return {light_amber, "Amber", "a frame would take more substeps than there may be, so less of it is simulated."};
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
     return {light_amber, "Amber", "stable at any step, but bodies this fast near solids want shorter ones."};

@@ -98,6 +98,28 @@ TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{9, 10, 0.1, 0.1}).name, "Amber");
   EXPECT_STREQ(light_of(StepMargin{8, 10, 0.1, 0.1}).name, "Amber");
   EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
+  EXPECT_STREQ(light_of(StepMargin{4000, 9000, 1e-6, 1e-6, StepMargin::Bound::stable, 0.4}).name, "Amber");
+}
+
+TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
+  softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler"});
+  StabilityWatch watch;
+  const auto step = [&] {
+    watch.before_step(world);
+    world.step();
+    watch.after_step(world, false);
+  };
+  step();
+  EXPECT_EQ(watch.margin().share, 1);
+  std::vector<softbody::Particle> particles;
+  for (softbody::Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
+    particles.push_back(world.dynamics().particle(0, i));
+  particles[0].velocity.y += 1e6;
+  world.set_particles(0, particles);
+  step();
+  EXPECT_GT(watch.margin().share, 0);
+  EXPECT_LT(watch.margin().share, 1);
+  EXPECT_NEAR(watch.margin().substep * watch.margin().taken, watch.margin().share * world.frame_time(), 1e-12);
 }
 
 TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {

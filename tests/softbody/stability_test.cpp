@@ -221,6 +221,23 @@ TEST(Substeps, OfALostFrameAreFew) {
   EXPECT_LT(world.profile().substeps, 100);
 }
 
+TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
+  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  place(world, glm::dvec3(1.0), 1e6);
+  for (int frame = 0; frame < 3; ++frame) {
+    world.step();
+    EXPECT_EQ(world.profile().substeps, World::max_substeps);
+    EXPECT_GT(world.profile().seconds, 0);
+    EXPECT_LT(world.profile().seconds, world.frame_time());
+    EXPECT_TRUE(measure(world).finite);
+  }
+  World fixed(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .substeps = World::max_substeps + 1});
+  fixed.step();
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+}
+
 TEST(Substeps, FollowTheBound) {
   Scene scene = lone_body(spring_ball());
   for (const double stiffness : {10.0, 300.0, 30000.0}) {
