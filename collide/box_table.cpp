@@ -57,7 +57,8 @@ void BoxTable::prepare_meetings(int threads) {
 void BoxTable::describe(DebugGeometry& geometry) const {
   geometry.box_first = first_;
   geometry.box_bucket = bucket_;
-  geometry.bucket_load = table_.loads();
+  geometry.buckets = table_.buckets();
+  geometry.loads = table_.loads();
 }
 
 }  // namespace collide

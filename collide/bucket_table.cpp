@@ -10,24 +10,40 @@ constexpr std::size_t worth_returning = 1u << 20;  // offsets, of 4 MiB
 
 }  // namespace
 
-void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
-  const std::size_t offsets = buckets + std::size_t{1};
-  if (first_.capacity() > std::max(worth_returning, 4 * offsets)) first_ = std::vector<Index>();  // was larger by far
-  first_.assign(offsets, 0);
-  for (const std::uint32_t bucket : bucket_of_entry) ++first_[bucket];
+void BucketTable::clear(std::uint32_t buckets) {
+  if (run_of_.capacity() > std::max(worth_returning, 4 * std::size_t{buckets})) run_of_ = {};  // was larger by far
+  if (run_of_.size() == buckets) {
+    for (std::size_t r = 0; r + 1 < runs_.size(); ++r) run_of_[runs_[r].bucket] = 0;
+  } else {
+    run_of_.assign(buckets, 0);
+  }
+  runs_.clear();
+}
 
-  meetings_ = used_ = longest_ = 0;
-  Index end = 0;
-  for (Index& load : first_) {  // becomes the end of each bucket
-    const std::uint64_t n = load;
-    used_ += n > 0;
-    longest_ = std::max(longest_, n);
-    meetings_ += n > 1 ? n * (n - 1) / 2 : 0;
-    load = end += load;
+void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
+  clear(buckets);
+  for (const std::uint32_t bucket : bucket_of_entry) {
+    Index& run = run_of_[bucket];
+    if (run == 0) {
+      runs_.push_back({bucket, 0});
+      run = static_cast<Index>(runs_.size());
+    }
+    ++runs_[run - 1].begin;  // its load, at first
   }
 
+  meetings_ = longest_ = 0;
+  used_ = runs_.size();
+  Index end = 0;
+  for (Run& run : runs_) {  // becomes the end of each run
+    const std::uint64_t n = run.begin;
+    longest_ = std::max(longest_, n);
+    meetings_ += n * (n - 1) / 2;
+    run.begin = end += run.begin;
+  }
+  runs_.push_back({buckets, end});
+
   slot_.resize(bucket_of_entry.size());
-  for (std::size_t e = bucket_of_entry.size(); e-- > 0;) slot_[e] = --first_[bucket_of_entry[e]];
+  for (std::size_t e = bucket_of_entry.size(); e-- > 0;) slot_[e] = --runs_[run_of_[bucket_of_entry[e]] - 1].begin;
 }
 
 void BucketTable::count(Counters& counters) const {
@@ -35,9 +51,10 @@ void BucketTable::count(Counters& counters) const {
   counters.longest_bucket = longest_;
 }
 
-std::vector<std::uint32_t> BucketTable::loads() const {
-  std::vector<std::uint32_t> loads(first_.empty() ? 0 : first_.size() - 1);
-  for (std::size_t b = 0; b < loads.size(); ++b) loads[b] = first_[b + 1] - first_[b];
+std::vector<BucketLoad> BucketTable::loads() const {
+  std::vector<BucketLoad> loads;
+  for (std::size_t r = 0; r + 1 < runs_.size(); ++r)
+    loads.push_back({runs_[r].bucket, runs_[r + 1].begin - runs_[r].begin});
   return loads;
 }
 

@@ -98,6 +98,11 @@ struct Result {
   }
 };
 
+struct BucketLoad {
+  std::uint32_t bucket, load;  // load: entries
+  auto operator<=>(const BucketLoad&) const = default;
+};
+
 /// A detector's inner picture, for drawing. Filled only on request.
 struct DebugGeometry {
   struct Box {
@@ -115,7 +120,8 @@ struct DebugGeometry {
   std::vector<std::uint32_t> box_bucket;    // the buckets that each box is in, in the order it was hashed: the first
                                             // is that of its minimum corner (§2.2)
   std::vector<Cell> cells;                  // occupied cells, ascending, no duplicates; at most debug_cell_limit
-  std::vector<std::uint32_t> bucket_load;   // entries a bucket, one value a bucket; empty if the method hashes nothing
+  std::uint32_t buckets = 0;                // of the table; 0 if the method hashes nothing
+  std::vector<BucketLoad> loads;            // of those that are used, each once, in any order
   static constexpr std::size_t debug_cell_limit = 200'000;
 };
 

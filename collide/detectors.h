@@ -20,6 +20,7 @@
 //   group_search.h    all contacts from these four, body by body
 //   contact_memory.h  what earlier frames say about where contacts can be
 
+#include <functional>
 #include <memory>
 
 #include "collide/detector.h"
@@ -34,6 +35,8 @@ std::unique_ptr<Detector> make_multi_level_sb();
 std::unique_ptr<Detector> make_multi_level_sb_exact();
 
 /// What debug() of the paper's method shows on a frame, without the search for contacts, which may take far longer.
-DebugGeometry paper_structure(const Frame& frame, const Settings& settings, Workers& workers);
+/// Copies share the memory that it keeps from frame to frame: not for two threads at once.
+using PaperStructure = std::function<DebugGeometry(const Frame&, const Settings&, Workers&)>;
+PaperStructure make_paper_structure();
 
 }  // namespace collide

@@ -151,11 +151,12 @@ class MultiLevelSb final : public Detector {
 
 std::unique_ptr<Detector> make_multi_level_sb() { return std::make_unique<MultiLevelSb>(); }
 
-DebugGeometry paper_structure(const Frame& frame, const Settings& settings, Workers& workers) {
-  MultiLevelSb method;
-  Result unused;
-  method.build(frame, settings, workers, unused);
-  return method.debug();
+PaperStructure make_paper_structure() {
+  return [method = std::make_shared<MultiLevelSb>()](const Frame& frame, const Settings& settings, Workers& workers) {
+    Result unused;
+    method->build(frame, settings, workers, unused);
+    return method->debug();
+  };
 }
 
 }  // namespace collide

@@ -73,7 +73,8 @@ DebugGeometry VertexGrid::debug() const {
   }
   geometry.vertices = vertex_;
   geometry.cells = cells.take();
-  geometry.bucket_load = table_.loads();
+  geometry.buckets = table_.buckets();
+  geometry.loads = table_.loads();
   return geometry;
 }
 

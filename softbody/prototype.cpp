@@ -121,8 +121,8 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
-  // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum |A_i|^2, plus
-  // P d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
+  // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum
+  // |A_i|^2, plus P d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
   // its bound and a = A / |A|, q = a^T L a is far below l. An eigenvalue x > l of L + s a a^T has
   // 1 = s a^T (x - L)^-1 a <= s ((1 - q/l) / x + (q/l) / (x - l)), for 1 / (x - y) is convex in y, and so is at most
   // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a

@@ -16,6 +16,7 @@
 #include "app/panel/solid_list.h"
 #include "app/view/drawn_positions.h"
 #include "app/view/overlays.h"
+#include "collide/detectors.h"
 #include "softbody/snapshot.h"
 
 namespace app {
@@ -261,6 +262,7 @@ class Session {
   std::optional<std::uint32_t> selected_bucket_;
   std::optional<Cell> selected_cell_;
   std::unique_ptr<collide::Detector> exact_;  // shows its areas
+  mutable collide::PaperStructure paper_structure_ = collide::make_paper_structure();
   // What is shown of the state, each with the revision that it belongs to.
   mutable OfRevision<collide::DebugGeometry> debug_, paper_;
   mutable OfRevision<TableContents> table_;

@@ -1,7 +1,6 @@
 // Session: what is shown of the methods' inner picture, boxes, cells and buckets.
 
 #include "app/demo/session.h"
-#include "collide/detectors.h"
 
 namespace app {
 
@@ -28,12 +27,12 @@ const collide::DebugGeometry& Session::paper() const {
   if (world_->method().key == collide::paper_method) return debug();
   constexpr collide::Index most_moving = 100'000;  // vertices: some 10 ms a picture
   const bool affordable = paused || world_->all_at_rest() || world_->bodies().vertex_count() <= most_moving;
-  const bool was_refused = affordable && paper_.value.bucket_load.empty();
+  const bool was_refused = affordable && paper_.value.buckets == 0;
   if (paper_.revision == revision_ && !was_refused) return paper_.value;
   paper_ = {revision_, {}};
   if (!affordable) return paper_.value;
   collide::Workers alone(1);
-  paper_.value = collide::paper_structure(world_->positions(), world_->collision(), alone);
+  paper_.value = paper_structure_(world_->positions(), world_->collision(), alone);
   table_.revision = 0;
   return paper_.value;
 }
@@ -45,7 +44,7 @@ const TableContents& Session::table() const {
 }
 
 const BucketContents* Session::bucket() const {
-  if (!selected_bucket_ || debug().bucket_load.empty()) return nullptr;
+  if (!selected_bucket_ || debug().buckets == 0) return nullptr;
   if (table_.revision != revision_ || bucket_.revision != revision_ || bucket_.value.bucket != *selected_bucket_)
     bucket_ = {revision_, table().bucket(*selected_bucket_)};
   return &bucket_.value;

@@ -216,7 +216,7 @@ std::optional<Findings> Finder::find(const softbody::World& world, std::optional
   const std::uint64_t tests = predicted_tests(world, paper_index());
   f.predicted_tests = tests > most_tests;
   if (f.predicted_tests) {
-    f.structure = collide::paper_structure(frame, settings, alone_);
+    f.structure = collide::make_paper_structure()(frame, settings, alone_);
     f.work = {.hashes = 8 * f.structure.boxes.size(), .boxes = f.structure.boxes.size(), .pair_tests = tests};
   } else {
     missed = score(detect(*paper_, frame, settings, alone_, &f.work), truth).missed;

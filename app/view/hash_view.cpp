@@ -17,19 +17,19 @@ constexpr const char* grid_tooltip_end = "Click: show its boxes in the scene. Cl
 }  // namespace
 
 void HashView::refresh(const Session& session, float room, float height, float least_side) {
-  const auto& loads = session.debug().bucket_load;
-  const HashGrid grid = HashGrid::fit(static_cast<std::uint32_t>(loads.size()), room, height, least_side);
+  const collide::DebugGeometry& debug = session.debug();
+  const HashGrid grid = HashGrid::fit(debug.buckets, room, height, least_side);
   const bool same = revision_ == session.revision() && grid.side == grid_.side && grid.per_square == grid_.per_square;
   grid_ = grid;
   if (same) return;
   revision_ = session.revision();
-  squares_.assign(grid_.squares(), {});
+  squares_.resize(grid_.squares());
+  for (std::uint32_t s = 0; s < grid_.squares(); ++s) squares_[s] = {0, grid_.first_bucket(s)};
   std::uint32_t most = 0;
-  for (std::uint32_t s = 0; s < grid_.squares(); ++s) {
-    const auto first = loads.begin() + grid_.first_bucket(s), end = loads.begin() + grid_.last_bucket(s) + 1;
-    const auto fullest = std::max_element(first, end);
-    squares_[s] = {*fullest, static_cast<std::uint32_t>(fullest - loads.begin())};
-    most = std::max(most, *fullest);
+  for (const auto& [bucket, load] : debug.loads) {
+    Square& square = squares_[bucket / grid_.per_square];
+    if (load > square.load || (load == square.load && bucket < square.fullest)) square = {load, bucket};
+    most = std::max(most, load);
   }
   full_load_ = std::max(8u, std::bit_ceil(most));
 }
@@ -111,7 +111,7 @@ void HashView::draw_summary(const Session& session) const {
 void HashView::draw(Widgets& w, Session& session, bool& open) {
   if (w.heading("Hash table", "Closes the hash table (T).")) open = false;
   const float room = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
-  if (session.debug().bucket_load.empty()) {
+  if (session.debug().buckets == 0) {
     ImGui::Dummy({room, 0.4f * height});
     ImGui::TextWrapped("%s would take too long here to show its table beside the driving method.",
                        std::string(session.shown_method().name).c_str());

@@ -280,13 +280,15 @@ TEST(Panel, AClickOnManyBucketsSelectsTheFullest) {
   rig.frames(2);
   const HashView& view = rig.interface.hash_view();
   ASSERT_GT(view.grid().per_square, 1u);
-  const auto& loads = rig.session.debug().bucket_load;
-  const auto used = static_cast<std::uint32_t>(std::ranges::max_element(loads) - loads.begin());
-  const std::uint32_t square = used / view.grid().per_square;
+  const auto loads = rig.session.debug().loads;
+  const collide::BucketLoad fullest = *std::ranges::max_element(loads, {}, &collide::BucketLoad::load);
+  const std::uint32_t square = fullest.bucket / view.grid().per_square;
   rig.click_at(view.grid_origin().x + (static_cast<float>(square % view.grid().columns) + 0.5f) * view.grid().side,
                view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
   ASSERT_TRUE(rig.session.selected_bucket());
-  EXPECT_EQ(loads[*rig.session.selected_bucket()], loads[used]);
+  const auto selected = std::ranges::find(loads, *rig.session.selected_bucket(), &collide::BucketLoad::bucket);
+  ASSERT_NE(selected, loads.end());
+  EXPECT_EQ(selected->load, fullest.load);
 }
 
 TEST(Shortcuts, DoWhatTheHelpSays) {

@@ -201,7 +201,7 @@ TEST(Session, HandsOutTheInnerPictureOfTheDrivingMethodOrElseThePapers) {
     collide::Workers workers(1);
     collide::Result result;
     detector->detect(session.world().positions(), session.world().collision(), workers, result);
-    EXPECT_EQ(session.debug().bucket_load, detector->debug().bucket_load) << method.key;
+    EXPECT_EQ(session.debug().loads, detector->debug().loads) << method.key;
     EXPECT_EQ(session.debug().box_bucket, detector->debug().box_bucket) << method.key;
   }
 }

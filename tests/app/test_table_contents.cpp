@@ -8,6 +8,7 @@
 
 #include "collide/detectors.h"
 #include "collide/methods.h"
+#include "tests/bucket_loads.h"
 
 namespace app {
 namespace {
@@ -70,10 +71,11 @@ TEST_P(TableContentsOf, HoldsWhatTheMethodHasPutIntoItsBuckets) {
   const collide::DebugGeometry debug = structure(method, points, settings);
   const TableContents table(debug, points.frame(), settings);
   const collide::CellHash hash(settings);
+  const std::vector<std::uint32_t> loads = tests::bucket_loads(debug);
   Sharing sum;
   for (std::uint32_t b = 0; b < buckets; ++b) {
     const BucketContents bucket = table.bucket(b);
-    ASSERT_EQ(bucket.items, debug.bucket_load[b]);
+    ASSERT_EQ(bucket.items, loads[b]);
     std::set<Cell> cells;
     for (std::size_t g = 0; g < bucket.groups.size(); ++g) {
       ASSERT_EQ(hash.bucket(bucket.groups[g].cell), b);
@@ -112,9 +114,9 @@ TEST(PaperStructure, IsThatOfAWholeDetection) {
   const collide::Settings settings;
   collide::Workers alone(1);
   const auto whole = structure(collide::paper_method, points, settings);
-  const auto alone_built = collide::paper_structure(points.frame(), settings, alone);
+  const auto alone_built = collide::make_paper_structure()(points.frame(), settings, alone);
   EXPECT_EQ(alone_built.box_bucket, whole.box_bucket);
-  EXPECT_EQ(alone_built.bucket_load, whole.bucket_load);
+  EXPECT_EQ(alone_built.loads, whole.loads);
   EXPECT_EQ(alone_built.cells, whole.cells);
 }
 

@@ -3,14 +3,14 @@
 #include "app/panel/light.h"
 #include "app/view/bucket_view.h"
 #include "tests/app/panel_rig.h"
+#include "tests/bucket_loads.h"
 
 namespace app {
 namespace {
 
 /// The fullest bucket of the session's table.
 std::uint32_t fullest(const Session& session) {
-  const auto& loads = session.debug().bucket_load;
-  return static_cast<std::uint32_t>(std::ranges::max_element(loads) - loads.begin());
+  return std::ranges::max_element(session.debug().loads, {}, &collide::BucketLoad::load)->bucket;
 }
 
 TEST(BucketInspector, GroupsTheBucketByCellsAndLetsOneBeChosen) {
@@ -59,7 +59,7 @@ TEST(BucketInspector, FollowsTheStateAndEndsWithTheTable) {
   const auto revision = rig.session.revision();
   rig.frames(2);
   EXPECT_NE(rig.session.revision(), revision);
-  EXPECT_EQ(rig.session.bucket()->items, rig.session.debug().bucket_load[5]);
+  EXPECT_EQ(rig.session.bucket()->items, tests::bucket_loads(rig.session.debug())[5]);
   rig.session.select_bucket(std::nullopt);
   EXPECT_EQ(rig.session.bucket(), nullptr);
 }

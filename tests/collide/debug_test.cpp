@@ -6,6 +6,7 @@
 #include "collide/cell_hash.h"
 #include "collide/reach.h"
 #include "states.h"
+#include "tests/bucket_loads.h"
 
 namespace collide::test {
 namespace {
@@ -29,7 +30,7 @@ TEST(Debug, IsEmptyWithoutBoxesAndTable) {
   const State state = named_states()[0].make();
   for (const char* method : {"brute-force", "bounding-box"}) {
     const DebugGeometry geometry = picture(method, state, settings_of(state, 0.5f));
-    EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.bucket_load.empty());
+    EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.loads.empty() && geometry.buckets == 0);
   }
   for (const Method& method : methods()) {
     EXPECT_TRUE(method.make()->debug().boxes.empty()) << "before the first frame";
@@ -44,20 +45,23 @@ TEST(Debug, AgreesWithItselfAndWithTheHash) {
       const Settings settings = settings_of(state, 0.5f);
       const DebugGeometry geometry = picture(method.key, state, settings);
       const CellHash hash(settings);
-      ASSERT_EQ(geometry.bucket_load.size(), settings.buckets);
+      ASSERT_EQ(geometry.buckets, settings.buckets);
+      const std::vector<std::uint32_t> loads = tests::bucket_loads(geometry);
+      ASSERT_EQ(std::size_t(std::ranges::count_if(loads, [](std::uint32_t load) { return load > 0; })),
+                geometry.loads.size());
       ASSERT_TRUE(std::is_sorted(geometry.cells.begin(), geometry.cells.end()));
       ASSERT_EQ(std::adjacent_find(geometry.cells.begin(), geometry.cells.end()), geometry.cells.end());
       ASSERT_LE(geometry.cells.size(), DebugGeometry::debug_cell_limit);
       for (const auto& cell : geometry.cells) {
         ASSERT_EQ(cell.bucket, hash.bucket(cell.index));
-        ASSERT_GT(geometry.bucket_load[cell.bucket], 0u);
+        ASSERT_GT(loads[cell.bucket], 0u);
       }
       ASSERT_EQ(geometry.box_first.size(), geometry.boxes.size() + 1);
       ASSERT_EQ(geometry.box_first.back(), geometry.box_bucket.size());
       if (!method.uses_levels) continue;
       std::vector<std::uint32_t> load(settings.buckets, 0);
       for (const std::uint32_t bucket : geometry.box_bucket) ++load[bucket];
-      ASSERT_EQ(load, geometry.bucket_load) << named.name << method.key;
+      ASSERT_EQ(load, loads) << named.name << method.key;
     }
   }
 }
@@ -92,7 +96,7 @@ TEST(Debug, OfTheExactMethodShowsWhereBodiesOverlap) {
     EXPECT_NEAR(geometry.boxes[0].lo[axis], lo[axis], 1e-5);
     EXPECT_NEAR(geometry.boxes[0].hi[axis], 1.1, 1e-5);
   }
-  EXPECT_TRUE(geometry.cells.empty() && geometry.bucket_load.empty() && geometry.box_bucket.empty());
+  EXPECT_TRUE(geometry.cells.empty() && geometry.loads.empty() && geometry.buckets == 0 && geometry.box_bucket.empty());
   EXPECT_EQ(geometry.box_first, (std::vector<std::uint32_t>{0, 0}));
 }
 

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
+#include <vector>
 
 #include "collide/bucket_table.h"
 #include "collide/cell_hash.h"
@@ -89,22 +91,46 @@ TEST(BucketTable, SortsEntriesAndKeepsTheirOrder) {
   const std::vector<std::uint32_t> bucket{3, 0, 3, 1, 3};
   BucketTable table;
   table.build(bucket, 5);
-  EXPECT_EQ(table.loads(), (std::vector<std::uint32_t>{1, 1, 0, 3, 0}));
-  EXPECT_EQ(table.slot(1), 0u);
-  EXPECT_EQ(table.slot(3), 1u);
-  EXPECT_EQ(table.slot(0), 2u);
-  EXPECT_EQ(table.slot(2), 3u);
-  EXPECT_EQ(table.slot(4), 4u);
-  EXPECT_EQ(table.slots(3).begin, 2u);
-  EXPECT_EQ(table.slots(3).end, 5u);
+  EXPECT_EQ(table.loads(), (std::vector<BucketLoad>{{3, 3}, {0, 1}, {1, 1}}));
+  EXPECT_EQ(table.slot(0), 0u);
+  EXPECT_EQ(table.slot(2), 1u);
+  EXPECT_EQ(table.slot(4), 2u);
+  EXPECT_EQ(table.slot(1), 3u);
+  EXPECT_EQ(table.slot(3), 4u);
+  EXPECT_EQ(table.slots(3).begin, 0u);
+  EXPECT_EQ(table.slots(3).end, 3u);
+  EXPECT_EQ(table.slots(2).begin, table.slots(2).end);
   EXPECT_EQ(table.meetings(), 3u);
   Counters counters;
   table.count(counters);
   EXPECT_EQ(counters.buckets_used, 3u);
   EXPECT_EQ(counters.longest_bucket, 3u);
   table.build({}, 2);
-  EXPECT_EQ(table.loads(), (std::vector<std::uint32_t>{0, 0}));
+  EXPECT_TRUE(table.loads().empty());
+  EXPECT_EQ(table.buckets(), 2u);
   EXPECT_EQ(table.meetings(), 0u);
+}
+
+TEST(BucketTable, ForgetsTheTableBefore) {
+  std::mt19937 random(3);
+  BucketTable table;
+  for (const std::uint32_t buckets : {7u, 7u, 1000u, 1000u, 3u, 3u, 1u, 7u}) {
+    std::vector<std::uint32_t> bucket(random() % 200);
+    for (std::uint32_t& b : bucket) b = random() % buckets;
+    table.build(bucket, buckets);
+    std::uint64_t meetings = 0;
+    for (std::uint32_t b = 0; b < buckets; ++b) {
+      std::uint32_t slot = table.slots(b).begin;
+      for (std::size_t e = 0; e < bucket.size(); ++e)
+        if (bucket[e] == b) {
+          EXPECT_EQ(table.slot(e), slot++);
+        }
+      EXPECT_EQ(table.slots(b).end, slot);
+      const std::uint64_t load = slot - table.slots(b).begin;
+      meetings += load * (load - (load > 0)) / 2;
+    }
+    EXPECT_EQ(table.meetings(), meetings);
+  }
 }
 
 }  // namespace

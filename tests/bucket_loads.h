@@ -1,0 +1,16 @@
+#pragma once
+
+#include <vector>
+
+#include "collide/detector.h"
+
+namespace tests {
+
+/// Entries of every bucket of the table, the empty ones included.
+inline std::vector<std::uint32_t> bucket_loads(const collide::DebugGeometry& debug) {
+  std::vector<std::uint32_t> loads(debug.buckets, 0);
+  for (const auto& [bucket, load] : debug.loads) loads[bucket] += load;
+  return loads;
+}
+
+}  // namespace tests
