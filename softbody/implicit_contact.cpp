@@ -14,6 +14,7 @@
 namespace softbody {
 namespace {
 
+constexpr double none_found = std::numeric_limits<double>::infinity();  // m, that forces move particles
 constexpr double held_within = 1e-7;  // of the radius: forces hold where their changes move no particle further
 
 /// A contact that presses or is passed.
@@ -127,21 +128,24 @@ void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
 /// Rounds that each leave a fraction of the error where the matrix says what the body does. Returns in which lanes they
 /// have come to an end.
 std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
-  constexpr int most_rounds = 30, look_every = 4;
+  constexpr int most_rounds = 30, look_every = 2;
+  constexpr double enough_progress = 0.25;  // of the moves are left: where it is more, the end would not be reached
   const double enough = held_within * p.prototype.radius;
   contact_springs_ = false;
   std::array<bool, lanes> held{};
   given_up_ = {};
-  PerLane limit;
-  limit.fill(std::numeric_limits<double>::infinity());
+  PerLane last;
+  last.fill(none_found);
   for (int round = 0; round < most_rounds; ++round) {
     minimise(p, iterations_of_round);
     const PerLane moved = press(p);
     bool open = false;
     for (std::size_t l = 0; l < lanes; ++l) {
       held[l] = !given_up_[l] && converged_[l] && moved[l] <= enough;
-      given_up_[l] = given_up_[l] || (!held[l] && !(moved[l] < limit[l]));
-      if (round % look_every == 0 && moved[l] > 0) limit[l] = moved[l];
+      const bool look = round % look_every == 0 && moved[l] > 0;
+      const double less_than = look ? enough_progress * last[l] : none_found;
+      given_up_[l] = given_up_[l] || (!held[l] && !(moved[l] < less_than));
+      if (look) last[l] = moved[l];
       open = open || !(held[l] || given_up_[l]);
     }
     if (!open) break;
@@ -202,8 +206,8 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
   }
   const std::size_t n = active.size();
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square
-  const double none_found = contact_springs_ ? 0 : std::numeric_limits<double>::infinity();
-  if (n > most_active) return none_found;
+  const double without = contact_springs_ ? 0 : none_found;
+  if (n > most_active) return without;
   std::vector<glm::dmat3> compliance(n * n);
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
@@ -218,7 +222,7 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
     if (!trusted) a.contact->force = a.before;
     add(direction_, a.contact->at, a.contact->force - a.before);
   }
-  return trusted ? most : none_found;
+  return trusted ? most : without;
 }
 
 }  // namespace softbody
