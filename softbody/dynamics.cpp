@@ -178,8 +178,9 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (grab_) touch(grab_->body);
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
+  const int most = fixed ? fixed : integrator_->implicit ? max_implicit_steps : max_substeps;
   double left = seconds;
-  while (left > 0 && (fixed || total < max_substeps)) {
+  while (left > 0 && total < most) {
     const int stable = fixed ? fixed - total : needed_substeps(left);
     if (has_surface_) {
       find_surface_contacts(left, left / stable);
@@ -205,7 +206,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
     // Then it is looked whether the candidates still hold: at once where their speed decides the count.
     if (!surface_.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
     if (has_surface_) now = std::min(now, foreseen_substeps(left, h));
-    if (!fixed) now = std::min(now, max_substeps - total);
+    now = std::min(now, most - total);
     const int before = total;
     if (total == 0 && now > 1 && !fixed) {
       go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then

@@ -99,7 +99,7 @@ struct Advance {
 
 class Dynamics {
  public:
-  static constexpr int max_substeps = 4000;                     // a frame
+  static constexpr int max_substeps = 4000, max_implicit_steps = 512;  // a frame, unless they are fixed
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -141,9 +141,9 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds`, or by less of them in max_substeps: unless substeps are fixed, the bound is worked out anew
-  /// as bodies move, and those that are crushed may ask for any number. after_substep: called by one thread while the
-  /// others wait.
+  /// Advances by `seconds`, or by less of them in as many substeps as there may be: unless they are fixed, the bound is
+  /// worked out anew as bodies move, and those that are crushed may ask for any number. after_substep: called by one
+  /// thread while the others wait.
   Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;

@@ -12,7 +12,7 @@ namespace softbody {
 struct Profile {
   double detect_ms = 0, solve_ms = 0, total_ms = 0;
   int substeps = 0;
-  double seconds = 0;  // simulated: less than a frame's where that would have taken more than max_substeps
+  double seconds = 0;  // simulated: less than a frame's where that would have taken more substeps than there may be
 };
 
 struct SolidContact {

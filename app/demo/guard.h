@@ -35,6 +35,7 @@ class Guard {
   std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
   /// The user has changed something: energy counts from the next look on.
   void restart() { looks_.clear(); }
+  bool restarted() const { return looks_.empty(); }
 
  private:
   struct Look {

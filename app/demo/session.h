@@ -238,7 +238,7 @@ class Session {
   void keep(CompareReport report);
   Snapshot snapshot() const;
   void forget_measurements();
-  void follow_pace(double asked, int steps);
+  void follow_pace(double asked, double done);
   void intervened();
   void restart_ghost();
   void step_ghost();

@@ -57,26 +57,27 @@ void Session::run(double elapsed) {
   const double asked = std::clamp(elapsed, 0.0, longest_elapsed) * (slow_motion ? slow_factor : 1.0);
   accumulator_ += asked;
   int steps = 0;
-  double spent_ms = 0;
+  double spent_ms = 0, done = 0;
   const double budget_ms = std::max(step_budget_ms, step_budget_part * 1e3 * elapsed);
   while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
+    done += world_->profile().seconds;
     spent_ms += step_ms();
     ++steps;
   }
   // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
   if (accumulator_ >= frame) accumulator_ = std::fmod(accumulator_, frame);
-  follow_pace(asked, steps);
+  follow_pace(asked, done);
 }
 
 double Session::step_ms() const {
   return world_->profile().total_ms + (ghost_ ? ghost_->world().profile().total_ms : 0);
 }
 
-void Session::follow_pace(double asked, int steps) {
+void Session::follow_pace(double asked, double done) {
   asked_ += asked;
-  done_ += steps * world_->frame_time();
+  done_ += done;
   const double window = slow_motion ? 0.5 * slow_factor : 0.5;
   if (asked_ < std::max(window, 4 * world_->frame_time())) return;
   pace_ = std::min(1.0, done_ / asked_);
@@ -102,7 +103,7 @@ void Session::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
   const bool alarmed = stability_.alarm().has_value();
-  stability_.before_step(*world_);
+  stability_.before_step(*world_, guarded);
   const bool stepped = succeeds([&] { world_->step(); });
   if (world_->grabbed()) intervened();  // a hand brings energy
   stability_.after_step(*world_, guarded);

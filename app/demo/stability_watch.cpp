@@ -26,8 +26,10 @@ StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
 
 }  // namespace
 
-void StabilityWatch::before_step(const softbody::World& world) {
+void StabilityWatch::before_step(const softbody::World& world, bool guarded) {
   if (!alarm_) rewind_.keep(world);
+  // After a change energy counts from here: the first step may be the one that blows up.
+  if (guarded && guard_.restarted() && !world.grabbed()) guard_.look(world, softbody::measure_bodies(world));
   needed_before_ = world.dynamics().substeps(world.frame_time());
 }
 

@@ -37,7 +37,7 @@ class StabilityWatch {
   static constexpr std::size_t vertices_a_frame = 50'000;
 
   /// Around each step of the world; `guarded`: raise an alarm() if it blows up.
-  void before_step(const softbody::World& world);
+  void before_step(const softbody::World& world, bool guarded);
   void after_step(const softbody::World& world, bool guarded);
   /// The user has changed something: energy may have come with it.
   void intervened() { guard_.restart(); }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <string>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -60,7 +59,7 @@ class Run {
     ++frame_;
     time_ += world.frame_time();
     if (world.profile().seconds < world.frame_time())
-      throw softbody::SceneError("a frame would take more than " + std::to_string(World::max_substeps) + " substeps");
+      throw softbody::SceneError("a frame would take more substeps than there may be");
     if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
     shields_.frame(world.last_shield_energies(), world.shield_energies());
