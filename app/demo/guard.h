@@ -35,7 +35,8 @@ class Guard {
   std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
   /// The user has changed something: energy counts from the next look on.
   void restart() { looks_.clear(); }
-  bool restarted() const { return looks_.empty(); }
+  /// Whether the last look had one before it to be held against.
+  bool judged() const { return looks_.size() > 1; }
 
  private:
   struct Look {

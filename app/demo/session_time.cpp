@@ -103,7 +103,7 @@ void Session::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
   const bool alarmed = stability_.alarm().has_value();
-  stability_.before_step(*world_, guarded);
+  stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });
   if (world_->grabbed()) intervened();  // a hand brings energy
   stability_.after_step(*world_, guarded);

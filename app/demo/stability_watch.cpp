@@ -26,10 +26,8 @@ StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
 
 }  // namespace
 
-void StabilityWatch::before_step(const softbody::World& world, bool guarded) {
+void StabilityWatch::before_step(const softbody::World& world) {
   if (!alarm_) rewind_.keep(world);
-  // After a change energy counts from here: the first step may be the one that blows up.
-  if (guarded && guard_.restarted() && !world.grabbed()) guard_.look(world, softbody::measure_bodies(world));
   needed_before_ = world.dynamics().substeps(world.frame_time());
 }
 
@@ -52,7 +50,7 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   record(world, bodies);
   if (!guarded || alarm_) return;
   alarm_ = guard_.look(world, bodies);
-  if (!alarm_) good_frame_ = world.frame();
+  if (!alarm_ && guard_.judged()) good_frame_ = world.frame();
 }
 
 void StabilityWatch::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {

@@ -37,7 +37,7 @@ class StabilityWatch {
   static constexpr std::size_t vertices_a_frame = 50'000;
 
   /// Around each step of the world; `guarded`: raise an alarm() if it blows up.
-  void before_step(const softbody::World& world, bool guarded);
+  void before_step(const softbody::World& world);
   void after_step(const softbody::World& world, bool guarded);
   /// The user has changed something: energy may have come with it.
   void intervened() { guard_.restart(); }
@@ -49,7 +49,7 @@ class StabilityWatch {
   void keep_present(const softbody::World& world);
 
   const Rewind& past() const { return rewind_; }
-  /// The last frame of past() that was not found bad.
+  /// The last frame of past() that was found good: the first after a change, which may have exploded in it, never is.
   int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
   const std::optional<Alarm>& alarm() const { return alarm_; }
   const StabilityHistory& history() const { return history_; }

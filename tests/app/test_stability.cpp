@@ -92,23 +92,24 @@ TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
   }
 }
 
-/// It must not take the first, exploded look after a change for how things were.
-TEST(StabilityWatch, SeesAnExplosionInTheFirstStepAfterAChange) {
+TEST(StabilityWatch, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
   softbody::Scene scene = touching_pair();
   scene.materials[0].structural.stiffness = 1e5;
   softbody::World world(scene, {});
   StabilityWatch watch;
   const auto step = [&] {
-    watch.before_step(world, true);
+    watch.before_step(world);
     world.step();
     watch.after_step(world, true);
   };
   for (int i = 0; i < 10; ++i) step();
   ASSERT_FALSE(watch.alarm());
+  ASSERT_LT(softbody::measure(world).max_speed, 1);
   world.set_integrator("semi-implicit-euler", 2);
   watch.intervened();
   step();
-  ASSERT_GT(softbody::measure(world).max_speed, 100) << "it does not explode: the test looks at nothing";
+  ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
+  step();
   ASSERT_TRUE(watch.alarm());
   EXPECT_EQ(watch.last_good_frame(), 10);
 }
@@ -126,7 +127,7 @@ TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
   softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler"});
   StabilityWatch watch;
   const auto step = [&] {
-    watch.before_step(world, true);
+    watch.before_step(world);
     world.step();
     watch.after_step(world, false);
   };
@@ -152,7 +153,7 @@ TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
     StabilityWatch watch;
-    watch.before_step(world, true);
+    watch.before_step(world);
     world.step();
     watch.after_step(world, true);
     const std::string_view used = world.dynamics().used_integrator().key;
@@ -169,7 +170,7 @@ TEST(StepLight, ComparesTheStepWithTheBound) {
     const int needed = world.dynamics().substeps(world.frame_time());
     ASSERT_GT(needed, 1);
     StabilityWatch watch;
-    watch.before_step(world, true);
+    watch.before_step(world);
     world.step();
     watch.after_step(world, true);
     EXPECT_GE(watch.margin().taken, substeps.value_or(needed));
@@ -186,7 +187,7 @@ TEST(StepLight, HasNothingToJudgeWhileAllSleep) {
   world.step();
   ASSERT_TRUE(world.all_at_rest());
   StabilityWatch watch;
-  watch.before_step(world, true);
+  watch.before_step(world);
   world.step();
   watch.after_step(world, true);
   EXPECT_EQ(watch.margin().taken, 0);
