@@ -104,7 +104,7 @@ TEST(StabilityWatch, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
   };
   for (int i = 0; i < 10; ++i) step();
   ASSERT_FALSE(watch.alarm());
-  ASSERT_LT(softbody::measure(world).max_speed, 1);
+  ASSERT_LT(softbody::measure(world).max_speed, 5);
   world.set_integrator("semi-implicit-euler", 2);
   watch.intervened();
   step();
