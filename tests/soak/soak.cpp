@@ -25,6 +25,7 @@ constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
 constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
+constexpr int most_implicit_seconds = 3;     // on end: each step of soft bodies in heaps takes up to a second
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
 // What a frame may cost: in counted work, and where nothing counts it in processor time, far above what frames take.
@@ -80,6 +81,9 @@ class Soak {
     demo_.input.wheel = 0;
     action.act(demo_, dice_);
     if (demo_.session.world().bodies().count() > bodies_ + many_more_bodies || dice_.pick(100) == 0) begin(scene);
+    implicit_seconds_ = demo_.session.world().integrator().implicit ? implicit_seconds_ + 1 : 0;
+    if (implicit_seconds_ > most_implicit_seconds)
+      demo_.session.set_integrator(softbody::default_integrator, std::nullopt);
     demo_.session.paused = false;
     demo_.ui.quit = false;
   }
@@ -145,7 +149,7 @@ class Soak {
   Dice dice_{""};
   std::string last_ = "nothing";
   collide::Index bodies_ = 0;  // of the scene as it begins
-  int substeps_ = 0, explosions_ = 0;
+  int substeps_ = 0, explosions_ = 0, implicit_seconds_ = 0;
   std::uint64_t frames_ = 0, pair_tests_ = 0;
   double slowest_ = 0;  // s of processor time
 };
