@@ -6,12 +6,13 @@ namespace collide {
 
 namespace {
 
-constexpr std::size_t worth_returning = 1u << 20;  // offsets, of 4 MiB
+constexpr std::size_t worth_returning = 1u << 20;  // buckets, of 4 MiB
 
 }  // namespace
 
 void BucketTable::clear(std::uint32_t buckets) {
-  if (run_of_.capacity() > std::max(worth_returning, 4 * std::size_t{buckets})) run_of_ = {};  // was larger by far
+  if (run_of_.capacity() > std::max(worth_returning, 4 * std::size_t{buckets}))
+    run_of_ = std::vector<Index>();  // was larger by far
   if (run_of_.size() == buckets) {
     for (std::size_t r = 0; r + 1 < runs_.size(); ++r) run_of_[runs_[r].bucket] = 0;
   } else {
@@ -22,6 +23,8 @@ void BucketTable::clear(std::uint32_t buckets) {
 
 void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
   clear(buckets);
+  runs_.reserve(std::min<std::size_t>(buckets, bucket_of_entry.size()) + 1);  // from here on nothing throws half-way
+  slot_.resize(bucket_of_entry.size());
   for (const std::uint32_t bucket : bucket_of_entry) {
     Index& run = run_of_[bucket];
     if (run == 0) {
@@ -42,7 +45,6 @@ void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uin
   }
   runs_.push_back({buckets, end});
 
-  slot_.resize(bucket_of_entry.size());
   for (std::size_t e = bucket_of_entry.size(); e-- > 0;) slot_[e] = --runs_[run_of_[bucket_of_entry[e]] - 1].begin;
 }
 

@@ -1,8 +1,8 @@
 #pragma once
 // Things sorted into buckets (§2.2) by counting: one array of slots, in which each bucket that is used is a run. To
 // build it again takes the time of the entries, however many buckets there are: only those that were used are cleared.
-// Memory: 4 bytes a bucket (64 MiB for max_buckets), 4 an entry and 8 a used bucket; after a larger table up to four
-// times as much, or 4 MiB.
+// Memory: 4 bytes a bucket (64 MiB for max_buckets; after a larger table up to four times as much, or 4 MiB), and at
+// most 12 an entry.
 
 #include "collide/detector.h"
 #include "collide/points.h"
@@ -24,6 +24,9 @@ class BucketTable {
   /// Two entries of one bucket, counted over all buckets: what looking at every pair would cost.
   std::uint64_t meetings() const { return meetings_; }
   void count(Counters& counters) const;
+  std::size_t bytes() const {
+    return sizeof(Index) * (run_of_.capacity() + slot_.capacity()) + sizeof(Run) * runs_.capacity();
+  }
   std::uint32_t buckets() const { return static_cast<std::uint32_t>(run_of_.size()); }
   /// Of the buckets that are used, in the order of their runs.
   std::vector<BucketLoad> loads() const;

@@ -22,20 +22,20 @@ double Dynamics::tremble(double step) const {
 }
 
 /// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver is worth
-/// about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where its
-/// batches' solves are as long as that of the body that is pressed most, as 1,700 to 4,400. But what explicit substeps
-/// cannot bring to rest, or near enough for it to fall asleep, is left to the other, and what might come to ask for
-/// more of them than there may be.
+/// about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where all
+/// bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. What might come to ask for more
+/// explicit substeps than there may be is left to the other, and what they cannot bring to rest, or near enough for it
+/// to fall asleep; unless there the fastest asks for too many implicit ones.
 void Dynamics::choose(double seconds) {
-  constexpr double in_flight = 150, on_solids = 300, in_heaps = 2500, most = max_substeps / 2;  // substeps
+  constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");
   const Bound b = bound(seconds);
   const bool solid =
       std::any_of(moving_.begin(), moving_.end(), [](const Batch* m) { return !m->near_solids.empty(); });
-  const double step = !shield_.pairs.empty() ? in_heaps : solid ? on_solids : in_flight;
-  const double worth = std::min(most, step * b.fewest);
-  const bool cheaper =
-      std::max(seconds / b.step, seconds * b.deforming) <= (fixed_substeps_ ? double(*fixed_substeps_) : worth);
+  const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * b.fewest) : most;
+  const double needed = std::max(seconds / b.step, seconds * b.deforming);
+  const bool cheaper = needed <= (fixed_substeps_ ? double(*fixed_substeps_) : worth) ||
+                       (b.fewest > max_implicit_steps && needed <= max_substeps);
   const double rest = std::max(1e-3, 0.2 * scene_.sleep.speed);  // m/s
   if (cheaper && tremble(b.step) <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
@@ -47,7 +47,7 @@ void Dynamics::choose(double seconds) {
   } else {
     integrator_ = find_integrator("implicit");
     why_ = cheaper ? "so stiff that in explicit substeps rounding would keep bodies trembling"
-                   : "so stiff, or deforming so fast, that implicit steps are cheaper than explicit substeps";
+                   : "so stiff, or deforming so fast, that explicit substeps would cost more or might be too many";
   }
 }
 

@@ -191,6 +191,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
     if (count >= most_substeps) count = 1;  // the sooner its frame ends, the sooner it is seen
     // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
     if (integrator_->implicit && !fixed) {
+      count = std::min(count, 1 << 20);  // far more than there may be, and lengths still divide what is left
       double length = seconds;
       const auto fits = [&] { return std::abs(left / length - std::round(left / length)) < 1e-6; };
       while (length > left * (1 + 1e-9) || left / length < count * (1 - 1e-9) || !fits()) length /= 2;

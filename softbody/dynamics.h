@@ -99,7 +99,7 @@ struct Advance {
 
 class Dynamics {
  public:
-  static constexpr int max_substeps = 4000, max_implicit_steps = 512;  // a frame, unless they are fixed
+  static constexpr int max_substeps = 4000, max_implicit_steps = 1024;  // a frame, unless they are fixed
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)

@@ -14,7 +14,7 @@
 namespace softbody {
 namespace {
 
-constexpr double none_found = std::numeric_limits<double>::infinity();  // m, that forces move particles
+constexpr double none_found = std::numeric_limits<double>::infinity();  // m, for moves by forces that hold nowhere
 constexpr double held_within = 1e-7;  // of the radius: forces hold where their changes move no particle further
 
 /// A contact that presses or is passed.
@@ -144,7 +144,7 @@ std::array<bool, lanes> ImplicitSolver::hold_forces(const ImplicitProblem& p) {
       held[l] = !given_up_[l] && converged_[l] && moved[l] <= enough;
       const bool look = round % look_every == 0 && moved[l] > 0;
       const double less_than = look ? enough_progress * last[l] : none_found;
-      given_up_[l] = given_up_[l] || (!held[l] && !(moved[l] < less_than));
+      given_up_[l] = given_up_[l] || (!(moved[l] <= enough) && !(moved[l] < less_than));
       if (look) last[l] = moved[l];
       open = open || !(held[l] || given_up_[l]);
     }

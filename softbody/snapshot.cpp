@@ -53,6 +53,7 @@ Snapshot World::snapshot() const {
           .drops = s.drops,
           .drop_direction = s.drop_direction,
           .frame = s.frame,
+          .time = s.time,
           .integrator = s.options.integrator,
           .substeps = s.options.substeps,
           .method = s.method,
@@ -78,6 +79,7 @@ void World::restore(const Snapshot& from) {
   s.drops = from.drops;
   s.drop_direction = from.drop_direction;
   s.frame = from.frame;
+  s.time = from.time;
   s.settings = from.settings;
   s.default_cell = from.default_cell;
   s.shield = from.shield;

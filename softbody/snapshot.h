@@ -17,6 +17,7 @@ struct Snapshot {
   int drops = 0;
   std::array<double, 2> drop_direction{};
   int frame = 0;
+  double time = 0;  // s
   std::string integrator;
   std::optional<int> substeps;
   const collide::Method* method = nullptr;

@@ -160,6 +160,7 @@ void World::step(const std::function<void()>& after_substep) {
   if (const auto& grab = grabbed()) s.dynamics.put_to_sleep(grab->body, false);  // nor does it fall asleep meanwhile
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
+  const float thickness = s.shield;
   if (s.plan.has(Stage::contact_response)) {
     s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
     s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
@@ -175,12 +176,15 @@ void World::step(const std::function<void()>& after_substep) {
   s.dynamics.finish_frame(done.seconds);
   s.profile.substeps = done.substeps;
   s.profile.seconds = done.seconds;
+  s.time += done.seconds;
+  const bool whole = done.seconds == s.options.frame_time;
+  if (!whole) s.shield = std::min(s.shield, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
   s.gather();
   s.profile.solve_ms = ms_since(start) - looking_ms;
   s.detect();
   const bool shield_grows =
       s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
-  if (s.plan.has(Stage::sleep) && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  if (s.plan.has(Stage::sleep) && whole && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.profile.total_ms = ms_since(start) - looking_ms;
 }
 
@@ -201,6 +205,7 @@ int World::add_material(const Material& material) {
 
 const Scene& World::scene() const { return state_->scene; }
 int World::frame() const { return state_->frame; }
+double World::time() const { return state_->time; }
 double World::frame_time() const { return state_->options.frame_time; }
 const Plan& World::plan() const { return state_->plan; }
 const collide::Settings& World::collision() const { return state_->settings; }

@@ -93,7 +93,8 @@ class World {
   void set_solids(const Scene& scene);  // takes over that scene's solids, the ground included
 
   const Scene& scene() const;
-  int frame() const;  // steps done
+  int frame() const;    // steps done
+  double time() const;  // s, that they have simulated
   double frame_time() const;
   const Plan& plan() const;
 

@@ -56,6 +56,7 @@ struct World::State {
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
+  double time = 0;  // s
 
   const collide::Method* method;
   std::unique_ptr<collide::Detector> detector;

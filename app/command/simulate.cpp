@@ -25,6 +25,7 @@ using Json = nlohmann::ordered_json;
 /// Figures of one frame.
 struct Row {
   int frame;
+  double time;  // s
   softbody::Profile profile;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
@@ -34,6 +35,7 @@ struct Row {
 Row take_row(const softbody::World& world) {
   const auto& d = world.detection();
   return {world.frame(),
+          world.time(),
           world.profile(),
           d.contacts.size() - d.self_contacts,
           d.self_contacts,
@@ -56,6 +58,7 @@ Json to_json(const Row& r) {
   const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
   Json row{{"frame", r.frame},
+           {"time", r.time},
            {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
            {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
            {"energy", m.energy},

@@ -63,7 +63,8 @@ class Session {
   void advance_one(double elapsed, bool step);
   /// Pauses and does one step with the next advance().
   void single_step();
-  /// Simulated over asked-for time, of the last half second: below 1 the machine does not keep up and time is dropped.
+  /// Simulated over asked-for time, of the last half second: below 1 time is dropped, as the machine does not
+  /// keep up or frames are cut short.
   double pace() const { return pace_; }
   /// How long the last step took, the ghost's with it.
   double step_ms() const;

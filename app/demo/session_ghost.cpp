@@ -47,6 +47,7 @@ void Session::step_ghost() {
     return;
   }
   if (ghost_->blown_up()) return;
+  if (ghost_->world().profile().seconds != world_->profile().seconds) return restart_ghost();  // one was cut short
   history_.ghost.push(world_->frame(), static_cast<float>(ghost_->distance(*world_)));
   if (!ghost_->world().all_at_rest()) ++revision_;
 }

@@ -48,6 +48,7 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   if (world.frame() % every != 0) return;
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
   record(world, bodies);
+  if (!guarded) guard_.restart();
   if (!guarded || alarm_) return;
   alarm_ = guard_.look(world, bodies);
   if (!alarm_ && guard_.judged()) good_frame_ = world.frame();
@@ -79,6 +80,7 @@ void StabilityWatch::restart(const softbody::World& world) {
 
 void StabilityWatch::went_back(const softbody::World& world) {
   guard_.restart();
+  good_frame_ = std::min(good_frame_, world.frame());
   alarm_.reset();
   margin_ = {};
   StabilityHistory& h = history_;

@@ -49,7 +49,8 @@ class StabilityWatch {
   void keep_present(const softbody::World& world);
 
   const Rewind& past() const { return rewind_; }
-  /// The last frame of past() that was found good: the first after a change, which may have exploded in it, never is.
+  /// The last frame of past() that was found good: the first after a change, which may have exploded in it, never is,
+  /// and none is while a hand holds a body.
   int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
   const std::optional<Alarm>& alarm() const { return alarm_; }
   const StabilityHistory& history() const { return history_; }

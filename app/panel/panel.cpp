@@ -80,7 +80,7 @@ void draw_progress(Widgets& w, const Session& session) {
   const softbody::World& world = session.world();
   ImGui::TextDisabled("Frame %d", world.frame());
   ImGui::SameLine(w.px(label_column));
-  ImGui::TextDisabled("%.2f s", world.frame() * world.frame_time());
+  ImGui::TextDisabled("%.2f s", world.time());
   ImGui::SameLine(w.px(label_column + 76));
   std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
   if (session.paused) {
@@ -91,10 +91,12 @@ void draw_progress(Widgets& w, const Session& session) {
     right += ", all at rest";
   }
   w.value(right);
-  w.done("Progress",
-         session.pace() < 0.95
-             ? "The machine does not keep up: the world runs slower than asked for, and no time is made up for."
-             : "Simulated frames and time; bodies in the world.");
+  w.done(
+      "Progress",
+      session.pace() < 0.95
+          ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
+            "asked for, and no time is made up for."
+          : "Simulated frames and time; bodies in the world.");
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {

@@ -17,7 +17,7 @@ constexpr float label_column = 108;  // design pixels
 
 template <class... Values>
 std::string text(const char* format, Values... values) {
-  std::array<char, 160> buffer{};
+  std::array<char, 256> buffer{};
   std::snprintf(buffer.data(), buffer.size(), format, values...);
   return buffer.data();
 }
@@ -40,7 +40,7 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::BeginDisabled(past.empty());
   int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
   const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
-  const std::string shown = text("frame %d, %.2f s", frame, frame * session.world().frame_time());
+  const std::string shown = text("frame %d, %.2f s", frame, session.world().time());
   if (w.slider("Go back to", place, 0, last, shown.c_str(),
                "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
                "the settings in use. Snapshots are dense lately and sparse long ago."))
@@ -55,7 +55,8 @@ void draw_past(Widgets& w, Session& session) {
 void draw_integrator(Widgets& w, Session& session) {
   const softbody::World& world = session.world();
   IntegratorChoice choice{std::string(world.integrator().key), world.substeps()};
-  const int proposed = std::max(session.stability().margin().needed, world.profile().substeps);
+  const int asked = std::max(session.stability().margin().needed, world.profile().substeps);
+  const int proposed = std::min(asked, softbody::World::max_substeps);
   if (draw_integrator_choice(w, "", choice, proposed)) session.set_integrator(choice.key, choice.substeps);
   const softbody::Dynamics& dynamics = world.dynamics();
   const bool chosen = !dynamics.used_integrator().automatic;  // not before the first step

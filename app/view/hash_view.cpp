@@ -104,7 +104,9 @@ void HashView::draw_summary(const Session& session) const {
     text += ", none used at this cell size";
   else if (grid_.per_square > 1)
     text += ", a square: the fullest of " + grouped(grid_.per_square);
-  ImGui::TextDisabled("%s", text.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+  ImGui::TextWrapped("%s", text.c_str());
+  ImGui::PopStyleColor();
   ImGui::TextDisabled("%s", whose_structure(session).c_str());
 }
 

@@ -114,6 +114,22 @@ TEST(StabilityWatch, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
   EXPECT_EQ(watch.last_good_frame(), 10);
 }
 
+TEST(StabilityWatch, KnowsNoGoodFrameThatIsStillToCome) {
+  softbody::World world(touching_pair(), {});
+  StabilityWatch watch;
+  const auto step = [&] {
+    watch.before_step(world);
+    world.step();
+    watch.after_step(world, true);
+  };
+  for (int i = 0; i < 12; ++i) step();
+  world.restore(watch.past().snapshots().front());
+  watch.went_back(world);
+  world.set_integrator("semi-implicit-euler", 1);
+  for (int i = 0; i < 2; ++i) step();
+  EXPECT_LE(watch.last_good_frame(), world.frame());
+}
+
 TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{}).name, "Green");
   EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1}).name, "Green");

@@ -46,8 +46,8 @@ TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   ASSERT_EQ(d["frames"].size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     const json& f = d["frames"][i];
-    EXPECT_EQ(keys(f), (Keys{"frame", "ms", "contacts", "energy", "volume_ratio", "deepest_penetration", "max_speed",
-                             "finite"}));
+    EXPECT_EQ(keys(f), (Keys{"frame", "time", "ms", "contacts", "energy", "volume_ratio", "deepest_penetration",
+                             "max_speed", "finite"}));
     EXPECT_EQ(f["frame"], i + 1) << "frame n is the state after n steps";
     EXPECT_EQ(keys(f["ms"]), (Keys{"detect", "solve", "total"}));
     EXPECT_EQ(keys(f["contacts"]), (Keys{"bodies", "self", "solid"}));

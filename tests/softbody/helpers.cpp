@@ -1,5 +1,7 @@
 #include "tests/softbody/helpers.h"
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 
 namespace softbody::test {

@@ -199,6 +199,20 @@ TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
   EXPECT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler") << world.dynamics().why_integrator();
 }
 
+/// Light balls that lie on each other: hundreds of explicit substeps are cheaper than a few implicit ones.
+TEST(Auto, StaysExplicitInAHeap) {
+  Scene scene = find_scene("A", SBCOLLIDE_SCENES);
+  scene.materials[0].mass = 0.012;
+  World world(scene, {});
+  int most = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    world.step();
+    most = std::max(most, world.profile().substeps);
+    ASSERT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler") << frame;
+  }
+  EXPECT_GT(most, 600) << "a lone body on a solid would have been moved by implicit steps";
+}
+
 TEST(Auto, StaysExplicitHoweverFarABodyFalls) {
   Scene scene = ball_above_ground(1e4, 1000);
   World world(scene, {});

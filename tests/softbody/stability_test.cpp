@@ -123,8 +123,8 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       EXPECT_GE(bound, springs);
       const Surface s = measure_surface(*p, x);
       const double norm = -p->gas.slope(s.volume) * s.area2 / p->particle_mass;
-      const double geometric = std::abs(p->gas.pressure(s.volume) - p->gas.ambient) * p->largest_degree *
-                               s.two_medians / 6 / p->particle_mass;
+      const double geometric =
+          std::abs(p->gas.gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";
     }
 }
@@ -236,6 +236,51 @@ TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
   World fixed(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .substeps = World::max_substeps + 1});
   fixed.step();
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+}
+
+TEST(Substeps, ThatAreImplicitAreFewer) {
+  Scene scene = lone_body(spring_ball());
+  scene.bodies[0].mesh.subdivisions = 0;
+  scene.ground.emplace();
+  World world(scene, {.integrator = "implicit"});
+  place(world, glm::dvec3(1.0), 1e5);
+  world.step();
+  EXPECT_EQ(world.profile().substeps, Dynamics::max_implicit_steps);
+  EXPECT_GT(world.profile().seconds, 0);
+  EXPECT_LT(world.profile().seconds, world.frame_time());
+  EXPECT_EQ(world.time(), world.profile().seconds);
+}
+
+/// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.
+TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
+  Scene scene = lone_body(gas_ball());
+  scene.sleep = {.speed = 0.05};
+  add_body(scene, {5, 0, 0}, {});
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  for (int frame = 0; frame < 40; ++frame) {
+    place(world, glm::dvec3(1.0), 1e6);
+    world.step();
+    ASSERT_LT(world.profile().seconds, world.frame_time());
+    ASSERT_FALSE(world.body(1).asleep) << frame;
+  }
+}
+
+/// With nothing inside there is no volume at which what is around would let it rest but none.
+TEST(Gas, ABodyWithoutAnyFallsFlatAndIsNotBlownUp) {
+  Material m = gas_ball();
+  m.gas_pressure = 0;
+  m.ambient_pressure = 101325;
+  m.start_in_equilibrium = false;
+  World world(lone_body(m), {});
+  const double energy = measure(world).energy;
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    const Measures now = measure(world);
+    ASSERT_TRUE(now.finite) << frame;
+    ASSERT_LT(now.energy, energy * (energy > 0 ? 1.01 : 0.99)) << frame;
+    ASSERT_GT(now.volume_ratio_min, -0.5) << frame;
+  }
+  EXPECT_LT(std::abs(measure(world).volume_ratio_min), 0.1);
 }
 
 TEST(Substeps, FollowTheBound) {
