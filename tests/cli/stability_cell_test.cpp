@@ -4,8 +4,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "app/report/stability/cases.h"
 #include "app/report/stability/joiners.h"
 
 namespace app::test {
@@ -135,6 +137,21 @@ TEST(StabilityCell, BodiesAreToldApartByWhenTheyJoin) {
   scene.materials[1].mass = 7;
   scene.bodies[0].material = 1;
   EXPECT_NEAR(run(scene, "auto", 8).energy, 0, 1e-3);
+}
+
+/// The hardest of the report's own cases: frames of 1/30 s, in which a stiff ball flies 33 m.
+TEST(StabilityCell, AHitWith1000MetresASecondTakesNoMoreStepsThanThereMayBe) {
+  const auto all = stability_cases();
+  const auto hit = std::ranges::find(all, "impact-1000", &StabilityCase::key);
+  ASSERT_NE(hit, all.end());
+  for (const double stiffness : {1e6, 1e8}) {
+    StabilityStart start = prepare(hit->make(stiffness), 2);
+    start.untold = "only what needs no reference";
+    const StabilityFigures figures = run_cell(start, *softbody::find_integrator("auto"), dt);
+    EXPECT_EQ(figures.refused, "");
+    EXPECT_LE(figures.energy, stability_bounds.energy) << stiffness << " N/m";
+    EXPECT_EQ(figures.through, 0) << stiffness << " N/m";
+  }
 }
 
 }  // namespace
