@@ -179,8 +179,10 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   int total = 0;
   const int fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   const int most = fixed ? fixed : integrator_->implicit ? max_implicit_steps : max_substeps;
+  double surface_work = 0;
+  const double most_surface_work = std::max(1e8, 1e4 * double(x_[0].size()));
   double left = seconds;
-  while (left > 0 && total < most) {
+  while (left > 0 && total < most && (fixed || surface_work < most_surface_work)) {
     const int stable = fixed ? fixed - total : needed_substeps(left);
     if (has_surface_) {
       find_surface_contacts(left, left / stable);
@@ -215,6 +217,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
     }
     if (now > total - before) go_on(now - (total - before));
     left = now == count ? 0 : left - now * h;
+    if (!surface_.empty()) surface_work += double(surface_.search().features().size()) * now;
   }
   keep_momenta(seconds - left);
   return {total, seconds - left};

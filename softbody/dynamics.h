@@ -141,8 +141,9 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds`, or by less of them in as many substeps as there may be: unless they are fixed, the bound is
-  /// worked out anew as bodies move, and those that are crushed may ask for any number. after_substep: called by one
+  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work on candidates of
+  /// surface contact: unless substeps are fixed, their bound is worked out anew as bodies move, and those that are
+  /// crushed may ask for any number, and be full of candidates. after_substep: called by one
   /// thread while the others wait.
   Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
