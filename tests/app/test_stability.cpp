@@ -92,42 +92,48 @@ TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
   }
 }
 
-TEST(StabilityWatch, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
-  softbody::Scene scene = touching_pair();
-  scene.materials[0].structural.stiffness = 1e5;
-  softbody::World world(scene, {});
+/// A world that is watched for ten frames, and the change that makes it explode in the next one.
+struct Watched {
+  softbody::World world = [] {
+    softbody::Scene scene = touching_pair();
+    scene.materials[0].structural.stiffness = 1e5;
+    return softbody::World(scene, {});
+  }();
   StabilityWatch watch;
-  const auto step = [&] {
+
+  Watched() {
+    for (int i = 0; i < 10; ++i) step();
+  }
+  void step() {
     watch.before_step(world);
     world.step();
     watch.after_step(world, true);
-  };
-  for (int i = 0; i < 10; ++i) step();
-  ASSERT_FALSE(watch.alarm());
-  ASSERT_LT(softbody::measure(world).max_speed, 5);
-  world.set_integrator("semi-implicit-euler", 2);
-  watch.intervened();
-  step();
-  ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
-  step();
-  ASSERT_TRUE(watch.alarm());
-  EXPECT_EQ(watch.last_good_frame(), 10);
+  }
+  void explode() {
+    ASSERT_FALSE(watch.alarm());
+    ASSERT_LT(softbody::measure(world).max_speed, 5);
+    world.set_integrator("semi-implicit-euler", 2);
+    watch.intervened();
+    step();
+    ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
+    step();
+    ASSERT_TRUE(watch.alarm());
+  }
+};
+
+TEST(StabilityWatch, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
+  Watched w;
+  w.explode();
+  EXPECT_EQ(w.watch.last_good_frame(), 10);
 }
 
 TEST(StabilityWatch, KnowsNoGoodFrameThatIsStillToCome) {
-  softbody::World world(touching_pair(), {});
-  StabilityWatch watch;
-  const auto step = [&] {
-    watch.before_step(world);
-    world.step();
-    watch.after_step(world, true);
-  };
-  for (int i = 0; i < 12; ++i) step();
-  world.restore(watch.past().snapshots().front());
-  watch.went_back(world);
-  world.set_integrator("semi-implicit-euler", 1);
-  for (int i = 0; i < 2; ++i) step();
-  EXPECT_LE(watch.last_good_frame(), world.frame());
+  Watched w;
+  w.world.restore(w.watch.past().snapshots().front());
+  w.watch.went_back(w.world);
+  const int now = w.world.frame();
+  w.explode();
+  EXPECT_EQ(w.watch.last_good_frame(), now);
 }
 
 TEST(StepLight, IsGreenAmberAndRed) {
