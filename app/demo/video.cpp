@@ -80,7 +80,7 @@ class Ffmpeg {
     return true;
   }
 
-  /// No more pictures: waits for the end; true if ffmpeg says that all went well.
+  /// No more pictures: waits for the end; true if ffmpeg says that all went well. Call it once.
   bool finish() {
     pictures_ = Descriptor();
     int status = 0;
@@ -150,7 +150,10 @@ class VideoWriter : public FrameWriter {
       finish();
       throw UsageError("the size of the picture has changed, and a video has but one: it ends there, " + name());
     }
-    if (!ffmpeg_->send(picture.rgba)) fail();
+    if (!ffmpeg_->send(picture.rgba)) {
+      ffmpeg_->finish();
+      fail();
+    }
   }
 
   void finish() override {
@@ -194,7 +197,6 @@ class VideoWriter : public FrameWriter {
   }
 
   [[noreturn]] void fail() {
-    ffmpeg_->finish();
     throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words());
   }
 

@@ -206,6 +206,16 @@ TEST_F(TakingAway, AnFfmpegThatDiesIsSaidAndLeavesNothing) {
   EXPECT_TRUE(names(folder.path()).empty());
 }
 
+TEST_F(TakingAway, AnFfmpegThatFailsAtTheEndIsSaidAtOnce) {
+  fake_ffmpeg("cat >/dev/null; echo 'No space left' >&2; exit 1");
+  const auto before = std::chrono::steady_clock::now();
+  record("video", 3);
+  EXPECT_LT(std::chrono::steady_clock::now() - before, 20s) << "as patient as with one that does not end";
+  EXPECT_TRUE(take_away.failed());
+  EXPECT_NE(take_away.message().find("No space left"), std::string::npos) << take_away.message();
+  EXPECT_TRUE(names(folder.path()).empty());
+}
+
 TEST_F(TakingAway, AVideoEndsWhereThePictureChangesItsSize) {
   fake_ffmpeg("for last; do :; done; cat > \"$last\"");
   take_away.kind = index_of("video");
