@@ -126,6 +126,9 @@ class Dynamics {
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_least_shared(std::size_t count) { least_shared_ = count; }
+  /// Candidates of surface contact, each in as many substeps as it is looked at, that a frame may have in a world of
+  /// 10,000 particles; fewer have as many, more in proportion.
+  void set_most_candidates(double count) { most_candidates_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
   /// One a vertex, finite. The body's origin goes to their middle.
@@ -141,10 +144,10 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work on candidates of
+  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or with as many candidates of
   /// surface contact: unless substeps are fixed, their bound is worked out anew as bodies move, and those that are
-  /// crushed may ask for any number, and be full of candidates. after_substep: called by one
-  /// thread while the others wait.
+  /// crushed may ask for any number, and be full of candidates. after_substep: called by one thread while the others
+  /// wait.
   Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
@@ -254,6 +257,16 @@ class Dynamics {
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
+  /// One that is being advanced.
+  struct Frame {
+    double seconds, left;
+    int substeps = 0;
+    double candidates = 0;  // as set_most_candidates() counts them
+    int fixed = 0;          // substeps that it is to take; 0: as many as are needed
+  };
+  void begin_frame(double seconds);
+  void advance_some(Frame& frame, int most, const std::function<void()>& after_substep);
+  int substeps_left(const Frame& frame, int stable) const;
   int substeps_within_bound(double h) const;
   int needed_substeps(double seconds) const;
   /// What bounds a substep in the state at hand.
@@ -329,6 +342,7 @@ class Dynamics {
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   std::size_t least_shared_ = 0;
+  double most_candidates_ = 0;
   int active_threads_ = 1;
 };
 

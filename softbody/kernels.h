@@ -2,9 +2,12 @@
 // The inner loops of a substep over one batch of bodies, chosen for its width and for the processor at hand. Every
 // variant is compiled from the same source without fused arithmetic, so all give the same bits.
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <span>
 #include <vector>
 
@@ -102,6 +105,15 @@ struct CholeskyFactor {
 struct Extent {
   LaneVector lo, hi;                 // corners of the box round one field's vectors
   alignas(32) float length2[lanes];  // squared length of the longest vector of another
+
+  double longest() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
+  double widest() const {  // of the boxes' diagonals
+    double most = 0;
+    for (int l = 0; l < lanes; ++l)
+      most =
+          std::max(most, std::hypot(double(hi.x[l] - lo.x[l]), double(hi.y[l] - lo.y[l]), double(hi.z[l] - lo.z[l])));
+    return most;
+  }
 };
 
 /// Of a lane's body: sums over its particles, with their places r seen from the first one.

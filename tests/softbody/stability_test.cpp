@@ -251,6 +251,21 @@ TEST(Substeps, ThatAreImplicitAreFewer) {
   EXPECT_EQ(world.time(), world.profile().seconds);
 }
 
+TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
+  Scene scene = lone_body(gas_ball());
+  add_body(scene, {0.99, 0, 0}, {-1, 0, 0});
+  scene.contact_surface = ContactSurface::surfaces;
+  World whole(scene, {.integrator = "semi-implicit-euler"}),
+      few(scene, {.integrator = "semi-implicit-euler", .most_candidates = 1}),
+      fixed(scene, {.integrator = "semi-implicit-euler", .substeps = 20, .most_candidates = 1});
+  for (World* world : {&whole, &few, &fixed}) world->step();
+  EXPECT_EQ(whole.profile().seconds, whole.frame_time());
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
+  EXPECT_LT(few.profile().substeps, whole.profile().substeps);
+  EXPECT_LT(few.profile().seconds, few.frame_time());
+  EXPECT_GT(few.profile().seconds, 0);
+}
+
 /// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.
 TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
   Scene scene = lone_body(gas_ball());
