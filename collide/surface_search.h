@@ -75,7 +75,7 @@ class SurfaceSearch {
   /// m/s: a bound of the relative speed of a pair's vertices during the motion that was foreseen.
   float speed(const SurfacePair& pair) const;
 
-  static constexpr std::size_t most_features = std::size_t{1} << 27;
+  static constexpr std::size_t most_features = std::size_t{1} << 24;  // 1.5 GiB with what contact keeps of them
 
  private:
   struct Candidates {

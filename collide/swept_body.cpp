@@ -30,6 +30,10 @@ void join_any(const BoxList& vertices, const std::vector<std::array<Index, corne
   list.end();
 }
 
+// Of the mean edge: a motion is foreseen until a vertex has gone so far from where the body's flight would take it. What
+// sweeps over more of itself meets all of itself, far oftener than it is worth to look again.
+constexpr float sweep_share = 0.5f;
+
 glm::vec3 below(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }
 glm::vec3 above(const glm::vec3& v) { return glm::max(v, glm::vec3(0.0f)); }
 
@@ -80,18 +84,22 @@ void SweptBody::find_rigid_motion() {
 }
 
 void SweptBody::find_bounds() {
-  const float seconds = end_ - begin_;
   float spread2 = 0, strain2 = 0;
-  glm::vec3 lo = at(0), hi = lo;
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 x = at(v), own = velocity(v) - mean_, left = own - glm::cross(spin_, x - centre_);
+    const glm::vec3 own = velocity(v) - mean_, left = own - glm::cross(spin_, at(v) - centre_);
     spread2 = std::max(spread2, glm::dot(own, own));
     strain2 = std::max(strain2, glm::dot(left, left));
-    lo = glm::min(lo, glm::min(x, x + seconds * own));
-    hi = glm::max(hi, glm::max(x, x + seconds * own));
   }
   spread_ = std::sqrt(spread2);
   most_strain_ = std::sqrt(strain2);
+  end_ = std::min(end_, begin_ + std::max(traits_.ahead, sweep_share * traits_.edge / spread_));
+  const float seconds = end_ - begin_;
+  glm::vec3 lo = at(0), hi = lo;
+  for (Index v = 0; v < count_; ++v) {
+    const glm::vec3 x = at(v), own = velocity(v) - mean_;
+    lo = glm::min(lo, glm::min(x, x + seconds * own));
+    hi = glm::max(hi, glm::max(x, x + seconds * own));
+  }
   box_ = {lo - traits_.skin, hi + traits_.skin};
   world_ = {box_.lo + below(drift(end_)), box_.hi + above(drift(end_))};
   const glm::vec3 all = centre_ + mean_ + (world_.hi - world_.lo);  // boxes alone do not show a NaN

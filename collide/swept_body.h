@@ -29,6 +29,7 @@ struct SurfaceBody {
   bool moves = false;  // pairs of which neither does are left out
   // s: its motion is foreseen for no longer. What will be thrown off its path soon had best be looked at often.
   float foresight = std::numeric_limits<float>::infinity();
+  float ahead = 0;  // s: but for so long, whatever sweep_share says
 };
 
 /// Vertices go straight on from where they are seen, x + v t, and stray from that by no more than the slack. Times are

@@ -122,22 +122,22 @@ int Dynamics::foreseen_substeps(double left, double h) const {
 }
 
 /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those that
-/// are left of the frame.
-void Dynamics::find_surface_contacts(double left, double ahead) {
+/// are left of the frame. False if they do.
+bool Dynamics::find_surface_contacts(double left, double ahead) {
   const std::size_t n = vertices_->vertex_count();
   for (auto* components : {&seen_, &velocity_})
     for (auto& c : *components) c.resize(n);
   world_positions(seen_[0], seen_[1], seen_[2]);
   const collide::Frame now{seen_[0], seen_[1], seen_[2], vertices_};
   const auto elapsed = float(found_ - left);
-  if (found_ > 0 && surface_.holds(now, elapsed, float(ahead))) return;
+  if (found_ > 0 && surface_.holds(now, elapsed, float(ahead))) return false;
   for (BodyId id = 0; id < bodies_.size(); ++id)
     for (Index v = 0; v < vertices_->size(id); ++v)
       for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(bodies_[id], v)];
   const collide::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
   if (found_ > 0) {
     surface_.renew(motion, elapsed, float(ahead), workers_);
-    return;
+    return true;
   }
   found_ = left;
   since_found_.assign(std::size_t(workers_.threads()), 0.0f);
@@ -154,6 +154,7 @@ void Dynamics::find_surface_contacts(double left, double ahead) {
                         float(p.material.restitution), &p.shape->rest()});
   }
   surface_.find(motion, std::move(traits), std::move(contacts), float(left), float(ahead), self_contact_, workers_);
+  return true;
 }
 
 }  // namespace softbody

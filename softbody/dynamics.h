@@ -126,8 +126,8 @@ class Dynamics {
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_least_shared(std::size_t count) { least_shared_ = count; }
-  /// Candidates of surface contact, each in as many substeps as it is looked at, that a frame may have in a world of
-  /// 10,000 particles; fewer have as many, more in proportion.
+  /// Candidates of surface contact that a frame may have, counted anew in each substep that they are looked at and each
+  /// time that they are found, in a world of 10,000 particles; fewer have as many, more in proportion.
   void set_most_candidates(double count) { most_candidates_ = count; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
@@ -251,7 +251,7 @@ class Dynamics {
   void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
                   std::vector<ShieldPair>& pairs) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
-  void find_surface_contacts(double left, double ahead);
+  bool find_surface_contacts(double left, double ahead);
   int foreseen_substeps(double left, double h) const;
   void wake_what_is_hit(double seconds);
   void prepare_solids(Batch& batch, double seconds);

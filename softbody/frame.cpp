@@ -136,8 +136,9 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 /// As many substeps, `most` at most, as what bounds them may be trusted for.
 void Dynamics::advance_some(Frame& frame, int most, const std::function<void()>& after_substep) {
   const int stable = frame.fixed ? most : needed_substeps(frame.left);
+  bool found = false;
   if (has_surface_) {
-    find_surface_contacts(frame.left, frame.left / stable);
+    found = find_surface_contacts(frame.left, frame.left / stable);
     for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
   }
   const int count = frame.fixed ? stable : substeps_left(frame, stable);
@@ -160,7 +161,7 @@ void Dynamics::advance_some(Frame& frame, int most, const std::function<void()>&
   if (now > done) go_on(now - done);
   frame.left = now == count ? 0 : frame.left - now * h;
   frame.substeps += now;
-  if (!surface_.empty()) frame.candidates += double(surface_.search().features().size()) * now;
+  if (!surface_.empty()) frame.candidates += double(surface_.search().features().size()) * (now + found);
 }
 
 /// For what is left of a frame: those that are stable, or as many as the candidates of surface contact ask for.

@@ -50,6 +50,7 @@ void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::Su
   std::swap(traits, traits_);
   std::swap(bodies, bodies_);
   for (Index body = 0; body < traits_.size(); ++body) {
+    traits_[body].ahead = ahead;
     const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
     if (!known) {
       set_slack(traits_[body], traits_[body].edge);
@@ -68,6 +69,7 @@ void SurfaceContact::renew(const collide::Motion& motion, float elapsed, float a
   for (Index body = 0; body < traits_.size(); ++body) {
     const collide::SweptBody& swept = search_.body(body);
     if (!swept.due()) continue;
+    traits_[body].ahead = ahead;
     traits_[body].foresight = std::max(ahead, patience * (elapsed - swept.begin()));
     if (swept.strayed()) set_slack(traits_[body], slack_after(swept.stray(), traits_[body]));
   }

@@ -26,6 +26,7 @@ constexpr int picture_every = 10;  // frames: the scene's picture is most of the
 constexpr int warm_up_seconds = 60;
 constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
 constexpr int most_implicit_seconds = 3;     // on end: each step of soft bodies in heaps takes up to a second
+constexpr int many_substeps = 20'000;        // after so many in a second, patience ends and the scene begins anew
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
 // What a frame may cost: in counted work, and where nothing counts it in processor time, far above what frames take.
@@ -46,7 +47,12 @@ class Soak {
     std::optional<Resources> warm;
     for (int second = 0; second < seconds; ++second) {
       change(scene);
-      for (int i = 0; i < frames_a_second; ++i) frame(i % picture_every == 0);
+      int substeps = 0;
+      for (int i = 0; i < frames_a_second && substeps < many_substeps; ++i) {
+        frame(i % picture_every == 0);
+        substeps += demo_.session.world().profile().substeps;
+      }
+      if (substeps >= many_substeps) begin(scene);
       if (second % warm_up_seconds != warm_up_seconds - 1) continue;
       if (!warm) fill_tables();
       compare(warm, scene);
