@@ -30,8 +30,8 @@ void join_any(const BoxList& vertices, const std::vector<std::array<Index, corne
   list.end();
 }
 
-// Of the mean edge: a motion is foreseen until a vertex has gone so far from where the body's flight would take it. What
-// sweeps over more of itself meets all of itself, far oftener than it is worth to look again.
+// Of the mean edge: a motion is foreseen until a vertex has gone so far from where the body's flight would take it.
+// What sweeps over more of itself meets all of itself, far oftener than it is worth to look again.
 constexpr float sweep_share = 0.5f;
 
 glm::vec3 below(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }

@@ -21,6 +21,7 @@ struct Moving {
     scene.add(moved(mesh, at));
     for (const glm::vec3& v : mesh.vertices) velocity.push_back(velocity_of(v));
     traits.push_back({scene.surfaces.back().get(), reach + slack, slack, 0.3f, true});
+    traits.back().ahead = seconds;
   }
   Index first(Index body) const { return scene.state.bodies.first[body]; }
   /// Where all vertices are after `time`, each off its path by up to its body's slack.

@@ -213,6 +213,25 @@ TEST(SurfaceSearch, ASheetThatFoldsOntoItselfIsForeseen) {
   }
 }
 
+/// Swept over all the seconds that are asked for, each feature would meet each.
+TEST(SurfaceSearch, WhatDeformsFastIsForeseenForAShortTimeOnlyUnlessMoreIsAskedFor) {
+  std::mt19937 random(69);
+  Moving m;
+  m.add(sheet(10, 1), glm::vec3(0), 0.02f, 0.01f,
+        [&](const glm::vec3&) { return glm::vec3(7, 0, 0) + 1000.0f * random_points(random, 1, -1, 1)[0]; });
+  const Found all(m, true);
+  EXPECT_EQ(all.search.foreseen(), m.seconds);
+  m.traits[0].ahead = 1e-5f;
+  const Found some(m, true);
+  EXPECT_NEAR(some.search.foreseen() * some.search.body(0).spread(), 0.5f * m.traits[0].edge, 1e-4f);
+  EXPECT_LT(some.search.features().size(), all.search.features().size() / 4);
+  m.seconds = some.search.foreseen();
+  EXPECT_GT(expect_complete(m, some.search, true, random), 0u);
+  m.traits[0].ahead = 2 * m.seconds;
+  m.seconds = 1;
+  EXPECT_EQ(Found(m, true).search.foreseen(), m.traits[0].ahead);
+}
+
 TEST(SurfaceSearch, AFlightBringsNoCandidatesWithinABody) {
   const auto candidates = [](const glm::vec3& fly) {
     Moving m;
