@@ -20,7 +20,8 @@ namespace softbody {
 
 /// Bad input. what() is one line: the file (and line, where there is one), what is wrong, what to do.
 struct SceneError : std::runtime_error {
-  using std::runtime_error::runtime_error;
+  /// One line, whatever names and keys it quotes: control characters become question marks.
+  explicit SceneError(std::string message);
 };
 
 /// A linear spring law with a damper along the spring (Introduction of the paper: elasticity and damper).

@@ -1,6 +1,5 @@
 #include "softbody/toml_table.h"
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 #include <sstream>
@@ -22,13 +21,6 @@ std::string range(double lo, double hi) {
   return s.str();
 }
 
-/// A quoted key may hold anything, and toml++ quotes what it stumbled over, line breaks included.
-std::string without_controls(std::string message) {
-  std::ranges::replace_if(
-      message, [](unsigned char c) { return c < ' ' || c == 0x7f; }, '?');
-  return message;
-}
-
 }  // namespace
 
 toml::table read_toml(const std::filesystem::path& file) {
@@ -41,8 +33,7 @@ toml::table read_toml(const std::filesystem::path& file) {
   try {
     return toml::parse_file(file.string());
   } catch (const toml::parse_error& e) {
-    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " +
-                     without_controls(std::string(e.description())));
+    throw SceneError(file.string() + ":" + std::to_string(e.source().begin.line) + ": " + std::string(e.description()));
   }
 }
 
@@ -152,8 +143,8 @@ const toml::node* Table::find(const std::string& key) {
 }
 
 void Table::fail(const toml::node& node, const std::string& key, const std::string& what) const {
-  throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " +
-                   without_controls((name_.empty() ? "" : name_ + ".") + key + " " + what));
+  throw SceneError(file_ + ":" + std::to_string(node.source().begin.line) + ": " + (name_.empty() ? "" : name_ + ".") +
+                   key + " " + what);
 }
 
 }  // namespace softbody

@@ -56,6 +56,8 @@ const Bad bad_scenes[]{
     {"value_cut_short_by_a_line_break", "thickness =t\n", 1, ""},
     {"number_as_text", "[[material]]\nmass = \"1\"\n[[body]]\n", 2, "material[0].mass must be a number"},
     {"number_as_bool", "[[material]]\nfriction = true\n[[body]]\n", 2, "must be a number"},
+    {"name_of_two_lines", "[[material]]\nname = \"a\\nb\"\n[[material]]\nname = \"a\\nb\"\n[[body]]\n", 4,
+     "'a?b' is that of"},
     {"text_as_number", "name = 5\n[[body]]\n", 1, "name must be a string"},
     {"bool_as_number", "[collision]\nself_collision = 1\n[[body]]\n", 2, "must be true or false"},
     {"whole_number_as_fraction", "[collision]\nlevels = 3.0\n[[body]]\n", 2, "must be a whole number"},
