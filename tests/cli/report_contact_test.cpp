@@ -96,6 +96,13 @@ TEST(ContactReport, WhatFliesFastIsLookedAtAlongItsWay) {
   EXPECT_EQ(surface["passed"], "0");
 }
 
+TEST(ContactReport, FramesThatAreCutShortGiveNoFigures) {
+  const std::string ball = "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 2, radius = 0.02}\n";
+  Row surface = rows_of(ball + "velocity = [1000, 0, 0]\n" + ball + "position = [5, 3, 0]\nvelocity = [-1000, 0, 0]\n")
+                    .at("surface");
+  EXPECT_NE(surface["not_run"].find("more substeps than there may be"), std::string::npos) << surface["not_run"];
+}
+
 TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
   const TemporaryFolder folder;
   const Outcome o = run({"report", "contact", "--quick", "--scene", "drop-3000", "--out", folder.path()});

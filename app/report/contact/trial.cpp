@@ -12,6 +12,7 @@
 #include "app/command/options.h"
 #include "app/compare/world_oracle.h"
 #include "app/report/cpu_clock.h"
+#include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
 #include "softbody/measures.h"
 
@@ -61,6 +62,7 @@ class Trial {
       look_for_passages(straight_way);
       looking += thread_seconds() - from;
     });
+    require_whole_frame(world_);
     result_.cpu_ms += 1e3 * (thread_seconds() - start - looking);
     result_.detect_ms += world_.profile().detect_ms;
     result_.solve_ms += world_.profile().solve_ms;

@@ -58,8 +58,7 @@ class Run {
     world.step();
     ++frame_;
     time_ += world.frame_time();
-    if (world.profile().seconds < world.frame_time())
-      throw softbody::SceneError("a frame would take more substeps than there may be");
+    require_whole_frame(world);
     if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
     shields_.frame(world.last_shield_energies(), world.shield_energies());
