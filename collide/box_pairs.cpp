@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <bit>
 #include <limits>
+#include <stdexcept>
+#include <string>
 
 #include <glm/common.hpp>
 
@@ -125,16 +127,18 @@ void BoxPairs::pick(const BoxList& list, const Aabb& box, BoxList& picked) {
   picked.end();
 }
 
-void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs) {
+void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t most) {
   pairs_ = &pairs;
+  most_ = most;
   const std::size_t before = pairs.size();
   cut_between(a, b, anywhere, 0);
   if (std::uint64_t{a.size} * b.size > leaf_tests)
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
 }
 
-void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs) {
+void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t most) {
   pairs_ = &pairs;
+  most_ = most;
   const std::size_t before = pairs.size();
   cut_within(list, anywhere, 0);
   if (std::uint64_t{list.size} * list.size / 2 > leaf_tests)
@@ -149,6 +153,7 @@ void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, co
     const glm::vec3 corner = glm::max(box.lo, b.box(k).lo);
     if (corner.x >= from.x && corner.y >= from.y && corner.z >= from.z) pairs_->push_back({a.item[i], b.item[k]});
   });
+  if (pairs_->size() > most_) throw std::length_error("more than " + std::to_string(most_) + " boxes overlap");
 }
 
 BoxPairs::Level& BoxPairs::level(std::size_t depth) {

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -38,13 +39,14 @@ class BoxPairs {
  public:
   /// Below so many tests, which take some ten microseconds, all pairs are cheaper than a cut.
   static constexpr std::uint64_t leaf_tests = 1 << 18;
+  static constexpr std::size_t unlimited = std::numeric_limits<std::size_t>::max();
 
   /// Boxes closed: they overlap where they touch. Takes those of `list` that overlap `box`, in order.
   void pick(const BoxList& list, const Aabb& box, BoxList& picked);
   /// Appends (item of a, item of b) of overlapping boxes, or of one list (the greater place second), each once;
-  /// ascending if the lists are.
-  void between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs);
-  void within(const BoxList& list, std::vector<ItemPair>& pairs);
+  /// ascending if the lists are. Throws std::length_error once `pairs` has more than `most`.
+  void between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t most = unlimited);
+  void within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t most = unlimited);
 
  private:
   struct Level {
@@ -58,6 +60,7 @@ class BoxPairs {
   std::vector<std::unique_ptr<Level>> levels_;
   std::vector<std::uint64_t> words_;
   std::vector<ItemPair>* pairs_ = nullptr;
+  std::size_t most_ = unlimited;
 };
 
 }  // namespace collide

@@ -26,16 +26,12 @@ bool share_vertex(const std::array<Index, n>& a, const std::array<Index, m>& b) 
   return std::any_of(a.begin(), a.end(), [&](Index v) { return std::find(b.begin(), b.end(), v) != b.end(); });
 }
 
+constexpr std::size_t most_boxes = std::size_t{1} << 26;  // that overlap, of two bodies' features: 512 MiB a thread
+
 /// Whether one body may be wholly inside the other, with no feature near any other.
 bool may_hold(const SweptBody& outer, const SweptBody& inner) {
   const Aabb &o = outer.world(), &i = inner.world();
   return outer.surface().closed() && glm::all(glm::lessThan(o.lo, i.lo)) && glm::all(glm::lessThan(i.hi, o.hi));
-}
-
-void require_few(std::size_t features) {
-  if (features > SurfaceSearch::most_features)
-    throw std::length_error("more than " + std::to_string(SurfaceSearch::most_features) +
-                            " surface features are near each other");
 }
 
 }  // namespace
@@ -66,28 +62,35 @@ bool SurfaceSearch::holds(const Frame& now, float elapsed, float ahead) {
   return all;
 }
 
-void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodies, float seconds, bool self,
+void SurfaceSearch::require_few(std::size_t features) const {
+  if (features > query_.most_features)
+    throw std::length_error("more than " + std::to_string(query_.most_features) +
+                            " surface features are near each other");
+}
+
+void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodies, const SurfaceQuery& query,
                          Workers& workers) {
   bodies_ = bodies;
-  self_ = self;
-  time_ = 0, end_ = seconds;
+  query_ = query;
+  time_ = 0, end_ = query.seconds;
   swept_.resize(bodies.size());
   anew_.assign(bodies.size(), true);
   boxed_.assign(bodies.size(), false);
-  search(motion, workers);
+  search(motion, query.least, workers);
 }
 
-void SurfaceSearch::renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, Workers& workers) {
+void SurfaceSearch::renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, float least,
+                          Workers& workers) {
   bodies_ = bodies;
   time_ = elapsed;
   for (Index b = 0; b < swept_.size(); ++b) {
     anew_[b] = swept_[b].due();
     if (anew_[b]) boxed_[b] = false;
   }
-  search(motion, workers);
+  search(motion, least, workers);
 }
 
-void SurfaceSearch::search(const Motion& motion, Workers& workers) {
+void SurfaceSearch::search(const Motion& motion, float least, Workers& workers) {
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   const auto in_parts = [&](std::size_t count, const auto& task) {
     workers.run([&](int thread) {
@@ -97,7 +100,7 @@ void SurfaceSearch::search(const Motion& motion, Workers& workers) {
   };
   in_parts(swept_.size(), [&](Thread&, std::size_t b) {
     const float end = std::min(end_, time_ + bodies_[b].foresight);
-    if (anew_[b]) swept_[b].foresee(motion, static_cast<Index>(b), bodies_[b], time_, end);
+    if (anew_[b]) swept_[b].foresee(motion, static_cast<Index>(b), bodies_[b], time_, end, least);
   });
   find_near();
   in_parts(swept_.size(), [&](Thread&, std::size_t b) {
@@ -121,7 +124,7 @@ void SurfaceSearch::find_near() {
     if (!swept_[b].live()) continue;
     order_.push_back(b);
     foreseen_ = std::min(foreseen_, swept_[b].end());
-    if (self_ && swept_[b].moves()) near_.push_back({b, b});
+    if (query_.self && swept_[b].moves()) near_.push_back({b, b});
   }
   sweep(
       order_, 0.0f, [&](Index b) -> const Aabb& { return swept_[b].world(); },
@@ -197,13 +200,13 @@ void SurfaceSearch::find_pair(Thread& own, SurfacePair& pair) const {
   own.search.pick(a.edges(), before_drift, own.edges_a);
   grow(own.vertices_a, lo, hi);
   grow(own.edges_a, lo, hi);
-  own.search.between(own.vertices_a, own.faces_b, own.found);
+  own.search.between(own.vertices_a, own.faces_b, own.found, most_boxes);
   keep_vertices_on_faces(own, pair, pair.a, pair.b);
   pair.face_vertex = range();
-  own.search.between(own.vertices_b, own.faces_a, own.found);
+  own.search.between(own.vertices_b, own.faces_a, own.found, most_boxes);
   keep_vertices_on_faces(own, pair, pair.b, pair.a);
   pair.edge_edge = range();
-  own.search.between(own.edges_a, own.edges_b, own.found);
+  own.search.between(own.edges_a, own.edges_b, own.found, most_boxes);
   keep_edges(own, pair);
 }
 
@@ -230,6 +233,7 @@ void SurfaceSearch::keep_vertices_on_faces(Thread& own, const SurfacePair& pair,
     }
     own.meeting.meet_vertices_and_faces();
     keep(own, pair, [&](const ItemPair& f) { return fastest(a, std::array{f.a}, b, faces[f.b]); });
+    require_few(own.candidates.features.size());
   }
   own.found.clear();
 }
@@ -245,6 +249,7 @@ void SurfaceSearch::keep_edges(Thread& own, const SurfacePair& pair) const {
     }
     own.meeting.meet_edges();
     keep(own, pair, [&](const ItemPair& f) { return fastest(pair.a, ones[f.a], pair.b, twos[f.b]); });
+    require_few(own.candidates.features.size());
   }
   own.found.clear();
 }
@@ -276,11 +281,11 @@ void SurfaceSearch::find_self(Thread& own, SurfacePair& pair) const {
   body.box_strained(own.vertices);
   join(own.vertices, surface.triangles(), own.faces);
   join(own.vertices, surface.edges(), own.edges);
-  own.search.between(own.vertices, own.faces, own.found);
+  own.search.between(own.vertices, own.faces, own.found, most_boxes);
   std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(std::array{f.a}, surface.triangles()[f.b]); });
   keep_vertices_on_faces(own, pair, pair.a, pair.a);
   pair.face_vertex = pair.edge_edge = static_cast<std::uint32_t>(own.candidates.features.size());
-  own.search.within(own.edges, own.found);
+  own.search.within(own.edges, own.found, most_boxes);
   std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(surface.edges()[f.a], surface.edges()[f.b]); });
   keep_edges(own, pair);
 }

@@ -42,14 +42,23 @@ struct SurfacePair {
   auto bodies() const { return std::pair(a, b); }
 };
 
+/// What is asked of a search.
+struct SurfaceQuery {
+  float seconds = 0;
+  float least = 0;    // s: see SweptBody::foresee()
+  bool self = false;  // also within bodies
+  std::size_t most_features = std::size_t{1} << 24;
+};
+
 class SurfaceSearch {
  public:
-  /// Finds all candidates of the coming `seconds`, bodies ascending and features ascending within their range. Bodies
-  /// that are not finite are left out. self: also within bodies. Throws std::length_error beyond most_features.
-  void find(const Motion& motion, std::span<const SurfaceBody> bodies, float seconds, bool self, Workers& workers);
-  /// `elapsed` seconds later: finds those of bodies that are due anew. bodies: theirs may have changed; motion: that of
-  /// others is not looked at.
-  void renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, Workers& workers);
+  /// Finds all candidates of the coming seconds, until foreseen(), bodies ascending and features ascending within their
+  /// range. Bodies that are not finite are left out. Throws std::length_error beyond what may be; nothing that was
+  /// found before holds then.
+  void find(const Motion& motion, std::span<const SurfaceBody> bodies, const SurfaceQuery& query, Workers& workers);
+  /// `elapsed` seconds later: finds those of bodies that are due anew, for the seconds `least` in any case. bodies:
+  /// theirs may have changed; motion: that of others is not looked at.
+  void renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, float least, Workers& workers);
   void clear();
 
   const std::vector<SurfacePair>& pairs() const { return now_.pairs; }
@@ -75,8 +84,6 @@ class SurfaceSearch {
   /// m/s: a bound of the relative speed of a pair's vertices during the motion that was foreseen.
   float speed(const SurfacePair& pair) const;
 
-  static constexpr std::size_t most_features = std::size_t{1} << 24;  // 1.5 GiB with what contact keeps of them
-
  private:
   struct Candidates {
     std::vector<SurfacePair> pairs;
@@ -90,7 +97,8 @@ class SurfaceSearch {
     FeaturePairs meeting;
     Candidates candidates;
   };
-  void search(const Motion& motion, Workers& workers);
+  void search(const Motion& motion, float least, Workers& workers);
+  void require_few(std::size_t features) const;
   void find_near();
   void find_candidates(Thread& own, const ItemPair& bodies);
   void find_pair(Thread& own, SurfacePair& pair) const;
@@ -106,7 +114,7 @@ class SurfaceSearch {
   glm::vec3 at(Index body, Index v) const { return swept_[body].at(v, time_); }
 
   std::span<const SurfaceBody> bodies_;
-  bool self_ = false;
+  SurfaceQuery query_;
   float time_ = 0, end_ = 0, foreseen_ = 0;  // s after find()
   std::vector<SweptBody> swept_;
   std::vector<char> anew_;    // bodies that are foreseen anew

@@ -30,9 +30,7 @@ void join_any(const BoxList& vertices, const std::vector<std::array<Index, corne
   list.end();
 }
 
-// Of the mean edge: a motion is foreseen until a vertex has gone so far from where the body's flight would take it.
-// What sweeps over more of itself meets all of itself, far oftener than it is worth to look again.
-constexpr float sweep_share = 0.5f;
+constexpr float strain_share = 0.5f;  // of the mean edge
 
 glm::vec3 below(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }
 glm::vec3 above(const glm::vec3& v) { return glm::max(v, glm::vec3(0.0f)); }
@@ -46,7 +44,7 @@ void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& l
   join_any(vertices, features, list);
 }
 
-void SweptBody::foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end) {
+void SweptBody::foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float least) {
   traits_ = traits;
   begin_ = begin, end_ = end;
   stray_ = 0;
@@ -63,7 +61,7 @@ void SweptBody::foresee(const Motion& now, Index body, const SurfaceBody& traits
   else
     for (auto& v : velocity_) v.assign(count_, 0.0f);
   find_rigid_motion();
-  find_bounds();
+  find_bounds(least);
 }
 
 void SweptBody::find_rigid_motion() {
@@ -83,7 +81,7 @@ void SweptBody::find_rigid_motion() {
   if (inertia > 0) spin_ = momentum / inertia;
 }
 
-void SweptBody::find_bounds() {
+void SweptBody::find_bounds(float least) {
   float spread2 = 0, strain2 = 0;
   for (Index v = 0; v < count_; ++v) {
     const glm::vec3 own = velocity(v) - mean_, left = own - glm::cross(spin_, at(v) - centre_);
@@ -92,7 +90,7 @@ void SweptBody::find_bounds() {
   }
   spread_ = std::sqrt(spread2);
   most_strain_ = std::sqrt(strain2);
-  end_ = std::min(end_, begin_ + std::max(traits_.ahead, sweep_share * traits_.edge / spread_));
+  end_ = std::min(end_, begin_ + std::max(least, strain_share * traits_.edge / most_strain_));
   const float seconds = end_ - begin_;
   glm::vec3 lo = at(0), hi = lo;
   for (Index v = 0; v < count_; ++v) {

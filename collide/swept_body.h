@@ -29,14 +29,15 @@ struct SurfaceBody {
   bool moves = false;  // pairs of which neither does are left out
   // s: its motion is foreseen for no longer. What will be thrown off its path soon had best be looked at often.
   float foresight = std::numeric_limits<float>::infinity();
-  float ahead = 0;  // s: but for so long, whatever sweep_share says
 };
 
 /// Vertices go straight on from where they are seen, x + v t, and stray from that by no more than the slack. Times are
 /// in seconds, from any one start.
 class SweptBody {
  public:
-  void foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end);
+  /// Until `end`, or until a vertex has been strained half an edge: what sweeps over more of itself meets all of
+  /// itself, far oftener than it is worth to look again. For the seconds `least` in any case.
+  void foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float least);
   /// Has something, and nothing that is not finite.
   bool live() const { return live_; }
   const Surface& surface() const { return *traits_.surface; }
@@ -81,7 +82,7 @@ class SweptBody {
 
  private:
   void find_rigid_motion();
-  void find_bounds();
+  void find_bounds(float least);
 
   SurfaceBody traits_;
   float begin_ = 0, end_ = 0;

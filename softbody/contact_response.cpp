@@ -106,7 +106,7 @@ std::vector<PairEnergy> Dynamics::shield_energies(const SeenContacts& seen, floa
 void Dynamics::wake_what_is_hit(double seconds) {
   if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.moves(); })) return;
   if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.asleep; })) return;
-  find_surface_contacts(seconds, seconds);
+  find_surface_contacts(seconds, seconds, 0);
   for (const collide::SurfacePair& pair : surface_.search().pairs())
     for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (!bodies_[sleeper].asleep || !bodies_[by].moves() || fastest(by) <= 2 * scene_.sleep.speed) continue;
@@ -122,22 +122,23 @@ int Dynamics::foreseen_substeps(double left, double h) const {
 }
 
 /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those that
-/// are left of the frame. False if they do.
-bool Dynamics::find_surface_contacts(double left, double ahead) {
+/// are left of the frame; of those whose strain is fast, for the seconds `least` only.
+void Dynamics::find_surface_contacts(double left, double ahead, double least) {
   const std::size_t n = vertices_->vertex_count();
   for (auto* components : {&seen_, &velocity_})
     for (auto& c : *components) c.resize(n);
   world_positions(seen_[0], seen_[1], seen_[2]);
   const collide::Frame now{seen_[0], seen_[1], seen_[2], vertices_};
   const auto elapsed = float(found_ - left);
-  if (found_ > 0 && surface_.holds(now, elapsed, float(ahead))) return false;
+  if (found_ > 0 && surface_.holds(now, elapsed, float(ahead))) return;
   for (BodyId id = 0; id < bodies_.size(); ++id)
     for (Index v = 0; v < vertices_->size(id); ++v)
       for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(bodies_[id], v)];
   const collide::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
   if (found_ > 0) {
     surface_.renew(motion, elapsed, float(ahead), workers_);
-    return true;
+    candidates_ += double(surface_.search().features().size());
+    return;
   }
   found_ = left;
   since_found_.assign(std::size_t(workers_.threads()), 0.0f);
@@ -153,8 +154,10 @@ bool Dynamics::find_surface_contacts(double left, double ahead) {
                         body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material.friction),
                         float(p.material.restitution), &p.shape->rest()});
   }
-  surface_.find(motion, std::move(traits), std::move(contacts), float(left), float(ahead), self_contact_, workers_);
-  return true;
+  const double at_once = max_candidates_.at_once * std::max(1.0, double(n) / MaxCandidates::once_particles);
+  surface_.find(motion, std::move(traits), std::move(contacts),
+                {float(left), float(least), self_contact_, static_cast<std::size_t>(at_once)}, float(ahead), workers_);
+  candidates_ += double(surface_.search().features().size());
 }
 
 }  // namespace softbody

@@ -91,6 +91,14 @@ struct SeenContacts {
   const std::vector<collide::Contact>& contacts;
 };
 
+/// Of surface contact, in a world of `particles`; smaller ones may have as many, larger ones more in proportion. Scenes
+/// as they are shipped have at most a twentieth of the first, a four hundredth of the second.
+struct MaxCandidates {
+  double in_frame = 2e7;  // counted anew in each substep that they are looked at, and each time that they are found
+  double at_once = double(1 << 24);  // 1.5 GiB
+  static constexpr double frame_particles = 1e4, once_particles = double(1 << 18);
+};
+
 /// What a frame came to.
 struct Advance {
   int substeps = 0;
@@ -99,7 +107,9 @@ struct Advance {
 
 class Dynamics {
  public:
-  static constexpr int max_substeps = 4000, max_implicit_steps = 1024;  // a frame, unless they are fixed
+  // A frame, unless they are fixed:
+  static constexpr int max_substeps = 4000, max_implicit_steps = 1024;
+  static constexpr double max_implicit_work = 1e6;  // implicit steps times moving particles, but for 16 of them
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -126,9 +136,7 @@ class Dynamics {
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_least_shared(std::size_t count) { least_shared_ = count; }
-  /// Candidates of surface contact that a frame may have, counted anew in each substep that they are looked at and each
-  /// time that they are found, in a world of 10,000 particles; fewer have as many, more in proportion.
-  void set_most_candidates(double count) { most_candidates_ = count; }
+  void set_max_candidates(const MaxCandidates& max) { max_candidates_ = max; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
   /// One a vertex, finite. The body's origin goes to their middle.
@@ -251,22 +259,22 @@ class Dynamics {
   void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
                   std::vector<ShieldPair>& pairs) const;
   glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
-  bool find_surface_contacts(double left, double ahead);
+  void find_surface_contacts(double left, double ahead, double least);
   int foreseen_substeps(double left, double h) const;
   void wake_what_is_hit(double seconds);
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
-  /// One that is being advanced.
-  struct Frame {
+  /// Of a frame.
+  struct Progress {
     double seconds, left;
     int substeps = 0;
-    double candidates = 0;  // as set_most_candidates() counts them
-    int fixed = 0;          // substeps that it is to take; 0: as many as are needed
+    int fixed = 0;  // substeps that it is to take; 0: as many as are needed
   };
   void begin_frame(double seconds);
-  void advance_some(Frame& frame, int most, const std::function<void()>& after_substep);
-  int substeps_left(const Frame& frame, int stable) const;
+  int max_steps(const Integrator& integrator) const;
+  void take_substeps(Progress& frame, int most, const std::function<void()>& after_substep);
+  int substeps_left(const Progress& frame, int stable) const;
   int substeps_within_bound(double h) const;
   int needed_substeps(double seconds) const;
   /// What bounds a substep in the state at hand.
@@ -342,7 +350,9 @@ class Dynamics {
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   std::size_t least_shared_ = 0;
-  double most_candidates_ = 0;
+  MaxCandidates max_candidates_;
+  double candidates_ = 0;             // of the frame at hand, as max_candidates_ counts them
+  std::size_t moving_particles_ = 0;  // of moving_
   int active_threads_ = 1;
 };
 

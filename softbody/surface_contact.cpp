@@ -45,12 +45,11 @@ void SurfaceContact::clear() {
 }
 
 void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits,
-                          std::vector<ContactBody> bodies, float seconds, float ahead, bool self,
+                          std::vector<ContactBody> bodies, const collide::SurfaceQuery& query, float ahead,
                           collide::Workers& workers) {
   std::swap(traits, traits_);
   std::swap(bodies, bodies_);
   for (Index body = 0; body < traits_.size(); ++body) {
-    traits_[body].ahead = ahead;
     const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
     if (!known) {
       set_slack(traits_[body], traits_[body].edge);
@@ -61,20 +60,29 @@ void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::Su
     traits_[body].foresight = std::max(ahead, patience * past.lasted);
   }
   threads_.resize(static_cast<std::size_t>(workers.threads()));
-  search_.find(motion, traits_, seconds, self, workers);
-  take_candidates(motion.positions);
+  search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
 }
 
 void SurfaceContact::renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers) {
   for (Index body = 0; body < traits_.size(); ++body) {
     const collide::SweptBody& swept = search_.body(body);
     if (!swept.due()) continue;
-    traits_[body].ahead = ahead;
     traits_[body].foresight = std::max(ahead, patience * (elapsed - swept.begin()));
     if (swept.strayed()) set_slack(traits_[body], slack_after(swept.stray(), traits_[body]));
   }
-  search_.renew(motion, traits_, elapsed, workers);
-  take_candidates(motion.positions);
+  search(motion.positions, [&] { search_.renew(motion, traits_, elapsed, ahead, workers); });
+}
+
+/// What is remembered belongs to the features that were found last: to none, if too many are near each other.
+template <class Search>
+void SurfaceContact::search(const collide::Frame& now, const Search& search) {
+  try {
+    search();
+  } catch (...) {
+    *this = SurfaceContact();
+    throw;
+  }
+  take_candidates(now);
 }
 
 void SurfaceContact::take_candidates(const collide::Frame& now) {

@@ -87,11 +87,12 @@ class SurfaceContact {
   static constexpr float spring_damping = 5;      // of the critical
 
   /// The candidates of the coming `seconds`. traits and bodies: one a body; slack, and skin beyond the reach, are set
-  /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least.
+  /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least, and what is
+  /// strained fast for query.least. Throws std::length_error beyond query.most_features; then nothing is remembered.
   void find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits, std::vector<ContactBody> bodies,
-            float seconds, float ahead, bool self, collide::Workers& workers);
+            const collide::SurfaceQuery& query, float ahead, collide::Workers& workers);
   /// `elapsed` seconds later: those of bodies that have strayed from the motion that was foreseen, or whose was not
-  /// foreseen for the seconds `ahead`, anew.
+  /// foreseen for the seconds `ahead`, anew. Throws as find() does.
   void renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   void clear();
   bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.holds(now, elapsed, ahead); }
@@ -179,6 +180,8 @@ class SurfaceContact {
 
   using Shells = std::vector<std::optional<collide::ClosedShell>>;  // of the bodies, where one was needed
 
+  template <class Search>
+  void search(const collide::Frame& now, const Search& search);
   void take_candidates(const collide::Frame& now);
   void inherit();
   Pair make_pair(const collide::SurfacePair& range) const;

@@ -39,7 +39,7 @@ class World {
     Isa isa = best_isa();
     /// Particles of moving bodies; threads share no fewer: one has moved them before the others have woken up.
     std::size_t least_shared = 20'000;
-    double most_candidates = 4e7;  // see Dynamics::set_most_candidates()
+    MaxCandidates max_candidates{};
   };
   static constexpr int max_substeps = Dynamics::max_substeps;  // a frame
 

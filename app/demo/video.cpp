@@ -80,9 +80,10 @@ class Ffmpeg {
     return true;
   }
 
-  /// No more pictures: waits for the end; true if ffmpeg says that all went well. Call it once.
+  /// No more pictures: waits for the end; true if ffmpeg says that all went well. To be called once.
   bool finish() {
     pictures_ = Descriptor();
+    if (child_ <= 0) return false;
     int status = 0;
     for (int tenth = 0; tenth < 10 * patience; ++tenth) {
       if (::waitpid(child_, &status, WNOHANG) == child_) {

@@ -14,6 +14,7 @@ struct Moving {
   std::vector<glm::vec3> velocity;  // m/s, of every vertex
   std::vector<SurfaceBody> traits;
   float seconds = 0.05f;
+  bool whole = true;  // is foreseen for all of them, however fast it is strained
 
   /// velocity_of(position seen from the body's middle): m/s.
   template <class Velocity>
@@ -21,7 +22,6 @@ struct Moving {
     scene.add(moved(mesh, at));
     for (const glm::vec3& v : mesh.vertices) velocity.push_back(velocity_of(v));
     traits.push_back({scene.surfaces.back().get(), reach + slack, slack, 0.3f, true});
-    traits.back().ahead = seconds;
   }
   Index first(Index body) const { return scene.state.bodies.first[body]; }
   /// Where all vertices are after `time`, each off its path by up to its body's slack.
@@ -46,7 +46,7 @@ struct Found {
   Found(const Moving& m, bool self, int threads = 1) {
     for (const glm::vec3& v : m.velocity) vx.push_back(v.x), vy.push_back(v.y), vz.push_back(v.z);
     Workers workers(threads);
-    search.find({m.scene.frame(), vx, vy, vz}, m.traits, m.seconds, self, workers);
+    search.find({m.scene.frame(), vx, vy, vz}, m.traits, {m.seconds, m.whole ? m.seconds : 0.0f, self}, workers);
   }
 };
 

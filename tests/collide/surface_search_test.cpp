@@ -186,7 +186,7 @@ TEST(SurfaceSearch, MissesNothingOfBodiesThatStrayedAndAreForeseenAnew) {
       }
       EXPECT_EQ(found.search.holds(seen.frame(), now), !m.traits[strayed].moves);
       Workers workers(1);
-      found.search.renew({seen.frame(), found.vx, found.vy, found.vz}, m.traits, now, workers);
+      found.search.renew({seen.frame(), found.vx, found.vy, found.vz}, m.traits, now, m.seconds, workers);
       if (!m.traits[strayed].moves) continue;
       const float foreseen = found.search.foreseen();
       EXPECT_NEAR(foreseen, trial < 3 ? 0.7f * m.seconds : m.seconds, 1e-6);
@@ -221,15 +221,66 @@ TEST(SurfaceSearch, WhatDeformsFastIsForeseenForAShortTimeOnlyUnlessMoreIsAskedF
         [&](const glm::vec3&) { return glm::vec3(7, 0, 0) + 1000.0f * random_points(random, 1, -1, 1)[0]; });
   const Found all(m, true);
   EXPECT_EQ(all.search.foreseen(), m.seconds);
-  m.traits[0].ahead = 1e-5f;
+  m.whole = false;
   const Found some(m, true);
-  EXPECT_NEAR(some.search.foreseen() * some.search.body(0).spread(), 0.5f * m.traits[0].edge, 1e-4f);
+  EXPECT_NEAR(some.search.foreseen() * some.search.body(0).most_strain(), 0.5f * m.traits[0].edge, 1e-4f);
   EXPECT_LT(some.search.features().size(), all.search.features().size() / 4);
   m.seconds = some.search.foreseen();
   EXPECT_GT(expect_complete(m, some.search, true, random), 0u);
-  m.traits[0].ahead = 2 * m.seconds;
-  m.seconds = 1;
-  EXPECT_EQ(Found(m, true).search.foreseen(), m.traits[0].ahead);
+}
+
+/// The motion of each ends at a time of its own.
+TEST(SurfaceSearch, MissesNothingOfBodiesThatAreForeseenForAShortTimeOnly) {
+  std::mt19937 random(70);
+  for (const float speed : {10.0f, 100.0f}) {
+    std::size_t within = 0, renewals = 0;
+    for (int trial = 0; trial < 3; ++trial) {
+      Moving m = swarm(random, speed, 0.02f, 0.01f);
+      m.whole = false;
+      for (std::size_t i = 0; i < m.velocity.size(); ++i) m.velocity[i] *= i % 3 == 0 ? 0.2f : 1.0f;
+      Found found(m, true);
+      const float all = m.seconds;
+      Workers workers(1);
+      for (float now = 0; now < all; now = found.search.foreseen()) {
+        if (now > 0) {
+          const Scene seen = m.after(now, random);
+          ASSERT_FALSE(found.search.holds(seen.frame(), now, 1e-3f * all));
+          // From where it has strayed to it goes on as it did.
+          for (Index v = 0; v < m.velocity.size(); ++v) {
+            const Index body = static_cast<Index>(std::upper_bound(m.scene.state.bodies.first.begin(),
+                                                                   m.scene.state.bodies.first.end(), v) -
+                                                  m.scene.state.bodies.first.begin()) -
+                               1;
+            if (!found.search.body(body).due() || !m.traits[body].moves) continue;
+            const glm::vec3 start = seen.at(v) - now * m.velocity[v];
+            m.scene.state.x[v] = start.x, m.scene.state.y[v] = start.y, m.scene.state.z[v] = start.z;
+          }
+          found.search.renew({seen.frame(), found.vx, found.vy, found.vz}, m.traits, now, 0, workers);
+          ++renewals;
+        }
+        m.seconds = found.search.foreseen();
+        within += expect_complete(m, found.search, true, random, now / m.seconds);
+      }
+    }
+    EXPECT_GT(within, 20u) << speed;
+    EXPECT_GT(renewals, 10u) << speed;
+  }
+}
+
+TEST(SurfaceSearch, RefusesMoreThanMayBe) {
+  std::mt19937 random(72);
+  const Moving m = swarm(random, 5, 0.02f, 0.01f);
+  Found found(m, true);
+  const std::size_t all = found.search.features().size();
+  const auto find = [&](std::size_t most) {
+    Workers workers(2);
+    found.search.find({m.scene.frame(), found.vx, found.vy, found.vz}, m.traits, {m.seconds, m.seconds, true, most},
+                      workers);
+    return found.search.features().size();
+  };
+  EXPECT_THROW(find(all - 1), std::length_error);
+  EXPECT_THROW(find(all / 4), std::length_error);
+  EXPECT_EQ(find(all), all);
 }
 
 TEST(SurfaceSearch, AFlightBringsNoCandidatesWithinABody) {

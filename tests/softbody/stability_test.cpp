@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -251,19 +252,57 @@ TEST(Substeps, ThatAreImplicitAreFewer) {
   EXPECT_EQ(world.time(), world.profile().seconds);
 }
 
-TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
+/// Two bodies side by side in contact of their surfaces.
+Scene touching_surfaces() {
   Scene scene = lone_body(gas_ball());
-  add_body(scene, {0.99, 0, 0}, {-1, 0, 0});
+  add_body(scene, {0.99, 0, 0}, {});
   scene.contact_surface = ContactSurface::surfaces;
-  World whole(scene, {.integrator = "semi-implicit-euler"}),
-      few(scene, {.integrator = "semi-implicit-euler", .most_candidates = 1}),
-      fixed(scene, {.integrator = "semi-implicit-euler", .substeps = 20, .most_candidates = 1});
-  for (World* world : {&whole, &few, &fixed}) world->step();
+  return scene;
+}
+
+TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
+  const std::string integrator = "semi-implicit-euler";
+  World whole(touching_surfaces(), {.integrator = integrator});
+  whole.step();
   EXPECT_EQ(whole.profile().seconds, whole.frame_time());
+  ASSERT_GT(whole.profile().substeps, 8);
+  const auto candidates = double(whole.dynamics().surface_contact().search().features().size());
+  ASSERT_GT(candidates, 0);
+  // They are found once, and looked at in one substep after the other; four are taken at a time.
+  for (const double rounds : {0.0, 5.0, 5.5, 9.0}) {
+    World world(touching_surfaces(), {.integrator = integrator, .max_candidates = {.in_frame = rounds * candidates}});
+    world.step();
+    EXPECT_EQ(world.profile().substeps, rounds <= 5 ? 4 : 8) << rounds;
+    EXPECT_NEAR(world.profile().seconds / world.frame_time(),
+                double(world.profile().substeps) / whole.profile().substeps, 0.05);
+  }
+  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_candidates = {.in_frame = 0}});
+  fixed.step();
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
-  EXPECT_LT(few.profile().substeps, whole.profile().substeps);
-  EXPECT_LT(few.profile().seconds, few.frame_time());
-  EXPECT_GT(few.profile().seconds, 0);
+}
+
+/// Those that were found before belong to another moment: nothing may look at them.
+TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
+  const auto candidates = [](const World& world) {
+    return double(world.dynamics().surface_contact().search().features().size());
+  };
+  World touching(touching_surfaces(), {});
+  touching.step();
+  World world(touching_surfaces(), {.max_candidates = {.at_once = 1.5 * candidates(touching)}});
+  world.step();
+  EXPECT_EQ(candidates(world), candidates(touching));
+  std::vector<Particle> near = particles_of(world, 1);
+  for (Particle& p : near) p.position.x -= 0.3;
+  world.set_particles(1, near);
+  EXPECT_THROW(world.step(), std::length_error);
+  const Snapshot then = world.snapshot();
+  EXPECT_THROW(world.step(), std::length_error);
+  world.restore(then);
+  EXPECT_TRUE(measure(world).finite);
+  for (Particle& p : near) p.position.x += 2;
+  world.set_particles(1, near);
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
 }
 
 /// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.

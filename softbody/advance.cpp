@@ -97,8 +97,14 @@ int Dynamics::substeps_within_bound(double h) const {
   return static_cast<int>(trusted);
 }
 
+/// Implicit steps are bound by their work, too: what one costs grows with what moves.
+int Dynamics::max_steps(const Integrator& integrator) const {
+  if (!integrator.implicit) return max_substeps;
+  return int(std::clamp(max_implicit_work / double(moving_particles_), 16.0, double(max_implicit_steps)));
+}
+
 void Dynamics::begin_frame(double seconds) {
-  found_ = 0;
+  found_ = candidates_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
@@ -110,11 +116,11 @@ void Dynamics::begin_frame(double seconds) {
     moving_.push_back(&b);
     prepare_solids(b, seconds);
   }
+  moving_particles_ = 0;
+  for (const Batch* b : moving_) moving_particles_ += b->particles() * std::size_t(b->used);
   if (asked_->automatic && !moving_.empty()) choose(seconds);
   resize_scratch();
-  std::size_t particles = 0;
-  for (const Batch* b : moving_) particles += b->particles() * std::size_t(b->used);
-  active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
+  active_threads_ = moving_particles_ >= least_shared_ ? workers_.threads() : 1;
   momenta_.clear();
   for (const ShieldPair& p : shield_.pairs) touch(p.body_a), touch(p.body_b);
   if (grab_) touch(grab_->body);
@@ -123,22 +129,22 @@ void Dynamics::begin_frame(double seconds) {
 Advance Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
   begin_frame(seconds);
   if (moving_.empty()) return {0, seconds};
-  Frame frame{seconds, seconds};
+  Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  const int most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : max_substeps;
-  const double most_candidates = most_candidates_ * std::max(1.0, double(x_[0].size()) / 1e4);
-  while (frame.left > 0 && frame.substeps < most && (frame.fixed || frame.candidates < most_candidates))
-    advance_some(frame, most - frame.substeps, after_substep);
+  const int most = frame.fixed ? frame.fixed : max_steps(*integrator_);
+  const double candidates =
+      max_candidates_.in_frame * std::max(1.0, double(x_[0].size()) / MaxCandidates::frame_particles);
+  do take_substeps(frame, most - frame.substeps, after_substep);
+  while (frame.left > 0 && frame.substeps < most && (frame.fixed || candidates_ < candidates));
   keep_momenta(seconds - frame.left);
   return {frame.substeps, seconds - frame.left};
 }
 
 /// As many substeps, `most` at most, as what bounds them may be trusted for.
-void Dynamics::advance_some(Frame& frame, int most, const std::function<void()>& after_substep) {
+void Dynamics::take_substeps(Progress& frame, int most, const std::function<void()>& after_substep) {
   const int stable = frame.fixed ? most : needed_substeps(frame.left);
-  bool found = false;
   if (has_surface_) {
-    found = find_surface_contacts(frame.left, frame.left / stable);
+    find_surface_contacts(frame.left, frame.left / stable, frame.left / stable);
     for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
   }
   const int count = frame.fixed ? stable : substeps_left(frame, stable);
@@ -161,11 +167,11 @@ void Dynamics::advance_some(Frame& frame, int most, const std::function<void()>&
   if (now > done) go_on(now - done);
   frame.left = now == count ? 0 : frame.left - now * h;
   frame.substeps += now;
-  if (!surface_.empty()) frame.candidates += double(surface_.search().features().size()) * (now + found);
+  if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * now;
 }
 
 /// For what is left of a frame: those that are stable, or as many as the candidates of surface contact ask for.
-int Dynamics::substeps_left(const Frame& frame, int stable) const {
+int Dynamics::substeps_left(const Progress& frame, int stable) const {
   const double left = frame.left;
   int count = std::max(stable, int(std::min(most_substeps, std::ceil(left * surface_.rate()))));
   if (count >= most_substeps) count = 1;  // the sooner its frame ends, the sooner it is seen
