@@ -91,8 +91,8 @@ struct SeenContacts {
   const std::vector<collide::Contact>& contacts;
 };
 
-/// Of surface contact, in a world of `particles`; smaller ones may have as many, larger ones more in proportion. Scenes
-/// as they are shipped have at most a twentieth of the first, a four hundredth of the second.
+/// Of surface contact, in a world of so many particles; smaller ones may have as many, larger ones more in proportion.
+/// Scenes as they are shipped have at most a twentieth of the first, a four hundredth of the second.
 struct MaxCandidates {
   double in_frame = 2e7;  // counted anew in each substep that they are looked at, and each time that they are found
   double at_once = double(1 << 24);  // 1.5 GiB
