@@ -11,8 +11,9 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e9;  // a state that asks for more is lost
-constexpr int many_substeps = 64;      // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
+constexpr double most_substeps = 1e9;   // a state that asks for more is lost
+constexpr double many_particles = 1e4;  // in worlds of more a frame may be more work, in proportion
+constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 }  // namespace
 
@@ -97,14 +98,8 @@ int Dynamics::substeps_within_bound(double h) const {
   return static_cast<int>(trusted);
 }
 
-/// Implicit steps are bound by their work, too: what one costs grows with what moves.
-int Dynamics::max_steps(const Integrator& integrator) const {
-  if (!integrator.implicit) return max_substeps;
-  return int(std::clamp(max_implicit_work / double(moving_particles_), 16.0, double(max_implicit_steps)));
-}
-
 void Dynamics::begin_frame(double seconds) {
-  found_ = candidates_ = 0;
+  found_ = candidates_ = implicit_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
@@ -116,11 +111,11 @@ void Dynamics::begin_frame(double seconds) {
     moving_.push_back(&b);
     prepare_solids(b, seconds);
   }
-  moving_particles_ = 0;
-  for (const Batch* b : moving_) moving_particles_ += b->particles() * std::size_t(b->used);
   if (asked_->automatic && !moving_.empty()) choose(seconds);
   resize_scratch();
-  active_threads_ = moving_particles_ >= least_shared_ ? workers_.threads() : 1;
+  std::size_t particles = 0;
+  for (const Batch* b : moving_) particles += b->particles() * std::size_t(b->used);
+  active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
   momenta_.clear();
   for (const ShieldPair& p : shield_.pairs) touch(p.body_a), touch(p.body_b);
   if (grab_) touch(grab_->body);
@@ -131,18 +126,23 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (moving_.empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  const int most = frame.fixed ? frame.fixed : max_steps(*integrator_);
-  const double candidates =
-      max_candidates_.in_frame * std::max(1.0, double(x_[0].size()) / MaxCandidates::frame_particles);
-  do take_substeps(frame, most - frame.substeps, after_substep);
-  while (frame.left > 0 && frame.substeps < most && (frame.fixed || candidates_ < candidates));
+  frame.most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : max_substeps;
+  do take_substeps(frame, after_substep);
+  while (frame.left > 0 && !spent(frame));
   keep_momenta(seconds - frame.left);
   return {frame.substeps, seconds - frame.left};
 }
 
-/// As many substeps, `most` at most, as what bounds them may be trusted for.
-void Dynamics::take_substeps(Progress& frame, int most, const std::function<void()>& after_substep) {
-  const int stable = frame.fixed ? most : needed_substeps(frame.left);
+/// Whether a frame has had as many substeps, or as much work, as it may.
+bool Dynamics::spent(const Progress& frame) const {
+  if (frame.substeps >= frame.most) return true;
+  const double share = std::max(1.0, double(x_[0].size()) / many_particles);
+  return !frame.fixed && (candidates_ >= share * max_work_.candidates || implicit_ >= share * max_work_.implicit);
+}
+
+/// As many substeps as what bounds them may be trusted for.
+void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after_substep) {
+  const int most = frame.most - frame.substeps, stable = frame.fixed ? most : needed_substeps(frame.left);
   if (has_surface_) {
     find_surface_contacts(frame.left, frame.left / stable, frame.left / stable);
     for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
@@ -168,6 +168,9 @@ void Dynamics::take_substeps(Progress& frame, int most, const std::function<void
   frame.left = now == count ? 0 : frame.left - now * h;
   frame.substeps += now;
   if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * now;
+  for (auto& of_thread : implicit_work_)
+    for (auto& [prototype, work] : of_thread)
+      implicit_ += double(work.solver.take_iterations() * prototype->mesh.vertices.size());
 }
 
 /// For what is left of a frame: those that are stable, or as many as the candidates of surface contact ask for.

@@ -35,7 +35,7 @@ void Dynamics::choose(double seconds) {
   const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * b.fewest) : most;
   const double needed = std::max(seconds / b.step, seconds * b.deforming);
   const bool cheaper = needed <= (fixed_substeps_ ? double(*fixed_substeps_) : worth) ||
-                       (!fixed_substeps_ && b.fewest > max_steps(*find_integrator("implicit")) && needed <= max_substeps);
+                       (!fixed_substeps_ && b.fewest > max_implicit_steps && needed <= max_substeps);
   const double rest = std::max(1e-3, 0.2 * scene_.sleep.speed);  // m/s
   if (cheaper && tremble(b.step) <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";

@@ -91,12 +91,13 @@ struct SeenContacts {
   const std::vector<collide::Contact>& contacts;
 };
 
-/// Of surface contact, in a world of so many particles; smaller ones may have as many, larger ones more in proportion.
-/// Scenes as they are shipped have at most a twentieth of the first, a four hundredth of the second.
-struct MaxCandidates {
-  double in_frame = 2e7;  // counted anew in each substep that they are looked at, and each time that they are found
-  double at_once = double(1 << 24);  // 1.5 GiB
-  static constexpr double frame_particles = 1e4, once_particles = double(1 << 18);
+/// What a frame may be at most, in a world of 10,000 particles; in larger ones more in proportion. Fixed substeps are
+/// bound by at_once only. Scenes as they are shipped have at most a twentieth of the candidates.
+struct MaxWork {
+  double candidates = 2e7;  // of surface contact, counted anew in each substep, and each time that they are found
+  double implicit = 4e6;    // iterations of the implicit solver, times the particles of a body
+  double at_once = double(1 << 24);  // candidates, 1.5 GiB; more in proportion in a world of many_particles
+  static constexpr double many_particles = double(1 << 18);
 };
 
 /// What a frame came to.
@@ -109,7 +110,6 @@ class Dynamics {
  public:
   // A frame, unless they are fixed:
   static constexpr int max_substeps = 4000, max_implicit_steps = 1024;
-  static constexpr double max_implicit_work = 1e6;  // implicit steps times moving particles, but for 16 of them
   static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
 
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
@@ -136,7 +136,7 @@ class Dynamics {
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_least_shared(std::size_t count) { least_shared_ = count; }
-  void set_max_candidates(const MaxCandidates& max) { max_candidates_ = max; }
+  void set_max_work(const MaxWork& max) { max_work_ = max; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
   /// One a vertex, finite. The body's origin goes to their middle.
@@ -152,10 +152,9 @@ class Dynamics {
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or with as many candidates of
-  /// surface contact: unless substeps are fixed, their bound is worked out anew as bodies move, and those that are
-  /// crushed may ask for any number, and be full of candidates. after_substep: called by one thread while the others
-  /// wait.
+  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work: unless substeps
+  /// are fixed, their bound is worked out anew as bodies move, and those that are crushed may ask for any number, and
+  /// be full of candidates. after_substep: called by one thread while the others wait.
   Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
@@ -270,10 +269,11 @@ class Dynamics {
     double seconds, left;
     int substeps = 0;
     int fixed = 0;  // substeps that it is to take; 0: as many as are needed
+    int most = 0;   // that there may be
   };
   void begin_frame(double seconds);
-  int max_steps(const Integrator& integrator) const;
-  void take_substeps(Progress& frame, int most, const std::function<void()>& after_substep);
+  bool spent(const Progress& frame) const;
+  void take_substeps(Progress& frame, const std::function<void()>& after_substep);
   int substeps_left(const Progress& frame, int stable) const;
   int substeps_within_bound(double h) const;
   int needed_substeps(double seconds) const;
@@ -350,9 +350,8 @@ class Dynamics {
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   std::size_t least_shared_ = 0;
-  MaxCandidates max_candidates_;
-  double candidates_ = 0;             // of the frame at hand, as max_candidates_ counts them
-  std::size_t moving_particles_ = 0;  // of moving_
+  MaxWork max_work_;
+  double candidates_ = 0, implicit_ = 0;  // of the frame at hand, as max_work_ counts them
   int active_threads_ = 1;
 };
 

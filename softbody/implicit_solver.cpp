@@ -224,7 +224,6 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
 
 const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   remembered_ = 0;
-  iterations_ = 0;
   predict(p);
   if (p.matrix.turns()) fit_rotation(p);
   if (!p.prototype.goal.empty()) place_goal(p);

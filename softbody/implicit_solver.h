@@ -18,6 +18,7 @@
 #include <array>
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "softbody/implicit_matrix.h"
 #include "softbody/kernels.h"
@@ -68,7 +69,8 @@ class ImplicitSolver {
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
   bool converged(int lane) const { return converged_[std::size_t(lane)]; }
-  int iterations() const { return iterations_; }  // of the last solve
+  /// Since it was last asked, of all lanes at once.
+  std::size_t take_iterations() { return std::exchange(iterations_, 0); }
 
  private:
   using PerLane = std::array<double, lanes>;
@@ -114,7 +116,7 @@ class ImplicitSolver {
   bool contact_springs_ = false;        // while they lead
   std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
   std::array<bool, lanes> converged_{};
-  int iterations_ = 0;
+  std::size_t iterations_ = 0;
 };
 
 /// What a thread solves the batches of one prototype with.

@@ -44,7 +44,7 @@ World::State::State(Scene s, const Options& o)
       default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
   dynamics.set_least_shared(options.least_shared);
-  dynamics.set_max_candidates(options.max_candidates);
+  dynamics.set_max_work(options.max_work);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
   set_integrator();

@@ -39,7 +39,7 @@ class World {
     Isa isa = best_isa();
     /// Particles of moving bodies; threads share no fewer: one has moved them before the others have woken up.
     std::size_t least_shared = 20'000;
-    MaxCandidates max_candidates{};
+    MaxWork max_work{};
   };
   static constexpr int max_substeps = Dynamics::max_substeps;  // a frame
 

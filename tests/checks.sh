@@ -6,7 +6,7 @@
 #   asan       address and undefined-behaviour sanitizers, all tests
 #   tsan       thread sanitizer, all tests
 #   coverage   lines of collide/ and softbody/ that their tests run: at least 95 %, what is missing by file and line
-#   soak       ten simulated minutes of every scene, changed at random every second; a bounded one is among the tests of
+#   soak       ten minutes of every scene, changed at random every simulated second; a bounded one is among the tests of
 #              every preset with graphics, those with sanitizers included
 #   fuzz       five minutes of every fuzz target
 set -euo pipefail

@@ -25,8 +25,8 @@ constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
 constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
-constexpr int most_implicit_seconds = 3;     // on end: each step of soft bodies in heaps takes up to a second
 constexpr int many_substeps = 20'000;        // in a second: then it ends, and the scene begins anew, or all takes days
+constexpr int implicit_substeps = 150;       // that an implicit step counts for
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
 // What a frame may cost: in counted work, and where nothing counts it in processor time, far above what frames take.
@@ -51,7 +51,9 @@ class Soak {
       for (int i = 0; i < frames_a_second && substeps < many_substeps; ++i) {
         const int before = demo_.session.world().frame();
         frame(i % picture_every == 0);
-        if (demo_.session.world().frame() > before) substeps += demo_.session.world().profile().substeps;
+        const softbody::World& world = demo_.session.world();
+        if (world.frame() > before)
+          substeps += world.profile().substeps * (world.dynamics().used_integrator().implicit ? implicit_substeps : 1);
       }
       if (substeps >= many_substeps) {
         ++impatient_;
@@ -92,9 +94,6 @@ class Soak {
     demo_.input.wheel = 0;
     action.act(demo_, dice_);
     if (demo_.session.world().bodies().count() > bodies_ + many_more_bodies || dice_.pick(100) == 0) begin(scene);
-    implicit_seconds_ = demo_.session.world().integrator().implicit ? implicit_seconds_ + 1 : 0;
-    if (implicit_seconds_ > most_implicit_seconds)
-      demo_.session.set_integrator(softbody::default_integrator, std::nullopt);
     demo_.session.paused = false;
     demo_.ui.quit = false;
   }
@@ -160,7 +159,7 @@ class Soak {
   Dice dice_{""};
   std::string last_ = "nothing";
   collide::Index bodies_ = 0;  // of the scene as it begins
-  int substeps_ = 0, explosions_ = 0, implicit_seconds_ = 0, impatient_ = 0;
+  int substeps_ = 0, explosions_ = 0, impatient_ = 0;
   std::uint64_t frames_ = 0, pair_tests_ = 0;
   double slowest_ = 0;  // s of processor time
 };

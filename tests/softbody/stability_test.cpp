@@ -239,6 +239,23 @@ TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
 }
 
+TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
+  Scene scene = lone_body(spring_ball());
+  scene.ground.emplace();
+  const auto step = [&](double work, std::optional<int> substeps) {
+    World world(scene, {.integrator = "implicit", .substeps = substeps, .max_work = {.implicit = work}});
+    place(world, glm::dvec3(1.0), 500);
+    world.step();
+    return world.profile();
+  };
+  const Profile whole = step(1e9, {}), part = step(1e4, {});
+  ASSERT_GT(whole.substeps, 32);
+  EXPECT_EQ(whole.seconds, 1.0 / 60);
+  EXPECT_LE(part.substeps, 16);
+  EXPECT_LT(part.seconds, whole.seconds);
+  EXPECT_EQ(step(1e4, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
+}
+
 TEST(Substeps, ThatAreImplicitAreFewer) {
   Scene scene = lone_body(spring_ball());
   scene.bodies[0].mesh.subdivisions = 0;
@@ -270,13 +287,13 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
   ASSERT_GT(candidates, 0);
   // They are found once, and looked at in one substep after the other; four are taken at a time.
   for (const double rounds : {0.0, 5.0, 5.5, 9.0}) {
-    World world(touching_surfaces(), {.integrator = integrator, .max_candidates = {.in_frame = rounds * candidates}});
+    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.candidates = rounds * candidates}});
     world.step();
     EXPECT_EQ(world.profile().substeps, rounds <= 5 ? 4 : 8) << rounds;
     EXPECT_NEAR(world.profile().seconds / world.frame_time(),
                 double(world.profile().substeps) / whole.profile().substeps, 0.05);
   }
-  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_candidates = {.in_frame = 0}});
+  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.candidates = 0}});
   fixed.step();
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
 }
@@ -288,7 +305,7 @@ TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   };
   World touching(touching_surfaces(), {});
   touching.step();
-  World world(touching_surfaces(), {.max_candidates = {.at_once = 1.5 * candidates(touching)}});
+  World world(touching_surfaces(), {.max_work = {.at_once = 1.5 * candidates(touching)}});
   world.step();
   EXPECT_EQ(candidates(world), candidates(touching));
   std::vector<Particle> near = particles_of(world, 1);
