@@ -188,5 +188,23 @@ TEST(GasLaw, EnergyIsThePotentialOfThePressureOnBothSides) {
   EXPECT_NEAR(gas.energy(0.05 - 1e-12), gas.energy(0.05 + 1e-12), 1e-4) << "no jump at the turn";
 }
 
+/// With nothing inside there is no volume at which what is around would let it rest but none.
+TEST(Gas, ABodyWithoutAnyFallsFlatAndIsNotBlownUp) {
+  Material m = gas_ball();
+  m.gas_pressure = 0;
+  m.ambient_pressure = 101325;
+  m.start_in_equilibrium = false;
+  World world(lone_body(m), {});
+  const double energy = measure(world).energy;
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    const Measures now = measure(world);
+    ASSERT_TRUE(now.finite) << frame;
+    ASSERT_LT(now.energy, energy * (energy > 0 ? 1.01 : 0.99)) << frame;
+    ASSERT_GT(now.volume_ratio_min, -0.5) << frame;
+  }
+  EXPECT_LT(std::abs(measure(world).volume_ratio_min), 0.1);
+}
+
 }  // namespace
 }  // namespace softbody::test

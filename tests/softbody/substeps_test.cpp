@@ -1,0 +1,253 @@
+// A frame's substeps: as many as the bound asks for as bodies change, and no more than there may be.
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/snapshot.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(Substeps, AreThoseOfTheBodyThatNeedsMost) {
+  Scene scene = lone_body(gas_ball());
+  for (int i = 1; i < 3; ++i) {
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies[std::size_t(i)].position.x += 5 * i;
+  }
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  for (const double size : {1.0, 0.6}) {  // of the second body
+    double most = 0;
+    for (BodyId body = 0; body < 3; ++body) {
+      std::vector<Particle> particles;
+      std::vector<glm::dvec3> x;
+      for (Index v = 0; v < world.prototype(body).mesh.vertices.size(); ++v) {
+        particles.push_back(world.dynamics().particle(body, v));
+        if (body == 1)
+          particles.back().position = world.body(1).origin + size * (particles.back().position - world.body(1).origin);
+        x.push_back(particles.back().position);
+      }
+      world.set_particles(body, particles);
+      const Prototype& p = world.prototype(body);
+      const double step = world.integrator().stable_step(stiffness_per_mass(p, measure_surface(p, x)),
+                                                         p.spring_damping_bound / p.particle_mass);
+      most = std::max(most, world.frame_time() / step);
+    }
+    EXPECT_NEAR(world.dynamics().substeps(100 * world.frame_time()), 100 * most, 1) << size;
+  }
+}
+
+TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
+  for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
+    Scene scene = lone_body(gas_ball(), {0, -speed, 0});
+    scene.bodies[0].position = {0, 1, 0};
+    scene.ground.emplace();
+    World world(scene, {});
+    const double energy = measure(world).energy;
+    for (int frame = 0; frame < 60; ++frame) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite) << speed << " m/s, frame " << frame;
+      EXPECT_LT(m.energy, energy + 1e-3 * speed * speed) << speed << " m/s, frame " << frame;
+      EXPECT_LT(m.max_speed, 3 * speed) << speed << " m/s, frame " << frame;
+    }
+  }
+}
+
+/// The body in its starting shape, so many times as large along each axis, with velocities in proportion.
+void place(World& world, const glm::dvec3& scale, double rate = 0) {
+  std::vector<Particle> particles;
+  for (const glm::dvec3& x : world.prototype(0).start) particles.push_back({scale * x, rate * x});
+  world.set_particles(0, particles);
+}
+
+/// At rest, but far from its balance: no speed tells yet how soon it will have another shape, and another bound. Then
+/// it is fast: a step by the bound of its present shape would lead right through its own far side.
+TEST(Substeps, FollowABodyThatSnapsBack) {
+  for (const double stretch : {2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
+    for (const double stiffness : {1e1, 1e2, 1e3, 1e4})
+      for (const double frame_time : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
+        Material m = gas_ball();
+        m.structural = {stiffness, 0.1};
+        m.bend = {stiffness / 4, 0.1};
+        m.gas_pressure = 1.6 * stiffness;
+        m.ambient_pressure = 0;
+        World world(lone_body(m), {.frame_time = frame_time});
+        place(world, {stretch, 1, 1});
+        const double most = 1.05 * measure(world).energy;
+        for (int frame = 0; frame < 30; ++frame) {
+          world.step();
+          ASSERT_LE(measure(world).energy, most)
+              << stretch << " times, " << stiffness << " N/m, frame " << frame << " of " << frame_time << " s";
+        }
+      }
+}
+
+/// A body that bursts like this cannot be saved any more; a frame of a million substeps would but hide that.
+TEST(Substeps, OfALostFrameAreFew) {
+  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  place(world, glm::dvec3(1.0), 1e12);
+  world.step();
+  EXPECT_LT(world.profile().substeps, 100);
+}
+
+TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
+  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  place(world, glm::dvec3(1.0), 1e6);
+  for (int frame = 0; frame < 3; ++frame) {
+    world.step();
+    EXPECT_EQ(world.profile().substeps, World::max_substeps);
+    EXPECT_GT(world.profile().seconds, 0);
+    EXPECT_LT(world.profile().seconds, world.frame_time());
+    EXPECT_TRUE(measure(world).finite);
+  }
+  World fixed(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .substeps = World::max_substeps + 1});
+  fixed.step();
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+}
+
+TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
+  Scene scene = lone_body(spring_ball());
+  scene.ground.emplace();
+  const auto step = [&](double work, std::optional<int> substeps) {
+    World world(scene, {.integrator = "implicit", .substeps = substeps, .max_work = {.implicit = work}});
+    place(world, glm::dvec3(1.0), 500);
+    world.step();
+    return world.profile();
+  };
+  const Profile whole = step(1e9, {}), part = step(1e4, {});
+  ASSERT_GT(whole.substeps, 32);
+  EXPECT_EQ(whole.seconds, 1.0 / 60);
+  EXPECT_LE(part.substeps, 16);
+  EXPECT_LT(part.seconds, whole.seconds);
+  EXPECT_EQ(step(1e4, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
+}
+
+TEST(Substeps, ThatAreImplicitAreFewer) {
+  Scene scene = lone_body(spring_ball());
+  scene.bodies[0].mesh.subdivisions = 0;
+  scene.ground.emplace();
+  World world(scene, {.integrator = "implicit"});
+  place(world, glm::dvec3(1.0), 1e5);
+  world.step();
+  EXPECT_EQ(world.profile().substeps, Dynamics::max_implicit_steps);
+  EXPECT_GT(world.profile().seconds, 0);
+  EXPECT_LT(world.profile().seconds, world.frame_time());
+  EXPECT_EQ(world.time(), world.profile().seconds);
+}
+
+/// Two bodies side by side in contact of their surfaces.
+Scene touching_surfaces() {
+  Scene scene = lone_body(gas_ball());
+  add_body(scene, {0.99, 0, 0}, {});
+  scene.contact_surface = ContactSurface::surfaces;
+  return scene;
+}
+
+TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
+  const std::string integrator = "semi-implicit-euler";
+  World whole(touching_surfaces(), {.integrator = integrator});
+  whole.step();
+  EXPECT_EQ(whole.profile().seconds, whole.frame_time());
+  ASSERT_GT(whole.profile().substeps, 8);
+  const auto candidates = double(whole.dynamics().surface_contact().search().features().size());
+  ASSERT_GT(candidates, 0);
+  // They are found once, and looked at in one substep after the other; four are taken at a time.
+  for (const double rounds : {0.0, 5.0, 5.5, 9.0}) {
+    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.candidates = rounds * candidates}});
+    world.step();
+    EXPECT_EQ(world.profile().substeps, rounds <= 5 ? 4 : 8) << rounds;
+    EXPECT_NEAR(world.profile().seconds / world.frame_time(),
+                double(world.profile().substeps) / whole.profile().substeps, 0.05);
+  }
+  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.candidates = 0}});
+  fixed.step();
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
+}
+
+/// Those that were found before belong to another moment: nothing may look at them.
+TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
+  const auto candidates = [](const World& world) {
+    return double(world.dynamics().surface_contact().search().features().size());
+  };
+  World touching(touching_surfaces(), {});
+  touching.step();
+  World world(touching_surfaces(), {.max_work = {.at_once = 1.5 * candidates(touching)}});
+  world.step();
+  EXPECT_EQ(candidates(world), candidates(touching));
+  std::vector<Particle> near = particles_of(world, 1);
+  for (Particle& p : near) p.position.x -= 0.3;
+  world.set_particles(1, near);
+  EXPECT_THROW(world.step(), std::length_error);
+  const Snapshot then = world.snapshot();
+  EXPECT_THROW(world.step(), std::length_error);
+  world.restore(then);
+  EXPECT_TRUE(measure(world).finite);
+  for (Particle& p : near) p.position.x += 2;
+  world.set_particles(1, near);
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+}
+
+/// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.
+TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
+  Scene scene = lone_body(gas_ball());
+  scene.sleep = {.speed = 0.05};
+  add_body(scene, {5, 0, 0}, {});
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  for (int frame = 0; frame < 40; ++frame) {
+    place(world, glm::dvec3(1.0), 1e6);
+    world.step();
+    ASSERT_LT(world.profile().seconds, world.frame_time());
+    ASSERT_FALSE(world.body(1).asleep) << frame;
+  }
+}
+
+TEST(Substeps, FollowTheBound) {
+  Scene scene = lone_body(spring_ball());
+  for (const double stiffness : {10.0, 300.0, 30000.0}) {
+    scene.materials[0].structural.stiffness = stiffness;
+    World world(scene, {});
+    const Prototype& p = world.prototype(0);
+    world.step();
+    const double h = stable_step(p.spring_stiffness_bound / p.particle_mass, p.spring_damping_bound / p.particle_mass);
+    EXPECT_EQ(world.profile().substeps, int(std::ceil(1.0 / 60 / h)));
+  }
+}
+
+TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials[0].structural.stiffness = 1e9;
+  try {
+    World world(scene, {.integrator = "semi-implicit-euler"});
+    FAIL() << "took it";
+  } catch (const SceneError& e) {
+    EXPECT_NE(std::string(e.what()).find("'springs'"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("4000"), std::string::npos) << e.what();
+  }
+}
+
+/// A hard throw against a solid: however it deforms, the step that was chosen has to carry it.
+TEST(Substeps, KeepABodyThatIsCrushedInOnePiece) {
+  for (const double speed : {3.0, 10.0, 30.0}) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(0, -speed, 0));
+    scene.bodies[0].position = {0, 1, 0};
+    scene.ground = Ground{};
+    World world(scene, {});
+    const double before = measure(world).energy, kinetic = 0.5 * speed * speed;
+    for (int i = 0; i < 120; ++i) {
+      world.step();
+      const Measures m = measure(world);
+      ASSERT_TRUE(m.finite) << "frame " << i;
+      ASSERT_LT(m.max_speed, 3 * speed);
+      ASSERT_LT(m.energy, before + 0.1 * kinetic) << "frame " << i << " at " << speed << " m/s";
+    }
+    EXPECT_GT(measure(world).volume_ratio_min, 0.9);
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
