@@ -109,7 +109,7 @@ void SurfaceSearch::search(const Motion& motion, float least, Workers& workers) 
     boxed_[b] = true;
   });
   std::swap(now_, before_);
-  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear();
+  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear(), t.found.clear();
   in_parts(near_.size(), [&](Thread& own, std::size_t i) { find_candidates(own, near_[i]); });
   gather();
 }
