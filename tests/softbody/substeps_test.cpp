@@ -168,6 +168,21 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
 }
 
+/// In none of them do surfaces pass each other by more than 0.15 edges.
+TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
+  constexpr double speed = 100;  // m/s, towards each other
+  Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
+  add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});
+  scene.contact_surface = ContactSurface::surfaces;
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  world.step();
+  EXPECT_GE(world.profile().substeps, speed * world.frame_time() / (0.15 * world.prototype(0).mean_edge));
+  scene.contact_surface = ContactSurface::vertices;
+  World without(scene, {.integrator = "semi-implicit-euler"});
+  without.step();
+  EXPECT_LT(without.profile().substeps, world.profile().substeps / 2);
+}
+
 /// Those that were found before belong to another moment: nothing may look at them.
 TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   const auto candidates = [](const World& world) {
