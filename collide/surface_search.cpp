@@ -65,7 +65,7 @@ bool SurfaceSearch::holds(const Frame& now, float elapsed, float ahead) {
 void SurfaceSearch::require_few(std::size_t features) const {
   if (features > query_.most_features)
     throw std::length_error("more than " + std::to_string(query_.most_features) +
-                            " surface features are near each other");
+                            " pairs of surface features are near each other: take bodies apart, or away");
 }
 
 void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodies, const SurfaceQuery& query,
