@@ -153,7 +153,9 @@ void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, co
     const glm::vec3 corner = glm::max(box.lo, b.box(k).lo);
     if (corner.x >= from.x && corner.y >= from.y && corner.z >= from.z) pairs_->push_back({a.item[i], b.item[k]});
   });
-  if (pairs_->size() > most_) throw std::length_error("more than " + std::to_string(most_) + " boxes of bodies overlap: take them apart, or away");
+  if (pairs_->size() > most_)
+    throw std::length_error("more than " + std::to_string(most_) +
+                            " boxes of bodies overlap: take them apart, or away");
 }
 
 BoxPairs::Level& BoxPairs::level(std::size_t depth) {
