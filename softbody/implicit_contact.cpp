@@ -1,9 +1,11 @@
 // ImplicitSolver: the forces between particles and solids.
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
@@ -26,12 +28,18 @@ struct Active {
   glm::dvec3 search{0.0};  // N
 };
 
-/// The forces between some particles of one body and their planes, by projected Gauss-Seidel.
+/// The forces between some particles of one body and their planes, by projected Gauss-Seidel. Most of its time is
+/// add().
 class ForceSweeps {
  public:
-  /// compliance: m/N, of i to a force on j at i * n + j.
-  ForceSweeps(std::vector<Active>& active, std::vector<glm::dmat3> compliance)
-      : active_(active), compliance_(std::move(compliance)) {}
+  explicit ForceSweeps(std::vector<Active>& active) : active_(active), n_(active.size()), compliance_(9 * n_ * n_) {
+    for (std::size_t k = 0; k < 3; ++k)
+      for (const Active& a : active) moved_[k].push_back(a.moved[int(k)]);
+  }
+  /// m/N: of contact j to a force on contact i.
+  void set_compliance(std::size_t i, std::size_t j, const glm::dmat3& block) {
+    for (std::size_t k = 0; k < 9; ++k) compliance_[(9 * i + k) * n_ + j] = block[int(k / 3)][int(k % 3)];
+  }
 
   struct Moved {
     double most, last;  // m: how far a force's change has moved its particle, in any sweep and in the last one
@@ -65,15 +73,16 @@ class ForceSweeps {
     for (std::size_t i = 0; i < active_.size(); ++i) {
       Active& a = active_[i];
       const PlaneContact& c = *a.contact;
-      const glm::dmat3& own = compliance_[i * active_.size() + i];
-      const double gives = glm::dot(c.normal, own * c.normal), along = glm::dot(a.moved, c.normal);
+      const glm::dmat3 own = own_compliance(i);
+      const glm::dvec3 moved(moved_[0][i], moved_[1][i], moved_[2][i]);
+      const double gives = glm::dot(c.normal, own * c.normal), along = glm::dot(moved, c.normal);
       const double before = glm::dot(c.force, c.normal), press = std::max(0.0, before + (c.need - along) / gives);
       // Across, the mean of the two other principal compliances.
       const double gives_across = 0.5 * (own[0][0] + own[1][1] + own[2][2] - gives);
-      glm::dvec3 drag = c.force - before * c.normal - (a.moved - along * c.normal) / gives_across;
+      glm::dvec3 drag = c.force - before * c.normal - (moved - along * c.normal) / gives_across;
       if (const double size = glm::length(drag), limit = c.friction * press; size > limit) drag *= limit / size;
       a.change = press * c.normal + drag - c.force;
-      add(i, a.change);
+      if (a.change != glm::dvec3(0.0)) add(i, a.change);
       most = std::max(most, glm::length(own * a.change));
     }
     return most;
@@ -89,13 +98,25 @@ class ForceSweeps {
   }
 
   void add(std::size_t i, const glm::dvec3& force) {
-    const std::size_t n = active_.size();
     active_[i].contact->force += force;
-    for (std::size_t j = 0; j < n; ++j) active_[j].moved += compliance_[j * n + i] * force;
+    const double* columns = &compliance_[9 * i * n_];
+    for (std::size_t k = 0; k < 3; ++k) {
+      double* moved = moved_[k].data();
+      const double *x = columns + k * n_, *y = x + 3 * n_, *z = y + 3 * n_;
+      for (std::size_t j = 0; j < n_; ++j) moved[j] += x[j] * force.x + y[j] * force.y + z[j] * force.z;
+    }
+  }
+
+  glm::dmat3 own_compliance(std::size_t i) const {
+    glm::dmat3 block;
+    for (std::size_t k = 0; k < 9; ++k) block[int(k / 3)][int(k % 3)] = compliance_[(9 * i + k) * n_ + i];
+    return block;
   }
 
   std::vector<Active>& active_;
-  std::vector<glm::dmat3> compliance_;
+  std::size_t n_;
+  std::array<std::vector<double>, 3> moved_;  // m, in this step
+  std::vector<double> compliance_;            // of contact i: nine times n, so that add() runs along them
 };
 
 }  // namespace
@@ -208,14 +229,15 @@ double ImplicitSolver::press_lane(const ImplicitProblem& p, std::span<PlaneConta
   constexpr std::size_t most_active = 300;  // their compliances among one another grow with the square
   const double without = contact_springs_ ? 0 : none_found;
   if (n > most_active) return without;
-  std::vector<glm::dmat3> compliance(n * n);
+  ForceSweeps sweeps(active);
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      compliance[i * n + j] =
-          rotation * p.matrix.compliance(Index(active[i].contact->at / lanes), Index(active[j].contact->at / lanes)) *
-          back;
-  const auto [most, last] = ForceSweeps(active, std::move(compliance)).run(1e-9 * p.prototype.radius);
+      sweeps.set_compliance(
+          i, j,
+          rotation * p.matrix.compliance(Index(active[j].contact->at / lanes), Index(active[i].contact->at / lanes)) *
+              back);
+  const auto [most, last] = sweeps.run(1e-9 * p.prototype.radius);
   // While springs lead the matrix may say nothing of a body that is crushed: then those of contact_force() have to do.
   const bool trusted = contact_springs_ ? most <= p.prototype.radius : last <= held_within * p.prototype.radius;
   for (const Active& a : active) {
