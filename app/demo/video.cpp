@@ -197,9 +197,7 @@ class VideoWriter : public FrameWriter {
                                                                 part_.string()});
   }
 
-  [[noreturn]] void fail() {
-    throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words());
-  }
+  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words()); }
 
   fs::path file_, part_;
   int width_ = 0, height_ = 0;
