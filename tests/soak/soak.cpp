@@ -25,7 +25,7 @@ constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
 constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
-constexpr int many_substeps = 20'000;        // in a second: then it ends, and the scene begins anew, or all takes days
+constexpr int many_substeps = 20'000;        // in a second: then it ends, and the scene begins anew
 constexpr int implicit_substeps = 150;       // that an implicit step counts for
 constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
 
