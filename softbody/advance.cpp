@@ -169,8 +169,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
   frame.substeps += now;
   if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * now;
   for (auto& of_thread : implicit_work_)
-    for (auto& [prototype, work] : of_thread)
-      implicit_ += double(work.solver.take_iterations() * prototype->mesh.vertices.size());
+    for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
 }
 
 /// For what is left of a frame: those that are stable, or as many as the candidates of surface contact ask for.

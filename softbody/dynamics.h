@@ -95,7 +95,7 @@ struct SeenContacts {
 /// bound by at_once only. Scenes as they are shipped have at most a twentieth of the candidates.
 struct MaxWork {
   double candidates = 2e7;  // of surface contact, counted anew in each substep, and each time that they are found
-  double implicit = 4e6;    // iterations of the implicit solver, times the particles of a body
+  double implicit = 4e6;    // iterations of the implicit solver, times the particles of a body, and its sweeps
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; more in proportion in a world of many_particles
   static constexpr double many_particles = double(1 << 18);
 };

@@ -205,7 +205,7 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
   gradient(p, x_, gradient_);
   converged_.fill(false);
   for (int i = 0; i < iterations; ++i) {
-    ++iterations_;
+    work_ += double(particles_);
     direction(p);
     line_search(p);
     remember();

@@ -69,8 +69,8 @@ class ImplicitSolver {
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
   bool converged(int lane) const { return converged_[std::size_t(lane)]; }
-  /// Since it was last asked, of all lanes at once.
-  std::size_t take_iterations() { return std::exchange(iterations_, 0); }
+  /// Since it was last asked: iterations of all lanes at once, times particles, and what else took as long.
+  double take_work() { return std::exchange(work_, 0.0); }
 
  private:
   using PerLane = std::array<double, lanes>;
@@ -116,7 +116,8 @@ class ImplicitSolver {
   bool contact_springs_ = false;        // while they lead
   std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
   std::array<bool, lanes> converged_{};
-  std::size_t iterations_ = 0;
+  PerLane moves_left_{};  // by contacts, before they are given up
+  double work_ = 0;
 };
 
 /// What a thread solves the batches of one prototype with.
