@@ -96,6 +96,27 @@ TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
   EXPECT_TRUE(std::isfinite(glm::determinant(a.compliance(1, 1))));
 }
 
+/// Between planes that leave it no place there are no contact forces to be found.
+TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
+  const auto p = make_prototype({}, gas_ball());
+  const double h = 1.0 / 60, r = p->radius;
+  const ImplicitMatrix matrix(*p, h);
+  ImplicitWork work(*p, implicit_kernels(best_isa()));
+  work.moves[0] = 1;
+  const std::size_t n = p->mesh.vertices.size(), most_contacts = 300;
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 3; ++k) work.x[(k * n + i) * lanes] = matrix.shape()[i][int(k)];
+  for (std::size_t i = 0; i < std::min(n, most_contacts / 2); ++i)
+    for (const double side : {1.0, -1.0}) work.planes.push_back({i * lanes, 0.5, 0, {side, 0, 0}, r, r});
+  work.own_v.resize(work.x.size());
+  const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.own_v, &work.a, &work.carried,
+                                        &work.planes, &work.shields});
+  EXPECT_TRUE(std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); }));
+  const double rounds = 30 + 8, iterations = 12, sweeps = 2 * (4e6 + double(most_contacts * most_contacts));
+  EXPECT_LE(work.solver.take_work(), rounds * iterations * double(n) + sweeps / 256);
+  EXPECT_EQ(work.solver.take_work(), 0);
+}
+
 TEST(Implicit, StandsAnyStiffnessAtSixtyFramesASecond) {
   for (const double stiffness : {1e2, 1e4, 1e6, 1e8}) {
     World world(ball_above_ground(stiffness, 0.8), {.integrator = "implicit", .substeps = 1});
