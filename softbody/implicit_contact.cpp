@@ -21,7 +21,7 @@ constexpr double held_within = 1e-7;  // of the radius: forces hold where their 
 // Contacts moved by contacts, of one body in a step, for each of the two ways to find its forces: where they were found
 // in the cells of `report stability` it took 1e6 at most, and ten times that is wasted on those that cannot be.
 constexpr double most_moves = 4e6;
-constexpr double work_of_a_move = 1.0 / 256;  // of an iteration for one particle in all lanes: 5 ns to 0.7 us or more
+constexpr double work_of_a_move = 1.0 / 256;  // of an iteration for one particle in all lanes: 5 ns to 0.7 us
 
 /// A contact that presses or is passed.
 struct Active {
