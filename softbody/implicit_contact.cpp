@@ -18,8 +18,8 @@ namespace {
 
 constexpr double none_found = std::numeric_limits<double>::infinity();  // m, for moves by forces that hold nowhere
 constexpr double held_within = 1e-7;  // of the radius: forces hold where their changes move no particle further
-// Contacts moved by contacts, of one body in a step, for each of the two ways to find its forces: where they were found
-// in the cells of `report stability` it took 1e6 at most, and ten times that is wasted on those that cannot be.
+// Contacts moved by contacts, of one body in a solve, for each of the two ways to find its forces: those that were found
+// in `report stability --quick` took 1e6 at most, those that were not up to 3e7.
 constexpr double most_moves = 4e6;
 constexpr double work_of_a_move = 1.0 / 256;  // of an iteration for one particle in all lanes: 5 ns to 0.7 us
 

@@ -34,11 +34,11 @@ coverage() {
   step "coverage: build" build_for_coverage && step "coverage: tests" run_for_coverage && step "coverage" report_coverage
 }
 
-# A process for each scene, as many at once as there are processors.
+# A process for each scene, each of two threads: more at once than processors bear would wait for one another's.
 run_soak() {
   cd "$root/build/release"
   for scene in "$root"/assets/scenes/*.toml; do basename "$scene" .toml; done |
-    LP_NUM_THREADS=0 xargs --max-args=1 --max-procs="$(nproc)" bin/soak 600
+    LP_NUM_THREADS=0 xargs --max-args=1 --max-procs="$((($(nproc) + 1) / 2))" bin/soak 600
 }
 
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }
