@@ -18,8 +18,8 @@ namespace {
 
 constexpr double none_found = std::numeric_limits<double>::infinity();  // m, for moves by forces that hold nowhere
 constexpr double held_within = 1e-7;  // of the radius: forces hold where their changes move no particle further
-// Contacts moved by contacts, of one body in a solve, for each of the two ways to find its forces: those that were found
-// in `report stability --quick` took 1e6 at most, those that were not up to 3e7.
+// Contacts moved by contacts, of one body in a solve, for each of the two ways to find its forces: those that were
+// found in `report stability --quick` took 1e6 at most, those that were not up to 3e7.
 constexpr double most_moves = 4e6;
 constexpr double work_of_a_move = 1.0 / 256;  // of an iteration for one particle in all lanes: 5 ns to 0.7 us
 
@@ -49,9 +49,10 @@ class ForceSweeps {
     double most, last;  // m: how far a force's change has moved its particle, in any sweep and in the last one
   };
   /// Until no force's change moves its particle by more than `enough` m, or a window of sweeps does not halve these
-  /// moves, or more than `moves` contacts have been moved by contacts, which it counts down: there may be no such forces
-  /// where a crushed body is pressed together. As few particles of a stiff body move together, plain sweeps would hardly
-  /// converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and Erleben 2010).
+  /// moves, or more than `moves` contacts have been moved by contacts, which it counts down: there may be no such
+  /// forces where a crushed body is pressed together. As few particles of a stiff body move together, plain sweeps
+  /// would hardly converge: they are the gradient of a nonlinear conjugate gradient method (Silcowitz, Niebe and
+  /// Erleben 2010).
   Moved run(double enough, double& moves) {
     constexpr int most_sweeps = 600, window = 50;
     double most = 0, before = 0, sum = 0, sum_before = std::numeric_limits<double>::infinity();

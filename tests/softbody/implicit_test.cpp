@@ -109,8 +109,8 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
   for (std::size_t i = 0; i < std::min(n, most_contacts / 2); ++i)
     for (const double side : {1.0, -1.0}) work.planes.push_back({i * lanes, 0.5, 0, {side, 0, 0}, r, r});
   work.own_v.resize(work.x.size());
-  const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.own_v, &work.a, &work.carried,
-                                        &work.planes, &work.shields});
+  const Lanes& end = work.solver.solve(
+      {*p, matrix, h, work.moves.data(), &work.x, &work.own_v, &work.a, &work.carried, &work.planes, &work.shields});
   EXPECT_TRUE(std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); }));
   const double iterations = (30 + 8) * 12, sweeps = 2 * 4e6 / 256;
   const double done = work.solver.take_work(), last_sweeps = 2 * double(most_contacts * most_contacts) / 256;
