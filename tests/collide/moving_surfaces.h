@@ -50,4 +50,23 @@ struct Found {
   }
 };
 
+/// Five bodies close to each other, round, dented and flat, some of which stand; they fly, turn, and are strained.
+inline Moving swarm(std::mt19937& random, float speed, float reach, float slack) {
+  Moving m;
+  for (Index body = 0; body < 5; ++body) {
+    SurfaceMesh mesh = body == 3 ? sheet(6, 1.5f) : body == 4 ? box(glm::vec3(-0.4f), glm::vec3(0.3f)) : ball(0.5f, 1);
+    if (body == 2)
+      for (glm::vec3& v : mesh.vertices) v *= uniform(random, 0.4f, 1.2f);
+    const std::vector<glm::vec3> r = random_points(random, 3, -1, 1);
+    mesh = turned(mesh, r[0], uniform(random, 0, 6));
+    const glm::vec3 at = 0.8f * r[1], fly = speed * r[2] - at / m.seconds * uniform(random, 0, 1),
+                    spin = uniform(random, 0, speed) * r[0];
+    m.add(mesh, at, reach, slack, [&](const glm::vec3& v) {
+      return fly + glm::cross(spin, v) + 0.2f * speed * random_points(random, 1, -1, 1)[0];
+    });
+  }
+  m.traits[random() % 5].moves = false;
+  return m;
+}
+
 }  // namespace collide::test
