@@ -157,19 +157,20 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
   now = std::min(now, most);
   int done = 0;
   const auto go_on = [&](int steps) {
-    run(steps, static_cast<float>(h), frame.substeps + done == 0, after_substep);
+    run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
+    frame.substeps += steps;
+    if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * steps;
+    for (auto& of_thread : implicit_work_)
+      for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
   };
   if (frame.substeps == 0 && now > 1 && !frame.fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
     now = std::min(now, 1 + substeps_within_bound(h));
   }
-  if (now > done) go_on(now - done);
-  frame.left = now == count ? 0 : frame.left - now * h;
-  frame.substeps += now;
-  if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * now;
-  for (auto& of_thread : implicit_work_)
-    for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
+  // One implicit step can be a large part of the work that there may be.
+  while (done < now && (done == 0 || !spent(frame))) go_on(integrator_->implicit ? 1 : now - done);
+  frame.left = done == count ? 0 : frame.left - done * h;
 }
 
 /// For what is left of a frame: those that are stable, or as many as the candidates of surface contact ask for.
