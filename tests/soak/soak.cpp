@@ -24,11 +24,12 @@ namespace {
 constexpr int frames_a_second = 60;
 constexpr int picture_every = 10;  // frames: the scene's picture is most of the time where the CPU draws
 constexpr int warm_up_seconds = 60;
-constexpr int many_more_bodies = 45;         // with more the scene begins anew, as frames would last too long
-constexpr int many_substeps = 20'000;        // in a second: then it ends, and the scene begins anew
-constexpr int implicit_substeps = 150;       // that an implicit step counts for
-constexpr int cut_substeps = 2000;           // that a frame counts for of which only a part is simulated
-constexpr std::size_t large_scene = 50'000;  // vertices; gets a sixtieth of the time
+constexpr int many_more_bodies = 45;           // with more the scene begins anew, as frames would last too long
+constexpr int many_substeps = 20'000;          // in a second: then it ends, and the scene begins anew
+constexpr int implicit_substeps = 150;         // that an implicit step counts for
+constexpr int candidates_of_substep = 10'000;  // of surface contact: so many make a substep count for one more
+constexpr int cut_substeps = 2000;             // that a frame counts for of which only a part is simulated
+constexpr std::size_t large_scene = 50'000;    // vertices; gets a sixtieth of the time
 
 // What a frame may cost: in counted work, and where nothing counts it in processor time, far above what frames take.
 constexpr int most_substeps = softbody::World::max_substeps;
@@ -54,7 +55,10 @@ class Soak {
         frame(i % picture_every == 0);
         const softbody::World& world = demo_.session.world();
         if (world.frame() == before) continue;
-        substeps += world.profile().substeps * (world.dynamics().used_integrator().implicit ? implicit_substeps : 1);
+        const softbody::Dynamics& dynamics = world.dynamics();
+        const auto candidates = int(dynamics.surface_contact().search().features().size());
+        const int weight = dynamics.used_integrator().implicit ? implicit_substeps : 1;
+        substeps += world.profile().substeps * (weight + candidates / candidates_of_substep);
         if (world.profile().seconds < world.frame_time()) substeps += cut_substeps;
       }
       if (substeps >= many_substeps) {
