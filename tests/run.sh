@@ -9,11 +9,8 @@ preset=${1:-release}
 # The tools in the version whose verdict the sources are held to: others format and warn differently.
 check_format() { sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Werror; }
 check_tidy() {
-  local build=$root/build/$preset  # whose precompiled headers are g++'s own
-  mkdir -p "$build/tidy"
-  sed 's/-include [^"]*cmake_pch\.hxx//' "$build/compile_commands.json" >"$build/tidy/compile_commands.json"
   sources "*.cpp" | grep -zv '^tests/' |
-    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p "$build/tidy" --quiet 2>"$build/clang-tidy.log"
+    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p "build/$preset" --quiet 2>"$root/build/$preset/clang-tidy.log"
 }
 
 # sources PATTERN...: files below the folders of code, each ended by a zero byte.
