@@ -94,7 +94,7 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 }
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
-  constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, as timed
+  constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
   work_ += double(p.planes->size() + p.shields->size()) * work_of_a_force;
   for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, moved(p, x, c.at)));
   for (const LinearShield& s : *p.shields) add(f, s.at, s.after(moved(p, x, s.at)));
