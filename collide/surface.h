@@ -15,6 +15,7 @@ class Surface {
   Surface(Index vertex_count, std::vector<Triangle> triangles);
 
   Index vertex_count() const { return vertex_count_; }
+  std::size_t feature_count() const { return vertex_count_ + edges_.size() + triangles_.size(); }
   const std::vector<Triangle>& triangles() const { return triangles_; }
   /// The sides of all triangles, each once; ascending.
   const std::vector<Edge>& edges() const { return edges_; }

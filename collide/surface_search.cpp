@@ -103,15 +103,18 @@ void SurfaceSearch::search(const Motion& motion, float least, Workers& workers) 
     if (anew_[b]) swept_[b].foresee(motion, static_cast<Index>(b), bodies_[b], time_, end, least);
   });
   find_near();
-  in_parts(swept_.size(), [&](Thread&, std::size_t b) {
+  std::swap(now_, before_);
+  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear(), t.found.clear(), t.work = 0;
+  in_parts(swept_.size(), [&](Thread& own, std::size_t b) {
     if (!needed_[b] || boxed_[b]) return;
     swept_[b].box_features();
     boxed_[b] = true;
+    own.work += swept_[b].surface().feature_count();
   });
-  std::swap(now_, before_);
-  for (Thread& t : threads_) t.candidates.pairs.clear(), t.candidates.features.clear(), t.found.clear();
   in_parts(near_.size(), [&](Thread& own, std::size_t i) { find_candidates(own, near_[i]); });
   gather();
+  work_ = now_.features.size();
+  for (const Thread& t : threads_) work_ += t.work;
 }
 
 /// Bodies whose boxes overlap, and those that may meet themselves.
@@ -225,6 +228,7 @@ float SurfaceSearch::fastest(Index a, const std::array<Index, n>& one, Index b, 
 
 void SurfaceSearch::keep_vertices_on_faces(Thread& own, const SurfacePair& pair, Index a, Index b) const {
   const auto& faces = swept_[b].surface().triangles();
+  own.work += own.found.size();
   for (std::size_t i = 0; i < own.found.size();) {
     own.meeting.clear();
     for (; i < own.found.size() && !own.meeting.full(); ++i) {
@@ -240,6 +244,7 @@ void SurfaceSearch::keep_vertices_on_faces(Thread& own, const SurfacePair& pair,
 
 void SurfaceSearch::keep_edges(Thread& own, const SurfacePair& pair) const {
   const auto &ones = swept_[pair.a].surface().edges(), &twos = swept_[pair.b].surface().edges();
+  own.work += own.found.size();
   for (std::size_t i = 0; i < own.found.size();) {
     own.meeting.clear();
     for (; i < own.found.size() && !own.meeting.full(); ++i) {
@@ -278,6 +283,7 @@ void SurfaceSearch::find_self(Thread& own, SurfacePair& pair) const {
   const SweptBody& body = swept_[pair.a];
   if (body.unfolded()) return;
   const Surface& surface = body.surface();
+  own.work += surface.feature_count();
   body.box_strained(own.vertices);
   join(own.vertices, surface.triangles(), own.faces);
   join(own.vertices, surface.edges(), own.edges);

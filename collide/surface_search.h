@@ -63,6 +63,8 @@ class SurfaceSearch {
 
   const std::vector<SurfacePair>& pairs() const { return now_.pairs; }
   const std::vector<FeaturePair>& features() const { return now_.features; }
+  /// What the last find() or renew() took: features that were boxed, pairs of boxes that overlap, and candidates.
+  std::size_t work() const { return work_; }
   /// Those before the last find() or renew().
   const std::vector<FeaturePair>& features_before() const { return before_.features; }
   /// How a body's motion bore out what was foreseen.
@@ -96,6 +98,7 @@ class SurfaceSearch {
     std::vector<ItemPair> found;
     FeaturePairs meeting;
     Candidates candidates;
+    std::size_t work;
   };
   void search(const Motion& motion, float least, Workers& workers);
   void require_few(std::size_t features) const;
@@ -124,6 +127,7 @@ class SurfaceSearch {
   std::vector<ItemPair> near_;  // bodies; a == b: with itself
   std::vector<Thread> threads_;
   Candidates now_, before_;
+  std::size_t work_ = 0;
 };
 
 }  // namespace collide

@@ -37,6 +37,9 @@ class GlName {
   GLuint name_;
 };
 
+/// Of a vertex's attribute in its buffer, as glVertexAttribPointer takes it.
+inline const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+
 namespace detail {
 void delete_buffer(GLuint name);
 void delete_vertex_array(GLuint name);

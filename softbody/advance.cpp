@@ -160,7 +160,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
     frame.substeps += steps;
-    if (!surface_.empty()) candidates_ += double(surface_.search().features().size()) * steps;
+    if (!surface_.empty()) candidates_ += surface_.work_of_substep(float(h)) * steps;
     for (auto& of_thread : implicit_work_)
       for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
   };

@@ -92,10 +92,10 @@ struct SeenContacts {
 };
 
 /// What a frame may be at most, in a world of 10,000 particles; in larger ones more in proportion. Fixed substeps are
-/// bound by at_once only. Scenes as they are shipped have at most a twentieth of the candidates.
+/// bound by at_once only. Scenes as they are shipped have at most a quarter of the candidates.
 struct MaxWork {
-  double candidates = 2e7;  // of surface contact, counted anew in each substep, and each time that they are found
-  double implicit = 4e6;    // iterations of the implicit solver, times the particles of a body, and its sweeps
+  double candidates = 2e7;           // of surface contact: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
+  double implicit = 4e6;             // iterations of the implicit solver, times the particles of a body, and its sweeps
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; more in proportion in a world of many_particles
   static constexpr double many_particles = double(1 << 18);
 };

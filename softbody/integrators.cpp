@@ -23,7 +23,7 @@ struct FastestMode {
 };
 
 constexpr double safety = 0.8;
-constexpr double longest = 1e9;  // s, where nothing swings
+constexpr double longest_step = 1e9;  // s, where nothing swings
 
 /// |1 + h s| <= 1: h <= gamma / omega^2, and 2 / |s| if overdamped. What is hardly damped grows at every step: then by
 /// no more than a factor of e in energy a second. Modes that tension and gas stiffen, too, have less damping for their
@@ -31,21 +31,21 @@ constexpr double longest = 1e9;  // s, where nothing swings
 double explicit_euler_step(double k_m, double c_m) {
   constexpr double least_damped = 1.0 / 3;
   const FastestMode mode(k_m, c_m);
-  if (mode.rate() <= 0) return safety * longest;
+  if (mode.rate() <= 0) return safety * longest_step;
   const double damped = least_damped * mode.gamma;
-  return safety * std::min(mode.omega2 > 0 ? std::max(damped, 1.0) / mode.omega2 : longest, 2 / mode.rate());
+  return safety * std::min(mode.omega2 > 0 ? std::max(damped, 1.0) / mode.omega2 : longest_step, 2 / mode.rate());
 }
 
 /// The region of stability holds the left half of the disc of this radius (its border meets the real axis at -2.785 and
 /// the imaginary one at 2.828).
 double runge_kutta_4_step(double k_m, double c_m) {
   const double rate = FastestMode(k_m, c_m).rate();
-  return safety * (rate > 0 ? 2.78 / rate : longest);
+  return safety * (rate > 0 ? 2.78 / rate : longest_step);
 }
 
 double unconditional(double, double) { return std::numeric_limits<double>::infinity(); }
 
-constexpr std::array table{
+constexpr std::array all_integrators{
     Integrator{.key = "auto",
                .name = "Auto",
                .summary = "Semi-implicit Euler with as many substeps as are stable, or an implicit step where that is "
@@ -109,17 +109,17 @@ constexpr std::array table{
 
 }  // namespace
 
-std::span<const Integrator> integrators() { return table; }
+std::span<const Integrator> integrators() { return all_integrators; }
 
 const Integrator* find_integrator(std::string_view key) {
-  for (const Integrator& i : table)
+  for (const Integrator& i : all_integrators)
     if (i.key == key) return &i;
   return nullptr;
 }
 
 std::string integrator_keys() {
   std::string keys;
-  for (const Integrator& i : table) keys.append(keys.empty() ? "" : ", ").append(i.key);
+  for (const Integrator& i : all_integrators) keys.append(keys.empty() ? "" : ", ").append(i.key);
   return keys;
 }
 

@@ -102,4 +102,6 @@ struct Field {
   operator Field<const Real>() const requires(!std::is_const_v<Real>) { return {x, y, z}; }
 };
 
+inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
+
 }  // namespace softbody

@@ -15,7 +15,7 @@
 namespace softbody {
 namespace {
 
-constexpr Index none = ~Index{0};
+constexpr Index no_vertex = ~Index{0};
 
 struct Box {
   glm::dvec3 lo{INFINITY}, hi{-INFINITY};
@@ -113,14 +113,14 @@ class Importer {
            " m large; set size to the largest extent that it shall have, in m");
     const glm::dvec3 middle = 0.5 * (box.lo + box.hi);
     for (glm::dvec3& p : position_) p = scale * (p - middle);
-    welded_to_.assign(count, none);
+    welded_to_.assign(count, no_vertex);
     for (const Index corner : obj.corners) welded_to_[corner] = corner;
   }
 
   void weld() {
     Welder welder(file_.weld * findings_.extent, findings_.extent);
     for (Index i = 0; i < welded_to_.size(); ++i) {
-      if (welded_to_[i] == none) continue;
+      if (welded_to_[i] == no_vertex) continue;
       welded_to_[i] = welder.add(position_[i], i);
       if (welded_to_[i] != i) ++findings_.welded_vertices;
     }
@@ -149,10 +149,10 @@ class Importer {
 
   /// Leaves out the vertices that no triangle has.
   void compact() {
-    std::vector<Index> number(position_.size(), none);
+    std::vector<Index> number(position_.size(), no_vertex);
     for (Triangle& t : mesh_.triangles)
       for (Index& corner : t) {
-        if (number[corner] == none) {
+        if (number[corner] == no_vertex) {
           number[corner] = static_cast<Index>(in_file_.size());
           in_file_.push_back(corner);
           mesh_.vertices.push_back(position_[corner]);

@@ -108,7 +108,7 @@ struct Row {
   Why why_not;
 };
 
-constexpr std::array<Row, std::size_t(Stage::count)> table{{
+constexpr std::array<Row, std::size_t(Stage::count)> all_stages{{
     {Stage::arrive, "arrive", arrivals},
     {Stage::contact_response, "contact-response", vertex_contacts},
     {Stage::surface_contact, "surface-contact", surface_contacts},
@@ -136,7 +136,7 @@ constexpr std::array<Row, std::size_t(Stage::count)> table{{
 
 }  // namespace
 
-std::string_view stage_key(Stage stage) { return table[std::size_t(stage)].key; }
+std::string_view stage_key(Stage stage) { return all_stages[std::size_t(stage)].key; }
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
@@ -144,7 +144,7 @@ Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Proto
                const Visitors& visitors) {
   Plan plan;
   const Facts facts{scene, prototypes, visitors};
-  for (const Row& row : table) {
+  for (const Row& row : all_stages) {
     if (const char* why = row.why_not(facts))
       plan.left_out.push_back({row.stage, why});
     else

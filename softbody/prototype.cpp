@@ -117,7 +117,7 @@ double stable_step(double k_m, double c_m) {
   return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
-double stiffness_per_mass(const Prototype& p, const Surface& surface) {
+double stiffness_per_mass(const Prototype& p, const SurfaceShape& surface) {
   // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
@@ -137,9 +137,9 @@ double stiffness_per_mass(const Prototype& p, const Surface& surface) {
   return springs + gas / (2 * p.particle_mass);  // nor is this
 }
 
-Surface measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
+SurfaceShape measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
   if (!p.has_gas) return {};
-  Surface s{.volume = volume(vertices, p.mesh.triangles)};
+  SurfaceShape s{.volume = volume(vertices, p.mesh.triangles)};
   std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
   for (const auto& [i, j, k] : p.mesh.triangles) {
     const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;

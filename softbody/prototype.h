@@ -73,17 +73,17 @@ std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const
                                                const Material& material);
 
 /// What the stability bound of the gas, if there is any, needs of a body's shape.
-struct Surface {
+struct SurfaceShape {
   double volume = 0;       // m^3
   double area2 = 0;        // m^4: over the particles, of |A|^2, A = dV/dx
   double stretch = 0;      // N m^3: over the springs, of the stiffness times |A_i - A_j|^2
   double two_medians = 0;  // m, the two longest medians of a face together, of the face where they are longest
 };
-Surface measure_surface(const Prototype& prototype, const std::vector<glm::dvec3>& vertices);
+SurfaceShape measure_surface(const Prototype& prototype, const std::vector<glm::dvec3>& vertices);
 
 /// Bound of the stiffness over mass that springs, gas and shape matching act with on one particle of a body of this
 /// shape, in 1/s^2.
-double stiffness_per_mass(const Prototype& prototype, const Surface& surface);
+double stiffness_per_mass(const Prototype& prototype, const SurfaceShape& surface);
 
 /// Largest stable step of semi-implicit Euler times 0.8, in s, for stiffness/mass sum k_m (1/s^2) and damping/mass sum
 /// c_m (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m / (2 omega).

@@ -6,11 +6,6 @@
 #include <glm/geometric.hpp>
 
 namespace softbody {
-namespace {
-
-glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
-
-}  // namespace
 
 void Shield::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
   const float h = thickness;

@@ -130,4 +130,13 @@ bool SurfaceContact::mend(int thread, int threads, Field<float> v, float h, cons
   return std::any_of(threads_.begin(), threads_.begin() + threads, [](const Thread& t) { return t.undone; });
 }
 
+double SurfaceContact::work_of_substep(float h) const {
+  auto work = double(search_.features().size());
+  for (const Pair& p : pairs_) {
+    const Index whole = p.parting ? side(p, false).surface->vertex_count() + side(p, true).surface->vertex_count() : 0;
+    work += 0.5 * double(hit(p, h) ? iterations_of_hits + turns : iterations) * double(p.rows + whole);
+  }
+  return work;
+}
+
 }  // namespace softbody

@@ -12,8 +12,6 @@ namespace softbody {
 /// ContactRow::feature of a row that nothing is remembered of.
 inline constexpr std::uint32_t forgotten = std::numeric_limits<std::uint32_t>::max();
 
-inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
-
 inline void add(Field<float> f, std::size_t slot, const glm::vec3& d) {
   f.x[slot] += d.x;
   f.y[slot] += d.y;

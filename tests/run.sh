@@ -8,9 +8,11 @@ preset=${1:-release}
 
 # The tools in the version whose verdict the sources are held to: others format and warn differently.
 check_format() { sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Werror; }
+# As they are compiled: many at a time, which reads the headers that they share only once.
 check_tidy() {
-  sources "*.cpp" | grep -zv '^tests/' |
-    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p "build/$preset" --quiet 2>"$root/build/$preset/clang-tidy.log"
+  cd "$root/build/$preset"
+  sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' compile_commands.json | grep -v "^$root/tests/" | tr '\n' '\0' |
+    xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p . --quiet 2>clang-tidy.log
 }
 
 # sources PATTERN...: files below the folders of code, each ended by a zero byte.

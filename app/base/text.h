@@ -17,6 +17,11 @@ std::string format(const char* pattern, Values... values) {
   return text;
 }
 
+/// Of two counts; "-" if the second is none.
+inline std::string ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? "-" : format("%.3g", static_cast<double>(part) / static_cast<double>(whole));
+}
+
 template <class... Parts>
 std::string joined(const Parts&... parts) {
   std::string text;

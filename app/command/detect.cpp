@@ -75,7 +75,7 @@ Sequence read_sequence(const DetectOptions& options) {
 }
 
 /// Figures of one frame.
-struct Row {
+struct MethodRow {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
@@ -95,13 +95,13 @@ double timed_detect(collide::Detector& detector, const collide::Frame& frame, co
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<Row> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
-                     const Sequence& sequence) {
+std::vector<MethodRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
+                           const Sequence& sequence) {
   std::optional<ContactsCsv> csv;
   if (options.detect.contacts) csv.emplace(*options.detect.contacts);
   collide::Workers workers(options.threads);
   collide::Result result;
-  std::vector<Row> rows(sequence.frames.size());
+  std::vector<MethodRow> rows(sequence.frames.size());
   for (int repetition = 0; repetition < options.detect.repeat; ++repetition) {
     auto detector = method.make();
     for (std::size_t f = 0; f < rows.size(); ++f) {
@@ -121,10 +121,10 @@ std::vector<Row> run(const Options& options, const collide::Method& method, cons
 }
 
 void print_json(const Options& options, const collide::Method& method, const collide::Settings& settings,
-                const collide::Bodies& bodies, const std::vector<Row>& rows) {
+                const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
-  for (const Row& r : rows) {
+  for (const MethodRow& r : rows) {
     Json skipped = Json::object();
     for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
       skipped[std::string(collide::skip_kinds[kind].key)] = r.skipped[kind];
@@ -145,7 +145,7 @@ void print_json(const Options& options, const collide::Method& method, const col
 }
 
 void print_table(const Options& options, const collide::Method& method, const collide::Settings& settings,
-                 const collide::Bodies& bodies, const std::vector<Row>& rows) {
+                 const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
   std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
               *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
   for (const std::string& warning : warnings(method, settings)) std::printf("note: %s\n", warning.c_str());
@@ -153,7 +153,7 @@ void print_table(const Options& options, const collide::Method& method, const co
               "pair tests", "hashes", "boxes");
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   for (std::size_t f = 0; f < rows.size(); ++f) {
-    const Row& r = rows[f];
+    const MethodRow& r = rows[f];
     std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.least(), r.times.median(),
                 r.contacts, number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
                 number(r.counters.boxes));
@@ -170,7 +170,7 @@ void detect(const Options& options) {
   const Sequence sequence = read_sequence(options.detect);
   if (automatic_cell_size(options.detection, true))
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
-  const std::vector<Row> rows = run(options, method, settings, sequence);
+  const std::vector<MethodRow> rows = run(options, method, settings, sequence);
   if (options.json)
     print_json(options, method, settings, sequence.bodies, rows);
   else

@@ -23,7 +23,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 /// Figures of one frame.
-struct Row {
+struct FrameRow {
   int frame;
   double time;  // s
   softbody::Profile profile;
@@ -32,7 +32,7 @@ struct Row {
   std::optional<collide::SurfaceFigures> oracle;  // if asked for
 };
 
-Row take_row(const softbody::World& world) {
+FrameRow take_row(const softbody::World& world) {
   const auto& d = world.detection();
   return {world.frame(),
           world.time(),
@@ -54,7 +54,7 @@ Json to_json(const collide::SurfaceFigures& f) {
           {"edge_crossings", f.edge_crossings}};
 }
 
-Json to_json(const Row& r) {
+Json to_json(const FrameRow& r) {
   const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
   Json row{{"frame", r.frame},
@@ -91,9 +91,9 @@ std::string hex(std::uint64_t value) {
   return text;
 }
 
-void print_json(const softbody::World& world, const std::vector<Row>& rows) {
+void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
-  for (const Row& r : rows) frames.push_back(to_json(r));
+  for (const FrameRow& r : rows) frames.push_back(to_json(r));
   const Json document{{"scene", world.scene().key},
                       {"method", world.method().key},
                       {"integrator", to_json_integrator(world)},
@@ -111,7 +111,7 @@ std::string ratio_text(const softbody::Measures& measures, double ratio) {
 }
 
 /// About twenty lines, however many frames.
-void print_table(const softbody::World& world, const std::vector<Row>& rows) {
+void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
   std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
               world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
               world.bodies().vertex_count());
@@ -122,7 +122,7 @@ void print_table(const softbody::World& world, const std::vector<Row>& rows) {
   const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
-    const Row& r = rows[i];
+    const FrameRow& r = rows[i];
     const softbody::Measures& m = r.measures;
     std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
                 r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
@@ -217,7 +217,7 @@ void simulate(const Options& options) {
   const bool progress = isatty(STDERR_FILENO) != 0;
   WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // from where the first frame starts
-  std::vector<Row> rows;
+  std::vector<FrameRow> rows;
   rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();

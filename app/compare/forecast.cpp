@@ -12,8 +12,6 @@
 namespace app {
 namespace {
 
-std::uint64_t pairs_of(std::uint64_t n) { return n * (n - (n > 0)) / 2; }
-
 /// Cells within the tolerance of a vertex, on average.
 double cells_of_a_vertex(const collide::Settings& settings) {
   double cells = 1;

@@ -21,6 +21,9 @@ struct Work {
   std::string in_words() const;
 };
 
+/// Among n things.
+inline std::uint64_t pairs_of(std::uint64_t n) { return n * (n - (n > 0)) / 2; }
+
 /// Distances that brute force evaluates on these bodies.
 std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision);
 

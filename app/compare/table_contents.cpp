@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <span>
 
+#include "app/compare/forecast.h"
+
 namespace app {
 namespace {
-
-std::uint64_t pairs_of(std::uint64_t n) { return n * (n - (n > 0)) / 2; }
 
 /// Pairs of equal neighbours' runs: the sum over runs of equal values of the pairs within each.
 template <class Range, class Same>

@@ -1,25 +1,14 @@
 #include "app/demo/guard.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <numeric>
 
 #include <glm/geometric.hpp>
 
+#include "app/base/text.h"
+
 namespace app {
-namespace {
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  std::array<char, 160> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, values...);
-  return buffer.data();
-}
-
-}  // namespace
-
 void Guard::begin(const softbody::World& world, std::size_t bodies) {
   looks_.clear();
   resting_.clear();
@@ -73,23 +62,24 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
   if (now.speed > reach) {
     const auto fastest = std::ranges::max_element(bodies, {}, &softbody::BodyMeasures::max_speed);
     const auto body = static_cast<softbody::BodyId>(fastest - bodies.begin());
-    return Alarm{body, frame,
-                 text("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
+    return Alarm{
+        body, frame,
+        format("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
   }
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
   if (now.energy <= energy) return {};
   const softbody::BodyId body = culprit(bodies);
   return Alarm{body, frame,
-               text("Body %u gained energy from nothing: all bodies have %.3g J more than there can be", body,
-                    now.energy - energy)};
+               format("Body %u gained energy from nothing: all bodies have %.3g J more than there can be", body,
+                      now.energy - energy)};
 }
 
 std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
   const auto lost = std::ranges::find(bodies, false, &softbody::BodyMeasures::finite);
   if (lost != bodies.end()) {
     const auto body = static_cast<softbody::BodyId>(lost - bodies.begin());
-    return Alarm{body, world.frame(), text("Body %u is no longer finite", body)};
+    return Alarm{body, world.frame(), format("Body %u is no longer finite", body)};
   }
   if (bodies.size() != mass_.size() || looks_.empty()) begin(world, bodies.size());
   const Look now = sum_up(bodies);

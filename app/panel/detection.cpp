@@ -9,7 +9,6 @@
 namespace app {
 namespace {
 
-constexpr float label_column = 108;  // design pixels
 constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
 
 /// True if not the detector's contacts but the surfaces keep the bodies apart.

@@ -7,8 +7,6 @@
 namespace app {
 namespace {
 
-constexpr float label_column = 108;  // design pixels
-
 /// "Auto (Semi-implicit Euler)", or "Runge-Kutta 4, 8 substeps".
 std::string in_words(const softbody::World& world) {
   std::string text(world.integrator().name);

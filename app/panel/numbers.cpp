@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/demo/status.h"
 #include "app/panel/panel.h"
@@ -21,29 +20,23 @@ constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
     "Pairs of bodies at rest: their contacts are kept, not found again."};
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
 
-std::string text(const char* format, double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
-
 void draw_curves(Widgets& w, const Session& session, float fineness) {
   const History& history = session.history();
   const softbody::Profile& profile = session.world().profile();
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
-  w.curve("Detect", text("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", text("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
-  w.curve("Picture", text("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
+  w.curve("Detect", format("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
+  w.curve("Solve", format("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Picture", format("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
-      "drawn at", text("%.0f %%", 100 * double(fineness)),
+      "drawn at", format("%.0f %%", 100 * double(fineness)),
       "Of the pixels along each side, the scene's picture has so many. Less than 100 % only while it moves, "
       "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
       "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
           {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
-  const std::string value = driver ? text("%.4f", rounded_down(driver->recall)) : "-";
+  const std::string value = driver ? format("%.4f", rounded_down(driver->recall)) : "-";
   w.curve("Recall", value, history.recall, {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 
@@ -68,10 +61,6 @@ void draw_skipped(Widgets& w, const Session& session) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
     w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
   }
-}
-
-std::string ratio(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-" : text("%.3g", static_cast<double>(part) / static_cast<double>(whole));
 }
 
 /// With what §3 claims of them.

@@ -7,8 +7,6 @@
 namespace app {
 namespace {
 
-constexpr float label_column = 108;  // design pixels
-
 void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
   ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
@@ -24,8 +22,8 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const std::filesystem::path from = session.scene_file().name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
   w.row("Scene", w.px(62));
-  const float help_width = ImGui::GetFrameHeight(), tour_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_width - 2 * gap);
+  const float help_width = ImGui::GetFrameHeight(), button_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - button_width - 2 * gap);
   if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
@@ -36,7 +34,7 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
     if (!chosen.empty()) session.choose_scene(chosen);
   }
   ImGui::SameLine(0, gap);
-  draw_tour_button(w, session, ui, tour_width);
+  draw_tour_button(w, session, ui, button_width);
   ImGui::SameLine(0, gap);
   if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
 
 #include "app/demo/status.h"
 #include "app/panel/integrators.h"
@@ -13,23 +12,14 @@
 namespace app {
 namespace {
 
-constexpr float label_column = 108;  // design pixels
-
-template <class... Values>
-std::string text(const char* format, Values... values) {
-  std::array<char, 256> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, values...);
-  return buffer.data();
-}
-
 std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
-  if (margin.share < 1) return text("slow motion: %.2g of a frame in %d substeps", margin.share, margin.taken);
+  if (margin.share < 1) return format("slow motion: %.2g of a frame in %d substeps", margin.share, margin.taken);
   if (margin.kind == StepMargin::Bound::unconditional)
-    return text("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
-  return text("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3,
-              margin.bound * 1e3 / (1 - StepMargin::reserve));
+    return format("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
+  return format("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3,
+                margin.bound * 1e3 / (1 - StepMargin::reserve));
 }
 
 /// From the first snapshot to the newest; dragging goes there and pauses.
@@ -40,14 +30,14 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::BeginDisabled(past.empty());
   int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
   const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
-  const std::string shown = text("frame %d, %.2f s", frame, session.world().time());
+  const std::string shown = format("frame %d, %.2f s", frame, session.world().time());
   if (w.slider("Go back to", place, 0, last, shown.c_str(),
                "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
                "the settings in use. Snapshots are dense lately and sparse long ago."))
     session.rewind_to(past[static_cast<std::size_t>(place)].frame);
   ImGui::EndDisabled();
   const double mebi = static_cast<double>(session.stability().past().bytes()) / (1 << 20);
-  w.figure("Snapshots", text("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
+  w.figure("Snapshots", format("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
            "Memory is bounded: when it is full, old snapshots are thinned out.");
 }
 
@@ -65,7 +55,7 @@ void draw_integrator(Widgets& w, Session& session) {
   w.figure("At work", chosen ? std::string(dynamics.used_integrator().name) : "from the next step on", why.c_str());
 }
 
-struct Curve {
+struct StabilityCurve {
   const char* label;
   Ring StabilityHistory::*ring;
   const char* format;
@@ -74,7 +64,7 @@ struct Curve {
   glm::vec3 colour;
 };
 constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
-constexpr std::array<Curve, 9> curves{{
+constexpr std::array<StabilityCurve, 9> curves{{
     {"Kinetic", &StabilityHistory::kinetic, "%.3g J", 1, "J of motion", energy_colour},
     {"Elastic", &StabilityHistory::elastic, "%.3g J", 1, "J in springs and kept shapes, against the start",
      energy_colour},
@@ -112,8 +102,8 @@ void draw_step_light(Widgets& w, Session& session) {
   w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
   ImGui::EndGroup();
   w.done("Step light",
-         text("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
-              margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
+         format("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
+                margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
              .c_str());
   if (!session.stability().alarm()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
@@ -133,9 +123,9 @@ void draw_stability(Widgets& w, Session& session) {
              "there could give it, and names it.");
   draw_past(w, session);
   const StabilityHistory& history = session.stability().history();
-  for (const Curve& c : curves) {
+  for (const StabilityCurve& c : curves) {
     const Ring& ring = history.*c.ring;
-    w.curve(c.label, text(c.format, static_cast<double>(ring.latest())), ring, axis_around(ring, c.least), c.colour,
+    w.curve(c.label, format(c.format, static_cast<double>(ring.latest())), ring, axis_around(ring, c.least), c.colour,
             c.unit);
   }
 }

@@ -10,7 +10,7 @@ namespace app {
 namespace {
 
 constexpr float mark_radius = 4, lane_height = 6, reach = 9, label_gap = 6, axis_overhang = 6;  // design pixels
-constexpr glm::vec3 ink(0.15f), in_use(0.8f, 0.0f, 0.4f);
+constexpr glm::vec3 ink(0.15f), used_ink(0.8f, 0.0f, 0.4f);
 constexpr glm::vec3 line_of_decade(0.84f), line_between(0.94f), band(0.92f, 0.96f, 0.92f);
 
 /// `place`: how much of the text's width lies left of the point.
@@ -74,7 +74,7 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
 }
 
 void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {
-  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(in_use), 24, w.px(2));
+  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(used_ink), 24, w.px(2));
 }
 
 /// Whole decades, a few of them from the start, so that the axes hardly ever change while points come in.

@@ -39,6 +39,9 @@ struct Hover {
   double before = 0;
 };
 
+/// Where what a row of settings holds begins, in design pixels.
+inline constexpr float label_column = 108;
+
 ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 
 /// The first of `least`, 2, 5, 10, ... times it that is not below `most`: an axis that stays while values change.

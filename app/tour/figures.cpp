@@ -18,10 +18,6 @@ std::string metres(float length) { return format("%.3f m", double{length}); }
 std::string place(const glm::vec3& p) { return format("(%.3f, %.3f, %.3f)", double{p.x}, double{p.y}, double{p.z}); }
 std::string sides(const glm::vec3& s) { return format("%.3f x %.3f x %.3f m", double{s.x}, double{s.y}, double{s.z}); }
 
-std::string ratio(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-" : format("%.3g", static_cast<double>(part) / static_cast<double>(whole));
-}
-
 std::string with_sign(std::int64_t n) {
   return joined(n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
 }

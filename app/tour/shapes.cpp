@@ -12,7 +12,7 @@
 namespace app {
 namespace {
 
-constexpr glm::vec3 ink{0.13f, 0.16f, 0.20f};
+constexpr glm::vec3 shape_ink{0.13f, 0.16f, 0.20f};
 
 glm::vec3 vertex(const TourView& v, collide::Index i) {
   const collide::Frame f = v.world.positions();
@@ -56,9 +56,10 @@ void show_body(const TourView& v, Spotlight& light) {
   const auto& [lo, hi] = v.f.bounds[0];
   light.bodies = {v.f.body};
   engine::BoxSet box = outlines(2.5f, 0.08f);
-  box.boxes.push_back({lo, hi, glm::vec4(ink, 1.0f)});
+  box.boxes.push_back({lo, hi, glm::vec4(shape_ink, 1.0f)});
   light.boxes = {std::move(box)};
-  light.points = {{.points = {{lo, glm::vec4(ink, 1.0f)}, {hi, glm::vec4(ink, 1.0f)}}, .diameter = 9, .hidden = 0.9f}};
+  light.points = {
+      {.points = {{lo, glm::vec4(shape_ink, 1.0f)}, {hi, glm::vec4(shape_ink, 1.0f)}}, .diameter = 9, .hidden = 0.9f}};
   light.labels = {{lo, "minimum"}, {hi, "maximum"}};
   frame(light, lo, hi);
 }
@@ -81,14 +82,14 @@ void show_corners(const TourView& v, Spotlight& light) {
   light.opacity = 0.35f;
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.box];
   engine::BoxSet box = outlines(2.5f, 0.15f);
-  box.boxes.push_back({lo, hi, glm::vec4(ink, 1.0f)});
+  box.boxes.push_back({lo, hi, glm::vec4(shape_ink, 1.0f)});
   light.boxes = {std::move(box)};
   add_cell(v, v.chosen().cell, same_cell_colour, light);
   engine::PointSet points{.points = {}, .diameter = 9, .hidden = 0.9f};
   for (std::size_t i = 0; i < v.f.corners.size(); ++i) {
     const HashedCorner& corner = v.f.corners[i];
     const bool chosen = i == v.corner;
-    points.points.push_back({corner.at, glm::vec4(chosen ? same_cell_colour : ink, 1.0f)});
+    points.points.push_back({corner.at, glm::vec4(chosen ? same_cell_colour : shape_ink, 1.0f)});
     std::string text = std::to_string(i + 1);
     if (chosen) text.append(": bucket ").append(grouped(corner.bucket));
     light.labels.push_back({corner.at, std::move(text)});

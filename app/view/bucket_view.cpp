@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-constexpr int lines = 4;  // of the list: it scrolls, so that the window keeps its height
+constexpr int list_lines = 4;  // of the list: it scrolls, so that the window keeps its height
 
 std::string count_of(std::size_t n, const BucketContents& bucket) {
   return joined(grouped(n), bucket.vertices ? " vert" : " box",
@@ -68,7 +68,7 @@ void draw_bucket(Widgets& w, Session& session) {
   const std::size_t cells = bucket->groups.size();
   w.figure(count_of(bucket->items, *bucket).c_str(), joined(std::to_string(cells), cells == 1 ? " cell" : " cells"),
            "What is in the bucket, and the different cells that it comes from (§2.2).");
-  ImGui::BeginChild("Cells", {0, static_cast<float>(lines) * ImGui::GetTextLineHeightWithSpacing()});
+  ImGui::BeginChild("Cells", {0, static_cast<float>(list_lines) * ImGui::GetTextLineHeightWithSpacing()});
   const CellGroup* chosen = bucket->group(session.selected_cell());
   for (const CellGroup& group : bucket->groups) draw_group(w, session, *bucket, group, &group == chosen);
   ImGui::EndChild();

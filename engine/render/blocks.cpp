@@ -35,8 +35,6 @@ std::vector<Corner> cube() {
   return corners;
 }
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
 /// Two directions across a unit vector, so that x, n, z are right-handed.
 glm::mat3 frame_round(const glm::vec3& n) {
   const glm::vec3 least = std::abs(n.x) < 0.9f ? glm::vec3(1, 0, 0) : glm::vec3(0, 0, 1);

@@ -12,8 +12,6 @@
 namespace engine {
 namespace {
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
 /// The coarsest level whose outline is less than `slack` pixels from round.
 int level_for(float radius_in_pixels, std::uint32_t vertex_count) {
   constexpr float slack = 0.5f;

@@ -11,8 +11,6 @@
 namespace engine {
 namespace {
 
-const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
-
 struct UnitSphere {
   std::vector<glm::vec3> directions;
   std::vector<std::uint32_t> indices;

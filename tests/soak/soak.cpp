@@ -35,6 +35,7 @@ constexpr std::size_t large_scene = 50'000;    // vertices; gets a sixtieth of t
 constexpr int most_substeps = softbody::World::max_substeps;
 constexpr std::uint64_t most_pair_tests = 1'000'000'000;  // Session's own bound for the method that drives
 constexpr double most_seconds = 20;
+constexpr double slow_seconds = 1;  // from where on a frame that is slower than all before is told of
 
 [[noreturn]] void fail(const std::string& what) { throw std::runtime_error(what); }
 
@@ -85,6 +86,19 @@ class Soak {
     std::fflush(stdout);
   }
 
+  /// What to look into.
+  void say_slow(double seconds) const {
+    const softbody::World& world = demo_.session.world();
+    const softbody::Profile& p = world.profile();
+    std::printf(
+        "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %s, %d substeps, %.5f s "
+        "simulated, %zu candidates, found in %.0f of %.0f ms\n",
+        world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_.c_str(),
+        world.bodies().count(), world.bodies().vertex_count(), world.dynamics().used_integrator().key.data(),
+        p.substeps, p.seconds, world.dynamics().surface_contact().search().features().size(), p.detect_ms, p.total_ms);
+    std::fflush(stdout);
+  }
+
   void begin(const std::string& scene) {
     demo_.session.choose_scene(scene);
     if (demo_.session.world().scene().key != scene) fail("the scene cannot be loaded: " + demo_.session.notice());
@@ -108,9 +122,11 @@ class Soak {
     app::Session& session = demo_.session;
     const std::clock_t before = std::clock();
     demo_.frame(draw);
-    slowest_ = std::max(slowest_, double(std::clock() - before) / CLOCKS_PER_SEC);
+    const double took = double(std::clock() - before) / CLOCKS_PER_SEC;
     ++frames_;
     const softbody::World& world = session.world();
+    if (took > std::max(slowest_, slow_seconds)) say_slow(took);
+    slowest_ = std::max(slowest_, took);
     substeps_ = std::max(substeps_, world.profile().substeps);
     pair_tests_ = std::max(pair_tests_, world.detection().counters.pair_tests);
     if (substeps_ > most_substeps) fail("a frame took " + std::to_string(substeps_) + " substeps");

@@ -121,7 +121,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       without.gas_pressure = without.ambient_pressure = 0;
       const double springs = 2 * stiffness_per_mass(*make_prototype({}, without), {});
       EXPECT_GE(bound, springs);
-      const Surface s = measure_surface(*p, x);
+      const SurfaceShape s = measure_surface(*p, x);
       const double norm = -p->gas.slope(s.volume) * s.area2 / p->particle_mass;
       const double geometric =
           std::abs(p->gas.gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;

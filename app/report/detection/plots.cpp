@@ -112,13 +112,13 @@ Plot error_against_time(const SceneResult& scene) {
 }
 
 /// One line of the plot of cost against bodies.
-struct Series {
+struct GrowthSeries {
   Configuration configuration;
   std::string points;
 };
 
-std::vector<Series> growth_series(const SceneResult& growth) {
-  std::vector<Series> all;
+std::vector<GrowthSeries> growth_series(const SceneResult& growth) {
+  std::vector<GrowthSeries> all;
   for (const SweepRow& row : growth.states.front().sweep.rows) all.push_back({row.configuration, {}});
   for (const StateResult& state : growth.states) {
     for (std::size_t i = 0; i < all.size(); ++i) {
@@ -126,7 +126,7 @@ std::vector<Series> growth_series(const SceneResult& growth) {
       if (row.not_run.empty()) all[i].points += format("%u %.9g\n", state.bodies, row.times.median());
     }
   }
-  std::erase_if(all, [](const Series& s) { return s.points.empty(); });
+  std::erase_if(all, [](const GrowthSeries& s) { return s.points.empty(); });
   return all;
 }
 
@@ -142,7 +142,7 @@ Plot cost_against_bodies(const SceneResult& growth) {
       "set title 'Cost of a frame against the number of bodies'\nset xlabel 'bodies'\n"
       "set ylabel 'detection from scratch, ms a frame'\nset ytics format '%g'\n";
   std::size_t number = 0;
-  for (const Series& s : growth_series(growth)) {
+  for (const GrowthSeries& s : growth_series(growth)) {
     const bool dashed =
         method_of(s.configuration).uses_hash && s.configuration.settings.buckets == sweep_buckets.back();
     script += format("$s%zu << EOD\n", number) + s.points + "EOD\n";
