@@ -148,22 +148,40 @@ Scene touching_surfaces() {
   return scene;
 }
 
-TEST(Substeps, OfSurfaceContactAreBoundByTheirCandidates) {
+TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   const std::string integrator = "semi-implicit-euler";
   World whole(touching_surfaces(), {.integrator = integrator});
   whole.step();
   EXPECT_EQ(whole.profile().seconds, whole.frame_time());
   ASSERT_GT(whole.profile().substeps, 8);
-  const auto candidates = double(whole.dynamics().surface_contact().search().features().size());
-  ASSERT_GT(candidates, 0);
-  // They are found once, and looked at in one substep after the other; four are taken at a time, first one of them.
-  for (const double rounds : {0.0, 2.0, 2.5, 5.0, 5.5, 9.0}) {
-    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.candidates = rounds * candidates}});
+  const auto of_work = [&](double bound) {
+    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.candidates = bound}});
     world.step();
-    EXPECT_EQ(world.profile().substeps, rounds <= 2 ? 1 : rounds <= 5 ? 4 : 8) << rounds;
     EXPECT_NEAR(world.profile().seconds / world.frame_time(),
                 double(world.profile().substeps) / whole.profile().substeps, 0.05);
-  }
+    return world;
+  };
+  const auto of_substep = [](const World& world) {
+    const Profile& p = world.profile();
+    return world.dynamics().surface_contact().work_of_substep(float(p.seconds / p.substeps));
+  };
+  // Candidates are found once, and looked at in one substep after the other; four are taken at a time, first one of
+  // them.
+  const World one = of_work(0);
+  EXPECT_EQ(one.profile().substeps, 1);
+  const collide::SurfaceSearch& search = one.dynamics().surface_contact().search();
+  const double half = 0.5 * double(search.features().size()), least = of_substep(one);
+  ASSERT_GT(half, 0);
+  EXPECT_GT(double(search.work()), 2 * half);
+  EXPECT_GT(least, 2 * half) << "contacts are solved";
+  double work = double(search.work()) + least;
+  EXPECT_EQ(of_work(work).profile().substeps, 1);
+  const World four = of_work(work + half);
+  EXPECT_EQ(four.profile().substeps, 4);
+  work += 3 * of_substep(four);
+  EXPECT_EQ(of_work(work).profile().substeps, 4);
+  EXPECT_EQ(of_work(work + half).profile().substeps, 8);
+
   World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.candidates = 0}});
   fixed.step();
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
