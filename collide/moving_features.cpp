@@ -12,7 +12,7 @@ namespace {
 
 /// Three difference vectors of four points say all about how these lie to each other.
 template <class T>
-using Path = std::array<Vector<T, 1>, 3>;
+using FeatureMotion = std::array<Vector<T, 1>, 3>;
 
 template <class T>
 Vector<T, 1> difference(const MovingPoint& a, const MovingPoint& b) {
@@ -29,16 +29,16 @@ using Weight = Polynomial<T, 4>;
 struct VertexFace {
   /// From every point of the one feature to every point that spans the other.
   template <class T>
-  static const Path<T>& between(const Path<T>& v) {
+  static const FeatureMotion<T>& between(const FeatureMotion<T>& v) {
     return v;
   }
   template <class T>
-  static Polynomial<T, 3> side(const Path<T>& v) {
+  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
     return dot(v[0], cross(v[2], v[1]));
   }
   /// In the plane of the face: the barycentric coordinates of p times the squared length of the normal.
   template <class T>
-  static std::array<Weight<T>, 3> weights(const Path<T>& v) {
+  static std::array<Weight<T>, 3> weights(const FeatureMotion<T>& v) {
     const Vector<T, 2> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
     const Vector<T, 2> normal = a + b + c;
     return {dot(normal, a), dot(normal, b), dot(normal, c)};
@@ -48,17 +48,17 @@ struct VertexFace {
 /// An edge pq against an edge uv, by q - p, v - u, u - p.
 struct EdgeEdge {
   template <class T>
-  static std::array<Vector<T, 1>, 4> between(const Path<T>& v) {
+  static std::array<Vector<T, 1>, 4> between(const FeatureMotion<T>& v) {
     return {v[2], v[2] - v[0], v[2] + v[1], v[2] + v[1] - v[0]};
   }
   template <class T>
-  static Polynomial<T, 3> side(const Path<T>& v) {
+  static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
     return dot(v[2], cross(v[0], v[1]));
   }
   /// In one plane: how far along each edge their lines meet, and how far that is from its other end, times the squared
   /// length of the normal.
   template <class T>
-  static std::array<Weight<T>, 4> weights(const Path<T>& v) {
+  static std::array<Weight<T>, 4> weights(const FeatureMotion<T>& v) {
     const Vector<T, 2> normal = cross(v[0], v[1]);
     const Weight<T> whole = dot(normal, normal);
     const Weight<T> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
@@ -130,7 +130,7 @@ double root_of(const Polynomial<T, 3>& cubic) {
 
 /// True if the boxes around the two features never meet.
 template <class Kind, class T>
-bool apart(const Path<T>& motion, double largest) {
+bool apart(const FeatureMotion<T>& motion, double largest) {
   const auto& between = Kind::between(motion);
   const auto on_one_side = [&](auto component) {
     const std::optional<int> side = signs_of(between[0].*component, largest)[0];
@@ -149,7 +149,7 @@ struct Found {
 
 /// The first or the second half of a motion.
 template <class T>
-Path<T> half_of(Path<T> motion, bool second) {
+FeatureMotion<T> half_of(FeatureMotion<T> motion, bool second) {
   for (Vector<T, 1>& v : motion) {
     for (Polynomial<T, 1>* component : {&v.x, &v.y, &v.z}) {
       component->c[second ? 0 : 1] = T((component->c[0] + component->c[1]) * T(0.5));
@@ -160,7 +160,7 @@ Path<T> half_of(Path<T> motion, bool second) {
 
 /// The first passage between the times begin and begin + length.
 template <class Kind, class T>
-Found search(const Path<T>& motion, double largest, double begin, double length, int halvings) {
+Found search(const FeatureMotion<T>& motion, double largest, double begin, double length, int halvings) {
   if (apart<Kind>(motion, largest)) return {Answer::none};
   const Polynomial<T, 3> cubic = Kind::side(motion);
   const auto side = signs_of(cubic, largest);
@@ -186,7 +186,7 @@ Found search(const Path<T>& motion, double largest, double begin, double length,
   return search<Kind>(half_of(motion, true), largest, begin + length / 2, length / 2, halvings + 1);
 }
 
-double largest_of(const Path<double>& motion) {
+double largest_of(const FeatureMotion<double>& motion) {
   double largest = 0;
   for (const Vector<double, 1>& v : motion) {
     for (const Polynomial<double, 1>* component : {&v.x, &v.y, &v.z}) {
@@ -199,7 +199,7 @@ double largest_of(const Path<double>& motion) {
 /// motion: a function of a number's type, called with T{}.
 template <class Kind, class Make>
 std::optional<Passage> first_passage(const Make& motion) {
-  const Path<double> plain = motion(double{});
+  const FeatureMotion<double> plain = motion(double{});
   const double largest = largest_of(plain);
   Found found = search<Kind>(plain, largest, 0, 1, 0);
   if (found.answer == Answer::unsure) found = search<Kind>(motion(Bounded{}), largest, 0, 1, 0);
@@ -213,14 +213,14 @@ std::optional<Passage> first_passage(const Make& motion) {
 std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                            const MovingPoint& c) {
   return first_passage<VertexFace>([&]<class T>(const T&) {
-    return Path<T>{difference<T>(a, p), difference<T>(b, p), difference<T>(c, p)};
+    return FeatureMotion<T>{difference<T>(a, p), difference<T>(b, p), difference<T>(c, p)};
   });
 }
 
 std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                          const MovingPoint& v) {
   return first_passage<EdgeEdge>([&]<class T>(const T&) {
-    return Path<T>{difference<T>(q, p), difference<T>(v, u), difference<T>(u, p)};
+    return FeatureMotion<T>{difference<T>(q, p), difference<T>(v, u), difference<T>(u, p)};
   });
 }
 

@@ -204,12 +204,15 @@ void SurfaceSearch::find_pair(Thread& own, SurfacePair& pair) const {
   grow(own.vertices_a, lo, hi);
   grow(own.edges_a, lo, hi);
   own.search.between(own.vertices_a, own.faces_b, own.found, most_boxes);
+  own.work += own.found.size();
   keep_vertices_on_faces(own, pair, pair.a, pair.b);
   pair.face_vertex = range();
   own.search.between(own.vertices_b, own.faces_a, own.found, most_boxes);
+  own.work += own.found.size();
   keep_vertices_on_faces(own, pair, pair.b, pair.a);
   pair.edge_edge = range();
   own.search.between(own.edges_a, own.edges_b, own.found, most_boxes);
+  own.work += own.found.size();
   keep_edges(own, pair);
 }
 
@@ -228,7 +231,6 @@ float SurfaceSearch::fastest(Index a, const std::array<Index, n>& one, Index b, 
 
 void SurfaceSearch::keep_vertices_on_faces(Thread& own, const SurfacePair& pair, Index a, Index b) const {
   const auto& faces = swept_[b].surface().triangles();
-  own.work += own.found.size();
   for (std::size_t i = 0; i < own.found.size();) {
     own.meeting.clear();
     for (; i < own.found.size() && !own.meeting.full(); ++i) {
@@ -244,7 +246,6 @@ void SurfaceSearch::keep_vertices_on_faces(Thread& own, const SurfacePair& pair,
 
 void SurfaceSearch::keep_edges(Thread& own, const SurfacePair& pair) const {
   const auto &ones = swept_[pair.a].surface().edges(), &twos = swept_[pair.b].surface().edges();
-  own.work += own.found.size();
   for (std::size_t i = 0; i < own.found.size();) {
     own.meeting.clear();
     for (; i < own.found.size() && !own.meeting.full(); ++i) {
@@ -288,10 +289,12 @@ void SurfaceSearch::find_self(Thread& own, SurfacePair& pair) const {
   join(own.vertices, surface.triangles(), own.faces);
   join(own.vertices, surface.edges(), own.edges);
   own.search.between(own.vertices, own.faces, own.found, most_boxes);
+  own.work += own.found.size();
   std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(std::array{f.a}, surface.triangles()[f.b]); });
   keep_vertices_on_faces(own, pair, pair.a, pair.a);
   pair.face_vertex = pair.edge_edge = static_cast<std::uint32_t>(own.candidates.features.size());
   own.search.within(own.edges, own.found, most_boxes);
+  own.work += own.found.size();
   std::erase_if(own.found, [&](const ItemPair& f) { return share_vertex(surface.edges()[f.a], surface.edges()[f.b]); });
   keep_edges(own, pair);
 }

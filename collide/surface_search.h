@@ -98,7 +98,7 @@ class SurfaceSearch {
     std::vector<ItemPair> found;
     FeaturePairs meeting;
     Candidates candidates;
-    std::size_t work;
+    std::size_t work = 0;
   };
   void search(const Motion& motion, float least, Workers& workers);
   void require_few(std::size_t features) const;

@@ -38,7 +38,7 @@ class GlName {
 };
 
 /// Of a vertex's attribute in its buffer, as glVertexAttribPointer takes it.
-inline const void* offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
+inline const void* attribute_offset(std::size_t bytes) { return reinterpret_cast<const void*>(bytes); }
 
 namespace detail {
 void delete_buffer(GLuint name);

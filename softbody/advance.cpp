@@ -99,7 +99,7 @@ int Dynamics::substeps_within_bound(double h) const {
 }
 
 void Dynamics::begin_frame(double seconds) {
-  found_ = candidates_ = implicit_ = 0;
+  found_ = surface_work_ = implicit_ = 0;
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
@@ -137,7 +137,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 bool Dynamics::spent(const Progress& frame) const {
   if (frame.substeps >= frame.most) return true;
   const double share = std::max(1.0, double(x_[0].size()) / many_particles);
-  return !frame.fixed && (candidates_ >= share * max_work_.candidates || implicit_ >= share * max_work_.implicit);
+  return !frame.fixed && (surface_work_ >= share * max_work_.surface || implicit_ >= share * max_work_.implicit);
 }
 
 /// As many substeps as what bounds them may be trusted for.
@@ -160,7 +160,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
     frame.substeps += steps;
-    if (!surface_.empty()) candidates_ += surface_.work_of_substep(float(h)) * steps;
+    if (!surface_.empty()) surface_work_ += surface_.work_of_substep(float(h)) * steps;
     for (auto& of_thread : implicit_work_)
       for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
   };

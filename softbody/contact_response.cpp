@@ -137,7 +137,7 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
   const collide::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
   if (found_ > 0) {
     surface_.renew(motion, elapsed, float(ahead), workers_);
-    candidates_ += double(surface_.search().work());
+    surface_work_ += double(surface_.search().work());
     return;
   }
   found_ = left;
@@ -157,7 +157,7 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
   const double at_once = max_work_.at_once * std::max(1.0, double(n) / MaxWork::many_particles);
   surface_.find(motion, std::move(traits), std::move(contacts),
                 {float(left), float(least), self_contact_, static_cast<std::size_t>(at_once)}, float(ahead), workers_);
-  candidates_ += double(surface_.search().work());
+  surface_work_ += double(surface_.search().work());
 }
 
 }  // namespace softbody

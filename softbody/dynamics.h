@@ -92,10 +92,10 @@ struct SeenContacts {
 };
 
 /// What a frame may be at most, in a world of 10,000 particles; in larger ones more in proportion. Fixed substeps are
-/// bound by at_once only. Scenes as they are shipped have at most a quarter of the candidates.
+/// bound by at_once only. Scenes as they are shipped come to a third of the first at most.
 struct MaxWork {
-  double candidates = 2e7;           // of surface contact: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
-  double implicit = 4e6;             // iterations of the implicit solver, times the particles of a body, and its sweeps
+  double surface = 2e7;   // contact of surfaces: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
+  double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; more in proportion in a world of many_particles
   static constexpr double many_particles = double(1 << 18);
 };
@@ -351,7 +351,7 @@ class Dynamics {
   float step_ = 0;  // s, of the substep at hand
   std::size_t least_shared_ = 0;
   MaxWork max_work_;
-  double candidates_ = 0, implicit_ = 0;  // of the frame at hand, as max_work_ counts them
+  double surface_work_ = 0, implicit_ = 0;  // of the frame at hand, as max_work_ counts them
   int active_threads_ = 1;
 };
 

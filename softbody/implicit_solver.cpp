@@ -236,14 +236,14 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   const std::array<bool, lanes> held = hold_forces(p);
   if (std::ranges::find(held, false) == held.end()) return x_;
   const Lanes found = x_;
-  const std::vector<PlaneContact> loaded = *p.planes;
+  const std::vector<PlaneContact> planes_before = *p.planes;
   for (PlaneContact& c : *p.planes) c.force = glm::dvec3(0.0);
   predict(p);
   lead_by_springs(p);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (held[i % lanes]) x_[i] = found[i];
-  for (std::size_t i = 0; i < loaded.size(); ++i)
-    if (held[loaded[i].at % lanes]) (*p.planes)[i] = loaded[i];
+  for (std::size_t i = 0; i < planes_before.size(); ++i)
+    if (held[planes_before[i].at % lanes]) (*p.planes)[i] = planes_before[i];
   return x_;
 }
 

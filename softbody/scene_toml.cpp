@@ -120,7 +120,7 @@ void read_collision(Table table, Scene& scene) {
   table.close();
 }
 
-constexpr double far = 1e6;  // m, for places
+constexpr double farthest = 1e6;  // m, for places
 
 /// What all solids have in common.
 template <class Solid>
@@ -134,7 +134,7 @@ constexpr double unit_error = 1e-14;  // of the square of a length that was made
 
 /// A direction of any length but zero. Those that are unit stay as they are to the bit, so that saved scenes are equal.
 glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, -far, far);
+  const glm::dvec3 v = table.vector(key, fallback, -farthest, farthest);
   if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
   return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
 }
@@ -169,25 +169,25 @@ glm::dmat3 read_rotation(Table table) {
 }
 
 void read_sphere(Table& t, SolidSphere& s) {
-  s.centre = t.vector("centre", s.centre, -far, far);
-  s.radius = t.number("radius", s.radius, tiny, far);
+  s.centre = t.vector("centre", s.centre, -farthest, farthest);
+  s.radius = t.number("radius", s.radius, tiny, farthest);
 }
 
 void read_plane(Table& t, SolidPlane& p) {
-  p.point = t.vector("point", p.point, -far, far);
+  p.point = t.vector("point", p.point, -farthest, farthest);
   p.normal = read_direction(t, "normal", p.normal);
 }
 
 void read_box(Table& t, SolidBox& b) {
-  b.centre = t.vector("centre", b.centre, -far, far);
-  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, far);
+  b.centre = t.vector("centre", b.centre, -farthest, farthest);
+  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, farthest);
   b.axes = read_rotation(t.child("rotation"));
 }
 
 void read_capsule(Table& t, SolidCapsule& c) {
-  c.from = t.vector("from", c.from, -far, far);
-  c.to = t.vector("to", c.to, -far, far);
-  c.radius = t.number("radius", c.radius, tiny, far);
+  c.from = t.vector("from", c.from, -farthest, farthest);
+  c.to = t.vector("to", c.to, -farthest, farthest);
+  c.radius = t.number("radius", c.radius, tiny, farthest);
 }
 
 /// The solids of [[key]].
@@ -209,12 +209,12 @@ void read_solids(Table& root, Scene& scene) {
   if (!root.has("ground")) return;
   Table t = root.child("ground");
   Ground& ground = scene.ground.emplace();
-  ground.height = t.number("height", ground.height, -far, far);
+  ground.height = t.number("height", ground.height, -farthest, farthest);
   read_surface(t, ground);
 }
 
 /// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
-/// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
+/// if the table is empty. particles: those of the scene so farthest, checked before any memory is taken.
 void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
                  std::uint64_t& particles) {
   const glm::dvec3 size = table.whole_vector("size", glm::dvec3(1.0), 1, 1000);

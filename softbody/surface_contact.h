@@ -115,8 +115,8 @@ class SurfaceContact {
   /// more round for such bodies. False if there are none. On every thread, after a barrier.
   bool mend(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
 
-  /// Of the last substep, of h seconds: its candidates, and a half for each time that a contact was solved. At the
-  /// most: mend() may have been done sooner.
+  /// Of the last substep, of h seconds: its candidates, and a half for each time that a contact may have been solved,
+  /// or a vertex moved with its whole body.
   double work_of_substep(float h) const;
 
   /// Every two bodies of which features may touch in the frame at hand, a < b.

@@ -134,7 +134,8 @@ double SurfaceContact::work_of_substep(float h) const {
   auto work = double(search_.features().size());
   for (const Pair& p : pairs_) {
     const Index whole = p.parting ? side(p, false).surface->vertex_count() + side(p, true).surface->vertex_count() : 0;
-    work += 0.5 * double(hit(p, h) ? iterations_of_hits + turns : iterations) * double(p.rows + whole);
+    const int solves = hit(p, h) ? iterations_of_hits : iterations, mends = hit(p, h) ? turns : 0;
+    work += 0.5 * (double(solves) * double(p.rows + whole) + double(mends) * p.rows);
   }
   return work;
 }

@@ -8,7 +8,7 @@ preset=${1:-release}
 
 # The tools in the version whose verdict the sources are held to: others format and warn differently.
 check_format() { sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Werror; }
-# As they are compiled: many at a time, which reads the headers that they share only once.
+# As the preset compiles them: most of them many at a time, which reads the headers that they share only once.
 check_tidy() {
   cd "$root/build/$preset"
   sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' compile_commands.json | grep -v "^$root/tests/" | tr '\n' '\0' |

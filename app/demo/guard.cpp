@@ -9,6 +9,7 @@
 #include "app/base/text.h"
 
 namespace app {
+
 void Guard::begin(const softbody::World& world, std::size_t bodies) {
   looks_.clear();
   resting_.clear();

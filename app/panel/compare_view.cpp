@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 
 #include "app/view/palette.h"
 
@@ -89,12 +88,6 @@ class Grid {
   float top_ = 0, height_;
 };
 
-std::string number(const char* format, double value) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), format, value);
-  return buffer.data();
-}
-
 /// What all rows have in common.
 struct Scale {
   float slowest = 0;  // ms: the largest median
@@ -158,7 +151,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   if (times.size() == 0) {
     const bool reference = row.is_reference && row.scored();
     if (reference)
-      grid.text(time, number("%.2f ms", session.comparison().reference_ms), true);
+      grid.text(time, format("%.2f ms", session.comparison().reference_ms), true);
     else if (row.scored())
       grid.text(time, "not timed", true);
     return;
@@ -169,7 +162,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
                                             {grid.left(time) + length, grid.top() + grid.height() - inset},
                                             to_imgui(row.method.colour, 0.45f), w.px(2));
-  grid.text(time, number("%.2f ms", static_cast<double>(median)));
+  grid.text(time, format("%.2f ms", static_cast<double>(median)));
 }
 
 void draw_score(Widgets& w, const Grid& grid, const Row& row) {
@@ -185,9 +178,9 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   } else {
     const bool misses_some = found.recall < 1;
     if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
-    grid.text(recall, number("%.4f", rounded_down(found.recall)));
+    grid.text(recall, format("%.4f", rounded_down(found.recall)));
     if (misses_some) ImGui::PopStyleColor();
-    grid.text(precision, number("%.4f", rounded_down(found.precision)));
+    grid.text(precision, format("%.4f", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.name) + ": " + light.sentence +
                           " Missed now: " + grouped(found.missed.size()) +

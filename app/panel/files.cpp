@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-constexpr float near_column = 78, button_width = 62;  // design pixels
+constexpr float narrow_column = 78, button_width = 62;  // design pixels
 
 /// A field with a button at its right; true if either asks for the action.
 bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
@@ -23,7 +23,7 @@ bool field_with_button(Widgets& w, const char* label, std::string& value, const 
 }
 
 void draw_import(Widgets& w, Session& session, Import& import) {
-  w.row("Open", w.px(near_column));
+  w.row("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
   if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
                         "A Wavefront OBJ file, which joins the scene as a soft body, or a scene file, which replaces "
@@ -31,7 +31,7 @@ void draw_import(Widgets& w, Session& session, Import& import) {
                         "Load", "Reads the file."))
     import.load(session);
   ImGui::EndDisabled();
-  w.row("Size", w.px(near_column));
+  w.row("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
   w.slider("Size of meshes", import.size, Import::least_size, Import::most_size, "%.2f m",
@@ -42,7 +42,7 @@ void draw_import(Widgets& w, Session& session, Import& import) {
 }
 
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
-  w.row("Save as", w.px(near_column));
+  w.row("Save as", w.px(narrow_column));
   std::error_code ignored;
   const bool there = std::filesystem::exists(ui.save_as, ignored);
   const bool as_named = saved && there && session.scene_file().name() == std::filesystem::absolute(ui.save_as);
@@ -71,7 +71,7 @@ void draw_command(Widgets& w, const Session& session, UiState& ui, const softbod
   // What was added between the last step and the next shows here at once, there after that step.
   const bool just_added = std::ranges::any_of(session.world().added(),
                                               [&](const auto& one) { return frame > 0 && one.source.appear == frame; });
-  w.row("Command", w.px(near_column));
+  w.row("Command", w.px(narrow_column));
   ImGui::BeginDisabled(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   std::string demo = demo_command(file.name(), used, session.integrator());
@@ -84,7 +84,7 @@ void draw_command(Widgets& w, const Session& session, UiState& ui, const softbod
 }
 
 void draw_recording(Widgets& w, TakeAway& take_away) {
-  w.row("Record", w.px(near_column));
+  w.row("Record", w.px(narrow_column));
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
   ImGui::BeginDisabled(take_away.recording() || take_away.finishing());
@@ -129,16 +129,16 @@ void draw_files(Widgets& w, Session& session, UiState& ui) {
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {
   TakeAway& take_away = ui.take_away;
-  w.row("Folder", w.px(near_column));
+  w.row("Folder", w.px(narrow_column));
   w.text("Output folder", take_away.folder, "the current one",
          "Where all of this goes. Names end in the next free number; nothing is overwritten.");
-  w.row("Take", w.px(near_column));
+  w.row("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) take_away.picture_asked = true;
   ImGui::SameLine();
   if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) take_away.write_curves(session);
   draw_recording(w, take_away);
-  w.row("", w.px(near_column));
+  w.row("", w.px(narrow_column));
   w.checkbox("With the panel", take_away.with_panel,
              "Pictures and videos show the whole window, else the scene alone.");
   draw_message(w, take_away);

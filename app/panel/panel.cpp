@@ -22,8 +22,9 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const std::filesystem::path from = session.scene_file().name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
   w.row("Scene", w.px(62));
-  const float help_width = ImGui::GetFrameHeight(), button_width = w.px(52), gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - button_width - 2 * gap);
+  const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
+              gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
   if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
@@ -34,7 +35,7 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
     if (!chosen.empty()) session.choose_scene(chosen);
   }
   ImGui::SameLine(0, gap);
-  draw_tour_button(w, session, ui, button_width);
+  draw_tour_button(w, session, ui, tour_button_width);
   ImGui::SameLine(0, gap);
   if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }

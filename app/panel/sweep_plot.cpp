@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
 #include "collide/methods.h"
 
@@ -21,11 +20,7 @@ void pale_text(ImVec2 at, float place, const char* text) {
 }
 
 /// "0.01", "1", "100".
-std::string power_of_ten(int exponent) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%g", std::pow(10.0, exponent));
-  return text.data();
-}
+std::string power_of_ten(int exponent) { return format("%g", std::pow(10.0, exponent)); }
 
 int exponent_below(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 

@@ -1,18 +1,11 @@
 #include "app/view/surface_view.h"
 
-#include <array>
-#include <cstdio>
-
 #include "app/view/palette.h"
 
 namespace app {
 namespace {
 
-std::string millimetres(double metres) {
-  std::array<char, 32> buffer{};
-  std::snprintf(buffer.data(), buffer.size(), "%.2f mm", metres * 1e3);
-  return buffer.data();
-}
+std::string millimetres(double metres) { return format("%.2f mm", metres * 1e3); }
 
 std::string vertices_and_edges(std::size_t vertices, std::size_t edge_pairs) {
   return grouped(vertices) + " + " + grouped(edge_pairs);

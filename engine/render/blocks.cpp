@@ -51,8 +51,8 @@ Blocks::Blocks(const std::filesystem::path& shaders)
   array_.bind();
   const std::vector<Corner> corners = cube();
   corners_.set(GL_ARRAY_BUFFER, std::span(corners));
-  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), offset(offsetof(Corner, place)));
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), offset(offsetof(Corner, normal)));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), attribute_offset(offsetof(Corner, place)));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Corner), attribute_offset(offsetof(Corner, normal)));
   for (GLuint attribute = 0; attribute < 7; ++attribute) {
     glEnableVertexAttribArray(attribute);
     if (attribute >= 2) glVertexAttribDivisor(attribute, 1);
@@ -95,12 +95,12 @@ void Blocks::draw_instances(std::size_t first, std::size_t count, GLsizei vertic
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
   constexpr GLsizei stride = sizeof(Instance);
   const std::size_t start = first * sizeof(Instance);
-  glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, stride, offset(start + offsetof(Instance, centre)));
+  glVertexAttribPointer(2, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, centre)));
   for (GLuint axis = 0; axis < 3; ++axis) {
     const std::size_t column = offsetof(Instance, half_axes) + axis * sizeof(glm::vec3);
-    glVertexAttribPointer(3 + axis, 3, GL_FLOAT, GL_FALSE, stride, offset(start + column));
+    glVertexAttribPointer(3 + axis, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + column));
   }
-  glVertexAttribPointer(6, 3, GL_FLOAT, GL_FALSE, stride, offset(start + offsetof(Instance, colour)));
+  glVertexAttribPointer(6, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(start + offsetof(Instance, colour)));
   glEnable(GL_CULL_FACE);
   glDrawArraysInstanced(GL_TRIANGLES, 0, vertices, static_cast<GLsizei>(count));
   glDisable(GL_CULL_FACE);

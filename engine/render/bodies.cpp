@@ -51,8 +51,8 @@ const Bodies::Level& Bodies::level_of(Mesh& mesh, int level) const {
   made->indices.set(GL_ELEMENT_ARRAY_BUFFER, std::span(refined.indices));
   made->vertices.set(GL_ARRAY_BUFFER, std::span(refined.vertices));
   constexpr GLsizei stride = sizeof(RefinedVertex);
-  glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, offset(offsetof(RefinedVertex, corners)));
-  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, offset(offsetof(RefinedVertex, weights)));
+  glVertexAttribIPointer(0, 3, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(RefinedVertex, corners)));
+  glVertexAttribPointer(1, 2, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(RefinedVertex, weights)));
   describe_instances();
   return *made;
 }
@@ -60,10 +60,10 @@ const Bodies::Level& Bodies::level_of(Mesh& mesh, int level) const {
 void Bodies::describe_instances() const {
   constexpr GLsizei stride = sizeof(Instance);
   glBindBuffer(GL_ARRAY_BUFFER, instances_.id());
-  glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, first_vertex)));
-  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, radius)));
-  glVertexAttribIPointer(4, 2, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, occluders)));
-  glVertexAttribPointer(5, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, colour)));
+  glVertexAttribIPointer(2, 1, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, first_vertex)));
+  glVertexAttribPointer(3, 1, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, radius)));
+  glVertexAttribIPointer(4, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
+  glVertexAttribPointer(5, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
   for (GLuint attribute = 0; attribute < 6; ++attribute) {
     glEnableVertexAttribArray(attribute);
     if (attribute >= 2) glVertexAttribDivisor(attribute, 1);

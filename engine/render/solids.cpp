@@ -46,10 +46,10 @@ Spheres::Spheres(const std::filesystem::path& shaders)
   glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
   constexpr GLsizei stride = sizeof(Instance);
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, sphere)));
-  glVertexAttribIPointer(2, 2, GL_UNSIGNED_INT, stride, offset(offsetof(Instance, occluders)));
-  glVertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, colour)));
-  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, offset(offsetof(Instance, segment)));
+  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, sphere)));
+  glVertexAttribIPointer(2, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
+  glVertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
+  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, segment)));
   for (GLuint attribute = 0; attribute < 5; ++attribute) {
     glEnableVertexAttribArray(attribute);
     if (attribute >= 1) glVertexAttribDivisor(attribute, 1);
@@ -102,8 +102,8 @@ FloorMap::FloorMap(const std::filesystem::path& shaders) : program_(shaders, "fl
   glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, map_.id(), 0);
   array_.bind();
   glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
-  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Instance), offset(offsetof(Instance, sphere)));
-  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Instance), offset(offsetof(Instance, colour)));
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(Instance), attribute_offset(offsetof(Instance, sphere)));
+  glVertexAttribPointer(1, 3, GL_FLOAT, GL_FALSE, sizeof(Instance), attribute_offset(offsetof(Instance, colour)));
   for (GLuint attribute = 0; attribute < 2; ++attribute) {
     glEnableVertexAttribArray(attribute);
     glVertexAttribDivisor(attribute, 1);

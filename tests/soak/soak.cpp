@@ -90,12 +90,14 @@ class Soak {
   void say_slow(double seconds) const {
     const softbody::World& world = demo_.session.world();
     const softbody::Profile& p = world.profile();
+    const softbody::SurfaceContact& surface = world.dynamics().surface_contact();
     std::printf(
-        "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %s, %d substeps, %.5f s "
-        "simulated, %zu candidates, found in %.0f of %.0f ms\n",
+        "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %d substeps of %s, %.5f s "
+        "simulated, %.0f ms to detect, %.0f ms to solve, with surface contact of %.3g a search and %.3g a substep\n",
         world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_.c_str(),
-        world.bodies().count(), world.bodies().vertex_count(), world.dynamics().used_integrator().key.data(),
-        p.substeps, p.seconds, world.dynamics().surface_contact().search().features().size(), p.detect_ms, p.total_ms);
+        world.bodies().count(), world.bodies().vertex_count(), p.substeps,
+        std::string(world.dynamics().used_integrator().key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
+        double(surface.search().work()), surface.work_of_substep(float(p.seconds / std::max(p.substeps, 1))));
     std::fflush(stdout);
   }
 

@@ -155,7 +155,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   EXPECT_EQ(whole.profile().seconds, whole.frame_time());
   ASSERT_GT(whole.profile().substeps, 8);
   const auto of_work = [&](double bound) {
-    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.candidates = bound}});
+    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.surface = bound}});
     world.step();
     EXPECT_NEAR(world.profile().seconds / world.frame_time(),
                 double(world.profile().substeps) / whole.profile().substeps, 0.05);
@@ -182,7 +182,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   EXPECT_EQ(of_work(work).profile().substeps, 4);
   EXPECT_EQ(of_work(work + half).profile().substeps, 8);
 
-  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.candidates = 0}});
+  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.surface = 0}});
   fixed.step();
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
 }
