@@ -61,6 +61,29 @@ TEST(SurfaceSearch, BodiesFarApartHaveNoCandidates) {
   EXPECT_TRUE(Found(m, true).search.pairs().empty()) << "nor have those that stand, wherever they are";
 }
 
+TEST(SurfaceSearch, CountsWhatItLooksAt) {
+  const auto still = [](const glm::vec3&) { return glm::vec3(0); };
+  const SurfaceMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const auto two = [&](float apart) {
+    Moving m;
+    for (const float z : {0.0f, apart}) m.add(triangle, {0, 0, z}, 2, 0.1f, still);
+    return Found(m, false);
+  };
+  // 14 features; of their boxes 6 pairs of a vertex and a face and 9 of edges, which are all candidates.
+  EXPECT_EQ(two(0.5f).search.features().size(), 15u);
+  EXPECT_EQ(two(0.5f).search.work(), 14u + 15u + 15u);
+  EXPECT_EQ(two(50).search.work(), 0u);
+
+  Moving m;
+  m.add(sheet(10, 1), glm::vec3(0), 0.05f, 0.005f, still);
+  const Found with_itself(m, true);
+  const Surface& surface = *m.traits[0].surface;
+  const std::size_t candidates = with_itself.search.features().size(), touching = 3 * surface.triangles().size();
+  ASSERT_GT(candidates, 0u);
+  EXPECT_GE(with_itself.search.work(), surface.feature_count() + touching + 2 * candidates)
+      << "faces and their corners";
+}
+
 TEST(SurfaceSearch, LeavesOutBodiesThatAreNotFinite) {
   std::mt19937 random(63);
   Moving m = swarm(random, 1, 0.02f, 0.01f);
