@@ -11,7 +11,7 @@ check_format() { sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Wer
 # As the preset compiles them: most of them many at a time, which reads the headers that they share only once.
 check_tidy() {
   cd "$root/build/$preset"
-  sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' compile_commands.json | grep -v "^$root/tests/" | tr '\n' '\0' |
+  sed -n 's/^ *"file": "\(.*\)",\?$/\1/p' compile_commands.json | grep -v -e "^$root/tests/" -e "^$PWD/tests/" | tr '\n' '\0' |
     xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p . --quiet 2>clang-tidy.log
 }
 
