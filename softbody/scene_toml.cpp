@@ -214,7 +214,7 @@ void read_solids(Table& root, Scene& scene) {
 }
 
 /// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
-/// if the table is empty. particles: those of the scene so farthest, checked before any memory is taken.
+/// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
 void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
                  std::uint64_t& particles) {
   const glm::dvec3 size = table.whole_vector("size", glm::dvec3(1.0), 1, 1000);
