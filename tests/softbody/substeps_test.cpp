@@ -187,6 +187,40 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
 }
 
+/// The bounds are those of a world of 10,000 particles. Who is held is not stepped, but is one of them.
+TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
+  const auto substeps = [](Scene scene, std::size_t held, const World::Options& options) {
+    BodySource body = scene.bodies[0];
+    body.mesh.subdivisions = 3;  // 642 particles
+    body.release = 10;
+    for (std::size_t i = 0; i < held; ++i) {
+      body.position = {2.0 * double(i), 0, 10};
+      scene.bodies.push_back(body);
+    }
+    World world(scene, options);
+    world.step();
+    EXPECT_LT(world.profile().seconds, world.frame_time());
+    return world.profile().substeps;
+  };
+  Scene fast = lone_body(spring_ball(), {0, -500, 0});
+  fast.ground.emplace();
+  const auto implicit = [&](std::size_t held, double work) {
+    return substeps(fast, held, {.integrator = "implicit", .max_work = {.implicit = work}});
+  };
+  const auto surface = [&](std::size_t held, double work) {
+    return substeps(touching_surfaces(), held, {.integrator = "semi-implicit-euler", .max_work = {.surface = work}});
+  };
+  EXPECT_EQ(implicit(8, 4e4), implicit(0, 4e4)) << "5,298 particles";
+  EXPECT_EQ(surface(8, 8e3), surface(0, 8e3));
+  // 41,250 particles, 42,384 with lanes that no body takes.
+  EXPECT_GE(implicit(64, 1e4), implicit(0, 4e4));
+  EXPECT_LE(implicit(64, 1e4), implicit(0, 4.5e4));
+  EXPECT_GE(surface(64, 2e3), surface(0, 8e3));
+  EXPECT_LE(surface(64, 2e3), surface(0, 9e3));
+  EXPECT_LT(implicit(0, 1e4), implicit(0, 4e4));
+  EXPECT_LT(surface(0, 2e3), surface(0, 8e3));
+}
+
 /// In none of them do surfaces pass each other by more than 0.15 edges.
 TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
   constexpr double speed = 100;  // m/s, towards each other
