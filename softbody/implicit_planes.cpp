@@ -57,9 +57,9 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
   const std::size_t particles = work.x.size() / (3 * lanes);
   const LaneView x{work.x, lane}, v{work.v, lane};
   const RigidMotion m = rigid_motion(particles, x, v);
-  // With a share of its spin: how much of the energy of that is more than the body has, as a part of it.
-  const auto move = [&](double share) {
-    const glm::dmat3 turned = rotation(share * h * m.spin);
+  // With a share of its spin, turning as fast: by how much of that spin's energy the body would have more.
+  const auto move = [&](const glm::dvec3& turning, double share) {
+    const glm::dmat3 turned = rotation(share * h * turning);
     const glm::dvec3 spin = share * (turned * m.spin_of(glm::transpose(turned) * m.momentum));
     const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
     const glm::dvec3 shift = stopped(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
@@ -76,7 +76,15 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
     constexpr double rounding = 1e-9;
     return gain - before <= rounding * before ? 0 : (gain - before) / spinning;
   };
-  if (const double excess = move(1); excess > 0 && !(excess < 1 && move(std::sqrt(1 - excess)) <= 0)) move(0);
+  if (move(m.spin, 1) > 0) {
+    // Turned by its spin, one that spins fast about its long axis comes to where its momentum is far more energy. About
+    // that momentum itself it can turn without gaining any.
+    const double length = glm::length(m.momentum);
+    const glm::dvec3 along = length > 0 ? m.momentum / length : glm::dvec3(0.0);
+    const glm::dvec3 about = glm::dot(m.steady_spin_of(m.momentum), along) * along;
+    if (const double excess = move(about, 1); excess > 0 && !(excess < 1 && move(about, std::sqrt(1 - excess)) <= 0))
+      move(about, 0);
+  }
   for (PlaneContact& c : work.planes)
     if (c.at % lanes == lane) c.force = glm::dvec3(0.0);
 }

@@ -49,7 +49,8 @@ bool keeps_balance(const Prototype& prototype, const ImplicitWork& work, std::si
                    const glm::dvec3& gravity);
 
 /// The end of a step of h whose solve is not to be trusted: the body in the lane flies and spins on as one and stops at
-/// its planes; if that would give it energy, without its spin. Its shape stays, what moves within it is lost.
+/// its planes. If that would give it energy, it turns about its angular momentum instead, and if that does, with less
+/// spin or none. Its shape stays, what moves within it is lost.
 void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
 
 }  // namespace softbody
