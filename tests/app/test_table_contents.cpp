@@ -22,7 +22,7 @@ struct Points {
     std::uniform_real_distribution<float> anywhere(-2, 2), near(-0.3f, 0.3f);
     const auto shape = std::make_shared<collide::Shape>(Index{12}, std::span<const std::array<Index, 2>>{});
     for (int b = 0; b < number; ++b) {
-      const glm::vec3 centre(anywhere(random), anywhere(random), anywhere(random));
+      const glm::vec3 centre{anywhere(random), anywhere(random), anywhere(random)};
       for (int v = 0; v < 12; ++v) {
         x.push_back(centre.x + near(random));
         y.push_back(centre.y + near(random));

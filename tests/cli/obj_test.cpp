@@ -97,9 +97,11 @@ std::string mutated(std::string text, std::mt19937& random) {
       case 2:
         text.erase(at, 1 + random() % 20);
         break;
-      case 3:
-        text.insert(at, text.substr(random() % text.size(), random() % 60));
+      case 3: {
+        const std::size_t from = random() % text.size();
+        text.insert(at, text.substr(from, random() % 60));
         break;
+      }
       case 4:
         text.insert(at, 1, spice[random() % spice.size()]);
         break;

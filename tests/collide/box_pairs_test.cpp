@@ -56,8 +56,8 @@ Boxes lattice_boxes(std::mt19937& random, std::size_t count, unsigned space) {
   Boxes boxes;
   const auto step = [&](unsigned n) { return static_cast<float>(random() % n); };
   for (std::size_t k = 0; k < count; ++k) {
-    const glm::vec3 lo(step(space), step(space), step(space));
-    boxes.push_back({lo, lo + glm::vec3(step(3), step(3), step(3))});
+    const glm::vec3 lo{step(space), step(space), step(space)};
+    boxes.push_back({lo, lo + glm::vec3{step(3), step(3), step(3)}});
   }
   return boxes;
 }

@@ -35,7 +35,10 @@ const std::vector<Source>& sources() {
       {"many values", [](std::mt19937& random) { return uniform(random, -1, 1); }},
       {"far away", [](std::mt19937& random) { return 1e6f + uniform(random, -1, 1); }},
       {"all exponents",
-       [](std::mt19937& random) { return std::ldexp(uniform(random, -1, 1), static_cast<int>(random() % 250) - 125); }},
+       [](std::mt19937& random) {
+         const float value = uniform(random, -1, 1);
+         return std::ldexp(value, static_cast<int>(random() % 250) - 125);
+       }},
       {"nearly flat", [](std::mt19937& random) { return 1 + static_cast<float>(random() % 3) * 0x1p-23f; }},
   };
   return all;

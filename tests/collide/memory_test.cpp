@@ -192,7 +192,8 @@ TEST_P(Memory, SeesJumps) {
     see(state);
     if (frame % 4 != 3) continue;
     for (std::uint32_t jumps = random() % 12; jumps > 0; --jumps) {
-      shift(state, random() % state.bodies.count(), random_points(random, 1, -1, 1)[0]);
+      const std::size_t body = random() % state.bodies.count();
+      shift(state, body, random_points(random, 1, -1, 1)[0]);
     }
   }
   EXPECT_GT(kept_, 0u);

@@ -148,8 +148,7 @@ TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 c(l, -l, 0.5 * l);
     s.place.x[l] = float(c.x), s.place.y[l] = float(c.y), s.place.z[l] = float(c.z);
-    normal.push_back(
-        glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1))));
+    normal.push_back(glm::normalize(random_vector(random, 1)));
     x.set(0, l, c + 1.0 * normal.back());  // on the surface of radius 1, up to rounding
     const glm::dvec3 across = glm::normalize(glm::cross(normal.back(), glm::dvec3(0.3, 0.5, 0.8)));
     before.push_back(-2.0 * normal.back() + 4.0 * across);
@@ -170,9 +169,7 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
   for (int round = 0; round < 20'000; ++round) {
     body::Vec<float> expected[lanes];
     for (int l = 0; l < lanes; ++l) {
-      const auto direction = [&] {
-        return glm::normalize(glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)));
-      };
+      const auto direction = [&] { return glm::normalize(random_vector(random, 1)); };
       const double gap = uniform(random, -1, 1) * std::pow(10, uniform(random, -7, 0.5));  // m
       const glm::dvec3 n = direction();
       x.set(0, l, (3 + gap) * n);

@@ -84,9 +84,7 @@ TEST_P(Pressure, ForceIsPressureTimesTheGradientOfVolume) {
   for (const Solid& solid : solids) {
     LaneField x = positions(solid), f(solid.corners.size());
     for (std::size_t i = 0; i < solid.corners.size(); ++i)  // no symmetry may hide a mistake
-      for (int l = 0; l < lanes; ++l)
-        x.set(i, l,
-              x.at(i, l) + glm::dvec3(uniform(random, -.1, .1), uniform(random, -.1, .1), uniform(random, -.1, .1)));
+      for (int l = 0; l < lanes; ++l) x.set(i, l, x.at(i, l) + random_vector(random, 0.1));
     alignas(32) float gauge[lanes];
     for (int l = 0; l < lanes; ++l) gauge[l] = 100.0f * float(l - 3);
     k.pressure(kernel_faces(solid), std::as_const(x).field(), gauge, f.field());

@@ -133,6 +133,11 @@ std::vector<Isa> isas() {
 // Not the library's distributions: those differ between standard libraries.
 double uniform(std::mt19937& random, double lo, double hi) { return lo + (hi - lo) * double(random()) / 4294967296.0; }
 
+// Braces: in a function's arguments each compiler would draw in an order of its own.
+glm::dvec3 random_vector(std::mt19937& random, double size) {
+  return {uniform(random, -size, size), uniform(random, -size, size), uniform(random, -size, size)};
+}
+
 void LaneField::randomise(std::mt19937& random, double size) {
   for (auto* component : {&x, &y, &z})
     for (float& value : *component) value = float(uniform(random, -size, size));

@@ -41,6 +41,8 @@ std::vector<glm::dvec3> forces(const Prototype& prototype, const std::vector<glm
 std::vector<Isa> isas();
 
 double uniform(std::mt19937& random, double lo, double hi);
+/// Components from -size to size, drawn in their order.
+glm::dvec3 random_vector(std::mt19937& random, double size);
 
 using tests::TemporaryFolder;
 

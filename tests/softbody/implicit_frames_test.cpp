@@ -145,7 +145,7 @@ TEST(ImplicitEnergy, TakesBackWhatIsUndue) {
     double gain = 0;  // J
     const std::size_t n = m.prototype->mesh.vertices.size();
     for (std::size_t i = 0; i < n; ++i) {
-      const glm::dvec3 more{uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+      const glm::dvec3 more = random_vector(random, 1);
       put(m.work.v, i, 1, at(m.work.v, i, 1) + more);
       put(m.work.end_v, i, 1, at(m.work.end_v, i, 1) + 1.01 * more);
       momentum += at(m.work.end_v, i, 1);
@@ -173,8 +173,7 @@ TEST(GoOnAsOne, LeavesARigidMotionAsItIs) {
   std::mt19937 random(1);
   for (int i = 0; i < 50; ++i) {
     Moving m;
-    const auto any = [&] { return glm::dvec3(uniform(random, -5, 5), uniform(random, -5, 5), uniform(random, -5, 5)); };
-    const glm::dvec3 velocity = any(), spin = any();
+    const glm::dvec3 velocity = random_vector(random, 5), spin = random_vector(random, 5);
     const std::size_t n = m.prototype->mesh.vertices.size();
     for (std::size_t k = 0; k < n; ++k) put(m.work.v, k, 1, velocity + glm::cross(spin, m.prototype->start[k]));
     go_on_as_one(m.work, 1, 0.01, glm::dvec3(0.0));

@@ -76,7 +76,7 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
   std::vector<glm::dvec3> ahead = a.shape(), back = ahead, d(n);
   std::mt19937 random(1);
   for (std::size_t i = 0; i < n; ++i) {
-    for (int k = 0; k < 3; ++k) d[i][k] = uniform(random, -1, 1);
+    d[i] = random_vector(random, 1);
     ahead[i] += tiny * d[i], back[i] -= tiny * d[i];
   }
   const auto after = forces(*p, ahead), before = forces(*p, back);

@@ -12,16 +12,16 @@
 namespace softbody::test {
 namespace {
 
-glm::dvec3 random_vector(std::mt19937& random, double size) {
-  const double x = uniform(random, -size, size), y = uniform(random, -size, size);
-  return {x, y, uniform(random, -size, size)};
-}
-
 /// By Rodrigues' formula.
 glm::dmat3 rotation(const glm::dvec3& axis, double angle) {
   const glm::dvec3 n = glm::normalize(axis);
   const glm::dmat3 cross(glm::dvec3(0, n.z, -n.y), glm::dvec3(-n.z, 0, n.x), glm::dvec3(n.y, -n.x, 0));
   return glm::dmat3(1.0) + std::sin(angle) * cross + (1 - std::cos(angle)) * cross * cross;
+}
+
+glm::dmat3 random_rotation(std::mt19937& random) {
+  const glm::dvec3 axis = random_vector(random, 1);
+  return rotation(axis, uniform(random, -3.14, 3.14));
 }
 
 double distance(const glm::dmat3& a, const glm::dmat3& b) {
@@ -33,9 +33,8 @@ double distance(const glm::dmat3& a, const glm::dmat3& b) {
 TEST(BestRotation, IsThePolarFactorOfAStretchedBody) {
   std::mt19937 random(1);
   for (int i = 0; i < 200; ++i) {
-    const glm::dmat3 r = rotation(random_vector(random, 1), uniform(random, -3.14, 3.14));
-    const glm::dmat3 axes = rotation(random_vector(random, 1), uniform(random, -3.14, 3.14));
-    const glm::dvec3 size(uniform(random, 0.5, 3), uniform(random, 0.1, 3), i % 3 ? uniform(random, 0.1, 3) : 0);
+    const glm::dmat3 r = random_rotation(random), axes = random_rotation(random);
+    const glm::dvec3 size{uniform(random, 0.5, 3), uniform(random, 0.1, 3), i % 3 ? uniform(random, 0.1, 3) : 0};
     glm::dmat3 stretch(0.0);  // symmetric; every third one is flat
     for (int k = 0; k < 3; ++k) stretch += size[k] * glm::outerProduct(axes[k], axes[k]);
     EXPECT_LT(distance(best_rotation(r * stretch), r), 1e-9) << i;

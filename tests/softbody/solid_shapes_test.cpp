@@ -67,10 +67,9 @@ double nearest(const Points& points, const glm::dvec3& to) {
 template <class Solid>
 void expect_distance_to(const Solid& solid, const Points& points, double coarse) {
   std::mt19937 random(21);
-  const auto place = [&random] { return uniform(random, -2, 2); };
   int outside = 0;
   for (int i = 0; i < 300; ++i) {
-    const glm::dvec3 p(place(), place(), place());
+    const glm::dvec3 p = random_vector(random, 2);
     const SolidSurface s = surface_at(solid, p);
     EXPECT_NEAR(glm::length(s.normal), 1, 1e-12);
     const glm::dvec3 foot = p - s.distance * s.normal;
@@ -93,9 +92,8 @@ TEST(SolidShapes, OfACapsuleWithoutLength) { expect_distance_to(ball, sphere_poi
 TEST(SolidShapes, InsideABoxTheNearestFaceCounts) {
   const Points points = box_points(box);
   std::mt19937 random(22);
-  const auto part = [&random] { return uniform(random, -1, 1); };
   for (int i = 0; i < 300; ++i) {
-    const glm::dvec3 p = box.centre + box.axes * (glm::dvec3(part(), part(), part()) * box.half_size);
+    const glm::dvec3 p = box.centre + box.axes * (random_vector(random, 1) * box.half_size);
     const SolidSurface s = surface_at(box, p);
     EXPECT_LE(s.distance, 0);
     EXPECT_LE(-s.distance, nearest(points, p) + 1e-12);

@@ -53,7 +53,7 @@ TEST(StableStep, ShrinksWithStiffnessAndWithDamping) {
 double largest_eigenvalue(const Prototype& p, const std::vector<glm::dvec3>& x, double shift) {
   std::mt19937 random(7);
   std::vector<glm::dvec3> mode(x.size());
-  for (auto& m : mode) m = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
+  for (auto& m : mode) m = random_vector(random, 1);
   double value = 0;
   for (int iteration = 0; iteration < 400; ++iteration) {
     double norm2 = 0;
@@ -113,8 +113,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       m.start_in_equilibrium = false;
       const auto p = make_prototype({}, m);
       auto x = p->start;
-      for (auto& v : x)
-        v += rough * p->radius * glm::dvec3(uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1));
+      for (auto& v : x) v += rough * p->radius * random_vector(random, 1);
       const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
       EXPECT_LE(largest_eigenvalue(*p, x, bound / 2), bound) << "gas " << gas << ", rough " << rough;
       Material without = m;
