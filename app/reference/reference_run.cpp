@@ -41,7 +41,8 @@ BodyState disturbed(BodyState s, double size) {
   std::mt19937 random(1);
   // Not by std::uniform_real_distribution, which is another one in each library.
   const auto either_way = [&] { return 2 * double(random()) / double(std::mt19937::max()) - 1; };
-  for (glm::dvec3& p : s.x) p += size * glm::dvec3(either_way(), either_way(), either_way());
+  // Braces: in a function's arguments each compiler would draw in an order of its own.
+  for (glm::dvec3& p : s.x) p += size * glm::dvec3{either_way(), either_way(), either_way()};
   return s;
 }
 
