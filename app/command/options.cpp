@@ -154,6 +154,17 @@ void refuse_empty_values(const CLI::App& command) {
   for (const CLI::App* below : command.get_subcommands()) refuse_empty_values(*below);
 }
 
+/// CLI11 counts how often a flag is given, or takes a number for that: at `--self=maybe` it would lose its way.
+void refuse_values_of_flags(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) {
+    if (option->get_expected_max() > 0) continue;
+    option->check([](const std::string& value) {
+      return value == "true" || value == "false" ? "" : "a flag, to be written without a value";
+    });
+  }
+  for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
+}
+
 void check(const Options& options) {
   if (!softbody::find_integrator(options.integrator))
     throw UsageError("--integrator " + options.integrator + ": unknown; use one of: " + softbody::integrator_keys());
@@ -192,6 +203,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
   list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
       ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
+  refuse_values_of_flags(cli);
 
   try {
     cli.parse(argc, argv);
