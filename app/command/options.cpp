@@ -18,6 +18,14 @@ std::string one_line(std::string text) {
   return text;
 }
 
+/// Why the library refuses the command line.
+std::string reason(const CLI::ParseError& error) {
+  constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
+  std::string why = one_line(error.what());
+  if (!why.ends_with(value_of_flag)) return why;
+  return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
+}
+
 /// "1280x720" to width and height.
 void parse_size(const std::string& text, Options& options) {
   const auto parts = split(text, 'x');
@@ -154,14 +162,9 @@ void refuse_empty_values(const CLI::App& command) {
   for (const CLI::App* below : command.get_subcommands()) refuse_empty_values(*below);
 }
 
-/// CLI11 counts how often a flag is given, or takes a number for that: at `--self=maybe` it would lose its way.
+/// Values of flags are added up by CLI11, which throws what is no error of its own at `--self=maybe`.
 void refuse_values_of_flags(CLI::App& command) {
-  for (CLI::Option* option : command.get_options()) {
-    if (option->get_expected_max() > 0) continue;
-    option->check([](const std::string& value) {
-      return value == "true" || value == "false" ? "" : "a flag, to be written without a value";
-    });
-  }
+  for (CLI::Option* option : command.get_options()) option->disable_flag_override();
   for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
 }
 
@@ -213,7 +216,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
   } catch (const CLI::ParseError& error) {
     const auto below = cli.get_subcommands();
     const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
-    throw UsageError(one_line(error.what()) + "; see sbcollide " + command + "--help");
+    throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
   }
   if (*report && options.report.name.empty())
     throw UsageError("report: say which one: detection, contact, solver or stability");
