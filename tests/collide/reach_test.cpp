@@ -1,6 +1,7 @@
 #include "collide/reach.h"
 
 #include <gtest/gtest.h>
+#include <glm/common.hpp>
 
 #include "collide/aabb.h"
 #include "states.h"
@@ -47,29 +48,36 @@ TEST(Reach, IsHardlyMoreThanTheTolerance) {
 
 TEST(Aabb, IsNearUpToTheReachItself) {
   const Aabb a{glm::vec3(0), glm::vec3(1)};
-  EXPECT_TRUE(near(a, {glm::vec3(1.25f, 0, 0), glm::vec3(2, 1, 1)}, 0.25f));
-  EXPECT_FALSE(near(a, {glm::vec3(1.25f, 0, 0), glm::vec3(2, 1, 1)}, 0.2499f));
-  EXPECT_FALSE(near(a, {glm::vec3(0, 0, -3), glm::vec3(1, 1, -1)}, 0.5f));
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float shift : {1.25f, -1.25f}) {
+      Aabb b = a;
+      b.lo[axis] += shift, b.hi[axis] += shift;
+      EXPECT_TRUE(near(a, b, 0.25f)) << axis << " " << shift;
+      EXPECT_FALSE(near(a, b, 0.2499f)) << axis << " " << shift;
+    }
+  }
 }
 
 TEST(Sweep, MeetsEveryNearPairOnce) {
+  constexpr float step = 0x1p-4f, reach = 2 * step;  // many boxes are just as far apart
+  const auto on_grid = [](const glm::vec3& p) { return glm::round(p / step) * step; };
   std::mt19937 random(12);
   std::vector<Aabb> boxes;
   std::vector<Index> order;
   for (Index i = 0; i < 200; ++i) {
-    const glm::vec3 lo = random_points(random, 1, 0, 4)[0];
-    boxes.push_back({lo, lo + random_points(random, 1, 0, 0.7f)[0]});
+    const glm::vec3 lo = on_grid(random_points(random, 1, 0, 4)[0]);
+    boxes.push_back({lo, lo + on_grid(random_points(random, 1, 0, 0.7f)[0])});
     order.push_back(i);
   }
   std::vector<std::array<Index, 2>> met, expected;
   sweep(
-      order, 0.1f, [&](Index i) -> const Aabb& { return boxes[i]; },
+      order, reach, [&](Index i) -> const Aabb& { return boxes[i]; },
       [&](Index a, Index b) {
         met.push_back({std::min(a, b), std::max(a, b)});
       });
   for (Index a = 0; a < 200; ++a) {
     for (Index b = a + 1; b < 200; ++b) {
-      if (near(boxes[a], boxes[b], 0.1f)) expected.push_back({a, b});
+      if (near(boxes[a], boxes[b], reach)) expected.push_back({a, b});
     }
   }
   std::sort(met.begin(), met.end());
