@@ -81,6 +81,45 @@ TEST(EdgeThroughEdge, ParallelEdgesInOnePlanePassThroughNothing) {
   EXPECT_FALSE(parallel.edge_edge());
 }
 
+/// A point exactly in the plane y = x + z, as its coordinates have 20 binary places; near x and z.
+glm::vec3 in_plane(std::mt19937& random, float x, float z) {
+  const auto rounded = [&](float middle) {
+    return std::round((middle + 0.1f * random_points(random, 1, -1, 1)[0].x) * 0x1p20f) * 0x1p-20f;
+  };
+  const float exact_x = rounded(x), exact_z = rounded(z);
+  return {exact_x, exact_x + exact_z, exact_z};
+}
+
+/// Products of three such differences do not fit a double.
+TEST(VertexThroughFace, InThePlaneCountsAsOutsideThoughProductsAreRounded) {
+  std::mt19937 random(25);
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 a = in_plane(random, 0.2f, 0.2f), b = in_plane(random, 0.5f, 1.2f),
+                    c = in_plane(random, 1.2f, 0.2f);
+    const glm::vec3 p = in_plane(random, 0.6f, 0.5f);
+    const auto passes = [&](const glm::vec3& by) {
+      return Four{{moving(p, by), still(a), still(b), still(c)}}.vertex_face().has_value();
+    };
+    EXPECT_FALSE(passes({0, 0.5f, 0})) << i;
+    EXPECT_TRUE(passes({0, -0.5f, 0})) << i;
+    EXPECT_FALSE(passes({0.0625f, 0.0625f, 0})) << i;
+  }
+}
+
+TEST(EdgeThroughEdge, InOnePlaneCountsAsOneSideThoughProductsAreRounded) {
+  std::mt19937 random(26);
+  for (int i = 0; i < 300; ++i) {
+    const glm::vec3 p = in_plane(random, 0.2f, 0.2f), q = in_plane(random, 0.8f, 0.8f);
+    const glm::vec3 u = in_plane(random, 0.2f, 0.8f), v = in_plane(random, 0.8f, 0.2f);
+    const auto passes = [&](const glm::vec3& by) {
+      return Four{{moving(p, by), moving(q, by), still(u), still(v)}}.edge_edge().has_value();
+    };
+    EXPECT_FALSE(passes({0, -0.5f, 0})) << i;
+    EXPECT_TRUE(passes({0, 0.5f, 0})) << i;
+    EXPECT_FALSE(passes({0.0625f, 0.0625f, 0})) << i;
+  }
+}
+
 // The slow evaluation: side, and how far within each other the features are, at many times in double.
 
 double vertex_face_margin(const Four& four, double t, double& side) {
