@@ -86,9 +86,10 @@ Window::~Window() { glfwTerminate(); }
 bool Window::open() const { return !glfwWindowShouldClose(window_); }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
-void Window::poll() {
-  if (minimised()) {
-    glfwWaitEventsTimeout(0.1);
+void Window::poll(double seconds) {
+  if (minimised()) seconds = 0.1;
+  if (seconds > 0) {
+    glfwWaitEventsTimeout(seconds);
   } else {
     glfwPollEvents();
   }

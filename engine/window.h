@@ -30,8 +30,9 @@ class Window {
   bool open() const;  // until the user or close() closes it
   void close();
 
-  /// Handles what happened since the last call. Sleeps up to 0.1 s while minimised, so that a loop does not spin.
-  void poll();
+  /// Handles what happened since the last call, and waits up to so many seconds for something to happen; up to 0.1 s
+  /// while minimised, so that a loop does not spin.
+  void poll(double seconds = 0);
   /// Of what happened in all calls of poll() until now, what the next frame may be told.
   std::vector<InputEvent> take_input() { return input_.take(); }
   bool input_waits() const { return !input_.empty(); }  // for another frame

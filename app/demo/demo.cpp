@@ -54,7 +54,7 @@ class Demo {
 
   void run() {
     while (screen_->window.open() && !ui_.quit) {
-      screen_->window.poll();
+      screen_->window.poll(pacer_.spare());
       const double elapsed = pacer_.tick();
       if (screen_->window.minimised()) continue;  // poll() has slept; the world waits for its window
       frame(elapsed);
@@ -108,6 +108,7 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.take_dropped_files(), session_);
+    if (screen_->window.input_waits() || ui_.take_away.recording()) pacer_.stir();
     // Whatever waits of mouse and keyboard, a click at a time: a slow world does not keep those who type or click.
     take_input(elapsed);
     while (screen_->window.input_waits()) {
@@ -254,6 +255,7 @@ class Demo {
                          session_.drawn_positions(whole_steps(session_)));
     });
     ui_.fineness = screen_->canvas.fineness();
+    if (!still) pacer_.stir();
     drawn_ = key;
   }
 

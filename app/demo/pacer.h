@@ -1,6 +1,7 @@
 #pragma once
 // The time between pictures.
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -30,6 +31,13 @@ class Pacer {
     const double frames = std::round(elapsed * 60);
     return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
   }
+  /// To be called in frames in which something moves, or somebody touches something.
+  void stir() { stirred_ = last_; }
+  /// s that the next frame may wait for somebody to do so: where nothing stirs, 30 pictures a second will do.
+  double spare() const {
+    constexpr double settling = 1, interval = 1.0 / 30;  // tooltips come within a second, and scrolling comes to rest
+    return last_ - stirred_ > settling ? std::max(0.0, interval - (now() - last_)) : 0;
+  }
   /// Without a monitor to wait for, frames would follow one another at once and heat the machine for nothing.
   void rest() const {
     constexpr double shortest = 1.0 / 125;
@@ -38,7 +46,7 @@ class Pacer {
   }
 
  private:
-  double last_ = now();
+  double last_ = now(), stirred_ = last_;
 };
 
 }  // namespace app

@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <optional>
+#include <thread>
 
 #include "app/demo/canvas.h"
+#include "app/demo/pacer.h"
 #include "engine/headless.h"
 
 namespace app {
@@ -20,6 +22,22 @@ struct Cost {
 float after(int pictures, Fineness& fineness, const Cost& cost) {
   for (int i = 0; i < pictures; ++i) cost.draw(fineness);
   return fineness.value();
+}
+
+TEST(Pacer, HasTimeToSpareWhereNothingHasStirredForASecond) {
+  Pacer pacer;
+  pacer.tick();
+  EXPECT_EQ(pacer.spare(), 0);
+  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
+  double most = 0;
+  for (int i = 0; i < 100 && most == 0; ++i) {  // a machine may be busy elsewhere for as long as there is to spare
+    pacer.tick();
+    most = std::max(most, pacer.spare());
+  }
+  EXPECT_GT(most, 0);
+  EXPECT_LE(most, 1.0 / 30);
+  pacer.stir();
+  EXPECT_EQ(pacer.spare(), 0);
 }
 
 TEST(Fineness, IsLessWhereDrawingTakesTooLong) {
