@@ -46,13 +46,15 @@ run_soak() {
 
 soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak" run_soak; }
 
-# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build. The file that
-# readers are given anew for each input stays in memory: with a disk there are far fewer inputs a second.
+# run_fuzzer NAME: for five minutes, from its corpus on; what it finds goes into the folder of the build. For many inputs
+# a second: the file that readers are given anew for each stays in memory, quick inputs are tried more often than slow
+# ones, and allocations are noted without who asked for them, which a find that is run again shows.
 run_fuzzer() {
   cd "$root/build/fuzz"
   mkdir -p "found/$1"
-  TMPDIR=/dev/shm "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 -artifact_prefix="found/$1/" \
-    -print_final_stats=1 "found/$1" "$root/tests/fuzz/corpus/$1"
+  TMPDIR=/dev/shm ASAN_OPTIONS=malloc_context_size=1 "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 \
+    -entropic_scale_per_exec_time=1 -artifact_prefix="found/$1/" -print_final_stats=1 \
+    "found/$1" "$root/tests/fuzz/corpus/$1"
 }
 
 fuzz() {

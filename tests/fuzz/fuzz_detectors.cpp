@@ -1,5 +1,6 @@
-// All methods on arbitrary bodies over a few frames, against the plain oracle: one detector of each method for each
-// number of threads sees all frames, since it may reuse what it learnt from earlier ones.
+// All methods on arbitrary bodies over a few frames, against the plain oracle: one detector of each method sees all
+// frames, since it may reuse what it learnt from earlier ones, and in every eighth input a second one does, on two
+// threads, which take most of their time to wait for one another.
 
 #include <algorithm>
 #include <cstdio>
@@ -50,22 +51,25 @@ void check(const collide::Method& method, const collide::Result& result, const T
   must(result.self_contacts == truth.inside, "another number of self contacts");
 }
 
-/// One method's detectors: on one thread, and on two.
-class Pair {
+/// One method's detectors: on one thread, and on two where these are asked for.
+class Detectors {
  public:
-  explicit Pair(const collide::Method& method) : method_(method), one_(method.make()), two_(method.make()) {}
+  Detectors(const collide::Method& method, bool both) : method_(method), one_(method.make()) {
+    if (both) two_ = method.make();
+  }
 
   void detect(const collide::test::State& state, const collide::Settings& settings, const Truth& truth, int frame) {
     static collide::Workers alone(1), both(2);
     one_->detect(state.frame(), settings, alone, on_one_);
     check(method_, on_one_, truth, frame);
+    if (!two_) return;
     two_->detect(state.frame(), settings, both, on_two_);
     check(method_, on_two_, truth, frame);
     require(on_one_.contacts == on_two_.contacts, "two threads find other contacts", method_.key, frame);
   }
   void forget() {
     one_->forget();
-    two_->forget();
+    if (two_) two_->forget();
   }
 
  private:
@@ -75,20 +79,21 @@ class Pair {
 };
 
 void run(Bytes bytes) {
+  const bool both = bytes.below(8) == 0, large = bytes.below(8) == 0;
   collide::Settings settings = read_settings(bytes);
-  Bodies bodies = read_bodies(bytes);
-  std::vector<Pair> detectors;
-  for (const collide::Method& method : collide::methods()) detectors.emplace_back(method);
+  Bodies bodies = read_bodies(bytes, large ? all_sizes : small_sizes);
+  std::vector<Detectors> detectors;
+  for (const collide::Method& method : collide::methods()) detectors.emplace_back(method, both);
   for (int frame = 0; frame < most_frames; ++frame) {
     if (!collide::problem(settings).empty()) return;
     const collide::test::State state = bodies.state(settings.tolerance);
     const Truth truth(state, settings);
     if (truth.contacts.size() > most_contacts) return;
-    for (Pair& pair : detectors) pair.detect(state, settings, truth, frame);
+    for (Detectors& one : detectors) one.detect(state, settings, truth, frame);
     if (bytes.empty()) return;
     const int next = bytes.below(16);
     if (next == 0) settings = read_settings(bytes);
-    if (next == 1) std::ranges::for_each(detectors, &Pair::forget);
+    if (next == 1) std::ranges::for_each(detectors, &Detectors::forget);
     change(bodies, bytes);
   }
 }

@@ -1,7 +1,10 @@
 #include "sequence.h"
 
+#include <algorithm>
 #include <bit>
 #include <limits>
+#include <map>
+#include <tuple>
 
 namespace fuzz {
 
@@ -12,7 +15,6 @@ using collide::test::uniform;
 
 constexpr float infinity = std::numeric_limits<float>::infinity();
 constexpr float largest = std::numeric_limits<float>::max();
-constexpr std::size_t most_bodies = 12;
 
 float hostile(Bytes& bytes) {
   return bytes.one_of({std::numeric_limits<float>::quiet_NaN(), infinity, -infinity, largest, -largest, 1e30f, -1e19f,
@@ -27,21 +29,31 @@ glm::vec3 near_origin(Bytes& bytes) {
 
 glm::vec3 noise(std::mt19937& random, float size) { return collide::test::random_points(random, 1, -size, size)[0]; }
 
-/// A sphere with the rest positions and the edges of its mesh.
-Bodies::One ball(Bytes& bytes) {
-  const int subdivisions = bytes.one_of({0, 1, 1, 1, 2});
-  const float radius = bytes.one_of({0.5f, 0.5f, 0.3f, 2.0f});
-  const collide::test::Ball mesh = collide::test::icosphere(subdivisions, radius);
-  const bool with_rest = bytes.below(4) != 0;
-  const auto count = static_cast<Index>(mesh.vertices.size());
-  return {
-      std::make_shared<const collide::Shape>(count, mesh.edges, with_rest ? mesh.vertices : std::vector<glm::vec3>{}),
-      collide::test::moved(mesh.vertices, near_origin(bytes))};
+/// A sphere with the edges of its mesh, and with or without its rest positions. Each is made once: that takes longer
+/// than most inputs.
+const Bodies::One& sphere(int subdivisions, float radius, bool with_rest) {
+  static std::map<std::tuple<int, float, bool>, Bodies::One> made;
+  const auto [found, fresh] = made.try_emplace({subdivisions, radius, with_rest});
+  if (fresh) {
+    collide::test::Ball mesh = collide::test::icosphere(subdivisions, radius);
+    const auto count = static_cast<Index>(mesh.vertices.size());
+    const std::vector<glm::vec3> rest = with_rest ? mesh.vertices : std::vector<glm::vec3>{};
+    found->second = {std::make_shared<const collide::Shape>(count, mesh.edges, rest), std::move(mesh.vertices)};
+  }
+  return found->second;
 }
 
-/// Up to 47 points in a box of any size, all in one place for size 0, with a few edges between any of them.
-Bodies::One cloud(Bytes& bytes) {
-  const auto count = static_cast<Index>(bytes.below(48));
+Bodies::One ball(Bytes& bytes, const Sizes& sizes) {
+  const int subdivisions = std::min(bytes.one_of({0, 1, 1, 1, 2}), sizes.subdivisions);
+  const float radius = bytes.one_of({0.5f, 0.5f, 0.3f, 2.0f});
+  const bool with_rest = bytes.below(4) != 0;
+  const Bodies::One& one = sphere(subdivisions, radius, with_rest);
+  return {one.shape, collide::test::moved(one.positions, near_origin(bytes))};
+}
+
+/// Points in a box of any size, all in one place for size 0, with a few edges between any of them.
+Bodies::One cloud(Bytes& bytes, const Sizes& sizes) {
+  const auto count = static_cast<Index>(bytes.below(sizes.points));
   const float size = bytes.one_of({0.0f, 0.1f, 0.5f, 0.5f, 1.0f, 1e-20f, 1e-40f, 1e6f, 1e19f, 1e30f});
   const glm::vec3 centre = near_origin(bytes);
   std::mt19937 random = bytes.random();
@@ -57,9 +69,9 @@ Bodies::One cloud(Bytes& bytes) {
 }
 
 /// Points with whole coordinates, so that distances, midpoints and cell borders fall on each other.
-Bodies::One lattice(Bytes& bytes) {
+Bodies::One lattice(Bytes& bytes, const Sizes& sizes) {
   std::vector<glm::vec3> points;
-  const int sides = 1 + bytes.below(3);
+  const int sides = 1 + bytes.below(sizes.sides);
   const glm::vec3 corner(0.5f * static_cast<float>(bytes.below(5)), 0, 0.5f * static_cast<float>(bytes.below(5)));
   for (int i = 0; i < sides * sides * sides; ++i) {
     points.push_back(corner + glm::vec3(i % sides, i / sides % sides, i / sides / sides) / 2.0f);
@@ -69,14 +81,14 @@ Bodies::One lattice(Bytes& bytes) {
           points};
 }
 
-Bodies::One read_body(Bytes& bytes) {
+Bodies::One read_body(Bytes& bytes, const Sizes& sizes) {
   switch (bytes.below(4)) {
     case 0:
-      return cloud(bytes);
+      return cloud(bytes, sizes);
     case 1:
-      return lattice(bytes);
+      return lattice(bytes, sizes);
     default:
-      return ball(bytes);
+      return ball(bytes, sizes);
   }
 }
 
@@ -141,10 +153,10 @@ collide::Settings read_settings(Bytes& bytes) {
   return settings;
 }
 
-Bodies read_bodies(Bytes& bytes) {
-  Bodies bodies;
-  const int count = bytes.below(static_cast<int>(most_bodies));
-  for (int body = 0; body < count; ++body) bodies.all.push_back(read_body(bytes));
+Bodies read_bodies(Bytes& bytes, const Sizes& sizes) {
+  Bodies bodies{sizes, {}};
+  const int count = bytes.below(sizes.bodies);
+  for (int body = 0; body < count; ++body) bodies.all.push_back(read_body(bytes, sizes));
   return bodies;
 }
 
@@ -153,8 +165,8 @@ void change(Bodies& bodies, Bytes& bytes) {
   const int changes = bytes.below(4);  // often none: bodies at rest
   for (int k = 0; k < changes; ++k) {
     const int what = bytes.below(8);
-    if (what == 0 && all.size() < most_bodies) {
-      all.push_back(read_body(bytes));
+    if (what == 0 && all.size() < static_cast<std::size_t>(bodies.sizes.bodies)) {
+      all.push_back(read_body(bytes, bodies.sizes));
     } else if (!all.empty()) {
       const auto picked = static_cast<std::ptrdiff_t>(bytes.word() % all.size());
       if (what == 1) {
