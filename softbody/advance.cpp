@@ -11,7 +11,7 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e9;   // a state that asks for more is lost
+constexpr double most_substeps = 1e9;   // far more than there may be: less of the frame is simulated
 constexpr double many_particles = 1e4;  // in worlds of more a frame may be more work, in proportion
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
@@ -177,7 +177,6 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
 int Dynamics::substeps_left(const Progress& frame, int stable) const {
   const double left = frame.left;
   int count = std::max(stable, int(std::min(most_substeps, std::ceil(left * surface_.rate()))));
-  if (count >= most_substeps) count = 1;  // the sooner its frame ends, the sooner it is seen
   if (!integrator_->implicit) return count;
   // A matrix belongs to a step length, of which there are to be few: halves, quarters, ... of a frame.
   count = std::min(count, 1 << 20);  // far more than there may be, and lengths still divide what is left
