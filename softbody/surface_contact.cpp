@@ -31,6 +31,22 @@ void set_slack(collide::SurfaceBody& body, float wanted) {
   body.slack = slack;
 }
 
+/// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
+/// each other, but those of bodies in one place do not.
+bool faces_along(const Surface& own, const collide::Run& own_at, Index vertex, const Surface& other,
+                 const collide::Run& other_at, Index face) {
+  const auto normal = [](const Surface& surface, const collide::Run& at, Index f) {
+    const auto corner = [&](std::size_t k) {
+      const Index v = surface.triangles()[f][k];
+      return glm::vec3(at.x[v], at.y[v], at.z[v]);
+    };
+    return normal_of(corner(0), corner(1), corner(2));
+  };
+  glm::vec3 sum(0.0f);
+  for (const Index f : own.around(vertex)) sum += normal(own, own_at, f);
+  return glm::dot(sum, normal(other, other_at, face)) > 0;
+}
+
 }  // namespace
 
 void SurfaceContact::clear() {
@@ -183,6 +199,7 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
   };
   pair.deep = static_cast<std::uint32_t>(deep_.size());
   float deepest = 0;
+  std::uint32_t along = 0;
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
@@ -195,13 +212,16 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
       if (!shells[other]->inside(p)) continue;
       const collide::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
       deepest = std::max(deepest, nearest.distance);
+      along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
       deep_.push_back({v, nearest.face, of_b});
     }
   }
   pair.overlap = deep_.size() > pair.deep;
-  // Vertex by vertex, bodies far inside each other would only be pressed into nested cups.
+  // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
+  // which no vertex is deep, be pulled both ways for ever.
   pair.parting = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
-                 deepest > deep_share * std::min(traits_[pair.range.a].edge, traits_[pair.range.b].edge);
+                 (deepest > deep_share * std::min(traits_[pair.range.a].edge, traits_[pair.range.b].edge) ||
+                  2 * along > deep_.size() - pair.deep);
   if (pair.parting) deep_.resize(pair.deep);
   pair.deep_end = static_cast<std::uint32_t>(deep_.size());
 }

@@ -169,6 +169,18 @@ TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   EXPECT_LT(measure(world).energy - energy, 0.5 * 2 * 1.0) << "no more than both at the push's speed have";
 }
 
+/// Nearly all of each surface lies on the other one, so that hardly a vertex is deep.
+TEST(SurfaceContact, BodiesInOnePlaceComeApart) {
+  for (const double offset : {0.0, 1e-5, 1e-3, 0.02}) {
+    Scene scene = ball_in_space(rubber(0));
+    add_body(scene, {offset, 0, 0.3 * offset}, glm::dvec3(0.0));
+    World world(scene, {});
+    run(world, 120);
+    Judge(world).expect_clean("two seconds after they were " + std::to_string(offset) + " m apart");
+    EXPECT_GT(glm::length(motion(world, 0).centre - motion(world, 1).centre), 0.95);
+  }
+}
+
 TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.1, 0.02, 0.03}, glm::dvec3(0.0));
