@@ -101,6 +101,17 @@ TEST(NearBodies, IncludeOneThatIsHugeAndAreOnlyTheLiveOnes) {
   check(bounds, live, 0.2f, "live");
 }
 
+TEST(NearBodies, IncludeThoseThatBeginFarBeforeTheOther) {
+  std::mt19937 random(54);
+  std::vector<Bound> bounds;
+  for (Index i = 0; i < 200; ++i) {
+    const glm::vec3 lo = random_points(random, 1, 0, 1)[0] * glm::vec3(40, 10, 1);
+    const glm::vec3 size = random_points(random, 1, 0.1f, 1)[0] * glm::vec3(6, 0.2f, 0.2f);  // long and thin
+    bounds.push_back(bound_around(lo, lo + size, 4));
+  }
+  check(bounds, all_of(bounds), 0.1f, "long");
+}
+
 TEST(NearBodies, AreFoundAtAnySize) {
   std::mt19937 random(53);
   for (const float scale : {1e-40f, 1e-20f, 1e10f, 1e17f}) {

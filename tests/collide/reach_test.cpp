@@ -39,6 +39,21 @@ TEST(Reach, BoundsEveryPairThatThePredicateAccepts) {
   EXPECT_GT(accepted, 10000);
 }
 
+/// Found by search: rounding brings them within the tolerance from more than (1 + u) times it, u = 2^-24.
+TEST(Reach, BoundsPairsThatRoundingBringsNearest) {
+  struct Case {
+    float tolerance;
+    glm::vec3 a, b;
+  };
+  const Case cases[] = {
+      {0.179644078f, {-0.115869626f, -0.00222480949f, -0.110088803f}, {0.0105839735f, 0.124703094f, -0.0970199481f}},
+      {0.192625374f, {0.108097374f, 0.0131377773f, -0.0594537333f}, {-0.0351010635f, 0.0363095812f, 0.0672814846f}}};
+  for (const auto& [tolerance, a, b] : cases) {
+    ASSERT_LT(squared_distance(a.x, a.y, a.z, b.x, b.y, b.z), tolerance * tolerance);
+    EXPECT_LE(distance(a, b), static_cast<long double>(contact_reach(tolerance)));
+  }
+}
+
 TEST(Reach, IsHardlyMoreThanTheTolerance) {
   for (const float tolerance : {1e-15f, 0.1f, 1e6f}) {
     EXPECT_GE(contact_reach(tolerance), tolerance);

@@ -75,6 +75,21 @@ TEST(SurfaceCrossings, EdgesPassWhereNoVertexMeetsAFace) {
   EXPECT_EQ(figures.crossed_pairs, 1u);
 }
 
+TEST(SurfaceCrossings, EdgesOfOneBodyPassEachOther) {
+  const SurfaceMesh strip{{{-5, 0, -0.1f}, {-5, 0, 0.1f}, {5, 0, 0.1f}, {5, 0, -0.1f}}, {{0, 1, 2}, {0, 2, 3}}};
+  const SurfaceMesh across = turned(strip, glm::vec3(0, 1, 0), 1.2f);
+  const auto both = [&](float height) {
+    SurfaceMesh mesh = strip;
+    for (const glm::vec3& v : across.vertices) mesh.vertices.push_back(v + glm::vec3(0, height, 0));
+    for (const Triangle& t : across.triangles) mesh.triangles.push_back({t[0] + 4, t[1] + 4, t[2] + 4});
+    return Scene{mesh};
+  };
+  const SurfaceFigures figures = figures_of(both(1), both(-1));
+  EXPECT_EQ(figures.crossed_vertices, 0u);
+  EXPECT_EQ(figures.edge_crossings, 9u);  // two long sides and the diagonal of each
+  EXPECT_EQ(figures.crossed_pairs, 0u);
+}
+
 TEST(SurfaceCrossings, ASheetThatFallsThroughItself) {
   SurfaceMesh cloth = sheet(8, 4);
   for (glm::vec3& v : cloth.vertices) {

@@ -104,6 +104,22 @@ TEST(SurfaceOracle, WhatContactsDoNotShowIsMissed) {
   EXPECT_LT(missed(corners).piercings.size(), overlaps.piercings.size());
 }
 
+TEST(SurfaceOracle, APiercingIsSeenByAContactOfEitherEndWithAnyCorner) {
+  const Scene scene{box(glm::vec3(0), glm::vec3(4)), moved(box(glm::vec3(0), glm::vec3(4)), glm::vec3(1, 2, 1.5f))};
+  const Overlaps overlaps = overlaps_of(scene);
+  ASSERT_GE(overlaps.piercings.size(), 3u);
+  for (std::size_t i = 0; i < overlaps.piercings.size(); ++i) {
+    const Piercing& through = overlaps.piercings[i];
+    const Index first = scene.state.bodies.first[through.triangle_body];
+    for (const Index end : through.edge)
+      for (const Index v : scene.surfaces[through.triangle_body]->triangles()[through.triangle]) {
+        const std::vector<Contact> one{{std::min(end, first + v), std::max(end, first + v)}};
+        const Missed missed = missed_by(one, scene.frame(), scene.surfaces, overlaps);
+        EXPECT_EQ(std::count(missed.piercings.begin(), missed.piercings.end(), i), 0) << end << ' ' << v;
+      }
+  }
+}
+
 TEST(SurfaceOracle, BodiesThatAreNotFiniteAreLeftOut) {
   Scene scene{ball(1), moved(ball(1), glm::vec3(1, 0, 0)), moved(ball(1), glm::vec3(0, 1, 0))};
   const Scene before = scene;

@@ -179,6 +179,19 @@ TEST(SurfaceOverlaps, DepthIsTheLeastOverAllFaces) {
   }
 }
 
+TEST(SurfaceOverlaps, OfFacesThatAreEquallyNearTheFirstIsNamed) {
+  Scene scene{box(glm::vec3(0), glm::vec3(4))};
+  add_points(scene, {glm::vec3(2), {2, 3, 2}});  // in the middle, and below the diagonal of a side
+  const Overlaps overlaps = overlaps_of(scene);
+  ASSERT_EQ(overlaps.penetrations.size(), 2u);
+  EXPECT_EQ(overlaps.penetrations[0].triangle, 0u);
+  const std::vector<Triangle>& faces = scene.surfaces[0]->triangles();
+  const auto first_above = std::find_if(faces.begin(), faces.end(), [&](const Triangle& t) {
+    return std::all_of(t.begin(), t.end(), [&](Index v) { return scene.at(v).y == 4; });
+  });
+  EXPECT_EQ(overlaps.penetrations[1].triangle, static_cast<Index>(first_above - faces.begin()));
+}
+
 TEST(SurfaceOverlaps, SheetThroughASphere) {
   const SurfaceFigures figures = figures_of(Scene{ball(1), moved(sheet(1, 10), glm::vec3(0, 0.3f, 0))});
   EXPECT_EQ(figures.penetrating_vertices, 0u);  // the sheet's corners are far outside, and it has no inside

@@ -93,6 +93,19 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
   }
 }
 
+TEST(Grab, ABodySagsByItsWeightInLongSubstepsToo) {
+  Material material = test::spring_ball();
+  material.internal_damping = 10;
+  Scene scene = test::lone_body(material);
+  scene.gravity = {0, -9.81, 0};
+  World world(scene, {.integrator = "semi-implicit-euler", .substeps = 8});
+  const Grab grab = on_top(world);
+  const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
+  test::run(world, 180);
+  const double rate = 2 * std::numbers::pi * grab.frequency;
+  EXPECT_NEAR(hand.y - world.dynamics().grabbed_point().y, 9.81 / (rate * rate), 1e-3);
+}
+
 TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
   for (const double frequency : {1e-3, 1.0, 1e2, 1e6}) {
     for (const double mass : {1e-2, 1e3}) {

@@ -184,6 +184,17 @@ TEST(GoOnAsOne, LeavesARigidMotionAsItIs) {
   }
 }
 
+TEST(GoOnAsOne, KeepsItsSpinWhileItFalls) {
+  Moving m;
+  const std::size_t n = m.prototype->mesh.vertices.size();
+  const glm::dvec3 velocity(1, -2, 0), spin(0, 3, 0), gravity(0, -9.81, 0);
+  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, velocity + glm::cross(spin, m.prototype->start[i]));
+  go_on_as_one(m.work, 1, 0.01, gravity);
+  const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
+  EXPECT_LT(glm::distance(end.spin, spin), 0.01);
+  EXPECT_LT(glm::distance(end.velocity, velocity + 0.01 * gravity), 1e-9);
+}
+
 /// Its planes stop it, its spin goes on.
 TEST(GoOnAsOne, KeepsSpinAndStopsAtPlanes) {
   Moving m;

@@ -184,5 +184,11 @@ TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
   EXPECT_EQ(needed(both), std::max(needed(slack), needed(stiff))) << "each by its own damping";
 }
 
+TEST(Integrator, XpbdKeepsTheVolumeOfABallInBalance) {
+  World world(lone_body(gas_ball()), {.integrator = "xpbd"});
+  run(world, 60);
+  EXPECT_NEAR(measure(world).volume_ratio_min, 1, 0.1);
+}
+
 }  // namespace
 }  // namespace softbody::test

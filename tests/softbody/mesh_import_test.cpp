@@ -96,6 +96,19 @@ TEST(MeshImport, WeldIsADistanceRelativeToTheSize) {
   EXPECT_EQ(read(seamed_cube(0), {.weld = 0}).mesh.vertices.size(), 8u) << "0 welds what is equal";
 }
 
+TEST(MeshImport, WhatIsNearIsWeldedInWhicheverDirectionItLies) {
+  std::mt19937 random(5);
+  std::string obj;
+  constexpr int pairs = 100;
+  for (int i = 0; i < pairs; ++i) {  // two faces, each with two corners of its own
+    const glm::dvec3 first = random_vector(random, 5), way = random_vector(random, 1);
+    for (const glm::dvec3& corner : {first, first + 0.009 * glm::normalize(way)})
+      obj += vertex(corner) + vertex(random_vector(random, 5)) + vertex(random_vector(random, 5));
+    obj += face({6 * i + 1, 6 * i + 2, 6 * i + 3}) + face({6 * i + 4, 6 * i + 5, 6 * i + 6});
+  }
+  EXPECT_EQ(read(obj, {.weld = 0.001}).findings.welded_vertices, std::size_t(pairs));
+}
+
 TEST(MeshImport, FacesAreTurnedOutwards) {
   const auto inverted = read("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\nf 1 4 2\nf 2 4 3\nf 1 3 4\n");
   EXPECT_EQ(inverted.findings.turned_faces, 4u);

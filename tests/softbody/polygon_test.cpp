@@ -61,6 +61,12 @@ TEST(Polygon, CornersOnAStraightLineAreKept) {
   EXPECT_EQ(sides, std::vector<int>(p.size(), 1)) << "each side has one triangle, so that neighbours stay joined";
 }
 
+TEST(Polygon, NoCutRunsThroughACorner) {
+  const Polygon p{{0, 0, 0}, {1, -1, 0}, {2, 0, 0}, {6, 1, 0}, {6, 4, 0}, {1, 0, 0}, {-4, 4, 0}, {-4, 1, 0}};
+  expect_covered(p);
+  for (const auto& [a, b, c] : triangulate(p)) EXPECT_GT(glm::length(area_vector({p[a], p[b], p[c]})), 0.1);
+}
+
 TEST(Polygon, WhatCrossesItselfOrHasNoAreaIsCutAllTheSame) {
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}}).size(), 3u);

@@ -107,6 +107,32 @@ TEST(RollingResistance, StopsABallAndNeverTurnsItBack) {
   EXPECT_GT(rolling_speed(0.0, 240), 0.8);
 }
 
+/// Where a sheet ends that falls beside the middle of a solid sphere, with a closed body far off that does resist.
+std::vector<Particle> tumbled_sheet(double resistance) {
+  Scene scene = sheet_on_ground(1, {0, -9.81, 0}, glm::dvec3(0.0));
+  scene.ground.reset();
+  scene.spheres = {{.centre = {0.3, -0.5, 0.1}, .radius = 0.4, .friction = 1}};
+  scene.materials[0].rolling_resistance = resistance;
+  scene.materials.push_back(gas_ball());
+  scene.materials[1].rolling_resistance = 1;
+  add_body(scene, {50, 0, 0}, glm::dvec3(0.0));
+  scene.bodies[1].material = 1;
+  World world(scene, {});
+  EXPECT_TRUE(world.plan().has(Stage::rolling_resistance));
+  bool touched = false;
+  for (int frame = 0; frame < 40; ++frame) {
+    world.step();
+    touched = touched || glm::length(world.dynamics().solid_impulse(0)) > 0;
+  }
+  EXPECT_TRUE(touched);
+  return particles_of(world, 0);
+}
+
+TEST(RollingResistance, IsThatOfClosedBodiesOnly) {
+  const std::vector<Particle> free = tumbled_sheet(0), resisting = tumbled_sheet(10);
+  for (std::size_t i = 0; i < free.size(); ++i) EXPECT_EQ(free[i].position, resisting[i].position) << i;
+}
+
 /// How fast a ball thrown at the ground without gravity leaves it.
 double rebound(double thrown, double limit) {
   Material m = gas_ball();

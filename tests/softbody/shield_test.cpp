@@ -7,6 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -151,6 +152,21 @@ TEST(Shield, ABoundHoldsItsStiffness) {
   EXPECT_GT(steepest, 100);
 }
 
+TEST(Shield, ItsSlopesAreNoLessThanItsForceFalls) {
+  constexpr double e = 1e-4;
+  for (const double across : {0.0, 0.02})
+    for (double s = 0.002; s < 0.095; s += 0.004)
+      for (const double u : {-3.0, 0.0, 1.0}) {
+        Pair pair({across, s, 0});
+        pair.force({0, u, 0});  // writes the velocity
+        const Shield::Slopes slopes = pair.shield.slopes(pair.shield.pairs[0], std::as_const(pair.x).field(),
+                                                         std::as_const(pair.v).field(), 0.01f);
+        const double steep =
+            (force({across, s - e, 0}, {0, u, 0}).y - force({across, s + e, 0}, {0, u, 0}).y) / (2 * e);
+        EXPECT_GE(double(slopes.spring), 0.99 * steep - 0.1) << "s " << s << " across " << across << " u " << u;
+      }
+}
+
 /// N s/m: how fast the force falls with the velocity at most, by its derivative; friction's limit moves with the push.
 double damping(const glm::dvec3& apart, const glm::dvec3& velocity, double friction) {
   constexpr double e = 0.05;
@@ -230,6 +246,23 @@ TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanTheShieldAllows) {
   EXPECT_LT(apart, double(Shield::rebound_speed) + 1);
 }
 
+TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
+  const auto stretch = [](const char* integrator) {
+    Scene scene = lone_body(spring_ball());
+    scene.materials[0].friction = 10;
+    add_body(scene, {0, 1.03, 0}, {0.1, 0, 0});
+    World world(scene, {.frame_time = 1e-4, .integrator = integrator, .substeps = 1});
+    run(world, 10);
+    double sum = 0;
+    for (const ShieldPair& pair : world.snapshot().dynamics.shield_pairs) sum += double(glm::length(pair.stretch));
+    EXPECT_GT(sum, 5e-5) << integrator;
+    return sum;
+  };
+  const double expected = stretch("semi-implicit-euler");
+  for (const char* integrator : {"velocity-verlet", "rk4"})
+    EXPECT_NEAR(stretch(integrator), expected, 0.15 * expected) << integrator;
+}
+
 TEST(Collision, BodiesDoNotPassThroughEachOther) {
   for (const double speed : {1.0, 6.0}) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(speed, 0, 0));
@@ -243,6 +276,20 @@ TEST(Collision, BodiesDoNotPassThroughEachOther) {
     EXPECT_GT(nearest, 0.3) << speed << " m/s";
     EXPECT_GT(motion(world, 1).velocity.x - motion(world, 0).velocity.x, 0) << "they bounce";
   }
+}
+
+TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
+  const auto spin = [](const char* integrator) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
+    scene.materials[0].friction = 1;
+    add_body(scene, {1.2, 0.5, 0}, {-2, 0, 0});
+    World world(scene, {.integrator = integrator});
+    run(world, 45);
+    return motion(world, 0).spin_momentum.z;
+  };
+  const double expected = spin("semi-implicit-euler");
+  EXPECT_GT(std::abs(expected), 0.02);
+  EXPECT_NEAR(spin("implicit"), expected, 0.5 * std::abs(expected));
 }
 
 TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {

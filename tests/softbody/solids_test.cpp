@@ -33,6 +33,16 @@ TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
   }
 }
 
+TEST(Solids, WhatGravityTakesThereFromRestWithinOneFrameIsStopped) {
+  Scene scene = falling({0, 0.6, 0}, glm::dvec3(0.0));
+  scene.gravity = {0, -1000, 0};
+  scene.ground = Ground{};
+  World world(scene, {});
+  world.step();
+  EXPECT_LT(measure(world).deepest_penetration, 1e-5);
+  EXPECT_FALSE(world.solid_contacts().empty()) << "it got there";
+}
+
 TEST(Solids, AThinFastSheetDoesNotTunnelThroughTheGround) {
   Scene scene = sheet_on_ground(0.5, glm::dvec3(0.0), glm::dvec3(0, -300, 0));
   scene.bodies[0].position = {0, 40, 0};

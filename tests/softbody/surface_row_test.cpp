@@ -15,7 +15,7 @@ namespace {
 struct Impact {
   float gap = 0.01f;  // m, beyond the distance that is kept
   glm::vec3 velocity{0, -10, 0};
-  float restitution = 0, friction = 0;
+  float restitution = 0, friction = 0, restitution_b = 0;
   float inverse_a = 2, inverse_b = 0.5f;  // 1/kg, of a particle
 };
 
@@ -61,13 +61,14 @@ class OneRow {
   void solve() {
     const collide::Surface triangle(3, {{0, 1, 2}});
     const collide::SurfaceBody traits{&triangle, reach, 0, 1, true};
-    const auto body = [&](std::size_t lane, float inverse_mass) {
-      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, impact_.restitution};
+    const auto body = [&](std::size_t lane, float inverse_mass, float restitution) {
+      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, restitution};
     };
     collide::Workers workers(1);
     SurfaceContact contact;
     contact.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
-                 {body(0, impact_.inverse_a), body(1, impact_.inverse_b)}, {.seconds = h, .least = h}, h, workers);
+                 {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
+                 {.seconds = h, .least = h}, h, workers);
     contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
     ASSERT_LE(contact.rows(), 1u);
     contact.solve(0, 1, std::as_const(x).field(), v.field(), h, [] {});
@@ -100,6 +101,8 @@ TEST(SurfaceContactRow, LetsTheGapAndHalfTheDistanceBeUsedUpAndNoMore) {
 TEST(SurfaceContactRow, ThrowsBackByTheRestitution) {
   for (const float e : {0.25f, 0.5f, 1.0f}) {
     EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution = e}).relative().y, 4 * e, 1e-5);
+    EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution_b = e}).relative().y, 4 * e, 1e-5)
+        << "of the body that throws back more";
     const double slow = 0.9 * double(impact_speed);
     EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, float(-slow), 0}, .restitution = e}).relative().y, -slow, 1e-4)
         << "slow ones are not thrown back";

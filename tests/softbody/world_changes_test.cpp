@@ -125,6 +125,21 @@ TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
   EXPECT_FALSE(world.body(0).asleep);
 }
 
+TEST(Remove, WakesWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {
+  Scene scene = test::lone_body(test::spring_ball());
+  scene.contact_surface = ContactSurface::surfaces;
+  scene.collision.tolerance = 1e-3f;
+  scene.sleep = {1, 2};
+  test::add_body(scene, {0, 1.03, 0}, glm::dvec3(0.0));
+  test::add_body(scene, {0, 5, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  test::run(world, 4);
+  ASSERT_TRUE(world.all_at_rest());
+  world.remove(0);
+  EXPECT_FALSE(world.body(0).asleep);
+  EXPECT_TRUE(world.body(1).asleep) << "far off";
+}
+
 TEST(Remove, OfTheBodyInTheHandOpensIt) {
   World world(pile(3), {});
   world.grab({.body = 1});
