@@ -26,6 +26,7 @@ class TextFile {
         .write(reinterpret_cast<const char*>(data), static_cast<std::streamsize>(size));
     return path_;
   }
+  const std::filesystem::path& path() const { return path_; }
 
  private:
   std::filesystem::path path_;

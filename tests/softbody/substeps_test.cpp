@@ -38,6 +38,24 @@ TEST(Substeps, AreThoseOfTheBodyThatNeedsMost) {
   }
 }
 
+/// What damps their contact is the most for the lighter one.
+TEST(Substeps, AreThoseOfTheLighterBodyOfAPairWhicheverComesFirst) {
+  const auto substeps = [](double first, double second) {
+    Scene scene = lone_body(spring_ball());
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[0].mass = first, scene.materials[1].mass = second;
+    for (Material& m : scene.materials) m.contact_stiffness = 1000;
+    add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
+    scene.bodies[1].material = 1;
+    World world(scene, {.integrator = "semi-implicit-euler"});
+    world.step();
+    return world.profile().substeps;
+  };
+  const int lighter_first = substeps(0.5, 50);
+  EXPECT_GT(lighter_first, 3 * substeps(50, 50));
+  EXPECT_NEAR(substeps(50, 0.5), lighter_first, 0.05 * lighter_first);
+}
+
 TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
   for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});
