@@ -1,0 +1,119 @@
+// Worlds of every value that a scene file may hold, under changing hands: such a scene reads back as it was written, is
+// refused in one line or moves, stays finite in every step that the program chooses by itself, and goes on from a
+// snapshot to the bit.
+
+#include "random_scene.h"
+#include "softbody/measures.h"
+#include "softbody/scene_write.h"
+#include "softbody/snapshot.h"
+#include "softbody/world.h"
+#include "text_file.h"
+
+namespace fuzz {
+namespace {
+
+constexpr int most_frames = 12;
+// Far less than users may ask for: frames that take longer end sooner, and every input takes its turn.
+constexpr softbody::MaxWork work{.surface = 1e5, .implicit = 1e4};
+
+void require(bool holds, const char* what) {
+  if (holds) return;
+  std::fprintf(stderr, "%s\n", what);
+  std::abort();
+}
+
+void require_one_line(const softbody::SceneError& error) {
+  require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a refusal of several lines");
+}
+
+/// Written and read.
+softbody::Scene through_file(const softbody::Scene& scene, TextFile& file) {
+  const std::string text = softbody::scene_toml(scene, {});
+  return softbody::load_scene(file.write(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()));
+}
+
+/// One change by hand. What is refused has changed nothing.
+void change(softbody::World& world, Bytes& bytes) {
+  const std::uint64_t before = world.state_hash();
+  const auto count = int(world.bodies().count());
+  try {
+    switch (bytes.below(12)) {
+      case 0:
+        world.drop(1 + bytes.below(2));
+        break;
+      case 1:
+        world.throw_body(read_vector(bytes, 1), read_vector(bytes, 100) + glm::dvec3(0, 1e-3, 0));
+        break;
+      case 2:
+        if (count > 0) world.remove(softbody::BodyId(bytes.below(count)));
+        break;
+      case 3: {
+        const auto which = std::size_t(bytes.below(int(world.scene().materials.size())));
+        world.set_material(which, read_material(bytes, world.scene().materials[which].name));
+        break;
+      }
+      case 4:
+        world.set_gravity(read_vector(bytes, bytes.one_of({10.0, 0.0, 1e4})));
+        break;
+      case 5: {  // as in a window, whose frames are no longer, and whose mouse is not far from the body
+        if (count == 0 || world.frame_time() > 1.0 / 60) break;
+        const auto body = softbody::BodyId(bytes.below(count));
+        world.grab({.body = body, .target = world.body(body).origin + read_vector(bytes, 2)});
+        break;
+      }
+      case 6:
+        world.release();
+        break;
+      case 7:
+        world.set_contact_surface(bytes.below(2) == 0 ? softbody::ContactSurface::vertices
+                                                      : softbody::ContactSurface::surfaces);
+        break;
+      case 8:
+        world.add(read_body(bytes, int(world.scene().materials.size())));
+        break;
+      default:
+        break;
+    }
+  } catch (const softbody::SceneError& error) {
+    require_one_line(error);
+    require(world.state_hash() == before, "a refused change has changed something");
+  }
+}
+
+void run(Bytes bytes) {
+  static TextFile file(".toml");
+  softbody::Scene scene = read_scene(bytes, file.path().stem().string());
+  require(through_file(scene, file) == scene, "a scene does not read back as it was written");
+  softbody::World::Options options;
+  options.max_work = work;
+  if (bytes.below(4) == 0) options.integrator = "implicit";
+  options.frame_time = bytes.one_of({1.0 / 600, 1.0 / 600, 1.0 / 600, 1.0 / 60, 1.0, 0.1, 1e-6});
+  std::optional<softbody::World> world;
+  try {
+    world.emplace(std::move(scene), options);
+  } catch (const softbody::SceneError& error) {
+    return require_one_line(error);
+  }
+  for (int frame = 0; frame < most_frames; ++frame) {
+    if (bytes.below(8) != 0) {
+      world->step();
+    } else {
+      const softbody::Snapshot snapshot = world->snapshot();
+      world->step();
+      const std::uint64_t once = world->state_hash();
+      world->restore(snapshot);
+      world->step();
+      require(world->state_hash() == once, "it goes on from a snapshot in another way");
+    }
+    require(softbody::measure(*world).finite, "not finite");
+    change(*world, bytes);
+  }
+}
+
+}  // namespace
+}  // namespace fuzz
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  fuzz::run(fuzz::Bytes({data, size}));
+  return 0;
+}

@@ -1,0 +1,172 @@
+#include "random_scene.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/solids.h"
+
+namespace fuzz {
+
+namespace {
+
+using softbody::Scene;
+
+/// Of one value: what is usual, and what a scene file may hold (softbody/scene_toml.cpp).
+struct Range {
+  double usual_least, usual_most, least, most;
+};
+constexpr Range lengths{0.05, 1, 1e-9, 1e6}, stiffnesses{1, 1e5, 0, 1e9}, damping_ratios{0.01, 1, 0, 10},
+    masses{0.05, 20, 1e-9, 1e9}, pressures{10, 2e5, 0, 1e9}, shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10},
+    rates{0.1, 100, 0, 1e6}, frequencies{0.1, 100, 0, 1e3}, thicknesses{1e-3, 0.05, 0, 1e3};
+
+/// In equal ratios.
+double between(Bytes& bytes, double least, double most) {
+  const int step = bytes.byte() << 8 | bytes.byte();
+  return std::clamp(least * std::pow(most / least, step / 65535.0), least, most);
+}
+
+double read(Bytes& bytes, const Range& range) {
+  switch (bytes.below(32)) {
+    case 1:
+      return range.least;
+    case 2:
+      return range.most;
+    case 3:
+      return between(bytes, std::max(range.least, 1e-9), range.most);
+    default:
+      return between(bytes, range.usual_least, range.usual_most);
+  }
+}
+
+softbody::SpringLaw read_springs(Bytes& bytes) { return {read(bytes, stiffnesses), read(bytes, damping_ratios)}; }
+
+softbody::MeshSource read_mesh(Bytes& bytes) {
+  softbody::MeshSource mesh;
+  if (bytes.below(4) != 0) {
+    mesh.subdivisions = bytes.one_of({0, 0, 0, 1, 1, 2});
+    mesh.radius = read(bytes, lengths);
+    return mesh;
+  }
+  mesh.kind = "grid";
+  mesh.columns = 1 + bytes.below(6), mesh.rows = 1 + bytes.below(6);
+  mesh.width = read(bytes, lengths), mesh.depth = read(bytes, lengths);
+  return mesh;
+}
+
+glm::dvec3 read_place(Bytes& bytes) {
+  switch (bytes.below(32)) {
+    case 1:
+      return read_vector(bytes, 1e6);
+    case 2:
+      return glm::dvec3(0.0);
+    default:
+      return read_vector(bytes, 1.5);
+  }
+}
+
+template <class Solid>
+void read_surface(Bytes& bytes, Solid& solid) {
+  solid.friction = read(bytes, coefficients);
+  solid.restitution = bytes.below(2) == 0 ? 0 : read(bytes, shares);
+}
+
+void read_solid(Bytes& bytes, Scene& scene) {
+  switch (bytes.below(5)) {
+    case 0: {
+      softbody::SolidSphere& s = scene.spheres.emplace_back();
+      s.centre = read_place(bytes), s.radius = read(bytes, lengths);
+      return read_surface(bytes, s);
+    }
+    case 1: {
+      softbody::SolidPlane& p = scene.planes.emplace_back();
+      const glm::dvec3 normal = read_vector(bytes, 1);
+      p.point = read_place(bytes);
+      if (glm::length(normal) > 0.01) p.normal = glm::normalize(normal);
+      return read_surface(bytes, p);
+    }
+    case 2: {
+      softbody::SolidBox& b = scene.boxes.emplace_back();
+      b.centre = read_place(bytes);
+      for (int axis = 0; axis < 3; ++axis) b.half_size[axis] = 0.5 * read(bytes, lengths);
+      const glm::dvec3 x = read_vector(bytes, 1), y = glm::cross(read_vector(bytes, 1), x);
+      if (glm::length(y) > 0.01)
+        b.axes = glm::dmat3(glm::normalize(x), glm::normalize(y), glm::normalize(glm::cross(x, y)));
+      return read_surface(bytes, b);
+    }
+    case 3: {
+      softbody::SolidCapsule& c = scene.capsules.emplace_back();
+      c.from = read_place(bytes), c.to = read_place(bytes), c.radius = read(bytes, lengths);
+      return read_surface(bytes, c);
+    }
+    default:
+      scene.ground.emplace().height = read_place(bytes).y;
+      read_surface(bytes, *scene.ground);
+  }
+}
+
+void read_collision(Bytes& bytes, Scene& scene) {
+  scene.method = collide::methods()[static_cast<std::size_t>(bytes.below(int(collide::methods().size())))].key;
+  scene.contact_surface = bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
+  collide::Settings& c = scene.collision;
+  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, 1e-9, 1e6}));
+  c.self_collision = bytes.below(2) == 0;
+  c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
+  c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});
+  scene.default_cell_size = bytes.below(4) != 0;
+  if (!scene.default_cell_size)
+    for (int axis = 0; axis < 3; ++axis) c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, 1e-9, 1e6}));
+}
+
+}  // namespace
+
+glm::dvec3 read_vector(Bytes& bytes, double size) {
+  const double x = bytes.fraction(), y = bytes.fraction(), z = bytes.fraction();
+  return size * glm::dvec3(x, y, z);
+}
+
+softbody::Material read_material(Bytes& bytes, const std::string& name) {
+  softbody::Material m;
+  m.name = name;
+  m.mass = read(bytes, masses);
+  m.structural = read_springs(bytes), m.bend = read_springs(bytes);
+  if (bytes.below(4) == 0) m.shear = read_springs(bytes);
+  if (bytes.below(2) == 0) m.gas_pressure = read(bytes, pressures), m.ambient_pressure = read(bytes, pressures);
+  if (bytes.below(4) == 0) m.internal_damping = read(bytes, rates);
+  if (bytes.below(4) == 0) m.rebound_speed = read(bytes, rates);
+  m.thickness = read(bytes, thicknesses);
+  m.friction = read(bytes, coefficients);
+  if (bytes.below(2) == 0) m.restitution = read(bytes, shares);
+  m.rolling_resistance = read(bytes, coefficients);
+  m.contact_stiffness = read(bytes, stiffnesses);
+  if (bytes.below(4) == 0) m.shape_frequency = read(bytes, frequencies);
+  m.start_in_equilibrium = bytes.below(2) == 0;
+  return m;
+}
+
+softbody::BodySource read_body(Bytes& bytes, int materials) {
+  softbody::BodySource body;
+  body.mesh = read_mesh(bytes);
+  body.material = bytes.below(materials);
+  body.position = read_place(bytes);
+  body.velocity = read_vector(bytes, bytes.one_of({0.0, 1.0, 10.0, 100.0, 1000.0}));
+  return body;
+}
+
+softbody::Scene read_scene(Bytes& bytes, const std::string& key) {
+  Scene scene;
+  scene.key = scene.name = key;
+  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e3, 1e4}));
+  read_collision(bytes, scene);
+  for (const char* name : {"a", "b"}) scene.materials.push_back(read_material(bytes, name));
+  const int bodies = 1 + bytes.below(4), solids = bytes.below(3);
+  for (int k = 0; k < bodies; ++k) {
+    softbody::BodySource& body = scene.bodies.emplace_back(read_body(bytes, int(scene.materials.size())));
+    body.appear = bytes.below(8) == 0 ? bytes.below(4) : 0;
+    body.release = body.appear + (bytes.below(8) == 0 ? bytes.below(4) : 0);
+  }
+  for (int k = 0; k < solids; ++k) read_solid(bytes, scene);
+  if (bytes.below(8) == 0) scene.sleep = {read(bytes, {1e-3, 1, 0, 1e3}), 1 + bytes.below(8)};
+  return scene;
+}
+
+}  // namespace fuzz
