@@ -107,13 +107,13 @@ void read_collision(Table table, Scene& scene) {
       find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
   if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
   scene.contact_surface = surface->value;
-  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, tiny, 1e6));
+  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, least_length, most_length));
   c.self_collision = table.boolean("self_collision", c.self_collision);
   c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
   c.buckets =
       static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
   scene.default_cell_size = !table.has("cell_size");
-  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), tiny, 1e6));
+  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), least_length, most_length));
   const glm::dvec3 primes = table.whole_vector("primes", {c.primes[0], c.primes[1], c.primes[2]}, 1,
                                                std::numeric_limits<std::uint32_t>::max());
   for (int axis = 0; axis < 3; ++axis) c.primes[std::size_t(axis)] = static_cast<std::uint32_t>(primes[axis]);

@@ -4,9 +4,12 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "app/base/number_text.h"
+#include "app/base/text.h"
 #include "engine/resources.h"
+#include "softbody/limits.h"
 #include "softbody/world.h"
 
 namespace app {
@@ -178,6 +181,18 @@ void check(const Options& options) {
     throw UsageError("--dt: must be a number of seconds from 1e-6 to 1, e.g. 0.0166667");
 }
 
+/// What scene files take: a scene that is saved is to be read again.
+void check_lengths(const DetectionOptions& options, const collide::Settings& settings) {
+  const auto check = [](const std::string& option, glm::vec3 metres) {
+    if (glm::any(glm::lessThan(metres, glm::vec3(softbody::least_length))) ||
+        glm::any(glm::greaterThan(metres, glm::vec3(softbody::most_length))))
+      throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length,
+                                       softbody::most_length));
+  };
+  if (options.tolerance) check(format("--tolerance %.9g", *options.tolerance), glm::vec3(settings.tolerance));
+  if (!automatic_cell_size(options, true)) check("--cell-size " + *options.cell_size, settings.cell_size);
+}
+
 }  // namespace
 
 std::filesystem::path scene_folder() { return engine::find_folder("assets") / "scenes"; }
@@ -243,6 +258,7 @@ softbody::Scene load_scene(const Options& options) {
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   apply(options.detection, scene.collision);
+  check_lengths(options.detection, scene.collision);
   scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;

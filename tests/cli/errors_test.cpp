@@ -60,6 +60,11 @@ const Bad bad_lines[]{
     {"cell_text", drop({"--cell-size", "wide"}), {"--cell-size wide", "auto"}},
     {"cell_two", drop({"--cell-size", "1,2"}), {"--cell-size 1,2", "X,Y,Z"}},
     {"cell_negative_side", drop({"--cell-size", "1,2,-3"}), {"cell size"}},
+    {"cell_beyond_scene_files",
+     drop({"--cell-size", "1e30"}),
+     {"--cell-size 1e30: must be a number of metres from 1e-09 to 1000000"}},
+    {"cell_below_scene_files", drop({"--cell-size", "1e-30"}), {"--cell-size 1e-30", "from 1e-09 to 1000000"}},
+    {"cell_side_beyond_scene_files", drop({"--cell-size", "1,2,1e7"}), {"--cell-size 1,2,1e7", "from 1e-09"}},
     {"view_five", drop({"--view", "0,1,0,8,30"}), {"--view 0,1,0,8,30", "X,Y,Z,DISTANCE,AZIMUTH,ELEVATION"}},
     {"view_text", drop({"--view", "0,1,0,8,30,up"}), {"--view"}},
     {"view_too_close", drop({"--view", "0,1,0,0,30,0"}), {"--view"}},
@@ -81,6 +86,10 @@ const Bad bad_lines[]{
     {"tolerance_negative", drop({"--tolerance", "-0.1"}), {"tolerance"}},
     {"tolerance_nan", drop({"--tolerance", "nan"}), {"tolerance"}},
     {"tolerance_infinite", drop({"--tolerance", "inf"}), {"tolerance"}},
+    {"tolerance_below_scene_files",
+     drop({"--tolerance", "1e-10"}),
+     {"--tolerance 1e-10: must be a number of metres from 1e-09 to 1000000"}},
+    {"tolerance_beyond_scene_files", drop({"--tolerance", "1e7"}), {"--tolerance 10000000", "from 1e-09 to 1000000"}},
     {"tolerance_text", drop({"--tolerance", "0.1m"}), {"--tolerance"}},
     {"dt_zero", drop({"--dt", "0"}), {"--dt"}},
     {"dt_negative", drop({"--dt", "-0.01"}), {"--dt"}},
@@ -134,6 +143,10 @@ TEST(Errors, PicturesWithoutOpenGLAreRefusedBeforeAnythingIsWritten) {
 
 TEST(Errors, TheDemoWithoutADisplaySaysWhatToDo) {
   expect_refused({}, {"window", "DISPLAY", "simulate"}, {"DISPLAY=", "WAYLAND_DISPLAY=none"});
+}
+
+TEST(Errors, TheWindowTakesNoLengthThatASceneFileRefuses) {
+  expect_refused({"--tolerance", "1e-10"}, {"--tolerance 1e-10: must be a number of metres from 1e-09 to 1000000"});
 }
 
 TEST(Errors, AFolderForPicturesThatCannotBeMadeIsNamedBeforeAnythingRuns) {
