@@ -6,6 +6,7 @@
 
 #include "app/base/number_text.h"
 #include "app/command/options.h"
+#include "app/command/whole_number_option.h"
 
 namespace app {
 namespace {
@@ -36,9 +37,12 @@ glm::vec3 read_cell_size(const std::string& text) {
 
 void add_detection_options(CLI::App& command, DetectionOptions& options) {
   command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
-  command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes (0-15)")
-      ->type_name("N");
-  command.add_option("--buckets", options.buckets, "number of buckets of the hash table")->type_name("N");
+  command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes")
+      ->type_name("N")
+      ->check(whole_number_from(0, collide::max_levels));
+  command.add_option("--buckets", options.buckets, "number of buckets of the hash table")
+      ->type_name("N")
+      ->check(whole_number_from(1, collide::max_buckets));
   command
       .add_option(
           "--cell-size", options.cell_size,
@@ -67,13 +71,7 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
       throw UsageError(std::string(option) + ": " + wrong);
   };
   if (options.levels) settings.levels = *options.levels;
-  check("--levels");
-  if (options.buckets) {
-    if (*options.buckets < 1 || *options.buckets > collide::max_buckets)
-      throw UsageError("--buckets " + std::to_string(*options.buckets) + ": must be from 1 to " +
-                       std::to_string(collide::max_buckets));
-    settings.buckets = static_cast<std::uint32_t>(*options.buckets);
-  }
+  if (options.buckets) settings.buckets = *options.buckets;
   if (options.tolerance) settings.tolerance = static_cast<float>(*options.tolerance);
   check("--tolerance");
   if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);

@@ -18,7 +18,7 @@ namespace app {
 struct DetectionOptions {
   std::optional<std::string> method;
   std::optional<int> levels;
-  std::optional<std::int64_t> buckets;
+  std::optional<std::uint32_t> buckets;
   std::optional<std::string> cell_size;  // "S", "X,Y,Z" in metres or "auto", as typed
   std::optional<double> tolerance;       // m
   std::optional<std::string> primes;     // "A,B,C", as typed

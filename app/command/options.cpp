@@ -8,6 +8,7 @@
 
 #include "app/base/number_text.h"
 #include "app/base/text.h"
+#include "app/command/whole_number_option.h"
 #include "engine/resources.h"
 #include "softbody/limits.h"
 #include "softbody/world.h"
@@ -72,7 +73,7 @@ void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->check(whole_number_from(1, 256));
 }
 
 void add_scene_options(CLI::App& command, Options& options) {
@@ -87,7 +88,7 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--substeps", options.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->check(CLI::Range(1, softbody::World::max_substeps));
+      ->check(whole_number_from(1, softbody::World::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -101,7 +102,9 @@ void add_scene_options(CLI::App& command, Options& options) {
 CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
   CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
   add_scene_options(*simulate, options);
-  simulate->add_option("--frames", options.frames, "frames to run")->type_name("N")->check(CLI::Range(1, 10'000'000));
+  simulate->add_option("--frames", options.frames, "frames to run")
+      ->type_name("N")
+      ->check(whole_number_from(1, 10'000'000));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
@@ -109,7 +112,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate
       ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
       ->type_name("N")
-      ->check(CLI::Range(1, 10'000'000));
+      ->check(whole_number_from(1, 10'000'000));
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -130,7 +133,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
       ->type_name("FILE");
   detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
       ->type_name("K")
-      ->check(CLI::Range(1, 100'000));
+      ->check(whole_number_from(1, 100'000));
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -149,7 +152,7 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
           "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
           "side (default: all cores)")
       ->type_name("N")
-      ->check(CLI::Range(1, 256));
+      ->check(whole_number_from(1, 256));
   report->add_option("--out", options.out, "folder for the report")->type_name("DIR")->required();
   return report;
 }
@@ -179,6 +182,9 @@ void check(const Options& options) {
                      ": unknown; use one of: " + softbody::contact_surface_keys());
   if (!(options.frame_time >= 1e-6 && options.frame_time <= 1))
     throw UsageError("--dt: must be a number of seconds from 1e-6 to 1, e.g. 0.0166667");
+  if (options.obj_every && *options.obj_every > options.frames)
+    throw UsageError("--obj-every " + std::to_string(*options.obj_every) + ": lies beyond --frames " +
+                     std::to_string(options.frames) + ", so that no file would be written");
 }
 
 /// What scene files take: a scene that is saved is to be read again.

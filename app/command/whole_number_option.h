@@ -1,0 +1,25 @@
+#pragma once
+// Options whose values are whole numbers.
+
+#include <cstdint>
+#include <string>
+
+#include <CLI/CLI.hpp>
+
+#include "app/base/number_text.h"
+
+namespace app {
+
+/// In place of CLI::Range, which says of a fraction that it is out of range.
+inline CLI::Validator whole_number_from(std::int64_t least, std::int64_t most) {
+  const std::string from = std::to_string(least), to = std::to_string(most);
+  return CLI::Validator(
+      [=](std::string& text) {
+        const auto number = whole_number(text);
+        const bool good = number && *number >= least && *number <= most;
+        return good ? "" : "must be a whole number from " + from + " to " + to + ", not " + text;
+      },
+      "INT in [" + from + " - " + to + "]");
+}
+
+}  // namespace app
