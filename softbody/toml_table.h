@@ -41,7 +41,7 @@ class Table {
 
   /// Of the file.
   std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
-  bool has(const std::string& key) const { return table_.contains(key); }
+  bool has(const std::string& key) { return find(key) != nullptr; }
   /// The table below `key`, or an empty one.
   Table child(const std::string& key);
   /// The tables of [[key]].

@@ -52,6 +52,7 @@ const Bad bad_scenes[]{
     {"unknown_key_in_view", "[[body]]\n[view]\nzoom = 1\n", 3, "view.zoom"},
     {"unknown_key_in_caption", "[[body]]\n[[caption]]\nwords = \"\"\n", 3, "caption[0].words"},
     {"unknown_table", "[[body]]\n[grounds]\n", 2, "grounds is not known here"},
+    {"unknown_table_beside_those_that_are_optional", "[[body]]\n[groud]\n", 2, "collision, dropper, gravity, ground,"},
     {"key_with_a_line_break", "\"a\\nb\" = 1\n[[body]]\n", 1, "is not known here"},
     {"value_cut_short_by_a_line_break", "thickness =t\n", 1, ""},
     {"number_as_text", "[[material]]\nmass = \"1\"\n[[body]]\n", 2, "material[0].mass must be a number"},
