@@ -8,9 +8,11 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "softbody/limits.h"
 #include "softbody/obj_file.h"
 #include "softbody/polygon.h"
 #include "softbody/surface.h"
+#include "softbody/toml_text.h"
 
 namespace softbody {
 namespace {
@@ -106,11 +108,12 @@ class Importer {
     }
     findings_.file_extent = box.extent();
     if (!(box.extent() > 0)) fail("has all its faces in one point; check the export");
-    const double scale = file_.size > 0 ? file_.size / box.extent() : 1;
-    findings_.extent = box.extent() * scale;
-    if (findings_.extent < 1e-6 || findings_.extent > 1e6)
-      fail("is " + std::to_string(findings_.extent) +
-           " m large; set size to the largest extent that it shall have, in m");
+    const double size = file_.size > 0 ? file_.size : box.extent(), scale = size / box.extent();
+    if (size < least_body_size || size > most_body_size)
+      fail("is " + toml_value(size) +
+           " m large (0.001 to 1000000 are allowed); set size to the largest extent that it "
+           "shall have, in m");
+    findings_.extent = size;
     const glm::dvec3 middle = 0.5 * (box.lo + box.hi);
     for (glm::dvec3& p : position_) p = scale * (p - middle);
     welded_to_.assign(count, no_vertex);

@@ -52,7 +52,7 @@ Material read_material(Table& table) {
 MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
   MeshFile file;
   file.path = table.folder() / table.text("path", "");
-  file.size = table.number("size", file.size, tiny, 1e6);
+  file.size = table.number("size", file.size, least_body_size, most_body_size);
   file.weld = table.number("weld", file.weld, 0, 0.1);
   file.up = table.vector("up", file.up, -1, 1);
   if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
@@ -72,12 +72,12 @@ MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
   m.kind = table.text("kind", m.kind);
   if (m.kind == "icosphere") {
     m.subdivisions = table.integer("subdivisions", m.subdivisions, 0, 6);
-    m.radius = table.number("radius", m.radius, tiny, 1e6);
+    m.radius = table.number("radius", m.radius, least_body_size, most_body_size);
   } else if (m.kind == "grid") {
     m.columns = table.integer("columns", m.columns, 1, 1000);
     m.rows = table.integer("rows", m.rows, 1, 1000);
-    m.width = table.number("width", m.width, tiny, 1e6);
-    m.depth = table.number("depth", m.depth, tiny, 1e6);
+    m.width = table.number("width", m.width, least_body_size, most_body_size);
+    m.depth = table.number("depth", m.depth, least_body_size, most_body_size);
   } else if (m.kind == "file") {
     m = read_mesh_file(table, files);
   } else {

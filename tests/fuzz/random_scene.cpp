@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/solids.h"
+#include "softbody/limits.h"
 
 namespace fuzz {
 
@@ -15,9 +15,10 @@ using softbody::Scene;
 struct Range {
   double usual_least, usual_most, least, most;
 };
-constexpr Range lengths{0.05, 1, 1e-9, 1e6}, stiffnesses{1, 1e5, 0, 1e9}, damping_ratios{0.01, 1, 0, 10},
-    masses{0.05, 20, 1e-9, 1e9}, pressures{10, 2e5, 0, 1e9}, shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10},
-    rates{0.1, 100, 0, 1e6}, frequencies{0.1, 100, 0, 1e3}, thicknesses{1e-3, 0.05, 0, 1e3};
+constexpr Range lengths{0.05, 1, 1e-9, 1e6}, sizes{0.05, 1, softbody::least_body_size, softbody::most_body_size},
+    stiffnesses{1, 1e5, 0, 1e9}, damping_ratios{0.01, 1, 0, 10}, masses{0.05, 20, 1e-9, 1e9},
+    pressures{10, 2e5, 0, 1e9}, shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10}, rates{0.1, 100, 0, 1e6},
+    frequencies{0.1, 100, 0, 1e3}, thicknesses{1e-3, 0.05, 0, 1e3};
 
 /// In equal ratios.
 double between(Bytes& bytes, double least, double most) {
@@ -44,12 +45,12 @@ softbody::MeshSource read_mesh(Bytes& bytes) {
   softbody::MeshSource mesh;
   if (bytes.below(4) != 0) {
     mesh.subdivisions = bytes.one_of({0, 0, 0, 1, 1, 2});
-    mesh.radius = read(bytes, lengths);
+    mesh.radius = read(bytes, sizes);
     return mesh;
   }
   mesh.kind = "grid";
   mesh.columns = 1 + bytes.below(6), mesh.rows = 1 + bytes.below(6);
-  mesh.width = read(bytes, lengths), mesh.depth = read(bytes, lengths);
+  mesh.width = read(bytes, sizes), mesh.depth = read(bytes, sizes);
   return mesh;
 }
 

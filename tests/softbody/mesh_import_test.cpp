@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
+#include "softbody/limits.h"
 #include "softbody/obj_file.h"
 #include "softbody/shape_matching.h"
 #include "tests/softbody/helpers.h"
@@ -94,6 +95,21 @@ TEST(MeshImport, WeldIsADistanceRelativeToTheSize) {
   EXPECT_TRUE(read(seamed_cube(0.01), {.weld = 0.011}).mesh.closed);
   EXPECT_TRUE(read(seamed_cube(0.01), {.size = 50, .weld = 0.011}).mesh.closed) << "however large it becomes";
   EXPECT_EQ(read(seamed_cube(0), {.weld = 0}).mesh.vertices.size(), 8u) << "0 welds what is equal";
+}
+
+TEST(MeshImport, WhatIsTooSmallOrTooLargeIsRefused) {
+  const auto cube = [](double half) {
+    std::string text;
+    for (int corner = 0; corner < 8; ++corner)
+      text += vertex(half * glm::dvec3(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1));
+    return text + face({1, 3, 4, 2}) + face({5, 6, 8, 7}) + face({1, 2, 6, 5}) + face({2, 4, 8, 6}) +
+           face({4, 3, 7, 8}) + face({3, 1, 5, 7});
+  };
+  EXPECT_NEAR(read(cube(0.50001 * least_body_size)).findings.extent, least_body_size, 1e-7);
+  EXPECT_NEAR(read(cube(0.49999 * most_body_size)).findings.extent, most_body_size, 100);
+  EXPECT_THROW(read(cube(0.0004)), ObjError);
+  EXPECT_THROW(read(cube(6e5)), ObjError);
+  EXPECT_NEAR(read(cube(0.0004), {.size = 1}).findings.extent, 1, 1e-12);
 }
 
 TEST(MeshImport, WhatIsNearIsWeldedInWhicheverDirectionItLies) {

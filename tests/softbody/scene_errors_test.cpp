@@ -90,6 +90,8 @@ const Bad bad_scenes[]{
     {"capsule_without_radius", "[[solid_capsule]]\nradius = 0\n[[body]]\n", 2, "radius must be"},
     {"capsule_end_infinite", "[[solid_capsule]]\nto = [inf, 0, 0]\n[[body]]\n", 2, "to must be three numbers"},
     {"planes_as_table", "[solid_plane]\n[[body]]\n", 1, "[[solid_plane]]"},
+    {"body_too_small", "[[body]]\nmesh = {kind = \"icosphere\", radius = 9e-4}\n", 2, "from 0.001 to 1000000"},
+    {"sheet_too_small", "[[body]]\nmesh = {kind = \"grid\", depth = 9e-4}\n", 2, "from 0.001 to 1000000"},
     {"radius_zero", "[[solid_sphere]]\nradius = 0\n[[body]]\n", 2, "radius must be"},
     {"contact_surface_unknown", "[collision]\ncontact_surface = \"edges\"\n[[body]]\n", 2,
      "contact_surface must be one of: vertex-vertex, surface"},
