@@ -95,16 +95,34 @@ softbody::Material imported_material(double extent) {
   return m;
 }
 
+std::string Import::progress() const {
+  if (!reading_) return {};
+  const auto seconds =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
+  return "reading " + std::filesystem::path(path).filename().string() +
+         (seconds > 0 ? ": " + std::to_string(seconds) + " s so far" : "");
+}
+
+void Import::add(Verdict verdict) {
+  report_.push_back(std::move(verdict));
+  if (report_.size() <= most_verdicts) return;
+  const auto newest = report_.end() - 1, oldest = std::ranges::find(report_.begin(), newest, false, &Verdict::refused);
+  if (oldest != newest) report_.erase(oldest);
+}
+
 void Import::refuse(Session& session, const std::string& why) {
-  report_ = {why};
-  failed_ = true;
+  add({.lines = {why}, .refused = true});
   session.set_notice("");  // the report says it
 }
 
 void Import::load(Session& session) {
   if (path.empty() || reading_) return;
+  report_.clear();
+  open(session);
+}
+
+void Import::open(Session& session) {
   const std::filesystem::path file(path);
-  failed_ = false;
   if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.threads()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
@@ -117,7 +135,6 @@ void Import::load(Session& session) {
 void Import::read(FileReader::Question question) {
   reading_ = true;
   began_ = std::chrono::steady_clock::now();
-  report_ = {"reading " + std::filesystem::path(path).filename().string()};
   reader_.offer(std::move(question));
 }
 
@@ -131,15 +148,10 @@ void Import::follow(Session& session) {
     reading_ = false;
     take(session, std::move(*answer));
   }
-  if (reading_ && !report_.empty()) {
-    const auto seconds =
-        std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
-    if (seconds > 0) report_.resize(1), report_.push_back(std::to_string(seconds) + " s so far");
-  }
   if (reading_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
-  load(session);
+  open(session);
 }
 
 void Import::take(Session& session, FileReader::Answer answer) {
@@ -151,18 +163,19 @@ void Import::take(Session& session, FileReader::Answer answer) {
 void Import::enter(Session& session, FileReader::World answer) {
   try {
     session.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
-    report_ = {"scene " + answer.path.filename().string()};
+    add({.lines = {"scene " + answer.path.filename().string()}});
   } catch (const std::exception& error) {
     refuse(session, error.what());
   }
 }
 
 void Import::join(Session& session, FileReader::Mesh read) {
-  const std::vector<std::string> lines = lines_about(read, session.world());
+  const std::string name = read.mesh.file.path.filename().string();
+  std::vector<std::string> lines = lines_about(read, session.world());
   softbody::Material material = imported_material(read.mesh.imported->findings.extent);
   session.add_body(place_above(session.world(), std::move(read.mesh)), std::move(material));
-  if (!session.notice().empty()) return refuse(session, session.notice());
-  report_ = lines;
+  if (!session.notice().empty()) return refuse(session, name + ": " + session.notice());
+  add({.lines = std::move(lines)});
 }
 
 }  // namespace app

@@ -42,6 +42,11 @@ softbody::Material imported_material(double extent);
 
 class Import {
  public:
+  /// On one file: what was found in it and done to it, a line each; or why it was refused.
+  struct Verdict {
+    std::vector<std::string> lines;
+    bool refused = false;
+  };
   static constexpr float least_size = 0.05f, most_size = 20;  // m
 
   std::string path;      // OBJ or TOML
@@ -56,21 +61,27 @@ class Import {
   void follow(Session& session);
 
   bool busy() const { return reading_; }
-  /// What was found in the last file and done to it, a line each; or why it was refused.
-  const std::vector<std::string>& report() const { return report_; }
-  bool failed() const { return failed_; }
+  /// What is being read, and for how long; empty unless busy().
+  std::string progress() const;
+  /// On the files since the last load(), in their order: every refusal, and the last few of the others.
+  const std::vector<Verdict>& report() const { return report_; }
   /// It has been read.
   void dismiss_report() { report_.clear(); }
 
  private:
+  static constexpr std::size_t most_verdicts = 5;
+
+  void open(Session& session);
+  void add(Verdict verdict);
   void refuse(Session& session, const std::string& why);
   void read(FileReader::Question question);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
 
-  std::vector<std::string> report_, dropped_;  // dropped_: still to be loaded
-  bool failed_ = false, reading_ = false;
+  std::vector<Verdict> report_;
+  std::vector<std::string> dropped_;  // still to be loaded
+  bool reading_ = false;
   std::chrono::steady_clock::time_point began_;
   BackgroundWorker<FileReader> reader_;
 };

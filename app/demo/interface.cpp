@@ -31,13 +31,14 @@ void Interface::draw(Session& session, UiState& ui, float scale, double seconds,
 
 void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds) {
   const SceneArea& area = layout_.scene;
-  SceneArea above_caption = area;
-  above_caption.max.y = draw_caption(widgets, session, area, seconds);
+  const float caption = draw_caption(widgets, session, area, seconds);
   SceneArea below_status = area;
   below_status.min.y = draw_status(widgets, session, layout_.no_room, area, ui.light);
+  SceneArea between = below_status;
+  between.max.y = caption;
   if (!layout_.column) draw_legend_plate(widgets, session, below_status);
   if (ui.sweep) sweep_view_.draw(widgets, session, area, ui.sweep);
-  draw_import_report(widgets, ui.import, above_caption);
+  draw_import_report(widgets, ui.import, between);
 }
 
 }  // namespace app

@@ -6,7 +6,8 @@
 
 namespace app {
 
-/// Draws the last import's report, if any, in the lower left corner of the area, until it is closed.
+/// Draws what is being read and the report on what was, if any, in the lower left corner of the area, until the latter
+/// is closed.
 void draw_import_report(Widgets& widgets, Import& import, const SceneArea& area);
 
 }  // namespace app

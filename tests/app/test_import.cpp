@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -60,11 +61,20 @@ class Importing : public testing::Test {
       import.follow(session);
     ASSERT_FALSE(import.busy());
   }
+  void drop(const std::vector<std::string>& files) {
+    import.drop(files, session);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      wait();
+      import.follow(session);  // begins the next one
+    }
+  }
   std::string report() const {
     std::string text;
-    for (const std::string& line : import.report()) text += line + "\n";
+    for (const Import::Verdict& verdict : import.report())
+      for (const std::string& line : verdict.lines) text += line + "\n";
     return text;
   }
+  bool refused() const { return !import.report().empty() && import.report().back().refused; }
   const softbody::Prototype& last() const { return session.world().prototype(session.world().bodies().count() - 1); }
   void expect_finite_after(int steps) {
     for (int i = 0; i < steps; ++i) session.advance(1.0001 / 60);
@@ -80,7 +90,7 @@ TEST_F(Importing, AMeshJoinsTheRunningSceneClearOfAll) {
   for (int i = 0; i < 5; ++i) session.advance(1.0001 / 60);
   load(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
-  EXPECT_FALSE(import.failed());
+  EXPECT_FALSE(refused());
   EXPECT_EQ(session.world().frame(), 5) << "the world was not started anew";
   EXPECT_TRUE(last().mesh.closed);
   EXPECT_NEAR(last().mesh.vertices.size(), 24 * 15 + 2, 0);
@@ -153,7 +163,7 @@ TEST_F(Importing, ASceneReplacesTheRunningOne) {
   load(folder.write("lone.toml", "[[body]]\n"));
   EXPECT_EQ(session.world().scene().key, "lone");
   EXPECT_EQ(session.world().bodies().count(), 1u);
-  EXPECT_FALSE(import.failed());
+  EXPECT_FALSE(refused());
   EXPECT_EQ(report(), "scene lone.toml\n");
   session.undo();
   EXPECT_EQ(session.world().bodies().count(), 2u);
@@ -166,8 +176,9 @@ TEST_F(Importing, TheWorldGoesOnWhileASceneIsRead) {
   session.advance(1.0001 / 60);
   EXPECT_EQ(session.world().frame(), 1);
   EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next picture asks for it";
-  EXPECT_EQ(report(), "reading lone.toml\n");
+  EXPECT_TRUE(import.progress().starts_with("reading lone.toml")) << import.progress();
   wait();
+  EXPECT_EQ(import.progress(), "");
   EXPECT_EQ(session.world().bodies().count(), 1u);
 }
 
@@ -193,6 +204,24 @@ TEST_F(Importing, FilesDroppedOnTheWindowComeOneAfterAnother) {
   EXPECT_EQ(import.path, bowl);
 }
 
+TEST_F(Importing, EveryFileOfABatchHasItsVerdict) {
+  const std::string ball = folder.write("ball.obj", obj_of({})).string(), none = (folder.path() / "none.obj").string(),
+                    stl = (folder.path() / "model.stl").string();
+  drop({none, ball, stl, ball});
+  EXPECT_EQ(session.world().bodies().count(), 4u);
+  ASSERT_EQ(import.report().size(), 4u) << report();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(import.report()[i].refused, i % 2 == 0) << report();
+  drop({ball, ball, ball});
+  ASSERT_EQ(import.report().size(), 5u) << "the oldest that were taken are gone: " << report();
+  EXPECT_NE(report().find("none.obj"), std::string::npos) << report();
+  EXPECT_NE(report().find("model.stl"), std::string::npos) << report();
+  drop({none, none, none, none, ball});
+  EXPECT_EQ(std::ranges::count(import.report(), true, &Import::Verdict::refused), 6) << "no refusal is lost";
+  EXPECT_FALSE(refused()) << "nor is the newest verdict";
+  load(ball);
+  EXPECT_EQ(import.report().size(), 1u) << report();
+}
+
 TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
   const std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
   struct Case {
@@ -205,7 +234,7 @@ TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
       {folder.write("bad.toml", "name = 1\n"), "bad.toml:1"}, {folder.write("model.stl", "solid\n"), "neither a mesh"}};
   for (const auto& [file, says] : cases) {
     load(file);
-    EXPECT_TRUE(import.failed()) << file;
+    EXPECT_TRUE(refused()) << file;
     EXPECT_EQ(session.notice(), "") << "it would stand there twice";
     EXPECT_NE(report().find(says), std::string::npos) << report();
     EXPECT_EQ(session.world().bodies().count(), 2u);

@@ -1,5 +1,6 @@
 // The panel's sections of files, by mouse and keyboard.
 
+#include <algorithm>
 #include <fstream>
 
 #include "softbody/scene_write.h"
@@ -29,9 +30,22 @@ TEST(FilesPanel, LoadsWhatIsNamed) {
   EXPECT_EQ(rig.session.world().scene().name, "Lone");
   rig.type("File to open", "/none.obj");
   rig.click("Load");
-  for (int i = 0; i < 6000 && !rig.ui.import.failed(); ++i) rig.frame();
-  ASSERT_TRUE(rig.ui.import.failed());
-  EXPECT_NE(rig.ui.import.report().front().find("/none.obj"), std::string::npos);
+  for (int i = 0; i < 6000 && rig.ui.import.report().empty(); ++i) rig.frame();
+  ASSERT_FALSE(rig.ui.import.report().empty());
+  EXPECT_TRUE(rig.ui.import.report().front().refused);
+  EXPECT_NE(rig.ui.import.report().front().lines.front().find("/none.obj"), std::string::npos);
+}
+
+TEST(FilesPanel, ShowsTheVerdictOnEveryFileBelowTheStatus) {
+  PanelRig rig;
+  rig.resize(800, 600);
+  rig.ui.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"),
+                     rig.session);
+  for (int i = 0; i < 40; ++i) rig.frame();
+  EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &Recorder::Widget::label), 20);
+  const float most = rig.widget("Step light").max.y;
+  const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &Recorder::Widget::label);
+  EXPECT_GT(first->min.y, most) << "it scrolls if it has to";
 }
 
 TEST(FilesPanel, SavesAndSaysWhenItReplaces) {
