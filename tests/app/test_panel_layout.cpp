@@ -1,5 +1,7 @@
 // Where things stand: tooltips, lists, folds, small windows and high-density screens.
 
+#include <algorithm>
+
 #include "app/demo/shortcuts.h"
 #include "app/panel/panel.h"
 #include "tests/app/panel_rig.h"
@@ -149,6 +151,22 @@ TEST(Panel, TheHelpOpensAndCloses) {
   ASSERT_TRUE(rig.ui.help);
   rig.click("Close");
   EXPECT_FALSE(rig.ui.help);
+}
+
+TEST(Panel, TheColumnsOfTheHelpStandApart) {
+  for (const float scale : {1.0f, 2.0f}) {
+    PanelRig rig(scale);
+    rig.ui.help = true;
+    rig.frames(3);
+    float first_ends = 0;
+    for (const Shortcut& shortcut : shortcuts())
+      first_ends = std::max(first_ends, rig.widget(joined("Help ", shortcut.what)).max.x);
+    const float keys =
+        rig.widget(joined("Help ", shortcuts()[0].what)).min.x;  // a key stands as far left of what it does
+    const float width = keys - rig.widget("Close").min.x;
+    for (const OverlayRow& row : overlay_table)
+      EXPECT_GT(rig.widget(joined("Help ", row.label)).min.x - width, first_ends) << row.label;
+  }
 }
 
 }  // namespace
