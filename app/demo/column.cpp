@@ -26,7 +26,9 @@ void draw_column(Widgets& w, Session& session, UiState& ui, HashView& hash_view,
   };
   if (has_legend(session)) {
     separate();
+    ImGui::PushTextWrapPos(0);
     draw_legend(w, session, !ui.table);
+    ImGui::PopTextWrapPos();
   }
   if (session.overlays.true_surfaces) {
     separate();

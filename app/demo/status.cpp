@@ -93,6 +93,7 @@ void legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
   w.chip(colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::TextUnformatted(text.c_str());
+  w.done("Legend", nullptr);
 }
 
 void strain_scale(const Widgets& w) {
@@ -169,9 +170,13 @@ void draw_legend(Widgets& w, const Session& session, bool of_which_method) {
 
 void draw_legend_plate(Widgets& w, const Session& session, const SceneArea& area) {
   if (!has_legend(session)) return;
-  ImGui::SetNextWindowPos({area.min.x + w.px(12), area.min.y + w.px(8)});
+  const float margin = w.px(12);
+  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + w.px(8)});
   ImGui::Begin("Legend", nullptr, plate | ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoInputs);
+  // The window takes its width from the text, so the text cannot take it from the window.
+  ImGui::PushTextWrapPos(area.max.x - area.min.x - 2 * margin - ImGui::GetStyle().WindowPadding.x);
   draw_legend(w, session, true);
+  ImGui::PopTextWrapPos();
   ImGui::End();
 }
 

@@ -66,9 +66,11 @@ void draw_ghost(Widgets& w, Session& session) {
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
   ImGui::Text("Opaque: %s", in_words(session.world()).c_str());
+  w.done("Legend", nullptr);
   w.chip(ghost_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::Text("ghost: %s", in_words(session.ghost()->world()).c_str());
+  w.done("Legend", nullptr);
   ImGui::Text("RMS distance: %s", distance_text(session).c_str());
 }
 

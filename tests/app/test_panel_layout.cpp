@@ -63,6 +63,29 @@ TEST(Panel, WhatFindsNoRoomIsNamed) {
   EXPECT_FALSE(rig.recorder.find("No room"));
 }
 
+TEST(Panel, LegendsAreNoWiderThanTheirPlace) {
+  for (const float scale : {1.0f, 2.0f}) {
+    PanelRig rig(scale);
+    for (const OverlayRow& row : overlay_table) rig.session.overlays.*row.shown = true;
+    rig.session.set_contact_surface(softbody::ContactSurface::surfaces);
+    rig.session.set_ghost(IntegratorChoice{"semi-implicit-euler", 1234});
+    rig.frames(3);
+    const float display = 1280 * scale;
+    ASSERT_LT(rig.interface.scene_area().max.x, display) << "there is no column";
+    EXPECT_GE(std::ranges::count(rig.recorder.widgets, "Legend", &Recorder::Widget::label), 7);
+    for (const Recorder::Widget& line : rig.recorder.widgets)
+      if (line.label == "Legend") {
+        EXPECT_LE(line.max.x, display - ImGui::GetStyle().WindowPadding.x);
+      }
+    rig.resize(static_cast<int>(600 * scale), static_cast<int>(900 * scale));
+    ASSERT_EQ(rig.interface.scene_area().max.x, 600 * scale) << "there is a column";
+    for (const Recorder::Widget& line : rig.recorder.widgets)
+      if (line.label == "Legend") {
+        EXPECT_LE(line.max.x, 600 * scale) << "over the scene";
+      }
+  }
+}
+
 TEST(Panel, TheTourFitsSmallWindows) {
   PanelRig rig;
   for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
