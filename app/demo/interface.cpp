@@ -37,7 +37,7 @@ void Interface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui,
   SceneArea between = below_status;
   between.max.y = caption;
   if (!layout_.column) draw_legend_plate(widgets, session, below_status);
-  if (ui.sweep) sweep_view_.draw(widgets, session, area, ui.sweep);
+  if (ui.sweep) sweep_view_.draw(widgets, session, below_status, ui.sweep);
   draw_import_report(widgets, ui.import, between);
 }
 

@@ -5,12 +5,14 @@
 #include "app/demo/column.h"
 #include "app/panel/compare_view.h"
 #include "app/panel/panel.h"
+#include "app/panel/sweep_view.h"
 
 namespace app {
 namespace {
 
-constexpr float tour_width = 340;    // design pixels
-constexpr float least_height = 200;  // of the scene above the comparison
+constexpr float tour_width = 340;     // design pixels
+constexpr float least_height = 200;   // of the scene above the comparison
+constexpr float status_height = 150;  // of what draw_status() takes of it, mostly
 
 float width_of(const SceneArea& area) { return area.max.x - area.min.x; }
 
@@ -42,11 +44,13 @@ Layout lay_out(const Session& session, const UiState& ui, float scale) {
   }
   if (layout.panel_covers_scene) return layout;
   const float compare_top = display.y - compare_height(width_of(scene), scale);
-  if (session.compare.on && compare_top >= least_height * scale) {
+  const float above = ui.sweep ? status_height + SweepView::least_height : least_height;
+  if (session.compare.on && compare_top >= above * scale) {
     layout.compare = {{scene.min.x, compare_top}, display};
     scene.max.y = compare_top;
   } else if (session.compare.on) {
-    layout.no_room = "No room for the comparison: enlarge the window.";
+    layout.no_room = "No room for the comparison: enlarge the window";
+    layout.no_room += ui.sweep ? " or close the error against run time (E)." : ".";
   }
   if (has_column(session, ui) && width_of(scene) >= (column_width + least_scene_width) * scale) {
     layout.column = {{scene.max.x - column_width * scale, scene.min.y}, scene.max};

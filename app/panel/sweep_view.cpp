@@ -7,7 +7,7 @@
 namespace app {
 namespace {
 
-constexpr float most_width = 720, most_height = 480, least_view_height = 340, room_for_status = 92;  // design pixels
+constexpr float most_width = 720, most_height = 480, margin_width = 12;  // design pixels
 constexpr std::size_t most_reasons = 8;
 
 bool was_run(const SweepRow& row) { return row.not_run.empty(); }
@@ -212,10 +212,10 @@ void SweepView::draw(Widgets& w, Session& session, const SceneArea& area, bool& 
     state_ = std::move(*news);
     plot_.set(state_.report);
   }
-  const float margin = w.px(12), room = area.max.y - area.min.y - margin - w.px(room_for_status);
+  const float margin = w.px(margin_width), room = area.max.y - area.min.y - 2 * margin;
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSize({std::min(w.px(most_width), area.max.x - area.min.x - 2 * margin),
-                            std::clamp(room, w.px(least_view_height), w.px(most_height))});
+                            std::clamp(room, w.px(least_height - 2 * margin_width), w.px(most_height))});
   ImGui::SetNextWindowBgAlpha(1.0f);  // points on coloured bodies would be hard to tell apart
   // Folded it is a line at the scene's lower edge, and the scene is to be seen.
   if (ImGui::Begin("Error against run time###Sweep view", &open,

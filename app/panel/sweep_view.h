@@ -10,7 +10,7 @@ namespace app {
 
 class SweepView {
  public:
-  static constexpr float least_width = 420;  // design pixels
+  static constexpr float least_height = 364;  // of the area, in design pixels
 
   /// Draws the window in the lower left corner of the area; `open` becomes false when it is closed. A click on a point
   /// makes its method and settings those of the session. A sweep goes on while the window is closed.

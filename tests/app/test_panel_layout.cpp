@@ -63,6 +63,28 @@ TEST(Panel, WhatFindsNoRoomIsNamed) {
   EXPECT_FALSE(rig.recorder.find("No room"));
 }
 
+TEST(Panel, TheErrorWindowStandsBelowTheStatus) {
+  PanelRig rig;
+  rig.ui.sweep = true;
+  for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    for (const bool compare : {false, true}) {
+      rig.session.compare.on = compare;
+      rig.frames(3);
+      float status_ends = 0;
+      for (const char* label : {"Live recall", "Step light", "No room"})
+        if (const Recorder::Widget* line = rig.recorder.find(label)) status_ends = std::max(status_ends, line->max.y);
+      const float title = ImGui::GetFrameHeight() + ImGui::GetStyle().WindowPadding.y;
+      EXPECT_GE(rig.widget("Sweep").min.y - title, status_ends) << size.x << ", compare: " << compare;
+      const Recorder::Widget plot = rig.widget("Scatter");
+      EXPECT_GE(plot.max.y - plot.min.y, 120) << size.x << ", compare: " << compare;
+      EXPECT_LE(plot.max.y, rig.interface.scene_area().max.y);
+      const bool has_room = size.y > 700;
+      EXPECT_EQ(rig.recorder.find("Column Method") != nullptr, compare && has_room);
+    }
+  }
+}
+
 TEST(Panel, LegendsAreNoWiderThanTheirPlace) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
