@@ -102,6 +102,7 @@ void Session::single_step() {
 void Session::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
+  if (!paused) stability_.dismiss_alarm();
   const bool alarmed = stability_.alarm().has_value();
   stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });

@@ -27,7 +27,7 @@ StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
 }  // namespace
 
 void StabilityWatch::before_step(const softbody::World& world) {
-  if (!alarm_) rewind_.keep(world);
+  if (to_be_good_ == 0) rewind_.keep(world);
   needed_before_ = world.dynamics().substeps(world.frame_time());
 }
 
@@ -49,9 +49,19 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const std::vector<softbody::BodyMeasures> bodies = softbody::measure_bodies(world);
   record(world, bodies);
   if (!guarded) guard_.restart();
-  if (!guarded || alarm_) return;
-  alarm_ = guard_.look(world, bodies);
-  if (!alarm_ && guard_.judged()) good_frame_ = world.frame();
+  if (guarded) judge(world, bodies);
+}
+
+void StabilityWatch::judge(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
+  auto found = guard_.look(world, bodies);
+  if (found) {
+    if (to_be_good_ == 0) alarm_ = std::move(found);  // what goes on exploding is one explosion
+    to_be_good_ = Guard::memory;
+  } else if (to_be_good_ > 0) {
+    --to_be_good_;
+  } else if (guard_.judged()) {
+    good_frame_ = world.frame();
+  }
 }
 
 void StabilityWatch::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
@@ -82,6 +92,7 @@ void StabilityWatch::went_back(const softbody::World& world) {
   guard_.restart();
   good_frame_ = std::min(good_frame_, world.frame());
   alarm_.reset();
+  to_be_good_ = 0;
   margin_ = {};
   StabilityHistory& h = history_;
   for (Ring* ring :
@@ -92,7 +103,7 @@ void StabilityWatch::went_back(const softbody::World& world) {
 
 void StabilityWatch::keep_present(const softbody::World& world) {
   const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
-  if (!alarm_ && !past) rewind_.keep(world);
+  if (to_be_good_ == 0 && !past) rewind_.keep(world);
 }
 
 }  // namespace app

@@ -41,6 +41,8 @@ class StabilityWatch {
   void after_step(const softbody::World& world, bool guarded);
   /// The user has changed something: energy may have come with it.
   void intervened() { guard_.restart(); }
+  /// The user has read the alarm() and goes on. There is no other before the world was good for a while.
+  void dismiss_alarm() { alarm_.reset(); }
   /// Another world, of which nothing is known but what is so now.
   void restart(const softbody::World& world);
   /// The world has gone back to one of past(): what came later is forgotten, and what is so now is measured.
@@ -58,10 +60,12 @@ class StabilityWatch {
 
  private:
   void record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
+  void judge(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
 
   Rewind rewind_;
   Guard guard_;
   std::optional<Alarm> alarm_;
+  std::size_t to_be_good_ = 0;  // looks, before the world counts as good again
   int good_frame_ = 0;
   StabilityHistory history_;
   StepMargin margin_;

@@ -28,5 +28,21 @@ TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   EXPECT_FALSE(rig.session.world().substeps());
 }
 
+TEST(StabilityPanel, GoingOnTakesTheAlarmAway) {
+  PanelRig rig(1, doomed_pair());
+  rig.frames(40);
+  ASSERT_TRUE(rig.session.paused);
+  ASSERT_TRUE(rig.recorder.find("Alarm"));
+  ASSERT_TRUE(rig.recorder.find("Rewind to the last good frame"));
+  rig.session.single_step();
+  rig.frames(2);
+  EXPECT_TRUE(rig.recorder.find("Alarm")) << "steps are for looking at it";
+  rig.click("Pause");
+  rig.frames(2);
+  EXPECT_FALSE(rig.session.paused);
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+  EXPECT_FALSE(rig.recorder.find("Rewind to the last good frame"));
+}
+
 }  // namespace
 }  // namespace app

@@ -178,6 +178,7 @@ TEST(Session, GoesOnThroughAnExplosionWhenAskedTo) {
   run(session, 5);
   EXPECT_EQ(session.world().frame(), bad + 5) << "it stops once, not in every frame";
   EXPECT_LT(session.stability().past().snapshots().back().frame, bad) << "no bad frame is kept";
+  EXPECT_FALSE(session.stability().alarm()) << "who goes on has read it";
 }
 
 }  // namespace

@@ -130,6 +130,27 @@ TEST(StabilityWatch, KnowsNoGoodFrameThatIsStillToCome) {
   EXPECT_EQ(w.watch.last_good_frame(), now);
 }
 
+TEST(StabilityWatch, WatchesAgainOnceTheWorldWasGoodForAWhile) {
+  Watched w;
+  w.explode();
+  w.watch.dismiss_alarm();
+  const int bad = w.world.frame();
+  w.world.restore(w.watch.past().snapshots().front());  // bodies in order again: an exploded world would take minutes
+  w.world.set_integrator(softbody::default_integrator, {});
+  w.watch.intervened();
+  const int again = bad + 2 * static_cast<int>(Guard::memory);
+  while (w.world.frame() < again) {
+    w.step();
+    ASSERT_FALSE(w.watch.alarm()) << "of the same explosion, in frame " << w.world.frame();
+  }
+  EXPECT_GT(w.watch.past().snapshots().back().frame, bad);
+  EXPECT_GT(w.watch.last_good_frame(), bad);
+  w.world.set_integrator("semi-implicit-euler", 2);
+  w.watch.intervened();
+  while (!w.watch.alarm() && w.world.frame() < again + 10) w.step();
+  EXPECT_TRUE(w.watch.alarm()) << "of another explosion";
+}
+
 TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{}).name, "Green");
   EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1}).name, "Green");
