@@ -73,7 +73,7 @@ void World::restore(const Snapshot& from) {
   s.options.integrator = from.integrator;
   s.options.substeps = from.substeps;
   s.replan();
-  s.set_integrator();
+  s.set_integrator();  // unchecked: what it has come to since would not be accepted from a scene any more
   s.dynamics.restore(from.dynamics);
   s.arrived = from.arrived;
   s.drops = from.drops;

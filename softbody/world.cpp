@@ -47,6 +47,7 @@ World::State::State(Scene s, const Options& o)
   dynamics.set_max_work(options.max_work);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
+  check_stability(prototypes, plan);
   set_integrator();
   if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
   arrive();
@@ -74,9 +75,8 @@ bool World::State::implicit_in_reserve(const PrototypeSet& all, const Plan& with
                      [](const auto& one) { return one->mesh.vertices.size() <= Dynamics::most_implicit_particles; });
 }
 
-/// As the options have it.
+/// As the options have it, whatever becomes of it.
 void World::State::set_integrator() {
-  check_stability(prototypes, plan);
   dynamics.set_integrator(*find_integrator(options.integrator));
   dynamics.set_substeps(options.substeps);
 }
@@ -227,11 +227,12 @@ void World::set_integrator(std::string_view key, std::optional<int> substeps) {
   s.options.integrator = key;
   s.options.substeps = substeps;
   try {
-    s.set_integrator();
+    s.check_stability(s.prototypes, s.plan);
   } catch (const SceneError&) {
     s.options = before;
     throw;
   }
+  s.set_integrator();
   s.wake_all();
 }
 

@@ -156,7 +156,7 @@ softbody::BodySource read_body(Bytes& bytes, int materials) {
 softbody::Scene read_scene(Bytes& bytes, const std::string& key) {
   Scene scene;
   scene.key = scene.name = key;
-  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e3, 1e4}));
+  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e2, 1e3}));
   read_collision(bytes, scene);
   for (const char* name : {"a", "b"}) scene.materials.push_back(read_material(bytes, name));
   const int bodies = 1 + bytes.below(4), solids = bytes.below(3);

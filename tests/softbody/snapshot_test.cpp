@@ -139,6 +139,27 @@ TEST(Snapshot, MayComeFromAnotherScene) {
   EXPECT_EQ(follow(world, 5), follow(cloth, 5));
 }
 
+/// After surfaces the shield grows from nothing, so that at first no tolerance is too wide.
+TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials[0].contact_stiffness = 2e4;
+  scene.collision.tolerance = 0.5f;
+  add_body(scene, {0, 1.05, 0}, glm::dvec3(0.0));
+  constexpr double frame_time = 0.1;
+  EXPECT_THROW(World(scene, {.frame_time = frame_time}), SceneError);
+  scene.contact_surface = ContactSurface::surfaces;
+  World world(scene, {.frame_time = frame_time});
+  world.step();
+  world.set_contact_surface(ContactSurface::surfaces);
+  world.set_contact_surface(ContactSurface::vertices);
+  run(world, 100);
+  const Snapshot snapshot = world.snapshot();
+  EXPECT_THROW(world.set_integrator("auto", std::nullopt), SceneError);
+  const Course first = follow(world, 2);
+  world.restore(snapshot);
+  EXPECT_TRUE(follow(world, 2) == first);
+}
+
 TEST(Snapshot, SaysHowMuchMemoryItTakes) {
   const World world(drop_scene(), {});
   const std::size_t particles = world.bodies().vertex_count();
