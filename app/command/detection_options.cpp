@@ -39,10 +39,10 @@ void add_detection_options(CLI::App& command, DetectionOptions& options) {
   command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
   command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes")
       ->type_name("N")
-      ->check(whole_number_from(0, collide::max_levels));
+      ->transform(whole_number_from(0, collide::max_levels));
   command.add_option("--buckets", options.buckets, "number of buckets of the hash table")
       ->type_name("N")
-      ->check(whole_number_from(1, collide::max_buckets));
+      ->transform(whole_number_from(1, collide::max_buckets));
   command
       .add_option(
           "--cell-size", options.cell_size,

@@ -73,7 +73,7 @@ void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
-      ->check(whole_number_from(1, 256));
+      ->transform(whole_number_from(1, 256));
 }
 
 void add_scene_options(CLI::App& command, Options& options) {
@@ -88,7 +88,7 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--substeps", options.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->check(whole_number_from(1, softbody::World::max_substeps));
+      ->transform(whole_number_from(1, softbody::World::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -104,7 +104,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   add_scene_options(*simulate, options);
   simulate->add_option("--frames", options.frames, "frames to run")
       ->type_name("N")
-      ->check(whole_number_from(1, 10'000'000));
+      ->transform(whole_number_from(1, 10'000'000));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
@@ -112,7 +112,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate
       ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
       ->type_name("N")
-      ->check(whole_number_from(1, 10'000'000));
+      ->transform(whole_number_from(1, 10'000'000));
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -133,7 +133,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
       ->type_name("FILE");
   detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
       ->type_name("K")
-      ->check(whole_number_from(1, 100'000));
+      ->transform(whole_number_from(1, 100'000));
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -152,7 +152,7 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
           "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
           "side (default: all cores)")
       ->type_name("N")
-      ->check(whole_number_from(1, 256));
+      ->transform(whole_number_from(1, 256));
   report->add_option("--out", options.out, "folder for the report")->type_name("DIR")->required();
   return report;
 }

@@ -10,14 +10,16 @@
 
 namespace app {
 
-/// In place of CLI::Range, which says of a fraction that it is out of range.
+/// Decimal. In place of CLI::Range, which says of a fraction that it is out of range.
 inline CLI::Validator whole_number_from(std::int64_t least, std::int64_t most) {
   const std::string from = std::to_string(least), to = std::to_string(most);
   return CLI::Validator(
       [=](std::string& text) {
         const auto number = whole_number(text);
-        const bool good = number && *number >= least && *number <= most;
-        return good ? "" : "must be a whole number from " + from + " to " + to + ", not " + text;
+        if (!number || *number < least || *number > most)
+          return "must be a whole number from " + from + " to " + to + ", not " + text;
+        text = std::to_string(*number);  // CLI11 would read 010 as 8
+        return std::string();
       },
       "INT in [" + from + " - " + to + "]");
 }

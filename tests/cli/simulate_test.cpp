@@ -61,6 +61,10 @@ TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   }
 }
 
+TEST(Simulate, WholeNumbersAreDecimalWithZerosInFront) {
+  EXPECT_EQ(simulate({"--scene", "drop", "--frames", "010"})["frames"].size(), 10u);
+}
+
 TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
   const TemporaryFolder folder;
   const auto scene = folder.write("small.toml", small_scene);
