@@ -109,7 +109,7 @@ void read_collision(Bytes& bytes, Scene& scene) {
   scene.method = collide::methods()[static_cast<std::size_t>(bytes.below(int(collide::methods().size())))].key;
   scene.contact_surface = bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
   collide::Settings& c = scene.collision;
-  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, 1e-9, 1e6}));
+  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, 1e-9, 10}));
   c.self_collision = bytes.below(2) == 0;
   c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
   c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});

@@ -1,5 +1,5 @@
 #pragma once
-// Arbitrary bytes as a scene: every value within what a scene file may hold, most of them usual ones, in small worlds.
+// Arbitrary bytes as a scene: values within what a scene file may hold, most of them usual ones, in small worlds.
 
 #include "bytes.h"
 #include "softbody/scene.h"
