@@ -52,7 +52,7 @@ soak() { step "soak: build" build release soak -DBUILD_TESTING=ON && step "soak"
 run_fuzzer() {
   cd "$root/build/fuzz"
   mkdir -p "found/$1"
-  TMPDIR=/dev/shm ASAN_OPTIONS=malloc_context_size=1 "bin/fuzz_$1" -max_total_time=300 -timeout=20 -rss_limit_mb=4096 \
+  TMPDIR=/dev/shm ASAN_OPTIONS=malloc_context_size=1 "bin/fuzz_$1" -max_total_time=300 -timeout=60 -rss_limit_mb=4096 \
     -entropic_scale_per_exec_time=1 -artifact_prefix="found/$1/" -print_final_stats=1 \
     "found/$1" "$root/tests/fuzz/corpus/$1"
 }
