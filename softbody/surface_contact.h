@@ -20,7 +20,7 @@
 // vertex is inside if it lies behind the face that it is closest to; it then has only that row. Open surfaces and a
 // body and itself have no inside: there the normal is remembered, and points whose normal flips have crossed and are
 // brought back. Vertices found inside another body (at the start, or where one was dropped) go out through the faces
-// nearest to them; bodies far inside each other are first moved apart as a whole.
+// nearest to them; bodies far inside each other, or in one place, are first moved apart as a whole.
 
 #include <cstdint>
 #include <functional>
@@ -137,7 +137,7 @@ class SurfaceContact {
     float speed = 0;       // m/s, with which the two may meet
     float rate = 0;        // 1/s: that over how far they may go in a substep
     bool overlap = false;  // some vertex may be inside the other body: see find_deep()
-    bool parting = false;  // so deep that the bodies are moved apart as a whole
+    bool parting = false;  // so deep, or so much in one place, that the bodies are moved apart as a whole
     std::uint32_t deep = 0, deep_end = 0;
     int thread = 0;
     std::uint32_t first_row = 0, rows = 0;

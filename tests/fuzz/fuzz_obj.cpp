@@ -1,16 +1,13 @@
 // Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
 
 #include "app/files/obj.h"
+#include "require.h"
 #include "softbody/mesh_import.h"
 #include "text_file.h"
 
 namespace {
 
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
+using fuzz::require;
 
 void check(const app::ObjBodies& bodies) {
   require(!bodies.first.empty() && bodies.first.back() == bodies.x.size(), "bodies do not own all vertices");

@@ -1,18 +1,13 @@
 // Arbitrary words as the command line, one a line: they are taken with values in their ranges or refused in one line.
 
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "app/command/options.h"
+#include "require.h"
 
 namespace {
 
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
+using fuzz::require;
 
 /// Words with nothing between them but line ends; none asks for help, which would be printed.
 std::vector<std::string> words_of(std::string_view text) {

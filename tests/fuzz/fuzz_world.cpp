@@ -5,6 +5,7 @@
 // and the tolerance at most 10 m.
 
 #include "random_scene.h"
+#include "require.h"
 #include "softbody/measures.h"
 #include "softbody/scene_write.h"
 #include "softbody/snapshot.h"
@@ -17,12 +18,6 @@ namespace {
 constexpr int most_frames = 12;
 // Far less than users may ask for: frames that take longer end sooner, and every input takes its turn.
 constexpr softbody::MaxWork work{.surface = 1e5, .implicit = 1e4};
-
-void require(bool holds, const char* what) {
-  if (holds) return;
-  std::fprintf(stderr, "%s\n", what);
-  std::abort();
-}
 
 void require_one_line(const softbody::SceneError& error) {
   require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a refusal of several lines");
