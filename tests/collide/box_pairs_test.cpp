@@ -126,6 +126,18 @@ TEST_P(BoxPairsTest, PairsAreAppendedAndOneListMayMeetAnother) {
   EXPECT_EQ(pairs, (std::vector<ItemPair>{kept, {5, 5}})) << "boxes are closed";
 }
 
+TEST_P(BoxPairsTest, WhatIsThereBeforeKeepsItsPlaceBeforeThoseOfCutLists) {
+  BoxPairs search;
+  const Boxes a = random_boxes(random_, 1100, 3, 1), b = random_boxes(random_, 1100, 3, 1);
+  const std::vector<ItemPair> kept{{1u << 30, 3}, {1u << 29, 4}};
+  for (const bool one : {false, true}) {
+    std::vector<ItemPair> pairs = kept, expected = kept, found = one ? plain_within(a) : plain_between(a, b);
+    one ? search.within(list_of(a), pairs) : search.between(list_of(a), list_of(b), pairs);
+    expected.insert(expected.end(), found.begin(), found.end());
+    EXPECT_EQ(pairs, expected) << one;
+  }
+}
+
 TEST_P(BoxPairsTest, PickTakesThoseThatOverlapInOrder) {
   BoxPairs search;
   BoxList picked;

@@ -72,6 +72,20 @@ TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
   EXPECT_EQ(world.state_hash(), hash) << "looking moves nothing";
 }
 
+TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
+  World world(lone_body(spring_ball(), {3, -6, 12}), {.substeps = 4});
+  const glm::dvec3 start = motion(world, 0).centre;
+  int substeps = 0;
+  world.step([&] {
+    const collide::Frame now = world.positions();
+    glm::dvec3 centre(0.0);
+    for (Index i = 0; i < 162; ++i) centre += glm::dvec3(now.x[i], now.y[i], now.z[i]) / 162.0;
+    const glm::dvec3 moved = centre - start, expected = glm::dvec3(3, -6, 12) * (++substeps / 4.0 / 60);
+    EXPECT_LT(glm::length(moved - expected), 1e-5) << "substep " << substeps;
+  });
+  EXPECT_EQ(substeps, 4);
+}
+
 TEST(World, NewSettingsAreFollowedAtOnce) {
   World world(drop_scene(), {});
   do world.step();
