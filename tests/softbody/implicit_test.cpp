@@ -257,5 +257,21 @@ TEST(Auto, TurnsImplicitWhereRoundingWouldKeepBodiesTrembling) {
   EXPECT_EQ(large.dynamics().used_integrator().key, "implicit") << large.dynamics().why_integrator();
 }
 
+/// A sheet is as stiff however long it is made; only the rounding of its positions grows.
+TEST(Auto, ReckonsWithRoundingAlongEveryAxis) {
+  Scene scene = sheet_on_ground(0, glm::dvec3(0.0), glm::dvec3(0.0));
+  scene.ground.reset();
+  scene.materials[0].structural.stiffness = 1e5;
+  const auto choice = [&](double width, double depth) {
+    scene.bodies[0].mesh.width = width, scene.bodies[0].mesh.depth = depth;
+    World world(scene, {.frame_time = 1.0 / 240});
+    world.step();
+    return world.dynamics().used_integrator().key;
+  };
+  EXPECT_EQ(choice(1, 1), "semi-implicit-euler");
+  EXPECT_EQ(choice(10, 1), "implicit");
+  EXPECT_EQ(choice(1, 10), "implicit");
+}
+
 }  // namespace
 }  // namespace softbody::test

@@ -33,6 +33,26 @@ TEST(Solids, NoParticleIsDeeperThanTenMicrometresInAFall) {
   }
 }
 
+/// Its narrow walls push what falls in from one to the other: they are asked in turn until neither is entered.
+TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
+  Scene scene = sheet_on_ground(0, {0, -9.81, 0}, {0.5, -5, 0});
+  scene.ground.reset();
+  scene.bodies[0].position = {0, 0.3, 0};
+  scene.bodies[0].mesh.width = 0.01;
+  for (const double side : {-1.0, 1.0})
+    scene.planes.push_back({.normal = glm::normalize(glm::dvec3(side, 0.5, 0))});
+  World world(scene, {});
+  double deepest = 0;
+  std::size_t touched = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    deepest = std::max(deepest, measure(world).deepest_penetration);
+    touched += world.solid_contacts().size();
+  }
+  EXPECT_LT(deepest, 2e-4);
+  EXPECT_GT(touched, 100u);
+}
+
 TEST(Solids, WhatGravityTakesThereFromRestWithinOneFrameIsStopped) {
   Scene scene = falling({0, 0.6, 0}, glm::dvec3(0.0));
   scene.gravity = {0, -1000, 0};
