@@ -141,9 +141,11 @@ struct ImplicitMatrix::Factored {
   std::vector<std::vector<double>> columns;  // of particle j: its three columns, or its one
 };
 
-ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h)
-    : turns_(p.mesh.closed), factored_(std::make_unique<Factored>()) {
-  const Shape x = balanced_shape(p);
+ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h, const ImplicitMatrix* other)
+    : turns_(p.mesh.closed),
+      balanced_(other ? other->balanced_ : std::make_shared<const Shape>(balanced_shape(p))),
+      factored_(std::make_unique<Factored>()) {
+  const Shape& x = *balanced_;
   for (const Tension tension : {Tension::exact, Tension::pulling}) {
     Sparse a = assemble(p, x, h, turns_, tension);
     // So little mass that rounding hides it: directions need not be that exact.

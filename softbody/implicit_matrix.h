@@ -14,8 +14,9 @@ namespace softbody {
 
 class ImplicitMatrix {
  public:
-  /// h in s. Throws SceneError if the matrix cannot be factored.
-  ImplicitMatrix(const Prototype& prototype, double h);
+  /// h in s; `other`: one of the same prototype, whose shape in balance need not be looked for a second time. Throws
+  /// SceneError if the matrix cannot be factored.
+  ImplicitMatrix(const Prototype& prototype, double h, const ImplicitMatrix* other = nullptr);
   ~ImplicitMatrix();
 
   /// Coupled components (unknown k * particles + i), in the frame of the starting shape; else one factor serves each.
@@ -38,6 +39,7 @@ class ImplicitMatrix {
   void solve_columns(Index j) const;
 
   bool turns_;
+  std::shared_ptr<const std::vector<glm::dvec3>> balanced_;  // where the mesh's vertices are in balance
   CholeskyFactor factor_;
   std::vector<glm::dvec3> shape_;
   std::vector<double> gas_, gas_response_;

@@ -54,9 +54,11 @@ void Dynamics::prepare_implicit(float h) {
         std::rotate(known, known + 1, matrices_.end());  // the last ones in use stand last
         continue;
       }
-      if (std::size_t(std::count_if(matrices_.begin(), matrices_.end(), of_p)) >= most_lengths)
-        matrices_.erase(std::find_if(matrices_.begin(), matrices_.end(), of_p));
-      matrices_.push_back({p, length, std::make_shared<const ImplicitMatrix>(*p, length)});
+      const auto other = std::find_if(matrices_.begin(), matrices_.end(), of_p);
+      const auto matrix =
+          std::make_shared<const ImplicitMatrix>(*p, length, other == matrices_.end() ? nullptr : other->matrix.get());
+      if (std::size_t(std::count_if(matrices_.begin(), matrices_.end(), of_p)) >= most_lengths) matrices_.erase(other);
+      matrices_.push_back({p, length, matrix});
     }
   }
 }

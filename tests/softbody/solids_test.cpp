@@ -39,8 +39,7 @@ TEST(Solids, NoParticleIsPushedThroughOneWallOfAGrooveByTheOther) {
   scene.ground.reset();
   scene.bodies[0].position = {0, 0.3, 0};
   scene.bodies[0].mesh.width = 0.01;
-  for (const double side : {-1.0, 1.0})
-    scene.planes.push_back({.normal = glm::normalize(glm::dvec3(side, 0.5, 0))});
+  for (const double side : {-1.0, 1.0}) scene.planes.push_back({.normal = glm::normalize(glm::dvec3(side, 0.5, 0))});
   World world(scene, {});
   double deepest = 0;
   std::size_t touched = 0;
