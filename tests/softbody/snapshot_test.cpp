@@ -167,7 +167,7 @@ TEST(Snapshot, SaysHowMuchMemoryItTakes) {
   const std::size_t particles = world.bodies().vertex_count(), bytes = world.snapshot().bytes();
   EXPECT_GE(bytes, particles * 6 * sizeof(float));
   world.drop();
-  EXPECT_GT(world.snapshot().bytes(), bytes) << "also where its lanes were there already";
+  EXPECT_GT(world.snapshot().bytes(), bytes);
 }
 
 std::vector<Case> cases() {
