@@ -75,6 +75,12 @@ std::vector<Particle> particles_of(const World& world, BodyId body) {
   return all;
 }
 
+void place(World& world, const glm::dvec3& scale, double rate) {
+  std::vector<Particle> particles;
+  for (const glm::dvec3& x : world.prototype(0).start) particles.push_back({scale * x, rate * x});
+  world.set_particles(0, particles);
+}
+
 Motion motion(const World& world, BodyId body) {
   const Prototype& p = world.prototype(body);
   const auto count = static_cast<Index>(p.mesh.vertices.size());

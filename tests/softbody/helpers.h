@@ -25,6 +25,9 @@ Scene drop_scene();
 
 void run(World& world, int frames);
 std::vector<Particle> particles_of(const World& world, BodyId body = 0);
+/// The first body in its starting shape about the origin, so many times as large along each axis, with velocities in
+/// proportion, of rate 1/s.
+void place(World& world, const glm::dvec3& scale, double rate = 0);
 
 /// A body's rigid part.
 struct Motion {

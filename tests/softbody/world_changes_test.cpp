@@ -125,41 +125,6 @@ TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
   EXPECT_FALSE(world.body(0).asleep);
 }
 
-TEST(Remove, WakesWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {
-  Scene scene = test::lone_body(test::spring_ball());
-  scene.contact_surface = ContactSurface::surfaces;
-  scene.collision.tolerance = 1e-3f;
-  scene.sleep = {1, 2};
-  test::add_body(scene, {0, 1.03, 0}, glm::dvec3(0.0));
-  test::add_body(scene, {0, 5, 0}, glm::dvec3(0.0));
-  World world(scene, {});
-  test::run(world, 4);
-  ASSERT_TRUE(world.all_at_rest());
-  world.remove(0);
-  EXPECT_FALSE(world.body(0).asleep);
-  EXPECT_TRUE(world.body(1).asleep) << "far off";
-}
-
-TEST(Remove, WakesWhatIsNearOnEverySideAndNothingFarAlongOneAxis) {
-  Scene scene = test::lone_body(test::spring_ball());
-  scene.contact_surface = ContactSurface::surfaces;
-  scene.collision.tolerance = 1e-3f;
-  scene.sleep = {1, 2};
-  std::vector<bool> near;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double distance : {-1.03, 1.03, -3.0, 3.0}) {
-      glm::dvec3 place(0.0);
-      place[axis] = distance;
-      test::add_body(scene, place, glm::dvec3(0.0));
-      near.push_back(std::abs(distance) < 2);
-    }
-  World world(scene, {});
-  test::run(world, 4);
-  ASSERT_TRUE(world.all_at_rest());
-  world.remove(0);
-  for (BodyId b = 0; b < near.size(); ++b) EXPECT_EQ(world.body(b).asleep, !near[b]) << b;
-}
-
 TEST(Remove, OfTheBodyInTheHandOpensIt) {
   World world(pile(3), {});
   world.grab({.body = 1});

@@ -1,0 +1,230 @@
+// What a frame may be at most: its substeps, their work, and what is found at once; the rest of it is left out.
+
+#include <gtest/gtest.h>
+
+#include "softbody/snapshot.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
+  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  place(world, glm::dvec3(1.0), 1e6);
+  for (int frame = 0; frame < 3; ++frame) {
+    world.step();
+    EXPECT_EQ(world.profile().substeps, World::max_substeps);
+    EXPECT_GT(world.profile().seconds, 0);
+    EXPECT_LT(world.profile().seconds, world.frame_time());
+    EXPECT_TRUE(measure(world).finite);
+  }
+  World fixed(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .substeps = World::max_substeps + 1});
+  fixed.step();
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+}
+
+TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
+  Scene scene = lone_body(spring_ball());
+  scene.ground.emplace();
+  const auto step = [&](double work, std::optional<int> substeps) {
+    World world(scene, {.integrator = "implicit", .substeps = substeps, .max_work = {.implicit = work}});
+    place(world, glm::dvec3(1.0), 500);
+    world.step();
+    return world.profile();
+  };
+  const Profile whole = step(1e9, {}), part = step(1e4, {});
+  ASSERT_GT(whole.substeps, 32);
+  EXPECT_EQ(whole.seconds, 1.0 / 60);
+  EXPECT_LE(part.substeps, 16);
+  EXPECT_LT(part.seconds, whole.seconds);
+  EXPECT_EQ(step(1, {}).substeps, 1);
+  EXPECT_EQ(step(1e4, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
+}
+
+TEST(Substeps, ThatAreImplicitAreFewer) {
+  Scene scene = lone_body(spring_ball());
+  scene.bodies[0].mesh.subdivisions = 0;
+  scene.ground.emplace();
+  World world(scene, {.integrator = "implicit"});
+  place(world, glm::dvec3(1.0), 1e5);
+  world.step();
+  EXPECT_EQ(world.profile().substeps, Dynamics::max_implicit_steps);
+  EXPECT_GT(world.profile().seconds, 0);
+  EXPECT_LT(world.profile().seconds, world.frame_time());
+  EXPECT_EQ(world.time(), world.profile().seconds);
+}
+
+/// Two bodies side by side in contact of their surfaces.
+Scene touching_surfaces() {
+  Scene scene = lone_body(gas_ball());
+  add_body(scene, {0.99, 0, 0}, {});
+  scene.contact_surface = ContactSurface::surfaces;
+  return scene;
+}
+
+TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
+  const std::string integrator = "semi-implicit-euler";
+  World whole(touching_surfaces(), {.integrator = integrator});
+  whole.step();
+  EXPECT_EQ(whole.profile().seconds, whole.frame_time());
+  ASSERT_GT(whole.profile().substeps, 8);
+  const auto of_work = [&](double bound) {
+    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.surface = bound}});
+    world.step();
+    EXPECT_NEAR(world.profile().seconds / world.frame_time(),
+                double(world.profile().substeps) / whole.profile().substeps, 0.05);
+    return world;
+  };
+  const auto of_substep = [](const World& world) {
+    const Profile& p = world.profile();
+    return world.dynamics().surface_contact().work_of_substep(float(p.seconds / p.substeps));
+  };
+  // Candidates are found once, and looked at in one substep after the other; four are taken at a time, first one of
+  // them.
+  const World one = of_work(0);
+  EXPECT_EQ(one.profile().substeps, 1);
+  const collide::SurfaceSearch& search = one.dynamics().surface_contact().search();
+  const double half = 0.5 * double(search.features().size()), least = of_substep(one);
+  ASSERT_GT(half, 0);
+  EXPECT_GT(double(search.work()), 2 * half);
+  EXPECT_GT(least, 2 * half) << "contacts are solved";
+  double work = double(search.work()) + least;
+  EXPECT_EQ(of_work(work).profile().substeps, 1);
+  const World four = of_work(work + half);
+  EXPECT_EQ(four.profile().substeps, 4);
+  work += 3 * of_substep(four);
+  EXPECT_EQ(of_work(work).profile().substeps, 4);
+  EXPECT_EQ(of_work(work + half).profile().substeps, 8);
+
+  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.surface = 0}});
+  fixed.step();
+  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
+}
+
+/// Surfaces that pass each other fast have their candidates found anew many times in a frame, which shows in what it
+/// took; where that is exactly what it took before, it is missed here.
+TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
+  Scene scene = lone_body(gas_ball(), {50, 0, 0});
+  add_body(scene, {1.5, 0, 0}, {-50, 0, 0});
+  scene.contact_surface = ContactSurface::surfaces;
+  struct Work {
+    double found = 0, looked_at = 0, seconds = 0;
+    double all() const { return found + looked_at; }
+  };
+  const auto work = [&](double bound, double h) {  // h: of a substep, s
+    World world(scene, {.integrator = "semi-implicit-euler", .max_work = {.surface = bound}});
+    const SurfaceContact& contact = world.dynamics().surface_contact();
+    Work result;
+    std::size_t last = 0;
+    world.step([&] {
+      const std::size_t now = contact.search().work();
+      if (now != last) result.found += double(now);
+      last = now;
+      result.looked_at += contact.work_of_substep(float(h));
+    });
+    result.seconds = world.profile().seconds;
+    return result;
+  };
+  World free(scene, {.integrator = "semi-implicit-euler"});
+  free.step();
+  const double h = free.profile().seconds / free.profile().substeps;
+  const Work whole = work(1e9, h);
+  ASSERT_GT(whole.found, 0.3 * whole.all());
+  for (const double part : {0.25, 0.5, 0.75}) {
+    const Work bound = work(part * whole.all(), h);
+    EXPECT_NEAR(bound.all() / whole.all(), part, 0.05);
+    EXPECT_LT(bound.seconds, whole.seconds);
+  }
+}
+
+/// The bounds are those of a world of 10,000 particles. Who is held is not stepped, but is one of them.
+TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
+  const auto substeps = [](Scene scene, std::size_t held, const World::Options& options) {
+    BodySource body = scene.bodies[0];
+    body.mesh.subdivisions = 3;  // 642 particles
+    body.release = 10;
+    for (std::size_t i = 0; i < held; ++i) {
+      body.position = {2.0 * double(i), 0, 10};
+      scene.bodies.push_back(body);
+    }
+    World world(scene, options);
+    world.step();
+    EXPECT_LT(world.profile().seconds, world.frame_time());
+    return world.profile().substeps;
+  };
+  Scene fast = lone_body(spring_ball(), {0, -500, 0});
+  fast.ground.emplace();
+  const auto implicit = [&](std::size_t held, double work) {
+    return substeps(fast, held, {.integrator = "implicit", .max_work = {.implicit = work}});
+  };
+  const auto surface = [&](std::size_t held, double work) {
+    return substeps(touching_surfaces(), held, {.integrator = "semi-implicit-euler", .max_work = {.surface = work}});
+  };
+  EXPECT_EQ(implicit(8, 4e4), implicit(0, 4e4)) << "5,298 particles";
+  EXPECT_EQ(surface(8, 8e3), surface(0, 8e3));
+  // 41,250 particles, 42,384 with lanes that no body takes.
+  EXPECT_GE(implicit(64, 1e4), implicit(0, 4e4));
+  EXPECT_LE(implicit(64, 1e4), implicit(0, 4.5e4));
+  EXPECT_GE(surface(64, 2e3), surface(0, 8e3));
+  EXPECT_LE(surface(64, 2e3), surface(0, 9e3));
+  EXPECT_LT(implicit(0, 1e4), implicit(0, 4e4));
+  EXPECT_LT(surface(0, 2e3), surface(0, 8e3));
+}
+
+/// In none of them do surfaces pass each other by more than 0.15 edges.
+TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
+  constexpr double speed = 100;  // m/s, towards each other
+  Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
+  add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});
+  scene.contact_surface = ContactSurface::surfaces;
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  world.step();
+  EXPECT_GE(world.profile().substeps, speed * world.frame_time() / (0.15 * world.prototype(0).mean_edge));
+  scene.contact_surface = ContactSurface::vertices;
+  World without(scene, {.integrator = "semi-implicit-euler"});
+  without.step();
+  EXPECT_LT(without.profile().substeps, world.profile().substeps / 2);
+}
+
+/// Those that were found before belong to another moment: nothing may look at them.
+TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
+  const auto candidates = [](const World& world) {
+    return double(world.dynamics().surface_contact().search().features().size());
+  };
+  World touching(touching_surfaces(), {});
+  touching.step();
+  World world(touching_surfaces(), {.max_work = {.at_once = 1.5 * candidates(touching)}});
+  world.step();
+  EXPECT_EQ(candidates(world), candidates(touching));
+  std::vector<Particle> near = particles_of(world, 1);
+  for (Particle& p : near) p.position.x -= 0.3;
+  world.set_particles(1, near);
+  EXPECT_THROW(world.step(), std::length_error);
+  const Snapshot then = world.snapshot();
+  EXPECT_THROW(world.step(), std::length_error);
+  world.restore(then);
+  EXPECT_TRUE(measure(world).finite);
+  for (Particle& p : near) p.position.x += 2;
+  world.set_particles(1, near);
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+}
+
+/// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.
+TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
+  Scene scene = lone_body(gas_ball());
+  scene.sleep = {.speed = 0.05};
+  add_body(scene, {5, 0, 0}, {});
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  for (int frame = 0; frame < 40; ++frame) {
+    place(world, glm::dvec3(1.0), 1e6);
+    world.step();
+    ASSERT_LT(world.profile().seconds, world.frame_time());
+    ASSERT_FALSE(world.body(1).asleep) << frame;
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
