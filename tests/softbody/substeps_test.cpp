@@ -55,6 +55,25 @@ TEST(Substeps, AreThoseOfTheLighterBodyOfAPairWhicheverComesFirst) {
   EXPECT_NEAR(substeps(50, 0.5), lighter_first, 0.05 * lighter_first);
 }
 
+/// The thinner a shield, the less of its bound is damping, and the more its stiffness.
+TEST(Substeps, CountTheStiffnessOfContacts) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials[0].contact_stiffness = 1e4;
+  scene.collision.tolerance = 1e-4f;
+  const std::vector<glm::dvec3> start = World(scene, {}).prototype(0).start;
+  const auto above = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
+  const glm::dvec3 top = *std::max_element(start.begin(), start.end(), above);
+  const glm::dvec3 bottom = *std::min_element(start.begin(), start.end(), above);
+  add_body(scene, top - bottom + glm::dvec3(0, 5e-5, 0), glm::dvec3(0.0));
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  world.step();
+  const Prototype& p = world.prototype(0);
+  const double own = stiffness_per_mass(p, {}), shield = Shield::stiffness_bound(1e4) / p.particle_mass;
+  ASSERT_GT(shield, 4 * own);
+  EXPECT_GE(world.profile().substeps, world.frame_time() / world.integrator().stable_step(
+                                                               own + shield, p.spring_damping_bound / p.particle_mass));
+}
+
 TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
   for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});
