@@ -170,6 +170,16 @@ TEST(Snapshot, SaysHowMuchMemoryItTakes) {
   EXPECT_GT(world.snapshot().bytes(), bytes);
 }
 
+/// Eight bodies fill the lanes of one batch, as seven do but for one: nothing else is larger.
+TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
+  const auto bytes = [](int bodies) {
+    Scene scene = lone_body(spring_ball());
+    for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
+    return World(scene, {}).snapshot().dynamics.bytes();
+  };
+  EXPECT_EQ(bytes(8) - bytes(7), sizeof(Body));
+}
+
 std::vector<Case> cases() {
   std::vector<Case> list;
   std::vector<std::string> keys = scene_keys(SBCOLLIDE_SCENES);
