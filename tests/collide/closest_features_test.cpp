@@ -98,6 +98,8 @@ TEST(ClosestFeatures, InnerSaysThatBothPointsLieInside) {
   EXPECT_TRUE(closest_vertex_face({0.25f, 0.25f, 1}, a, b, c).inner);
   EXPECT_FALSE(closest_vertex_face({0.25f, -0.25f, 1}, a, b, c).inner);
   EXPECT_FALSE(closest_vertex_face({-1, -1, 1}, a, b, c).inner);
+  for (const glm::vec3& on_side : {0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a)})
+    EXPECT_FALSE(closest_vertex_face(on_side + glm::vec3(0, 0, 1), a, b, c).inner) << on_side.x << ' ' << on_side.y;
   EXPECT_TRUE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, -1, 1}, {0, 1, 1}).inner);
   EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 2}).inner) << "one ends over the other's middle";
   EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {2, -1, 1}, {2, 1, 1}).inner);
