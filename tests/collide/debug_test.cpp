@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <set>
 
 #include "collide/cell_hash.h"
 #include "collide/reach.h"
@@ -52,9 +53,14 @@ TEST(Debug, AgreesWithItselfAndWithTheHash) {
       ASSERT_TRUE(std::is_sorted(geometry.cells.begin(), geometry.cells.end()));
       ASSERT_EQ(std::adjacent_find(geometry.cells.begin(), geometry.cells.end()), geometry.cells.end());
       ASSERT_LE(geometry.cells.size(), DebugGeometry::debug_cell_limit);
+      std::set<std::uint32_t> buckets;
       for (const auto& cell : geometry.cells) {
         ASSERT_EQ(cell.bucket, hash.bucket(cell.index));
         ASSERT_GT(loads[cell.bucket], 0u);
+        buckets.insert(cell.bucket);
+      }
+      if (geometry.cells.size() < DebugGeometry::debug_cell_limit) {
+        ASSERT_EQ(buckets.size(), geometry.loads.size()) << named.name << method.key;
       }
       ASSERT_EQ(geometry.box_first.size(), geometry.boxes.size() + 1);
       ASSERT_EQ(geometry.box_first.back(), geometry.box_bucket.size());
