@@ -141,6 +141,31 @@ Scene grazing(double internal_damping) {
   return scene;
 }
 
+TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
+  constexpr int columns = 3, rows = 2;
+  constexpr double width = 0.2, depth = 0.3, shift = 0.4,
+                   k = 70;  // of a quad, m; of a row against the next, per m; N/m
+  Material m = spring_ball();
+  m.structural.stiffness = m.bend.stiffness = 0;
+  m.shear = {k, 0};
+  Scene scene = lone_body(m);
+  scene.bodies[0].mesh = {
+      .kind = "grid", .columns = columns, .rows = rows, .width = columns * width, .depth = rows * depth};
+  World world(scene, {});
+  EXPECT_NEAR(measure(world).energies.elastic, 0, 1e-9);
+  std::vector<Particle> sheared = particles_of(world);
+  for (Particle& p : sheared) p.position.x += shift * p.position.z;
+  world.set_particles(0, sheared);
+  const auto energy = [](double across) {
+    const double stretch = std::hypot(across, depth) - std::hypot(width, depth);
+    return 0.5 * k * stretch * stretch;
+  };
+  const double expected = columns * rows * (energy(width + shift * depth) + energy(width - shift * depth));
+  EXPECT_NEAR(measure(world).energies.elastic, expected, 1e-5 * expected);
+  EXPECT_NEAR(measure(world).largest_strain, std::hypot(width + shift * depth, depth) / std::hypot(width, depth) - 1,
+              1e-5);
+}
+
 TEST(Spin, OfABodyInFreeFlightIsConserved) {
   for (const double damping : {0.0, 10.0}) {
     World world(grazing(damping), {});
