@@ -184,6 +184,29 @@ TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
   EXPECT_EQ(needed(both), std::max(needed(slack), needed(stiff))) << "each by its own damping";
 }
 
+/// A sheet that only springs along its diagonals hold, let go of when it is sheared.
+TEST(Integrator, XpbdGoesWithShearSprings) {
+  Material m = spring_ball();
+  m.structural.stiffness = m.bend.stiffness = 0;
+  m.shear = {50, 0};
+  Scene scene = lone_body(m);
+  scene.bodies[0].mesh = {.kind = "grid", .columns = 4, .rows = 4, .width = 1, .depth = 1};
+  const auto positions = [&](const char* integrator, int frames) {
+    World world(scene, {.integrator = integrator, .substeps = 100});
+    std::vector<Particle> sheared = particles_of(world);
+    for (Particle& p : sheared) p.position.x += 0.3 * p.position.z;
+    world.set_particles(0, sheared);
+    run(world, frames);
+    std::vector<glm::dvec3> list;
+    for (const Particle& p : particles_of(world)) list.push_back(p.position);
+    return list;
+  };
+  const auto start = positions("rk4", 0), expected = positions("rk4", 3);
+  const double moved = rms(start, expected);
+  EXPECT_GT(moved, 0.01);
+  EXPECT_LT(rms(positions("xpbd", 3), expected), 0.02 * moved);
+}
+
 TEST(Integrator, XpbdKeepsTheVolumeOfABallInBalance) {
   World world(lone_body(gas_ball()), {.integrator = "xpbd"});
   run(world, 60);
