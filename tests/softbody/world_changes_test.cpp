@@ -109,20 +109,20 @@ TEST(Remove, TheLastBodyLeavesAnEmptyWorldThatOthersMayJoin) {
 }
 
 TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
-  Scene scene = pile(1);
-  scene.materials[0].rolling_resistance = 10;
-  scene.bodies[0].mesh.kind = "grid";
-  scene.bodies[0].mesh.columns = scene.bodies[0].mesh.rows = 12;
-  BodySource upper;
-  upper.position = {0.9, 0.55, 0};
-  scene.bodies[0].position = {0, 0.01, 0};
-  upper.position = {0, 0.55, 0};
-  scene.bodies.push_back(upper);
+  Scene scene = pile(2);
+  scene.bodies[0].mesh = {.kind = "grid", .columns = 24, .rows = 24, .width = 1.5, .depth = 1.5};
+  scene.bodies[0].position = {0, 1, 0};
+  scene.bodies[0].release = 10000;  // held in the air
+  scene.bodies[1].position = {0, 1.55, 0};
   World world(scene, {});
-  for (int i = 0; i < 1500 && !world.all_at_rest(); ++i) world.step();
-  ASSERT_TRUE(world.all_at_rest());
+  while (world.frame() < 1500 && !world.body(1).asleep) world.step();
+  ASSERT_TRUE(world.body(1).asleep);
+  const double lying = test::motion(world, 1).centre.y;
+  ASSERT_GT(lying, 1.3) << "on the sheet";
   world.remove(0);
   EXPECT_FALSE(world.body(0).asleep);
+  test::run(world, 12);
+  EXPECT_NEAR(test::motion(world, 0).centre.y, lying - 0.5 * 9.81 * 0.2 * 0.2, 0.03);
 }
 
 TEST(Remove, OfTheBodyInTheHandOpensIt) {
@@ -176,6 +176,20 @@ TEST(Throw, FindsRoomBeforeTheCameraOfEveryScene) {
     world.step();
     EXPECT_GT(glm::dot(test::motion(world, *id).velocity, -back), 7) << key;
   }
+}
+
+TEST(Throw, ABodyDoesNotBeginInsideAnotherThatIsInItsWay) {
+  for (int axis = 0; axis < 3; ++axis)
+    for (const double way : {-1.0, 1.0}) {
+      World world(test::lone_body(test::spring_ball()), {});  // around the origin
+      glm::dvec3 from(0.0), velocity(0.0);
+      from[axis] = -1.2 * way, velocity[axis] = 5 * way;
+      const auto id = world.throw_body(from, velocity);
+      ASSERT_TRUE(id);
+      const glm::dvec3 place = test::motion(world, *id).centre;
+      EXPECT_GT(glm::length(place), 0.95) << axis << " " << way;
+      EXPECT_LT(glm::length(place), 2) << "but soon behind it";
+    }
 }
 
 TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
