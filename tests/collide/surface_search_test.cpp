@@ -61,6 +61,18 @@ TEST(SurfaceSearch, BodiesFarApartHaveNoCandidates) {
   EXPECT_TRUE(Found(m, true).search.pairs().empty()) << "nor have those that stand, wherever they are";
 }
 
+TEST(SurfaceSearch, ABodyInsideAnotherMakesAPairWithoutCandidatesWhicheverComesFirst) {
+  const auto still = [](const glm::vec3&) { return glm::vec3(0); };
+  for (const auto& [first, second] : {std::pair(0.5f, 0.1f), std::pair(0.1f, 0.5f)}) {
+    Moving m;
+    for (const float radius : {first, second}) m.add(ball(radius), glm::vec3(0), 0.01f, 0.01f, still);
+    const Found found(m, false);
+    EXPECT_TRUE(found.search.features().empty());
+    ASSERT_EQ(found.search.pairs().size(), 1u) << first;
+    EXPECT_EQ(found.search.pairs()[0].bodies(), (std::pair<Index, Index>(0, 1)));
+  }
+}
+
 TEST(SurfaceSearch, CountsWhatItLooksAt) {
   const auto still = [](const glm::vec3&) { return glm::vec3(0); };
   const SurfaceMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
