@@ -212,6 +212,23 @@ TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   EXPECT_EQ(world.profile().seconds, world.frame_time());
 }
 
+TEST(Shield, GrowsInAFrameThatIsCutShortByWhatItsSecondsBring) {
+  Scene scene = lone_body(gas_ball());
+  add_body(scene, {5, 0, 0}, {});
+  World world(scene, {.integrator = "semi-implicit-euler"});
+  world.step();
+  world.set_contact_surface(ContactSurface::surfaces);  // after which it grows from nothing
+  world.set_contact_surface(ContactSurface::vertices);
+  double grown = 0;
+  for (int frame = 0; frame < 3; ++frame) {
+    place(world, glm::dvec3(1.0), 1e5);
+    world.step();
+    ASSERT_LT(world.profile().seconds, 0.5 * world.frame_time());
+    grown += 0.05 * world.profile().seconds;
+    EXPECT_NEAR(double(world.snapshot().shield), grown, 1e-5 * grown) << frame;
+  }
+}
+
 /// A body that is fast enough for its frames to be cut is calm for many of them, but for no time.
 TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
   Scene scene = lone_body(gas_ball());
