@@ -232,6 +232,22 @@ TEST(SurfaceContact, ASheetOnASlopingSheetSlidesOnlyAboveTheFrictionCone) {
   }
 }
 
+/// One takes part in no more contacts at once than there are colours: those beyond them are solved one by one.
+TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
+  Scene scene = ball_in_space(rubber());
+  scene.gravity = {0, -9.81, 0};
+  scene.bodies[0].mesh = {.kind = "grid", .columns = 10, .rows = 10, .width = 3, .depth = 3};
+  scene.bodies[0].release = 1000;
+  for (int i = 0; i < 80; ++i) {
+    add_body(scene, {0.28 * (i % 10) - 1.26, 0.12, 0.28 * (i / 10) - 0.98}, {0, -1, 0});
+    scene.bodies.back().mesh = {.subdivisions = 0, .radius = 0.1};
+  }
+  World world(scene, {});
+  run(world, 20);
+  EXPECT_GT(world.dynamics().surface_contact().touching().size(), 70u);
+  for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
+}
+
 /// What the scene files call rubber.
 Material damped_rubber() {
   Material m = rubber();
