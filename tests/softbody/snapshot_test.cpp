@@ -141,6 +141,18 @@ TEST(Snapshot, MayComeFromAnotherScene) {
   EXPECT_EQ(follow(world, 5), follow(cloth, 5));
 }
 
+TEST(Snapshot, BringsTheSleepRuleOfItsScene) {
+  Scene sleepy = lone_body(spring_ball()), wakeful = sleepy;
+  sleepy.sleep = {.speed = 1, .frames = 2};
+  const World from(sleepy, {});
+  World world(wakeful, {});
+  run(world, 4);
+  ASSERT_FALSE(world.all_at_rest());
+  world.restore(from.snapshot());
+  run(world, 4);
+  EXPECT_TRUE(world.all_at_rest());
+}
+
 /// After surfaces the shield grows from nothing, so that at first no tolerance is too wide.
 TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
   Scene scene = lone_body(spring_ball());
