@@ -89,6 +89,28 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
     for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(x[(k * n + i) * lanes], d[i][int(k)], 1e-4);
 }
 
+/// With another step length only the shape in balance is taken over.
+TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
+  Material m = gas_ball();
+  m.start_in_equilibrium = false;  // so that the shape in balance is not the one of the start
+  const auto p = make_prototype({}, m);
+  const ImplicitMatrix other(*p, 1e-2), again(*p, 2e-3, &other), fresh(*p, 2e-3);
+  EXPECT_GT(glm::distance(fresh.shape()[0], p->start[0]), 1e-3);
+  EXPECT_EQ(again.shape(), fresh.shape());
+  EXPECT_EQ(again.gas_weight(), fresh.gas_weight());
+  EXPECT_EQ(again.contact_stiffness(), fresh.contact_stiffness());
+  const std::size_t n = p->mesh.vertices.size();
+  std::mt19937 random(2);
+  Lanes x(3 * n * lanes);
+  for (std::size_t i = 0; i < 3 * n; ++i) x[i * lanes] = uniform(random, -1, 1);
+  Lanes expected = x, otherwise = x;
+  solve(again, x);
+  solve(fresh, expected);
+  solve(other, otherwise);
+  EXPECT_EQ(x, expected);
+  EXPECT_NE(x, otherwise);
+}
+
 TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
   Material m = gas_ball();
   m.structural = {1e9, 0.1};
