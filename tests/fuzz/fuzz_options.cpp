@@ -17,7 +17,9 @@ std::vector<std::string> words_of(std::string_view text) {
     std::string word(text.substr(0, end));
     text.remove_prefix(end == text.npos ? text.size() : end + 1);
     const std::string whole = word.substr(0, word.find('\0'));  // as a program is given it
-    if (whole.find("-h") != whole.npos || whole.find("--version") != whole.npos) continue;
+    const bool short_options = whole.starts_with("-") && !whole.starts_with("--");
+    if (whole.starts_with("--help") || whole == "--version" || (short_options && whole.find('h') != whole.npos))
+      continue;
     words.push_back(whole);
   }
   return words;
@@ -34,9 +36,13 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     if (!options) return 0;
     require(options->threads >= 1 && options->frames >= 1, "no threads or no frames");
     require(options->frame_time > 0, "a frame that takes no time");
+    require(options->substeps.value_or(1) >= 1, "no substeps");
     require(options->width > 0 && options->height > 0, "a picture without pixels");
     for (const int frame : options->captures)
       require(frame >= 1 && frame <= options->frames, "a capture beyond the end");
+    collide::Settings settings;
+    app::apply(options->detection, settings);
+    require(collide::problem(settings).empty(), "settings that no detector takes");
   } catch (const app::UsageError& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a refusal of several lines");
   }
