@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
 namespace app {
 namespace {
@@ -88,11 +89,13 @@ bool Session::succeeds(const std::function<void()>& change) {
   } catch (const softbody::SceneError& error) {
     notice_ = error.what();
     return false;
+  } catch (const std::length_error& beyond_a_limit) {
+    notice_ = beyond_a_limit.what();
   } catch (const std::exception& error) {
-    notice_ = error.what();
-    paused = true;
-    return false;
+    notice_ = std::string(defect) + error.what();
   }
+  paused = true;
+  return false;
 }
 
 void Session::choose_scene(const std::string& key_or_path) {

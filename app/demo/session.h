@@ -192,6 +192,8 @@ class Session {
   std::uint64_t revision() const { return revision_; }
   /// What went wrong last, for the user; empty again after the next successful action.
   const std::string& notice() const { return notice_; }
+  /// What notice() begins with where no user could have caused it.
+  static constexpr std::string_view defect = "not enough memory, or a defect of this program: ";
   void set_notice(std::string text) { notice_ = std::move(text); }
 
  private:

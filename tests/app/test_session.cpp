@@ -26,6 +26,17 @@ TEST(Session, StepsInFixedFramesOfRealTime) {
   EXPECT_EQ(session.world().frame(), 20);
 }
 
+/// With a picture between two steps now and then, and other threads.
+TEST(Session, ComesToTheBitToWhereTheWorldComesByItself) {
+  softbody::World world(touching_pair(), {});
+  Session session(touching_pair(), {}, 2);
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    session.advance(tick);
+    ASSERT_EQ(session.world().state_hash(), world.state_hash()) << frame;
+  }
+}
+
 TEST(Session, DropsTimeInsteadOfSpiralling) {
   Session session = make_session();
   session.advance(1000);
@@ -175,6 +186,25 @@ TEST(Session, GoesThroughAllMethods) {
   EXPECT_EQ(session.world().method().key, first);
   session.set_method("no-such-method");
   EXPECT_EQ(session.world().method().key, first);
+}
+
+TEST(Session, LeavesOutAMethodThatWouldTakeTooLong) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.pop_back();
+  scene.bodies[0].mesh.subdivisions = 4;
+  for (int i = 1; i < 18; ++i) {  // 46,116 vertices are more than a billion pairs
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies.back().position.x += 2.0 * i;
+  }
+  Session session(scene, {}, 1);
+  const std::string first(session.world().method().key);
+  session.set_method("brute-force");
+  EXPECT_EQ(session.world().method().key, first);
+  EXPECT_NE(session.notice().find("too long to drive"), std::string::npos) << session.notice();
+  for (std::size_t i = 0; i < collide::methods().size(); ++i) {
+    session.next_method();
+    EXPECT_NE(session.world().method().key, "brute-force");
+  }
 }
 
 TEST(Session, KeepsTheSelectedBucketInsideTheTable) {

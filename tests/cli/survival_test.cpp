@@ -62,21 +62,32 @@ TEST_P(Survival, APlaceThatTakesNoFilesIsSaid) {
 INSTANTIATE_TEST_SUITE_P(Writers, Survival, testing::ValuesIn(writers()),
                          [](const auto& writer) { return writer.param.name; });
 
-TEST(SuddenEnd, LeavesNoHalfFileUnderItsName) {
+/// What it was about to write over is as it was or is new, and what is new is whole.
+TEST(SuddenEnd, LeavesWhatWasSavedBeforeOrWhatIsNewWhole) {
+  constexpr int saved = 40;
   const TemporaryFolder folder;
-  const fs::path out = folder.path() / "out";
-  const std::string script = "'" SBCOLLIDE_PROGRAM "' simulate --scene D --frames 100000 --obj-every 1 --out '" +
-                             out.string() + "' & child=$!; until [ -e '" + out.string() +
-                             "/frame_0020.obj' ]; do kill -0 $child || exit 1; done; kill -9 $child";
+  for (int frame = 1; frame <= saved; ++frame)
+    folder.write("frame_00" + std::string(frame < 10 ? "0" : "") + std::to_string(frame) + ".obj", "saved before");
+  const std::string program = "'" SBCOLLIDE_PROGRAM "' simulate --scene D --frames 100000 --obj-every 1 --out '" +
+                              folder.path().string() + "'",
+                    twentieth = "'" + (folder.path() / "frame_0020.obj").string() + "'",
+                    script = program + " & child=$!; while grep -q saved " + twentieth +
+                             "; do kill -0 $child || exit 1; done; kill -9 $child";
   ASSERT_EQ(std::system(("{ " + script + "; } 2>/dev/null").c_str()), 0);
-  int files = 0;
-  for (const std::string& name : file_names(out)) {
+  int fresh = 0, old = 0;
+  for (const std::string& name : file_names(folder.path())) {
     if (!name.starts_with("frame_") || !name.ends_with(".obj")) continue;
-    const std::string text = read_file(out / name), last = text.substr(text.rfind("\nf ") + 1);
+    const std::string text = read_file(folder.path() / name);
+    if (text == "saved before") {
+      ++old;
+      continue;
+    }
+    const std::string last = text.substr(text.rfind("\nf ") + 1);
     EXPECT_TRUE(last.starts_with("f ") && last.ends_with('\n')) << name << " ends with: " << last;
-    ++files;
+    ++fresh;
   }
-  EXPECT_GE(files, 20);
+  EXPECT_GE(fresh, 20);
+  EXPECT_GE(fresh + old, saved) << "none is gone";
 }
 
 }  // namespace

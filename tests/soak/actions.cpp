@@ -115,6 +115,13 @@ void solids(DemoRig& demo, Dice& dice) {
   demo.session.set_solids(list);
 }
 
+/// But the large one, of which a frame takes as long as a second of others.
+void scene(DemoRig& demo, Dice& dice) {
+  std::vector<app::SceneChoice> small = demo.session.scenes();
+  std::erase_if(small, [](const app::SceneChoice& choice) { return choice.key == "drop-3000"; });
+  demo.session.choose_scene(small[dice.pick(small.size())].key);
+}
+
 void reset(DemoRig& demo, Dice&) { demo.session.reset(); }
 void undo(DemoRig& demo, Dice&) { demo.session.undo(); }
 void as_the_scene_has_it(DemoRig& demo, Dice&) {
@@ -169,6 +176,7 @@ constexpr std::array table{Action{"method", method},
                            Action{"gravity", gravity},
                            Action{"material", material},
                            Action{"solids", solids},
+                           Action{"scene", scene},
                            Action{"reset", reset},
                            Action{"undo", undo},
                            Action{"as the scene has it", as_the_scene_has_it},

@@ -223,6 +223,20 @@ TEST(MeshImport, TakesAHundredThousandVerticesAndNoMore) {
   EXPECT_NE(error_of(long_strip(100'001)).find("has 100001 vertices; at most 100000"), std::string::npos);
 }
 
+/// Nothing is read of it: it takes no place on the disk, and would be 256 MiB of zeros in memory.
+TEST(MeshImport, RefusesALargerFileUnread) {
+  const TemporaryFolder folder;
+  const std::filesystem::path file = folder.write("large.obj", tetrahedron);
+  EXPECT_NO_THROW(import_mesh({.path = file}));
+  std::filesystem::resize_file(file, max_mesh_file_size + 1);
+  try {
+    import_mesh({.path = file});
+    FAIL() << "was taken";
+  } catch (const ObjError& e) {
+    EXPECT_NE(std::string(e.what()).find("large.obj: is larger than 256 MiB"), std::string::npos) << e.what();
+  }
+}
+
 /// A ring of quads: closed, concave, with a hole.
 std::string torus(int around, int across) {
   std::string text;
