@@ -27,6 +27,19 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
   gravity_ = g * static_cast<double>(memory) * world.frame_time();
 }
 
+/// What contacts hold as it begins, for a body may have come where another is: shields give back the work of their
+/// push, and bodies whose surfaces overlap part as fast as they may.
+void Guard::add_contacts(const softbody::World& world, Look& first) const {
+  constexpr double parting = double(softbody::SurfaceContact::push_speed);
+  const double held = softbody::total(world.shield_energies());
+  first.energy += held;
+  if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
+  for (const auto& [a, b] : world.dynamics().surface_contact().touching()) {
+    first.energy += 0.5 * (mass_[a] + mass_[b]) * parting * parting;
+    first.bounce = std::max(first.bounce, parting);
+  }
+}
+
 Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) const {
   Look look{};
   for (std::size_t b = 0; b < bodies.size(); ++b) {
@@ -83,8 +96,12 @@ std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector
     return Alarm{body, world.frame(), format("Body %u is no longer finite", body)};
   }
   if (bodies.size() != mass_.size() || looks_.empty()) begin(world, bodies.size());
-  const Look now = sum_up(bodies);
-  std::optional<Alarm> alarm = looks_.empty() ? std::nullopt : judge(now, bodies, world.frame());
+  Look now = sum_up(bodies);
+  std::optional<Alarm> alarm;
+  if (looks_.empty())
+    add_contacts(world, now);
+  else
+    alarm = judge(now, bodies, world.frame());
   looks_.push_back(now);
   if (looks_.size() > memory) looks_.pop_front();
   body_energy_.clear();

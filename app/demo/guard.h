@@ -46,6 +46,7 @@ class Guard {
     double bounce = 0;  // m/s, that a body can give itself by springing back to its shape
   };
   void begin(const softbody::World& world, std::size_t bodies);
+  void add_contacts(const softbody::World& world, Look& first) const;
   Look sum_up(const std::vector<softbody::BodyMeasures>& bodies) const;
   Look most_of_late() const;
   std::optional<Alarm> judge(const Look& now, const std::vector<softbody::BodyMeasures>& bodies, int frame) const;

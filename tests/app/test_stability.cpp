@@ -70,6 +70,25 @@ TEST(Guard, CountsAnewAfterAChange) {
   EXPECT_TRUE(guard.look(world, bodies));
 }
 
+/// Where nothing else moves, what parts them is all the energy there is.
+TEST(Guard, IsCalmWhereABodyComesToAnothersPlace) {
+  for (const softbody::ContactSurface surface :
+       {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces})
+    for (const double apart : {0.05, 0.3, 0.9, 1.02}) {
+      softbody::Scene scene = touching_pair();
+      scene.gravity = glm::dvec3(0.0);
+      scene.contact_surface = surface;
+      scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0.02, 0);
+      scene.bodies[1].appear = 5;
+      Session session(scene, {}, 1);
+      for (int frame = 0; frame < 150; ++frame) {
+        session.advance(1.0001 / 60);
+        ASSERT_FALSE(session.stability().alarm()) << apart << ": " << session.stability().alarm()->what;
+      }
+      EXPECT_EQ(session.world().bodies().count(), 2u);
+    }
+}
+
 /// Springs far too stiff for a single substep a frame.
 TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
   softbody::Scene scene = touching_pair();

@@ -152,7 +152,11 @@ class Soak {
     app::Session& session = demo_.session;
     const softbody::World& world = session.world();
     ++explosions_;
-    explosions_by_itself_ += world.integrator().automatic;
+    if (world.integrator().automatic) {
+      ++explosions_by_itself_;
+      std::printf("%-10s frame %llu: %s, after \"%s\"\n", world.scene().key.c_str(),
+                  static_cast<unsigned long long>(frames_), session.stability().alarm()->what.c_str(), last_.c_str());
+    }
     if (!session.paused) fail("it blew up and went on");
     if (world.integrator().automatic && !softbody::measure(world).finite)
       fail("not finite with the automatic integrator: " + session.stability().alarm()->what);
