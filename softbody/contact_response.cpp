@@ -154,9 +154,8 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
                         body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material.friction),
                         float(p.material.restitution), &p.shape->rest()});
   }
-  const double at_once = max_work_.at_once * std::max(1.0, double(n) / MaxWork::many_particles);
   surface_.find(motion, std::move(traits), std::move(contacts),
-                {float(left), float(least), self_contact_, static_cast<std::size_t>(at_once)}, float(ahead), workers_);
+                {float(left), float(least), self_contact_, max_work_.candidates(n)}, float(ahead), workers_);
   surface_work_ += double(surface_.search().work());
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
+#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -96,8 +97,13 @@ struct SeenContacts {
 struct MaxWork {
   double surface = 2e7;   // contact of surfaces: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
   double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
-  double at_once = double(1 << 24);  // candidates, 1.5 GiB; more in proportion in a world of many_particles
-  static constexpr double many_particles = double(1 << 18);
+  double at_once = double(1 << 24);  // candidates, 1.5 GiB; see candidates()
+  static constexpr double many_particles = double(1 << 18), most_at_once = double(1 << 25);
+  /// At once in a world of so many: in proportion, but no more than 3 GiB.
+  std::size_t candidates(std::size_t particles) const {
+    const double in_proportion = at_once * std::max(1.0, double(particles) / many_particles);
+    return static_cast<std::size_t>(std::min(in_proportion, most_at_once));
+  }
 };
 
 /// What a frame came to.

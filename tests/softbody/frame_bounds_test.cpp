@@ -188,6 +188,14 @@ TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
   EXPECT_LT(without.profile().substeps, world.profile().substeps / 2);
 }
 
+/// Of 96 bytes each: what a world may hold must not grow beyond what a machine does.
+TEST(Substeps, CandidatesAtOnceAreMoreInLargerWorldsUpToABound) {
+  const MaxWork work;
+  EXPECT_EQ(work.candidates(1000), std::size_t{1} << 24);
+  EXPECT_EQ(work.candidates(400'000), 64u * 400'000);
+  EXPECT_EQ(work.candidates(4'000'000), std::size_t{1} << 25);
+}
+
 /// Those that were found before belong to another moment: nothing may look at them.
 TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   const auto candidates = [](const World& world) {
