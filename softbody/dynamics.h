@@ -1,7 +1,6 @@
 #pragma once
 // The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
 
-#include <algorithm>
 #include <functional>
 #include <map>
 #include <optional>
@@ -10,6 +9,7 @@
 #include "softbody/implicit_solver.h"
 #include "softbody/integrators.h"
 #include "softbody/kernels.h"
+#include "softbody/max_work.h"
 #include "softbody/plan.h"
 #include "softbody/prototype.h"
 #include "softbody/shield.h"
@@ -90,20 +90,6 @@ struct SeenContacts {
   const collide::Bodies& vertices;
   std::span<const BodyId> vertex_body;  // the body of each vertex
   const std::vector<collide::Contact>& contacts;
-};
-
-/// What a frame may be at most, in a world of 10,000 particles; in larger ones more in proportion. Fixed substeps are
-/// bound by at_once only. Scenes as they are shipped come to a third of the first at most.
-struct MaxWork {
-  double surface = 2e7;   // contact of surfaces: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
-  double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
-  double at_once = double(1 << 24);  // candidates, 1.5 GiB; see candidates()
-  static constexpr double many_particles = double(1 << 18), most_at_once = double(1 << 25);
-  /// At once in a world of so many: in proportion, but no more than 3 GiB.
-  std::size_t candidates(std::size_t particles) const {
-    const double in_proportion = at_once * std::max(1.0, double(particles) / many_particles);
-    return static_cast<std::size_t>(std::min(in_proportion, most_at_once));
-  }
 };
 
 /// What a frame came to.

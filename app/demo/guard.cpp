@@ -34,8 +34,11 @@ void Guard::add_contacts(const softbody::World& world, Look& first) const {
   const double held = softbody::total(world.shield_energies());
   first.energy += held;
   if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
-  for (const auto& [a, b] : world.dynamics().surface_contact().touching()) {
-    first.energy += 0.5 * (mass_[a] + mass_[b]) * parting * parting;
+  std::vector<bool> parts(mass_.size(), false);
+  for (const auto& [a, b] : world.dynamics().surface_contact().touching()) parts[a] = parts[b] = true;
+  for (std::size_t b = 0; b < parts.size(); ++b) {
+    if (!parts[b]) continue;
+    first.energy += 0.5 * mass_[b] * parting * parting;
     first.bounce = std::max(first.bounce, parting);
   }
 }

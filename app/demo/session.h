@@ -192,9 +192,9 @@ class Session {
   std::uint64_t revision() const { return revision_; }
   /// What went wrong last, for the user; empty again after the next successful action.
   const std::string& notice() const { return notice_; }
+  void set_notice(std::string text) { notice_ = std::move(text); }
   /// What notice() begins with where no user could have caused it.
   static constexpr std::string_view defect = "not enough memory, or a defect of this program: ";
-  void set_notice(std::string text) { notice_ = std::move(text); }
 
  private:
   /// A world that was left, or the present one as it was; and its scene as it was loaded.

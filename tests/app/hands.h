@@ -8,8 +8,6 @@
 
 namespace app {
 
-inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
-
 /// touching_pair() a little apart, in empty space without gravity.
 inline softbody::Scene without_solids() {
   softbody::Scene scene = touching_pair();

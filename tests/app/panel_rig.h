@@ -22,7 +22,7 @@ class PanelRig {
 
   /// One frame of the demo's loop, a 60th of a second of real time.
   void frame() {
-    session.advance(1.0001 / 60);
+    session.advance(tick);
     target_.bind();
     gui_.begin_frame(input_);
     interface.draw(session, ui, gui_.scale(), 0.0, &recorder);

@@ -7,6 +7,8 @@
 
 namespace app {
 
+inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
+
 /// Two bodies that touch side by side in the air, ground and solid sphere below, and a dropper.
 inline softbody::Scene touching_pair() {
   softbody::Scene scene;

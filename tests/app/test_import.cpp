@@ -77,7 +77,7 @@ class Importing : public testing::Test {
   bool refused() const { return !import.report().empty() && import.report().back().refused; }
   const softbody::Prototype& last() const { return session.world().prototype(session.world().bodies().count() - 1); }
   void expect_finite_after(int steps) {
-    for (int i = 0; i < steps; ++i) session.advance(1.0001 / 60);
+    for (int i = 0; i < steps; ++i) session.advance(tick);
     EXPECT_TRUE(softbody::measure(session.world()).finite);
   }
 
@@ -87,7 +87,7 @@ class Importing : public testing::Test {
 };
 
 TEST_F(Importing, AMeshJoinsTheRunningSceneClearOfAll) {
-  for (int i = 0; i < 5; ++i) session.advance(1.0001 / 60);
+  for (int i = 0; i < 5; ++i) session.advance(tick);
   load(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
   EXPECT_FALSE(refused());
@@ -137,13 +137,13 @@ TEST_F(Importing, AHundredThousandFacesFall) {
 TEST_F(Importing, TwoOfAKindShareTheMaterialAndAreGoneAfterAReset) {
   const auto file = folder.write("ball.obj", obj_of({}));
   load(file);
-  for (int i = 0; i < 4; ++i) session.advance(1.0001 / 60);
+  for (int i = 0; i < 4; ++i) session.advance(tick);
   load(file);
   ASSERT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(session.world().scene().materials.size(), 2u);
   session.reset();
   EXPECT_EQ(session.notice(), "");
-  for (int i = 0; i < 6; ++i) session.advance(1.0001 / 60);
+  for (int i = 0; i < 6; ++i) session.advance(tick);
   EXPECT_EQ(session.world().bodies().count(), 2u);
   session.undo();
   EXPECT_EQ(session.world().bodies().count(), 4u);
@@ -155,7 +155,7 @@ TEST_F(Importing, ASavedSceneHasTheMesh) {
   ASSERT_EQ(session.notice(), "");
   Session again(softbody::load_scene(folder.path() / "with mesh.toml"), {}, 1);
   for (Session* each : {&session, &again})
-    for (int i = 0; i < 20; ++i) each->advance(1.0001 / 60);
+    for (int i = 0; i < 20; ++i) each->advance(tick);
   EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
 }
 
@@ -173,7 +173,7 @@ TEST_F(Importing, TheWorldGoesOnWhileASceneIsRead) {
   import.path = folder.write("lone.toml", "[[body]]\n").string();
   import.load(session);
   EXPECT_TRUE(import.busy());
-  session.advance(1.0001 / 60);
+  session.advance(tick);
   EXPECT_EQ(session.world().frame(), 1);
   EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next picture asks for it";
   EXPECT_TRUE(import.progress().starts_with("reading lone.toml")) << import.progress();

@@ -8,8 +8,6 @@
 namespace app {
 namespace {
 
-constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
-
 void run(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.advance(tick);
 }

@@ -82,7 +82,7 @@ TEST(Guard, IsCalmWhereABodyComesToAnothersPlace) {
       scene.bodies[1].appear = 5;
       Session session(scene, {}, 1);
       for (int frame = 0; frame < 150; ++frame) {
-        session.advance(1.0001 / 60);
+        session.advance(tick);
         ASSERT_FALSE(session.stability().alarm()) << apart << ": " << session.stability().alarm()->what;
       }
       EXPECT_EQ(session.world().bodies().count(), 2u);

@@ -17,8 +17,6 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
-
 /// Two spheres of radius 0.5 m with their centres so far apart, as if just there.
 StepCopy pair_apart(double distance) {
   softbody::Scene scene = touching_pair();

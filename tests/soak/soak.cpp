@@ -216,8 +216,7 @@ int run(int seconds, std::vector<std::string> scenes) {
   }
   std::printf(
       "nothing found; %d times there was more energy or speed than there could be, each time with an alarm, %d of them "
-      "in "
-      "steps that the program chose; %d seconds ended early, with %d substeps\n",
+      "in steps that the program chose; %d seconds ended early, with %d substeps\n",
       soak.explosions(), soak.explosions_by_itself(), soak.impatient(), many_substeps);
   return 0;
 }

@@ -1,5 +1,4 @@
-// Meshes from OBJ files: what is welded, dropped, turned, refused, and that a concave one keeps its shape when it
-// falls.
+// Meshes from OBJ files: what is welded, dropped, turned, refused.
 
 #include <gtest/gtest.h>
 
@@ -10,8 +9,8 @@
 
 #include "softbody/limits.h"
 #include "softbody/obj_file.h"
-#include "softbody/shape_matching.h"
 #include "tests/softbody/helpers.h"
+#include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
 namespace {
@@ -34,24 +33,9 @@ std::string error_of(const std::string& obj, const MeshFile& file = {}) {
   return "was taken";
 }
 
-std::string vertex(const glm::dvec3& p) {
-  std::ostringstream s;
-  s << "v " << p.x << ' ' << p.y << ' ' << p.z << '\n';
-  return s.str();
-}
-
-std::string face(std::initializer_list<int> corners) {
-  std::ostringstream s;
-  s << 'f';
-  for (const int corner : corners) s << ' ' << corner;
-  s << '\n';
-  return s.str();
-}
-
 const std::string cube_vertices =
     "v 0 0 0\nv 2 0 0\nv 2 2 0\nv 0 2 0\nv 0 0 2\nv 2 0 2\nv 2 2 2\nv 0 2 2\n";  // 1-4 at z = 0, 5-8 above
 const std::string cube_faces = "f 4 3 2 1\nf 5 6 7 8\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n";
-const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
 
 /// Each face with corners of its own, as exporters write meshes with a normal a face; `apart`: between copies of a
 /// corner.
@@ -235,139 +219,6 @@ TEST(MeshImport, RefusesALargerFileUnread) {
   } catch (const ObjError& e) {
     EXPECT_NE(std::string(e.what()).find("large.obj: is larger than 256 MiB"), std::string::npos) << e.what();
   }
-}
-
-/// A ring of quads: closed, concave, with a hole.
-std::string torus(int around, int across) {
-  std::string text;
-  constexpr double tau = 6.283185307179586;
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) {
-      const double a = tau * i / around, b = tau * j / across, r = 1 + 0.35 * std::cos(b);
-      text += vertex({r * std::cos(a), 0.35 * std::sin(b), r * std::sin(a)});
-    }
-  const auto at = [&](int i, int j) { return i % around * across + j % across + 1; };
-  for (int i = 0; i < around; ++i)
-    for (int j = 0; j < across; ++j) text += face({at(i, j), at(i, j + 1), at(i + 1, j + 1), at(i + 1, j)});
-  return text;
-}
-
-const std::string falling_ring = R"(
-[collision]
-tolerance = 0.1
-[sleep]
-speed = 0.05
-[[solid_sphere]]
-centre = [0, 1, 0]
-friction = 0.25
-[ground]
-[[material]]
-structural = {stiffness = 20, damping_ratio = 0.1}
-bend = {stiffness = 5, damping_ratio = 0.1}
-gas_pressure = 101_325
-ambient_pressure = 101_325
-internal_damping = 10
-rolling_resistance = 0.3
-rebound_speed = 2
-[[material]]
-name = "limp"
-structural = {stiffness = 20, damping_ratio = 0.1}
-bend = {stiffness = 5, damping_ratio = 0.1}
-gas_pressure = 101_325
-ambient_pressure = 101_325
-internal_damping = 10
-shape_frequency = 0
-[[body]]
-mesh = {kind = "file", path = "meshes/ring.obj", size = 1.3}
-position = [0.9, 2.6, 0.1]
-)";
-
-/// Root mean square distance of the particles from the mesh's own shape, in m.
-double distortion(const World& world) {
-  Material m = world.prototype(0).material;
-  m.shape_frequency = 1;
-  const auto p = make_prototype(world.scene().bodies[0].mesh, m);
-  std::vector<glm::dvec3> x;
-  for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.dynamics().particle(0, i).position);
-  return std::sqrt(2 * shape_energy(*p, x) / (shape_stiffness(*p) * double(x.size())));
-}
-
-TEST(MeshFromFile, AConcaveBodyFallsComesToRestAndKeepsItsShape) {
-  const TemporaryFolder folder;
-  std::filesystem::create_directory(folder.path() / "meshes");
-  folder.write("meshes/ring.obj", torus(30, 12));
-  World world(load_scene(folder.write("ring.toml", falling_ring)), {});
-  run(world, 30);
-  const double impact = distortion(world);
-  for (int i = 30; i < 400; ++i) {
-    world.step();
-    const Measures m = measure(world);
-    ASSERT_TRUE(m.finite);
-    ASSERT_NEAR(m.volume_ratio_min, 1, 0.03);
-    ASSERT_NEAR(m.volume_ratio_max, 1, 0.03);
-    ASSERT_LT(m.deepest_penetration, 1e-5);
-  }
-  EXPECT_TRUE(world.all_at_rest());
-  EXPECT_LT(distortion(world), 0.02) << "in 1.3 m";
-  EXPECT_GT(impact, 0.001) << "it is soft";
-
-  Scene limp = load_scene(folder.path() / "ring.toml");
-  limp.bodies[0].material = 1;
-  World other(std::move(limp), {});
-  EXPECT_FALSE(other.plan().has(Stage::shape_matching));
-  run(other, 400);
-  EXPECT_GT(distortion(other), 3 * distortion(world)) << "springs and gas alone do not hold it";
-}
-
-TEST(MeshFromFile, IsReadOnceForAllBodiesAndFoundFromTheSceneFile) {
-  const TemporaryFolder folder;
-  folder.write("a.obj", tetrahedron);
-  const std::string mesh = "mesh = {kind = \"file\", path = \"a.obj\"";
-  const Scene scene = load_scene(folder.write(
-      "s.toml", "[[body]]\n" + mesh + "}\nlattice = {size = [2, 1, 1]}\n[[body]]\n" + mesh + "}\n[[body]]\n" + mesh +
-                    ", size = 2, weld = 0, up = [0, 0, 1]}\n[dropper]\n" + mesh + "}\n"));
-  EXPECT_EQ(scene.bodies[0].mesh.imported, scene.bodies[2].mesh.imported);
-  EXPECT_EQ(scene.bodies[0].mesh, scene.dropper->body.mesh);
-  EXPECT_NE(scene.bodies[0].mesh.imported, scene.bodies[3].mesh.imported);
-  EXPECT_EQ(scene.bodies[3].mesh.imported->findings.extent, 2);
-  EXPECT_EQ(scene.bodies[0].mesh.vertex_count(), 4u);
-}
-
-TEST(MeshFromFile, ErrorsNameSceneAndMesh) {
-  const TemporaryFolder folder;
-  folder.write("bad.obj", "v 0 0 0\nv 0 0 x\n");
-  folder.write("good.obj", tetrahedron);
-  const auto says = [&](const std::string& toml) -> std::string {
-    try {
-      load_scene(folder.write("s.toml", "[[body]]\nmesh = {kind = \"file\"" + toml + "}\n"));
-      return "was taken";
-    } catch (const SceneError& e) {
-      EXPECT_EQ(std::string(e.what()).find((folder.path() / "s.toml").string() + ":2: mesh."), 0u) << e.what();
-      return e.what();
-    }
-  };
-  EXPECT_NE(says("").find("path must name an OBJ file"), std::string::npos);
-  EXPECT_NE(says(", path = \"none.obj\"").find("none.obj: cannot be read"), std::string::npos);
-  EXPECT_NE(says(", path = \".\"").find("cannot be read"), std::string::npos);
-  EXPECT_NE(says(", path = \"bad.obj\"").find("bad.obj:2: 'x' is no number"), std::string::npos);
-  EXPECT_NE(says(", path = \"bad.obj\", size = 0").find("size must be"), std::string::npos);
-  EXPECT_NE(says(", path = \"bad.obj\", up = [0, 0, 0]").find("up must point somewhere"), std::string::npos);
-  EXPECT_NE(says(", path = \"good.obj\", radius = 1").find("radius"), std::string::npos);
-}
-
-/// Where dozens of springs meet, they share what six would have: fans ask for no more substeps than the rest.
-TEST(MeshFromFile, AFanIsNoStifferThanARegularNet) {
-  std::string fan = "v 0 0.3 0\nv 0 -0.3 0\n";
-  constexpr int count = 60;
-  for (int i = 0; i < count; ++i) fan += vertex({std::cos(6.2831853 * i / count), 0, std::sin(6.2831853 * i / count)});
-  for (int i = 0; i < count; ++i) {
-    const int a = 3 + i, b = 3 + (i + 1) % count;
-    fan += face({1, b, a}) + face({2, a, b});
-  }
-  const TemporaryFolder folder;
-  const auto p = make_prototype(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), spring_ball());
-  EXPECT_LE(p->spring_stiffness_bound, 6 * (300 + 75) + 1e-9);
-  EXPECT_EQ(p->largest_degree, count);
 }
 
 }  // namespace

@@ -1,0 +1,136 @@
+// What the response to contacts does to bodies: momenta, energy, and that none passes through another.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "softbody/snapshot.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Two bodies that meet off the line of their centres, one three times as heavy.
+Scene collision() {
+  Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0.2, 0));
+  scene.materials[0].internal_damping = 5;
+  scene.materials.push_back(scene.materials[0]);
+  scene.materials[1].mass = 3;
+  add_body(scene, {1.6, 0.3, 0.1}, {-1.5, 0, 0.3});
+  scene.bodies[1].material = 1;
+  return scene;
+}
+
+TEST(Collision, ConservesLinearMomentum) {
+  World world(collision(), {});
+  const glm::dvec3 before = measure(world).momentum;
+  const double size = 3 * 1 + 1.5 * 3;
+  std::size_t contacts = 0;
+  for (int i = 0; i < 90; ++i) {
+    world.step();
+    contacts += world.detection().contacts.size();
+    ASSERT_LT(glm::distance(measure(world).momentum, before), 1e-5 * size) << "frame " << i;
+  }
+  EXPECT_GT(contacts, 20u);
+  EXPECT_LT(motion(world, 0).velocity.x, motion(world, 1).velocity.x) << "they part";
+}
+
+TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanTheShieldAllows) {
+  World world(collision(), {});
+  const double before = measure(world).energy;
+  run(world, 90);
+  EXPECT_TRUE(world.detection().contacts.empty());
+  EXPECT_LT(measure(world).energy, before);
+  const double apart = motion(world, 1).velocity.x - motion(world, 0).velocity.x;
+  EXPECT_GT(apart, 0);
+  EXPECT_LT(apart, double(Shield::rebound_speed) + 1);
+}
+
+TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
+  const auto stretch = [](const char* integrator) {
+    Scene scene = lone_body(spring_ball());
+    scene.materials[0].friction = 10;
+    add_body(scene, {0, 1.03, 0}, {0.1, 0, 0});
+    World world(scene, {.frame_time = 1e-4, .integrator = integrator, .substeps = 1});
+    run(world, 10);
+    double sum = 0;
+    for (const ShieldPair& pair : world.snapshot().dynamics.shield_pairs) sum += double(glm::length(pair.stretch));
+    EXPECT_GT(sum, 5e-5) << integrator;
+    return sum;
+  };
+  const double expected = stretch("semi-implicit-euler");
+  for (const char* integrator : {"velocity-verlet", "rk4"})
+    EXPECT_NEAR(stretch(integrator), expected, 0.15 * expected) << integrator;
+}
+
+TEST(Collision, BodiesDoNotPassThroughEachOther) {
+  for (const double speed : {1.0, 6.0}) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(speed, 0, 0));
+    add_body(scene, {1.5, 0.02, 0.03}, {-speed, 0, 0});
+    World world(scene, {});
+    double nearest = 10;
+    for (int i = 0; i < 90; ++i) {
+      world.step();
+      nearest = std::min(nearest, motion(world, 1).centre.x - motion(world, 0).centre.x);
+    }
+    EXPECT_GT(nearest, 0.3) << speed << " m/s";
+    EXPECT_GT(motion(world, 1).velocity.x - motion(world, 0).velocity.x, 0) << "they bounce";
+  }
+}
+
+TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
+  const auto spin = [](const char* integrator) {
+    Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
+    scene.materials[0].friction = 1;
+    add_body(scene, {1.2, 0.5, 0}, {-2, 0, 0});
+    World world(scene, {.integrator = integrator});
+    run(world, 45);
+    return motion(world, 0).spin_momentum.z;
+  };
+  const double expected = spin("semi-implicit-euler");
+  EXPECT_GT(std::abs(expected), 0.02);
+  EXPECT_NEAR(spin("implicit"), expected, 0.5 * std::abs(expected));
+}
+
+/// Flat enough for its two sides to meet, and pressed together further while it flies and turns.
+TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
+  const auto fly = [](bool with_itself) {
+    Scene scene = lone_body(spring_ball());
+    scene.materials[0].friction = 0;  // a couple over the distance that it is kept at, which would take spin
+    scene.collision.self_collision = with_itself;
+    scene.collision.tolerance = 0.1f;
+    World world(scene, {.frame_time = 1.0 / 240});
+    std::vector<Particle> flat;
+    for (const glm::dvec3& x : world.prototype(0).start) {
+      const glm::dvec3 place(x.x, 0.1 * x.y, x.z);
+      flat.push_back(
+          {place, glm::dvec3(1, 2, 3) + glm::cross(glm::dvec3(0.5, 2, -0.5), place) - glm::dvec3(0, x.y, 0)});
+    }
+    world.set_particles(0, flat);
+    const Motion before = motion(world, 0);
+    const double spin = glm::length(before.spin_momentum);
+    EXPECT_GT(spin, 0.1);
+    std::uint64_t self = 0;
+    for (int i = 0; i < 60; ++i) {
+      self += world.detection().self_contacts;
+      world.step();
+      const Motion after = motion(world, 0);
+      EXPECT_LT(glm::distance(after.velocity, before.velocity), 1e-5) << "frame " << i;
+      // The normals stand for a frame, in which what they push apart turns.
+      EXPECT_LT(glm::distance(after.spin_momentum, before.spin_momentum), 5e-3 * spin) << "frame " << i;
+    }
+    if (with_itself) {
+      EXPECT_GT(self, 200u);
+    }
+    return particles_of(world);
+  };
+  const auto kept_apart = fly(true), through_itself = fly(false);
+  double most = 0;
+  for (std::size_t i = 0; i < kept_apart.size(); ++i)
+    most = std::max(most, glm::distance(kept_apart[i].position, through_itself[i].position));
+  EXPECT_GT(most, 0.01) << "its contacts act";
+}
+
+}  // namespace
+}  // namespace softbody::test
