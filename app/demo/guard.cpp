@@ -28,9 +28,9 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
 }
 
 /// What contacts hold as it begins, for a body may have come where another is: shields give back the work of their
-/// push, and bodies whose surfaces overlap part as fast as they may.
+/// push, and a surface that is pushed out of another throws an elastic body off twice as fast as it is pushed.
 void Guard::add_contacts(const softbody::World& world, Look& first) const {
-  constexpr double parting = double(softbody::SurfaceContact::push_speed);
+  constexpr double parting = 2 * double(softbody::SurfaceContact::push_speed);
   const double held = softbody::total(world.shield_energies());
   first.energy += held;
   if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
