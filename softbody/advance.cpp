@@ -11,8 +11,9 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e9;   // far more than there may be: less of the frame is simulated
-constexpr double many_particles = 1e4;  // in worlds of more a frame may be more work, in proportion
+constexpr double most_substeps = 1e9;      // far more than there may be: less of the frame is simulated
+constexpr double many_particles = 1e4;     // in worlds of more a frame may be more work, in proportion
+constexpr double longest_step = 1.0 / 60;  // s, of those that are not fixed: what pushes and pulls is straight in none
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 }  // namespace
@@ -40,8 +41,9 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
 Dynamics::Bound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
   double own_step = infinite;         // s: of the body that bears the shortest by itself
-  double fewest = 1;                  // that keep up with the fastest body near a solid
-  double deforming = 0;               // 1/s: a bound by the present shape tells nothing of one far from it
+  // That keep up with the fastest body near a solid; implicit steps have no bound of stability.
+  double fewest = std::max(1.0, seconds / longest_step);
+  double deforming = 0;  // 1/s: a bound by the present shape tells nothing of one far from it
   shield_damping_.assign(shield_.pairs.empty() ? 0 : x_[0].size(), 0);
   for (ShieldPair p : shield_.pairs) {
     p.offset = glm::vec3(bodies_[p.body_a].origin - bodies_[p.body_b].origin);  // moved with them at the frame's end

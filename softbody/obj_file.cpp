@@ -8,6 +8,7 @@
 #include <string>
 #include <system_error>
 
+#include "softbody/limits.h"
 #include "softbody/line_reader.h"
 
 namespace softbody {
@@ -90,6 +91,10 @@ class Parser {
     throw ObjError(name_ + ":" + std::to_string(line) + ": " + what);
   }
 
+  static std::string beyond(const std::string& what, std::uint64_t most) {
+    return "more than " + std::to_string(most) + " " + what + "; give a coarser mesh, or a part of it";
+  }
+
   Index vertex_count() const { return static_cast<Index>(file_.x.size()); }
 
   void statement(Words words) {
@@ -104,13 +109,13 @@ class Parser {
   }
 
   void begin_object() {
-    if (file_.objects.size() == std::numeric_limits<Index>::max()) fail("too many objects; 4294967295 are allowed");
+    if (file_.objects.size() == max_particles) fail(beyond("objects", max_particles));
     file_.objects.push_back(vertex_count());
   }
 
   void vertex(Words words) {
     if (file_.objects.empty()) begin_object();
-    if (vertex_count() == std::numeric_limits<Index>::max()) fail("too many vertices; 4294967295 are allowed");
+    if (vertex_count() == max_particles) fail(beyond("vertices", max_particles));
     std::array<float, 3> position;
     for (float& coordinate : position) coordinate = number(words.next());
     file_.x.push_back(position[0]);
@@ -141,6 +146,7 @@ class Parser {
     const std::size_t begin = file_.corners.size();
     for (std::string_view word = words.next(); !word.empty(); word = words.next())
       file_.corners.push_back(corner(word));
+    if (file_.corners.size() > max_file_corners) fail(beyond("corners of faces", max_file_corners));
     if (file_.corners.size() - begin < 3) fail("a face of fewer than 3 corners; give it 3 or more, or leave it out");
     file_.faces.push_back({file_.corners.size(), lines_.number()});
   }

@@ -107,7 +107,7 @@ void read_collision(Table table, Scene& scene) {
       find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
   if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
   scene.contact_surface = surface->value;
-  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, least_length, most_length));
+  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, least_length, most_tolerance));
   c.self_collision = table.boolean("self_collision", c.self_collision);
   c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
   c.buckets =
@@ -288,7 +288,7 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
   scene.key = file.stem().string();
   scene.name = root.text("name", scene.key);
   scene.look_at = root.text("look_at", "");
-  scene.gravity = root.vector("gravity", scene.gravity, -1e4, 1e4);
+  scene.gravity = root.vector("gravity", scene.gravity, -most_gravity, most_gravity);
   read_collision(root.child("collision"), scene);
   read_solids(root, scene);
   read_bodies(root, scene);

@@ -54,6 +54,9 @@ collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
   return bodies;
 }
 
+/// Frames stay in memory, so that to read them is no part of the times.
+constexpr std::size_t most_positions = std::size_t{1} << 27;  // of all frames together, 1.5 GiB
+
 Sequence read_sequence(const DetectOptions& options) {
   Sequence sequence;
   const std::string& first_file = options.files.front();
@@ -61,6 +64,10 @@ Sequence read_sequence(const DetectOptions& options) {
     sequence.frames.push_back(read_obj(file));
     require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
     if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
+    const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
+    if (vertices * files > most_positions)
+      throw UsageError(std::to_string(files) + " files of " + std::to_string(vertices) + " vertices each: at most " +
+                       std::to_string(most_positions) + " together; give fewer files at a time");
   }
   ObjBodies& first = sequence.frames.front();
   if (options.rest) {

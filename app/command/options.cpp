@@ -189,14 +189,15 @@ void check(const Options& options) {
 
 /// What scene files take: a scene that is saved is to be read again.
 void check_lengths(const DetectionOptions& options, const collide::Settings& settings) {
-  const auto check = [](const std::string& option, glm::vec3 metres) {
+  const auto check = [](const std::string& option, glm::vec3 metres, double most) {
     if (glm::any(glm::lessThan(metres, glm::vec3(softbody::least_length))) ||
-        glm::any(glm::greaterThan(metres, glm::vec3(softbody::most_length))))
-      throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length,
-                                       softbody::most_length));
+        glm::any(glm::greaterThan(metres, glm::vec3(most))))
+      throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
   };
-  if (options.tolerance) check(format("--tolerance %.9g", *options.tolerance), glm::vec3(settings.tolerance));
-  if (!automatic_cell_size(options, true)) check("--cell-size " + *options.cell_size, settings.cell_size);
+  if (options.tolerance)
+    check(format("--tolerance %.9g", *options.tolerance), glm::vec3(settings.tolerance), softbody::most_tolerance);
+  if (!automatic_cell_size(options, true))
+    check("--cell-size " + *options.cell_size, settings.cell_size, softbody::most_length);
 }
 
 }  // namespace

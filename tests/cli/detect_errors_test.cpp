@@ -102,6 +102,33 @@ TEST_F(DetectErrors, FilesThatCannotBeReadAreNamed) {
   expect_refused({"detect", "/dev/zero", "--tolerance", "1"}, {"/dev/zero:1: "});
 }
 
+/// A piece of text, again and again.
+std::string repeated(const std::string& piece, std::size_t times) {
+  std::string text;
+  text.reserve(piece.size() * times);
+  while (times-- > 0) text += piece;
+  return text;
+}
+
+TEST_F(DetectErrors, LargerFilesThanMayBeAreRefusedAtTheFirstLineBeyond) {
+  const std::string more = ":4000001: more than 4000000 ";
+  const std::vector<std::array<std::string, 2>> files{
+      {repeated("v 0 0 0\n", 4'000'001), more + "vertices"},
+      {repeated("o\n", 4'000'001), more + "objects"},
+      {"v 0 0 0\n" + repeated("f" + repeated(" 1", 8'000) + "\n", 4'001), ":4002: more than 32000000 corners"}};
+  for (const auto& [text, what] : files) {
+    const std::string large = folder.write("large.obj", text);
+    expect_refused({"detect", large, "--tolerance", "1"}, {large + what, "coarser"});
+  }
+}
+
+TEST_F(DetectErrors, MoreFramesThanMemoryMayHoldAreRefusedAfterTheFirst) {
+  std::vector<std::string> words{"detect"};
+  words.insert(words.end(), 1000, folder.write("one.obj", repeated("v 0 0 0\n", 134'218)));
+  words.insert(words.end(), {"--tolerance", "1"});
+  expect_refused(words, {"1000 files of 134218 vertices each", "at most 134217728", "fewer files"});
+}
+
 TEST_F(DetectErrors, FacesOfLaterFilesAreCheckedToo) {
   const std::string bad = folder.write("bad.obj", three + "f 1 2 9\no b\nv 0 0 1\n");
   before.insert("bad.obj");

@@ -6,70 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include "states.h"
+#include "memory_rig.h"
 
 namespace collide::test {
 namespace {
-
-constexpr float tolerance = 0.1f;
-
-/// Spheres that press on each other in a cube of `side` by `side` by `side`.
-State pile(int side, bool crumpled = false) {
-  State state;
-  std::mt19937 random(21);
-  const Ball ball = icosphere(1, 0.5f);
-  const auto shape = std::make_shared<const Shape>(static_cast<Index>(ball.vertices.size()), ball.edges, ball.vertices);
-  for (int i = 0; i < side * side * side; ++i) {
-    std::vector<glm::vec3> vertices = ball.vertices;
-    for (glm::vec3& v : vertices) {
-      if (crumpled) v = glm::vec3(v.x, 0.15f * v.y + uniform(random, -0.03f, 0.03f), v.z);
-    }
-    const glm::vec3 cell(static_cast<float>(i % side), static_cast<float>(i / side % side) * (crumpled ? 0.3f : 1.0f),
-                         static_cast<float>(i / side / side));
-    state.add(shape, moved(vertices, 0.93f * cell + random_points(random, 1, -0.02f, 0.02f)[0]));
-  }
-  state.tolerance = tolerance;
-  return state;
-}
-
-void shift(State& state, Index body, const glm::vec3& by) {
-  for (Index v = state.bodies.first[body]; v < state.bodies.first[body + 1]; ++v) {
-    state.x[v] += by.x;
-    state.y[v] += by.y;
-    state.z[v] += by.z;
-  }
-}
-
-/// Moves every vertex by up to `step` along each axis.
-void shake(State& state, std::mt19937& random, float step) {
-  for (auto* coordinate : {&state.x, &state.y, &state.z}) {
-    for (float& value : *coordinate) value += uniform(random, -step, step);
-  }
-}
-
-/// One detector that sees the frames, on a fixed number of threads or on another one each time (0).
-class Memory : public testing::TestWithParam<int> {
- protected:
-  void see(const State& state, const char* what = "") {
-    settings_.tolerance = state.tolerance;
-    const std::vector<Contact> expected = oracle(state, settings_);
-    const int threads = GetParam();
-    Workers& workers = workers_[static_cast<std::size_t>(threads > 0 ? threads - 1 : frame_ * 7 % 5 % 3)];
-    detector_->detect(state.frame(), settings_, workers, result_);
-    ++frame_;
-    ASSERT_EQ(result_.contacts, expected) << what << " frame " << frame_;
-    ASSERT_EQ(result_.self_contacts, inside_bodies(state, expected).size()) << what << " frame " << frame_;
-    remembered_ += result_.skip(Skip::remembered_pairs);
-    kept_ += result_.skip(Skip::kept_pairs);
-  }
-
-  Settings settings_;
-  Result result_;
-  std::uint64_t remembered_ = 0, kept_ = 0;
-  int frame_ = 0;
-  std::unique_ptr<Detector> detector_ = find_method("multi-level-sb-exact")->make();
-  std::array<Workers, 3> workers_{Workers(1), Workers(2), Workers(3)};
-};
 
 TEST_P(Memory, FollowsASlowDrift) {
   State state = pile(3);
@@ -83,61 +23,6 @@ TEST_P(Memory, FollowsASlowDrift) {
   }
   EXPECT_GT(remembered_, 1000u);
   EXPECT_EQ(kept_, 0u);
-}
-
-/// Bodies whose own neighbours are hardly farther apart than the tolerance: a fresh search proves that they are, but
-/// any margin finds them all. They sway.
-State dense_pile() {
-  State state;
-  const Ball ball = icosphere(2, 0.5f);
-  const auto shape = std::make_shared<const Shape>(static_cast<Index>(ball.vertices.size()), ball.edges, ball.vertices);
-  for (int i = 0; i < 8; ++i)
-    state.add(shape, moved(ball.vertices, 0.95f * glm::vec3(float(i % 2), float(i / 2 % 2), float(i / 4))));
-  state.tolerance = tolerance;
-  return state;
-}
-
-void sway(State& state, int frame) {
-  std::mt19937 random(24);
-  const std::vector<glm::vec3> speed = random_points(random, 8, -0.1f * tolerance, 0.1f * tolerance);
-  for (Index body = 0; body < state.bodies.count(); ++body)
-    shift(state, body, (frame % 40 < 20 ? 1.0f : -1.0f) * speed[body]);
-}
-
-TEST_P(Memory, IsLeftWhereAFreshSearchIsCheaper) {
-  State state = dense_pile();
-  int used = 0;
-  for (int frame = 0; frame < 100; ++frame) {
-    const std::uint64_t before = remembered_;
-    see(state);
-    used += remembered_ > before;
-    sway(state, frame);
-  }
-  EXPECT_LT(used, 30);
-}
-
-/// All vertices in one point: a fresh search is dear enough to pay for any list, but lists have to be small.
-TEST_P(Memory, HoldsNoMoreCandidatesThanItMay) {
-  State state;
-  for (int body = 0; body < 2; ++body) state.add(std::vector<glm::vec3>(800, glm::vec3(0)));
-  state.tolerance = tolerance;
-  for (int frame = 0; frame < 5; ++frame) see(state);
-  ASSERT_GT(result_.contacts.size(), std::size_t{1} << 20);
-  EXPECT_EQ(remembered_ + kept_, 0u);
-}
-
-TEST_P(Memory, IsTakenUpAgainAtOnceWithOtherSettings) {
-  State state = dense_pile();
-  for (int frame = 0; frame < 75; ++frame) {  // pauses of 8, 16, 32 and, by now, 64 frames
-    see(state);
-    sway(state, frame);
-  }
-  const std::uint64_t before = remembered_ + kept_;
-  for (int frame = 0; frame < 8; ++frame) see(state);
-  EXPECT_EQ(remembered_ + kept_, before) << "it pauses";
-  state.tolerance = 0.5f * tolerance;
-  for (int frame = 0; frame < 8; ++frame) see(state);
-  EXPECT_GT(kept_, 0u);
 }
 
 TEST_P(Memory, FollowsOneThatFliesPastAPileAtRest) {
@@ -245,34 +130,6 @@ TEST_P(Memory, ForgetsWhenBodiesOrShapesAreOthers) {
   }
   state = fewer;
   rest("one less");
-}
-
-TEST_P(Memory, FollowsItsSettings) {
-  State state = pile(2, true);
-  for (const float other : {0.1f, 0.05f, 0.13f}) {
-    for (const bool self : {true, false}) {
-      for (const int levels : {3, 0, 15}) {
-        state.tolerance = other;
-        settings_.self_collision = self;
-        settings_.levels = levels;
-        for (int frame = 0; frame < 6; ++frame) see(state);
-        EXPECT_GT(result_.skip(Skip::kept_pairs), 0u);
-      }
-    }
-  }
-}
-
-TEST_P(Memory, RemembersNothingOnceToldToForget) {
-  const State state = pile(2);
-  see(state);
-  const Result first = result_;
-  for (int repeat = 0; repeat < 3; ++repeat) {
-    for (int frame = 0; frame <= repeat * 2; ++frame) see(state);
-    detector_->forget();
-    see(state);
-    EXPECT_EQ(result_.skipped, first.skipped);
-    EXPECT_EQ(result_.counters.pair_tests, first.counters.pair_tests);
-  }
 }
 
 TEST_P(Memory, FollowsRandomWalksOfAnyStep) {

@@ -109,13 +109,14 @@ void read_collision(Bytes& bytes, Scene& scene) {
   scene.method = collide::methods()[static_cast<std::size_t>(bytes.below(int(collide::methods().size())))].key;
   scene.contact_surface = bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
   collide::Settings& c = scene.collision;
-  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, 1e-9, 10}));
+  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, softbody::least_length, softbody::most_tolerance}));
   c.self_collision = bytes.below(2) == 0;
   c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
   c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});
   scene.default_cell_size = bytes.below(4) != 0;
   if (!scene.default_cell_size)
-    for (int axis = 0; axis < 3; ++axis) c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, 1e-9, 1e6}));
+    for (int axis = 0; axis < 3; ++axis)
+      c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::least_length, softbody::most_length}));
 }
 
 }  // namespace
@@ -156,7 +157,7 @@ softbody::BodySource read_body(Bytes& bytes, int materials) {
 softbody::Scene read_scene(Bytes& bytes, const std::string& key) {
   Scene scene;
   scene.key = scene.name = key;
-  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e2, 1e3}));
+  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e2, softbody::most_gravity}));
   read_collision(bytes, scene);
   for (const char* name : {"a", "b"}) scene.materials.push_back(read_material(bytes, name));
   const int bodies = 1 + bytes.below(4), solids = bytes.below(3);

@@ -97,6 +97,8 @@ const Bad bad_scenes[]{
      "contact_surface must be one of: vertex-vertex, surface"},
     {"contact_surface_as_number", "[collision]\ncontact_surface = 1\n[[body]]\n", 2, "must be a string"},
     {"tolerance_zero", "[collision]\ntolerance = 0\n[[body]]\n", 2, "tolerance must be"},
+    {"tolerance_wide", "[collision]\ntolerance = 10.1\n[[body]]\n", 2, "tolerance must be a number from 1e-09 to 10"},
+    {"gravity_strong", "gravity = [0, -1001, 0]\n[[body]]\n", 1, "gravity must be three numbers, each from -1000 to 1000"},
     {"levels_16", "[collision]\nlevels = 16\n[[body]]\n", 2, "from 0 to 15"},
     {"levels_negative", "[collision]\nlevels = -1\n[[body]]\n", 2, "from 0 to 15"},
     {"buckets_zero", "[collision]\nbuckets = 0\n[[body]]\n", 2, "from 1 to 16777216"},
