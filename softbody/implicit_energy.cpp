@@ -3,16 +3,24 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/rigid_motion.h"
+#include "softbody/shape_matching.h"
 
 namespace softbody {
 namespace {
 
-double spring_energy(const Prototype& p, const LaneView& x) {
+/// Of springs, and of what keeps the shape.
+double elastic_energy(const Prototype& p, const LaneView& x) {
   double energy = 0;
+  if (!p.goal.empty()) {
+    std::vector<glm::dvec3> places;
+    for (std::size_t i = 0; i < p.goal.size(); ++i) places.push_back(x(i));
+    energy = shape_energy(p, places);
+  }
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) {
       const double longer = glm::distance(x(s.i), x(s.j)) - s.rest;
@@ -50,7 +58,7 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   for (const LinearShield& s : work.shields) {
     if (s.at % lanes != lane) continue;
     const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
-    sum += std::max(0.0, glm::dot(s.after(moved), moved));
+    sum += std::clamp(glm::dot(s.after(moved), moved), 0.0, s.most_work);
   }
   return sum;
 }
@@ -60,7 +68,6 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
 double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
                     bool pushed) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
-  if (!p.goal.empty()) return 0;
   const std::size_t n = p.mesh.vertices.size();
   const LaneView x{work.x, lane}, v{work.v, lane}, end_x{work.end_x, lane}, end_v{work.end_v, lane};
   double fallen = 0;
@@ -69,8 +76,8 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
     fallen += p.particle_mass * glm::dot(gravity, end_x(i) - x(i));
     before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
   }
-  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = spring_energy(p, x);
-  double gain = after - before - fallen - contact_work(work, lane) + spring_energy(p, end_x) - elastic;
+  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = elastic_energy(p, x);
+  double gain = after - before - fallen - contact_work(work, lane) + elastic_energy(p, end_x) - elastic;
   if (p.has_gas) gain -= gas_work(p.gas, volume_of(p, x), volume_of(p, end_x));
   double motion = before + after;
   if (!pushed)  // then how fast it flies has no part in it

@@ -45,6 +45,7 @@ struct LinearShield {
   double friction = 0;
   glm::dvec3 partner{0.0};  // m, how far the other particle is taken to move
   glm::dvec3 as_now{0.0};   // m, how far the two would move apart at the velocities of the start: `force` knows of it
+  double most_work = 0;     // J, that it can do in the step, whatever after() says
 
   /// N, when the particle has moved by u. It never pulls, and friction keeps to its limit.
   glm::dvec3 after(const glm::dvec3& u) const;

@@ -119,6 +119,8 @@ std::array<bool, lanes> Dynamics::find_shields(const Batch& b, ImplicitWork& wor
     s.friction = double(pair.friction);
     s.partner = moves ? h * velocity(other) : glm::dvec3(0.0);
     s.as_now = h * velocity(end.slot) - s.partner;
+    s.most_work = double(Shield::approach_limit) * shield_.energy(pair, x) +
+                  double(shield_.most_force(pair)) * glm::length(s.partner);
     work.shields.push_back(s);
     touches[at % lanes] = true;
   }

@@ -85,6 +85,10 @@ struct Shield {
   static float damping_bound(float k, float friction, float thickness) {                 // N s/m
     return most_damping(friction) * k * thickness / rebound_speed;
   }
+  /// N: of a contact as deep as can be, damped as much as can be.
+  float most_force(const ShieldPair& pair) const {
+    return approach_limit * most_damping(pair.friction) * pair.stiffness * thickness;
+  }
   /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.
   float damping_ahead(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
 
