@@ -19,7 +19,8 @@ inline constexpr double least_length = 1e-9, most_length = 1e6;
 inline constexpr double most_tolerance = 10, most_gravity = 1e3;
 
 /// m, of a body's mesh. Smaller ones have areas and volumes that floats cannot hold in products, and weigh next to
-/// nothing against the gas in them: their substeps could not be counted.
-inline constexpr double least_body_size = 1e-3, most_body_size = 1e6;
+/// nothing against the gas in them: their substeps could not be counted. The air around larger ones gives them energies
+/// in which floats lose everything else.
+inline constexpr double least_body_size = 1e-3, most_body_size = 1e4;
 
 }  // namespace softbody

@@ -90,9 +90,9 @@ TEST(MeshImport, WhatIsTooSmallOrTooLargeIsRefused) {
            face({4, 3, 7, 8}) + face({3, 1, 5, 7});
   };
   EXPECT_NEAR(read(cube(0.50001 * least_body_size)).findings.extent, least_body_size, 1e-7);
-  EXPECT_NEAR(read(cube(0.49999 * most_body_size)).findings.extent, most_body_size, 100);
+  EXPECT_NEAR(read(cube(0.49999 * most_body_size)).findings.extent, most_body_size, 1);
   EXPECT_THROW(read(cube(0.0004)), ObjError);
-  EXPECT_THROW(read(cube(6e5)), ObjError);
+  EXPECT_THROW(read(cube(6e3)), ObjError);
   EXPECT_NEAR(read(cube(0.0004), {.size = 1}).findings.extent, 1, 1e-12);
 }
 
@@ -188,7 +188,7 @@ TEST(MeshImport, RefusesWithTheReason) {
   EXPECT_EQ(error_of(strip + "f 9 10 2 1\n"), "was taken") << "without the twist";
   std::string polygon = "f";
   for (int i = 0; i <= 1000; ++i) {
-    strip += vertex({i, i * i, 0});
+    strip += vertex({i, 1e-3 * i * i, 0});
     polygon.append(" -").append(std::to_string(i + 1));
   }
   EXPECT_NE(error_of(strip + polygon + "\n").find("1001 corners; at most 1000"), std::string::npos);
@@ -197,7 +197,7 @@ TEST(MeshImport, RefusesWithTheReason) {
 /// A strip of triangles of `vertices` vertices.
 std::string long_strip(int vertices) {
   std::string text;
-  for (int i = 0; i < vertices; ++i) text += vertex({i, i % 2, 0});
+  for (int i = 0; i < vertices; ++i) text += vertex({0.05 * i, i % 2, 0});
   for (int i = 3; i <= vertices; ++i) text += face({i - 2, i - 1, i});
   return text;
 }
