@@ -69,6 +69,7 @@ constexpr std::array all_integrators{
         .order = 1,
         .advance = semi_implicit_euler,
         .stable_step = stable_step,
+        .staggered = true,
         .keeps_spin = true},
     Integrator{.key = "velocity-verlet",
                .name = "Velocity Verlet",

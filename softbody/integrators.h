@@ -30,6 +30,7 @@ struct Integrator {
   bool implicit = false;    // solves with the matrices of implicit_matrix.h
   bool automatic = false;   // chooses another one for each frame, see Dynamics::choose()
   bool by_damping = false;  // stable only where all that swings is damped enough
+  bool staggered = false;   // velocities belong to the middle of the last substep
   bool keeps_spin = false;  // conserves the angular momentum of a free body but for rounding; all do the linear one
 };
 

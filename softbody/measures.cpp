@@ -50,26 +50,37 @@ Energy& Energy::operator+=(const Energy& other) {
   return *this;
 }
 
-BodyMeasures measure(const World& world, BodyId id) {
+BodyMeasures measure(const World& world, BodyId id, double substep) {
   const Prototype& p = world.prototype(id);
   const Scene& scene = world.scene();
   BodyMeasures m;
   double kinetic = 0, gravity = 0;
-  std::vector<glm::dvec3> x;
-  x.reserve(p.mesh.vertices.size());
+  std::vector<glm::dvec3> x, middle, before;  // `middle` and `before` of the last substep
+  for (auto* places : {&x, &middle, &before}) places->reserve(p.mesh.vertices.size());
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
     const Particle q = world.dynamics().particle(id, i);
     x.push_back(q.position);
+    middle.push_back(q.position - substep / 2 * q.velocity);
+    before.push_back(q.position - substep * q.velocity);
     const double speed2 = glm::dot(q.velocity, q.velocity);
     m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
     kinetic += 0.5 * p.particle_mass * speed2;
-    gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
+    gravity -= p.particle_mass * glm::dot(scene.gravity, middle.back());
     m.momentum += p.particle_mass * q.velocity;
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
   const double volume = p.mesh.closed ? volume_of(x, p.mesh.triangles) : 0;
   m.energy = deformation(p, x, volume, m.largest_strain);
+  if (substep > 0) {
+    double unused = 0;
+    const auto at = [&](const std::vector<glm::dvec3>& places) {
+      return deformation(p, places, p.mesh.closed ? volume_of(places, p.mesh.triangles) : 0, unused);
+    };
+    const Energy half = at(middle), whole = at(before);
+    m.energy.elastic = 2 * half.elastic - (m.energy.elastic + whole.elastic) / 2;
+    m.energy.gas = 2 * half.gas - (m.energy.gas + whole.gas) / 2;
+  }
   m.energy.kinetic = kinetic;
   m.energy.gravity = gravity;
   m.closed = p.mesh.closed;
@@ -109,9 +120,9 @@ Measures total(std::span<const BodyMeasures> bodies) {
   return m;
 }
 
-std::vector<BodyMeasures> measure_bodies(const World& world) {
+std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
   std::vector<BodyMeasures> list;
-  for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id));
+  for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id, substep));
   return list;
 }
 

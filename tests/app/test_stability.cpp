@@ -91,6 +91,22 @@ TEST(Guard, IsCalmWhereABodyComesToAnothersPlace) {
       }
 }
 
+/// Gas that is suddenly set to another pressure makes bodies swing as fast as explicit steps can follow.
+TEST(Guard, IsCalmWhereBodiesSwingFast) {
+  for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
+    softbody::Scene scene = touching_pair();
+    softbody::Material& rubber = scene.materials[0];
+    rubber.gas_pressure = 113e3, rubber.ambient_pressure = 101'325;
+    rubber.start_in_equilibrium = true;
+    Session session(scene, {}, 1);
+    while (session.world().frame() < 15) session.advance(tick);
+    rubber.gas_pressure = pressure;
+    session.set_material(0, rubber);
+    while (session.world().frame() < 60 && !session.stability().alarm()) session.advance(tick);
+    EXPECT_FALSE(session.stability().alarm()) << pressure << " Pa: " << session.stability().alarm()->what;
+  }
+}
+
 /// Springs far too stiff for a single substep a frame.
 TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
   softbody::Scene scene = touching_pair();
