@@ -128,7 +128,10 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (moving_.empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  frame.most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : max_substeps;
+  const double less = std::min(1.0, max_work_.particles / double(x_[0].size()));
+  frame.most = frame.fixed             ? frame.fixed
+               : integrator_->implicit ? max_implicit_steps
+                                       : std::max(1, int(less * max_substeps));
   do take_substeps(frame, after_substep);
   while (frame.left > 0 && !spent(frame));
   keep_momenta(seconds - frame.left);
@@ -138,7 +141,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 /// Whether a frame has had as many substeps, or as much work, as it may.
 bool Dynamics::spent(const Progress& frame) const {
   if (frame.substeps >= frame.most) return true;
-  const double share = std::max(1.0, double(x_[0].size()) / many_particles);
+  const double share = std::max(1.0, std::min(double(x_[0].size()), max_work_.particles) / many_particles);
   return !frame.fixed && (surface_work_ >= share * max_work_.surface || implicit_ >= share * max_work_.implicit);
 }
 

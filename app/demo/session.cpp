@@ -38,9 +38,10 @@ void Session::adopt(softbody::Scene scene) {
 }
 
 void Session::start(const softbody::Scene& scene, const IntegratorChoice& integrator) {
-  leave_for(std::make_unique<softbody::World>(
-      scene,
-      softbody::World::Options{.threads = threads_, .integrator = integrator.key, .substeps = integrator.substeps}));
+  leave_for(std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_,
+                                                                              .integrator = integrator.key,
+                                                                              .substeps = integrator.substeps,
+                                                                              .max_work = softbody::work_of_a_window}));
 }
 
 void Session::leave_for(std::unique_ptr<softbody::World> world) {
@@ -101,7 +102,8 @@ bool Session::succeeds(const std::function<void()>& change) {
 void Session::choose_scene(const std::string& key_or_path) {
   try {
     softbody::Scene scene = softbody::find_scene(key_or_path, scene_folder_);
-    auto world = std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_});
+    auto world = std::make_unique<softbody::World>(
+        scene, softbody::World::Options{.threads = threads_, .max_work = softbody::work_of_a_window});
     enter(std::move(world), std::move(scene), key_or_path);
   } catch (const std::exception& error) {
     notice_ = error.what();

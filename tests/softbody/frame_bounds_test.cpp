@@ -25,6 +25,20 @@ TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
   EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
 }
 
+/// A world of twice the particles gets half the substeps.
+TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
+  const auto most = [](double particles) {
+    World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .max_work = {.particles = particles}});
+    place(world, glm::dvec3(1.0), 1e6);
+    world.step();
+    return world.profile().substeps;
+  };
+  EXPECT_EQ(most(1e4), World::max_substeps);
+  EXPECT_LT(most(100), World::max_substeps);
+  EXPECT_NEAR(most(100), 2 * most(50), 1);
+  EXPECT_EQ(most(0), 1);
+}
+
 TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
   Scene scene = lone_body(spring_ball());
   scene.ground.emplace();
