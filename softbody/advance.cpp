@@ -128,7 +128,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (moving_.empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  const double less = std::min(1.0, max_work_.particles / double(x_[0].size()));
+  const double less = std::min(1.0, max_work_.most_particles / double(x_[0].size()));
   frame.most = frame.fixed             ? frame.fixed
                : integrator_->implicit ? max_implicit_steps
                                        : std::max(1, int(less * max_substeps));
@@ -141,7 +141,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 /// Whether a frame has had as many substeps, or as much work, as it may.
 bool Dynamics::spent(const Progress& frame) const {
   if (frame.substeps >= frame.most) return true;
-  const double share = std::max(1.0, std::min(double(x_[0].size()), max_work_.particles) / many_particles);
+  const double share = std::max(1.0, std::min(double(x_[0].size()), max_work_.most_particles) / many_particles);
   return !frame.fixed && (surface_work_ >= share * max_work_.surface || implicit_ >= share * max_work_.implicit);
 }
 

@@ -14,7 +14,7 @@ struct MaxWork {
   double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; see candidates()
   /// In a world of more, a frame may be no more work than in one of so many, explicit substeps included.
-  double particles = std::numeric_limits<double>::infinity();
+  double most_particles = std::numeric_limits<double>::infinity();
   static constexpr double many_particles = double(1 << 18), most_at_once = double(1 << 25);
   /// At once in a world of so many: in proportion, but no more than 3 GiB.
   std::size_t candidates(std::size_t particles) const {
@@ -24,6 +24,6 @@ struct MaxWork {
 };
 
 /// Where somebody waits for each frame.
-inline constexpr MaxWork work_of_a_window{.particles = 5e4};
+inline constexpr MaxWork work_of_a_window{.most_particles = 5e4};
 
 }  // namespace softbody

@@ -28,7 +28,8 @@ TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
 /// A world of twice the particles gets half the substeps.
 TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
   const auto most = [](double particles) {
-    World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .max_work = {.particles = particles}});
+    World world(lone_body(gas_ball()),
+                {.integrator = "semi-implicit-euler", .max_work = {.most_particles = particles}});
     place(world, glm::dvec3(1.0), 1e6);
     world.step();
     return world.profile().substeps;
