@@ -24,6 +24,6 @@ struct MaxWork {
 };
 
 /// Where somebody waits for each frame.
-inline constexpr MaxWork work_of_a_window{.most_particles = 5e4};
+inline constexpr MaxWork work_of_a_window{.most_particles = 2.5e4};
 
 }  // namespace softbody
