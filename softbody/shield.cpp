@@ -82,7 +82,8 @@ double Shield::energy(const ShieldPair& p, Field<const float> x) const {
   };
   const double push = integral(std::sqrt(end2)) - integral(std::max(s, 0.0)) + end2 * h * std::max(-s, 0.0);
   const glm::dvec3 stretch(p.stretch);
-  return k / (h * h) * push + k / 2 * glm::dot(stretch, stretch);
+  // At the edge of sight the two integrals differ by less than they are rounded by.
+  return k / (h * h) * std::max(0.0, push) + k / 2 * glm::dot(stretch, stretch);
 }
 
 double total(std::span<const PairEnergy> pairs) {
