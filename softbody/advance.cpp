@@ -11,9 +11,10 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e9;      // far more than there may be: less of the frame is simulated
-constexpr double many_particles = 1e4;     // in worlds of more a frame may be more work, in proportion
-constexpr double longest_step = 1.0 / 60;  // s, of those that are not fixed: what pushes and pulls is straight in none
+constexpr double most_substeps = 1e9;   // far more than there may be: less of the frame is simulated
+constexpr double many_particles = 1e4;  // in worlds of more a frame may be more work, in proportion
+constexpr double longest_step =
+    1.0 / 60;                      // s, of those that are not fixed: forces are far from linear over longer ones
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 }  // namespace

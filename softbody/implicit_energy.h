@@ -5,10 +5,10 @@
 
 namespace softbody {
 
-/// J that springs, gas and motion of the body in a lane have more at the end of a step than at its start and from
-/// gravity, solids and shields; 0 if that is so little that it adds up to little: a step of second order can gain,
-/// where the body swings far in one, and so can one of first order that rolls, or that has not converged. pushed:
-/// whether solids push the body.
+/// J that springs, gas, what keeps the shape, and motion of the body in a lane have more at the end of a step than at
+/// its start and from gravity, solids and shields; 0 if that is so little that it adds up to little: a step of second
+/// order can gain, where the body swings far in one, and so can one of first order that rolls, or that has not
+/// converged. pushed: whether solids push the body.
 double undue_energy(const Prototype& prototype, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
                     bool pushed);
 

@@ -8,7 +8,7 @@ namespace softbody {
 /// machine would begin to swap.
 inline constexpr std::uint64_t max_particles = 4'000'000;
 
-/// Of the faces of an OBJ file, all together: a closed mesh of that many triangles has 24 million.
+/// Of the faces of an OBJ file, all together: a closed mesh of triangles with that many vertices has 24 million.
 inline constexpr std::uint64_t max_file_corners = 8 * max_particles;
 
 /// m, of the tolerance and the sides of cells that a scene gives.
