@@ -125,6 +125,7 @@ class Dynamics {
   /// The one that the last frame was integrated with, and, if it was chosen automatically, why.
   const Integrator& used_integrator() const { return *integrator_; }
   std::string_view why_integrator() const { return why_; }
+  double last_substep() const { return double(step_); }  // s, how long it was
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_least_shared(std::size_t count) { least_shared_ = count; }

@@ -65,7 +65,8 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
     const double speed2 = glm::dot(q.velocity, q.velocity);
     m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
     kinetic += 0.5 * p.particle_mass * speed2;
-    gravity -= p.particle_mass * glm::dot(scene.gravity, middle.back());
+    gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
+    if (substep > 0) m.staggering += p.particle_mass * glm::dot(scene.gravity, substep / 2 * q.velocity);
     m.momentum += p.particle_mass * q.velocity;
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
@@ -75,11 +76,9 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   if (substep > 0) {
     double unused = 0;
     const auto at = [&](const std::vector<glm::dvec3>& places) {
-      return deformation(p, places, p.mesh.closed ? volume_of(places, p.mesh.triangles) : 0, unused);
+      return deformation(p, places, p.mesh.closed ? volume_of(places, p.mesh.triangles) : 0, unused).deformation();
     };
-    const Energy half = at(middle), whole = at(before);
-    m.energy.elastic = 2 * half.elastic - (m.energy.elastic + whole.elastic) / 2;
-    m.energy.gas = 2 * half.gas - (m.energy.gas + whole.gas) / 2;
+    m.staggering += 2 * at(middle) - (m.energy.deformation() + at(before)) / 2 - m.energy.deformation();
   }
   m.energy.kinetic = kinetic;
   m.energy.gravity = gravity;

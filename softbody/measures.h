@@ -18,6 +18,7 @@ struct Energy {
 
 struct BodyMeasures {
   Energy energy;
+  double staggering = 0;     // J, see measure()
   glm::dvec3 momentum{0.0};  // kg m/s
   bool closed = false;
   double volume_ratio = 0;         // of a closed body, over the starting volume
@@ -28,9 +29,11 @@ struct BodyMeasures {
 };
 
 /// substep: s; 0, or how long the last one of semi-implicit Euler was. Its velocities belong to the middle of it, and
-/// with them the energy of what swings fast swings, too. What it conserves, exactly where forces are linear, is instead
+/// with them the energy of what swings fast swings, too. What it conserves, exactly where forces are linear, is
 ///
-///   K(v) + 2 U(x - h/2 v) - (U(x) + U(x - h v)) / 2.
+///   K(v) + 2 U(x - h/2 v) - (U(x) + U(x - h v)) / 2
+///
+/// instead, by `staggering` more than the energy.
 BodyMeasures measure(const World& world, BodyId body, double substep = 0);
 std::vector<BodyMeasures> measure_bodies(const World& world, double substep = 0);
 

@@ -48,7 +48,7 @@ Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) con
   for (std::size_t b = 0; b < bodies.size(); ++b) {
     const softbody::Energy& e = bodies[b].energy;
     const double stored = std::max(0.0, e.deformation() - resting_[b]);
-    look.energy += e.total();
+    look.energy += e.total() + bodies[b].staggering;
     look.active += e.kinetic + stored;
     look.speed = std::max(look.speed, bodies[b].max_speed);
     look.bounce = std::max(look.bounce, std::sqrt(2 * stored / mass_[b]));
@@ -67,7 +67,7 @@ Guard::Look Guard::most_of_late() const {
 /// The body that gained most since the last look.
 softbody::BodyId Guard::culprit(const std::vector<softbody::BodyMeasures>& bodies) const {
   std::size_t found = 0;
-  const auto gain = [&](std::size_t b) { return bodies[b].energy.total() - body_energy_[b]; };
+  const auto gain = [&](std::size_t b) { return bodies[b].energy.total() + bodies[b].staggering - body_energy_[b]; };
   for (std::size_t b = 1; b < bodies.size(); ++b)
     if (gain(b) > gain(found)) found = b;
   return static_cast<softbody::BodyId>(found);
@@ -108,7 +108,7 @@ std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector
   looks_.push_back(now);
   if (looks_.size() > memory) looks_.pop_front();
   body_energy_.clear();
-  for (const softbody::BodyMeasures& b : bodies) body_energy_.push_back(b.energy.total());
+  for (const softbody::BodyMeasures& b : bodies) body_energy_.push_back(b.energy.total() + b.staggering);
   return alarm;
 }
 

@@ -46,8 +46,9 @@ void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
                .share = seconds / frame};
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
-  const bool staggered = taken > 0 && world.dynamics().used_integrator().staggered;
-  const auto bodies = softbody::measure_bodies(world, staggered ? seconds / taken : 0);
+  const softbody::Dynamics& dynamics = world.dynamics();
+  const bool staggered = taken > 0 && dynamics.used_integrator().staggered;
+  const auto bodies = softbody::measure_bodies(world, staggered ? dynamics.last_substep() : 0);
   record(world, bodies);
   if (!guarded) guard_.restart();
   if (guarded) judge(world, bodies);
