@@ -11,10 +11,9 @@ namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double most_substeps = 1e9;   // far more than there may be: less of the frame is simulated
-constexpr double many_particles = 1e4;  // in worlds of more a frame may be more work, in proportion
-constexpr double longest_step =
-    1.0 / 60;                      // s, of those that are not fixed: forces are far from linear over longer ones
+constexpr double most_substeps = 1e9;  // far more than there may be: less of the frame is simulated
+/// s, of substeps that are not fixed: forces are far from linear over longer ones.
+constexpr double longest_step = 1.0 / 60;
 constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
 
 }  // namespace
@@ -129,10 +128,9 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (moving_.empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  const double less = std::min(1.0, max_work_.most_particles / double(x_[0].size()));
   frame.most = frame.fixed             ? frame.fixed
                : integrator_->implicit ? max_implicit_steps
-                                       : std::max(1, int(less * max_substeps));
+                                       : max_work_.substeps(max_substeps, particle_count());
   do take_substeps(frame, after_substep);
   while (frame.left > 0 && !spent(frame));
   keep_momenta(seconds - frame.left);
@@ -142,8 +140,8 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 /// Whether a frame has had as many substeps, or as much work, as it may.
 bool Dynamics::spent(const Progress& frame) const {
   if (frame.substeps >= frame.most) return true;
-  const double share = std::max(1.0, std::min(double(x_[0].size()), max_work_.most_particles) / many_particles);
-  return !frame.fixed && (surface_work_ >= share * max_work_.surface || implicit_ >= share * max_work_.implicit);
+  const double times = max_work_.times(particle_count());
+  return !frame.fixed && (surface_work_ >= times * max_work_.surface || implicit_ >= times * max_work_.implicit);
 }
 
 /// As many substeps as what bounds them may be trusted for.

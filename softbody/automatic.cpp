@@ -25,7 +25,8 @@ double Dynamics::tremble(double step) const {
 /// about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where all
 /// bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. What might come to ask for more
 /// explicit substeps than there may be is left to the other, and what they cannot bring to rest, or near enough for it
-/// to fall asleep; unless there the fastest asks for too many implicit ones.
+/// to fall asleep; unless there the fastest asks for too many implicit ones. Where somebody waits for the frames of a
+/// large world, both are cut alike, so that the choice is the same.
 void Dynamics::choose(double seconds) {
   constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");

@@ -60,6 +60,12 @@ void Dynamics::resize_scratch() {
     for (auto& c : components) c.resize(x_[0].size());
 }
 
+std::size_t Dynamics::particle_count() const {
+  std::size_t count = 0;
+  for (const Batch& b : batches_) count += b.particles() * std::size_t(b.used);
+  return count;
+}
+
 bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }

@@ -7,39 +7,22 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/deformation.h"
 #include "softbody/rigid_motion.h"
-#include "softbody/shape_matching.h"
 
 namespace softbody {
 namespace {
 
-/// Of springs, and of what keeps the shape.
-double elastic_energy(const Prototype& p, const LaneView& x) {
-  double energy = 0;
-  if (!p.goal.empty()) {
-    std::vector<glm::dvec3> places;
-    for (std::size_t i = 0; i < p.goal.size(); ++i) places.push_back(x(i));
-    energy = shape_energy(p, places);
-  }
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) {
-      const double longer = glm::distance(x(s.i), x(s.j)) - s.rest;
-      energy += s.stiffness / 2 * longer * longer;
-    }
-  return energy;
+std::vector<glm::dvec3> places(const Prototype& p, const LaneView& x) {
+  std::vector<glm::dvec3> list;
+  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) list.push_back(x(i));
+  return list;
 }
 
 double kinetic_energy(const Prototype& p, const LaneView& v) {
   double square = 0;
   for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v(i), v(i));
   return p.particle_mass / 2 * square;
-}
-
-double volume_of(const Prototype& p, const LaneView& x) {
-  double six = 0;
-  const glm::dvec3 from = x(0);
-  for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x(a) - from, glm::cross(x(b) - from, x(c) - from));
-  return six / 6;
 }
 
 /// J that the gas and what is around lose. By Simpson's rule: a logarithm has not the same last digits on all
@@ -76,9 +59,10 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
     fallen += p.particle_mass * glm::dot(gravity, end_x(i) - x(i));
     before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
   }
-  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = elastic_energy(p, x);
-  double gain = after - before - fallen - contact_work(work, lane) + elastic_energy(p, end_x) - elastic;
-  if (p.has_gas) gain -= gas_work(p.gas, volume_of(p, x), volume_of(p, end_x));
+  const std::vector<glm::dvec3> start = places(p, x), end = places(p, end_x);
+  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = elastic_energy(p, start);
+  double gain = after - before - fallen - contact_work(work, lane) + elastic_energy(p, end) - elastic;
+  if (p.has_gas) gain -= gas_work(p.gas, enclosed_volume(p, start), enclosed_volume(p, end));
   double motion = before + after;
   if (!pushed)  // then how fast it flies has no part in it
     motion -= p.material.mass / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));

@@ -15,11 +15,20 @@ struct MaxWork {
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; see candidates()
   /// In a world of more, a frame may be no more work than in one of so many, explicit substeps included.
   double most_particles = std::numeric_limits<double>::infinity();
-  static constexpr double many_particles = double(1 << 18), most_at_once = double(1 << 25);
-  /// At once in a world of so many: in proportion, but no more than 3 GiB.
+
+  /// What `surface` and `implicit` are multiplied by in a world of so many particles.
+  double times(std::size_t particles) const {
+    return std::max(1.0, std::min(double(particles), most_particles) / 10'000);
+  }
+  /// Explicit substeps in a world of so many, where any other may take `most`.
+  int substeps(int most, std::size_t particles) const {
+    const double part = std::min(1.0, most_particles / double(particles));
+    return std::max(1, static_cast<int>(part * most));
+  }
+  /// At once in a world of so many: in proportion above 262,144 of them, but no more than 3 GiB.
   std::size_t candidates(std::size_t particles) const {
-    const double in_proportion = at_once * std::max(1.0, double(particles) / many_particles);
-    return static_cast<std::size_t>(std::min(in_proportion, most_at_once));
+    constexpr double many = double(1 << 18), most = double(1 << 25);
+    return static_cast<std::size_t>(std::min(at_once * std::max(1.0, double(particles) / many), most));
   }
 };
 

@@ -6,38 +6,30 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/shape_matching.h"
+#include "softbody/deformation.h"
 #include "softbody/solids.h"
 
 namespace softbody {
 namespace {
 
-/// Adds the energy of springs in J; returns the largest strain.
-double add_springs(const std::vector<Spring>& springs, const std::vector<glm::dvec3>& x, double& energy) {
-  double most = 0;
-  for (const Spring& s : springs) {
-    const double stretch = glm::distance(x[s.i], x[s.j]) - s.rest;
-    energy += 0.5 * s.stiffness * stretch * stretch;
-    if (s.rest > 0) most = std::max(most, std::abs(stretch) / s.rest);
-  }
-  return most;
-}
-
-/// Of a body with its particles at x: what it is bent, stretched and blown up by; the largest strain.
-Energy deformation(const Prototype& p, const std::vector<glm::dvec3>& x, double volume, double& largest_strain) {
+/// Of a body with its particles at x: what it is bent, stretched and blown up by.
+Energy deformation(const Prototype& p, const std::vector<glm::dvec3>& x, double volume) {
   Energy energy;
-  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
-    largest_strain = std::max(largest_strain, add_springs(*springs, x, energy.elastic));
-  if (p.shape_rate > 0) energy.elastic += shape_energy(p, x);
+  energy.elastic = elastic_energy(p, x);
   if (p.has_gas) energy.gas = p.gas.energy(volume);
   return energy;
 }
 
-double volume_of(const std::vector<glm::dvec3>& x, const std::vector<Triangle>& triangles) {
-  const glm::dvec3 origin = x.front();  // any point will do; a near one loses no digits
-  double six = 0;
-  for (const auto& [a, b, c] : triangles) six += glm::dot(x[a] - origin, glm::cross(x[b] - origin, x[c] - origin));
-  return six / 6;
+double volume_of(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  return p.mesh.closed ? enclosed_volume(p, x) : 0;
+}
+
+double largest_strain(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  double most = 0;
+  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *springs)
+      if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
+  return most;
 }
 
 }  // namespace
@@ -71,12 +63,12 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
-  const double volume = p.mesh.closed ? volume_of(x, p.mesh.triangles) : 0;
-  m.energy = deformation(p, x, volume, m.largest_strain);
+  const double volume = volume_of(p, x);
+  m.energy = deformation(p, x, volume);
+  m.largest_strain = largest_strain(p, x);
   if (substep > 0) {
-    double unused = 0;
     const auto at = [&](const std::vector<glm::dvec3>& places) {
-      return deformation(p, places, p.mesh.closed ? volume_of(places, p.mesh.triangles) : 0, unused).deformation();
+      return deformation(p, places, volume_of(p, places)).deformation();
     };
     m.staggering += 2 * at(middle) - (m.energy.deformation() + at(before)) / 2 - m.energy.deformation();
   }
@@ -87,10 +79,7 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   return m;
 }
 
-Energy starting_energy(const Prototype& p) {
-  double unused = 0;
-  return deformation(p, p.start, p.start_volume, unused);
-}
+Energy starting_energy(const Prototype& p) { return deformation(p, p.start, p.start_volume); }
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};

@@ -87,6 +87,7 @@ template void fit_shape<double>(const ShapeMoments<double>&, int, ShapePose<doub
 double shape_stiffness(const Prototype& p) { return p.particle_mass * p.shape_rate * p.shape_rate; }
 
 double shape_energy(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  if (p.goal.empty()) return 0;
   glm::dvec3 centre(0.0);
   for (std::size_t i = 0; i < p.goal.size(); ++i) centre += (x[i] - x[0]) / double(x.size());
   centre += x[0];

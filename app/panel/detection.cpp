@@ -173,7 +173,7 @@ void draw_detection(Widgets& w, Session& session, bool table_shown) {
   draw_contact_surface(w, session);
   w.row("Tolerance", w.px(label_column));
   changed |=
-      w.slider("Tolerance", settings.tolerance, least_tolerance, most_tolerance, "%.3f m",
+      w.slider("Tolerance", settings.tolerance, tolerance_from, tolerance_to, "%.3f m",
                surfaces_hold(session)
                    ? "Vertices closer than this are in contact (§2.3). With surface contact that pushes nothing: "
                      "it is detected, shown and compared, and tells which bodies sleep together."

@@ -192,9 +192,9 @@ TEST(Panel, DragsEverySliderToItsEnds) {
   rig.drag("Cell size", 500);
   EXPECT_NEAR(settings().cell_size.y, most_cell, 1e-5);
   rig.drag("Tolerance", -500);
-  EXPECT_NEAR(settings().tolerance, least_tolerance, 1e-5);
+  EXPECT_NEAR(settings().tolerance, tolerance_from, 1e-5);
   rig.drag("Tolerance", 500);
-  EXPECT_NEAR(settings().tolerance, most_tolerance, 1e-5);
+  EXPECT_NEAR(settings().tolerance, tolerance_to, 1e-5);
   rig.click("Self-collision");
   EXPECT_FALSE(settings().self_collision);
   rig.click("Scene's settings");
@@ -209,7 +209,7 @@ TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {
     rig.session.set_method(method.key);
     for (const int levels : {0, collide::max_levels}) {
       for (const float cell : {least_cell, most_cell}) {
-        for (const float tolerance : {least_tolerance, most_tolerance}) {
+        for (const float tolerance : {tolerance_from, tolerance_to}) {
           collide::Settings settings = rig.session.world().collision();
           settings.levels = levels;
           settings.cell_size = glm::vec3(cell);
