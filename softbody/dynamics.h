@@ -244,7 +244,7 @@ class Dynamics {
   glm::dvec3 grab_pull(const Prototype& prototype, float h, const glm::dvec3& velocity) const;
   void move_lane(Batch& batch, int from, int to);
   static bool moves(const Batch& batch);
-  std::size_t particle_count() const;  // of all bodies, those that do not move too
+  std::size_t particle_count() const;        // of all bodies, those that do not move too
   double fastest(const Batch& batch) const;  // m/s, of its particles
   Extent extent(const Batch& batch, const Components& boxed, const Components& measured) const;
   double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;

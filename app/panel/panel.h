@@ -11,7 +11,7 @@ inline constexpr float panel_width = 330;  // design pixels
 
 // Ends of the sliders; typed values stay within them too.
 inline constexpr float tolerance_from = 0.005f, tolerance_to = 0.5f;  // m
-inline constexpr float least_cell = 0.02f, most_cell = 5.0f;             // m
+inline constexpr float least_cell = 0.02f, most_cell = 5.0f;          // m
 
 /// Draws the panel over the area, `panel_width` wide; `opaque`: as begin_dock(). Between begin_frame() and end_frame()
 /// of the Gui.
