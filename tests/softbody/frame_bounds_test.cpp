@@ -179,7 +179,7 @@ TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
   };
   EXPECT_EQ(implicit(8, 4e4), implicit(0, 4e4)) << "5,298 particles";
   EXPECT_EQ(surface(8, 8e3), surface(0, 8e3));
-  // 41,250 particles, 42,384 with lanes that no body takes.
+  // 41,250 particles.
   EXPECT_GE(implicit(64, 1e4), implicit(0, 4e4));
   EXPECT_LE(implicit(64, 1e4), implicit(0, 4.5e4));
   EXPECT_GE(surface(64, 2e3), surface(0, 8e3));
