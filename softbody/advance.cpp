@@ -38,9 +38,10 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
   return stiffest;
 }
 
-Dynamics::Bound Dynamics::bound(double seconds) const {
+SubstepBound Dynamics::bound(double seconds) const {
   double stiffness = 0, damping = 0;  // over mass, the largest of all moving bodies
-  double own_step = infinite;         // s: of the body that bears the shortest by itself
+  double own_step = infinite;         // s: of the body that bears the shortest, contacts damp it or not
+  double lone_step = infinite;        // s: of the one that bears the shortest without contacts
   // That keep up with the fastest body near a solid; implicit steps have no bound of stability.
   double fewest = std::max(1.0, seconds / longest_step);
   double deforming = 0;  // 1/s: a bound by the present shape tells nothing of one far from it
@@ -57,6 +58,7 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     const Prototype& p = *b.prototype;
     double stiffest = stiffness_per_mass(b);
     double damper = p.spring_damping_bound;
+    lone_step = std::min(lone_step, integrator_->stable_step(stiffest, damper / p.particle_mass));
     if (!shield_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += Shield::stiffness_bound(k) / p.particle_mass;
@@ -67,23 +69,26 @@ Dynamics::Bound Dynamics::bound(double seconds) const {
     own_step = std::min(own_step, integrator_->stable_step(stiffest, p.spring_damping_bound / p.particle_mass));
     const Extent motion = extent(b, v_, v_);
     if (!b.near_solids.empty()) fewest = std::max(fewest, motion.longest() * seconds / (0.1 * p.radius));
-    deforming = std::max(deforming, motion.widest() / (0.25 * p.radius));
+    deforming = std::max(deforming, motion.widest() / (0.1 * p.radius));
     stiffness = std::max(stiffness, stiffest);
     damping = std::max(damping, damper / p.particle_mass);
   }
-  return {std::min(own_step, integrator_->stable_step(stiffness, damping)), fewest, deforming};
+  return {std::min(own_step, integrator_->stable_step(stiffness, damping)), fewest, deforming, 1 / lone_step};
 }
 
-int Dynamics::substeps(const Bound& b, double seconds, double at_least) {
+int Dynamics::substeps(const SubstepBound& b, double seconds, double at_least) {
   return int(std::min(most_substeps, std::ceil(std::max({b.fewest, seconds / b.step, at_least}))));
 }
 
 int Dynamics::substeps(double seconds) const { return substeps(bound(seconds), seconds, 1); }
 
-/// Those, or as many as keep up with a body that is changing its shape.
-int Dynamics::needed_substeps(double seconds) const {
-  const Bound b = bound(seconds);
-  return substeps(b, seconds, std::isfinite(b.step) ? seconds * b.deforming : 1);
+/// Those for what is left of a frame, or as many as keep up with a body that is changing its shape, or as are held.
+int Dynamics::needed_substeps(const Progress& frame) {
+  const SubstepBound b = bound(frame.left);
+  if (!std::isfinite(b.step)) return substeps(b, frame.left, 1);
+  // None that is held may cut a frame short. The rest of a frame takes what is left of its substeps, but for rounding.
+  held_rate_.ask(std::min(std::max(b.swinging, b.deforming), frame.most / frame.seconds));
+  return substeps(b, frame.left, frame.left * std::max(b.deforming, held_rate_.rate() * (1 - 1e-9)));
 }
 
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest
@@ -102,6 +107,7 @@ int Dynamics::substeps_within_bound(double h) const {
 
 void Dynamics::begin_frame(double seconds) {
   found_ = surface_work_ = implicit_ = 0;
+  held_rate_.pass(seconds);
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
   if (has_restitution_) before_ = v_;
@@ -146,7 +152,7 @@ bool Dynamics::spent(const Progress& frame) const {
 
 /// As many substeps as what bounds them may be trusted for.
 void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after_substep) {
-  const int most = frame.most - frame.substeps, stable = frame.fixed ? most : needed_substeps(frame.left);
+  const int most = frame.most - frame.substeps, stable = frame.fixed ? most : needed_substeps(frame);
   if (has_surface_) {
     find_surface_contacts(frame.left, frame.left / stable, frame.left / stable);
     for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);

@@ -30,7 +30,7 @@ double Dynamics::tremble(double step) const {
 void Dynamics::choose(double seconds) {
   constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");
-  const Bound b = bound(seconds);
+  const SubstepBound b = bound(seconds);
   const bool solid =
       std::any_of(moving_.begin(), moving_.end(), [](const Batch* m) { return !m->near_solids.empty(); });
   const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * b.fewest) : most;

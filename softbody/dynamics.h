@@ -14,6 +14,7 @@
 #include "softbody/prototype.h"
 #include "softbody/shield.h"
 #include "softbody/solid_features.h"
+#include "softbody/substeps.h"
 #include "softbody/surface_contact.h"
 
 namespace softbody {
@@ -74,6 +75,7 @@ struct DynamicsState {
   std::vector<ShieldPair> shield_pairs;
   SurfaceContact::State surface;
   std::optional<Grab> grab;
+  HeldRate held_rate;
 
   std::size_t bytes() const;
 };
@@ -270,15 +272,9 @@ class Dynamics {
   void take_substeps(Progress& frame, const std::function<void()>& after_substep);
   int substeps_left(const Progress& frame, int stable) const;
   int substeps_within_bound(double h) const;
-  int needed_substeps(double seconds) const;
-  /// What bounds a substep in the state at hand.
-  struct Bound {
-    double step;       // s
-    double fewest;     // substeps that keep up with the fastest body near a solid
-    double deforming;  // 1/s, steps that keep up with the body that changes its shape fastest
-  };
-  Bound bound(double seconds) const;
-  static int substeps(const Bound& bound, double seconds, double at_least);
+  int needed_substeps(const Progress& frame);
+  SubstepBound bound(double seconds) const;  // in the state at hand
+  static int substeps(const SubstepBound& bound, double seconds, double at_least);
   double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
   double tremble(double step) const;
   void choose(double seconds);
@@ -343,6 +339,7 @@ class Dynamics {
   std::vector<RigidSums> momenta_;  // of moving_, at the start of the frame; empty where keep_momenta() has no part
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
+  HeldRate held_rate_;
   std::size_t least_shared_ = 0;
   MaxWork max_work_;
   double surface_work_ = 0, implicit_ = 0;  // of the frame at hand, as max_work_ counts them

@@ -17,7 +17,7 @@ std::size_t DynamicsState::bytes() const {
 }
 
 DynamicsState Dynamics::save() const {
-  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), grab_};
+  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), grab_, held_rate_};
   for (Batch& b : state.batches) {  // for one frame only, and they point into the batch that they were copied from
     b.near_solids.clear();
     b.solid_features.clear();
@@ -35,6 +35,7 @@ void Dynamics::restore(const DynamicsState& state) {
   shield_.pairs = state.shield_pairs;
   surface_.restore(state.surface);
   grab_ = state.grab;
+  held_rate_ = state.held_rate;
   moving_.clear();
 }
 

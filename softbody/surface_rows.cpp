@@ -168,8 +168,8 @@ void SurfaceContact::deep_vertices(Step& step) {
     ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
                                 face_side.slot, face_side.stride, face_side.inverse_mass);
     row.feature = forgotten;
-    Memory none;
-    add_row(step, row, normal, glm::dot(p - corner[0], normal), none);
+    Memory unseen;
+    add_row(step, row, normal, glm::dot(p - corner[0], normal), unseen);
   }
 }
 

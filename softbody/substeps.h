@@ -1,0 +1,36 @@
+#pragma once
+// How many substeps a stretch of time takes.
+
+#include <algorithm>
+
+namespace softbody {
+
+/// What bounds substeps in a state of the bodies.
+struct SubstepBound {
+  double step;       // s, that is stable: infinite for integrators that are at any step
+  double fewest;     // of the stretch: those that keep up with the fastest body near a solid
+  double deforming;  // 1/s, that keep up with the body that changes its shape fastest
+  double swinging;   // 1/s, that are stable for what bodies do by themselves, contacts apart
+};
+
+/// Substeps a second that bodies asked for by themselves: no fewer are taken for half a second to one second more.
+/// Steps of one length keep the energy of a swing within bounds; where they get longer and shorter as it swings, they
+/// feed it, however short they are (Skeel and Gear 1992, "Does variable step size ruin a symplectic integrator?").
+class HeldRate {
+ public:
+  void pass(double seconds) {
+    age_ += seconds;
+    if (age_ < half_second) return;
+    before_ = now_;
+    now_ = age_ = 0;
+  }
+  void ask(double rate) { now_ = std::max(now_, rate); }
+  double rate() const { return std::max(now_, before_); }  // 1/s
+
+ private:
+  static constexpr double half_second = 0.5;
+  double now_ = 0, before_ = 0;  // 1/s, the most in the half second that runs, and in the one before
+  double age_ = 0;               // s, of the one that runs
+};
+
+}  // namespace softbody

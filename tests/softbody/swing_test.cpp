@@ -1,0 +1,143 @@
+// What swings undamped keeps its energy, however often the bound of a substep changes with its shape.
+
+#include <gtest/gtest.h>
+
+#include "softbody/snapshot.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// In balance at a pressure a little above that around it, and nearly undamped.
+Material swinging_ball(double stiffness, double damping_ratio) {
+  Material m = gas_ball();
+  m.structural = {stiffness, damping_ratio};
+  m.bend = {50, damping_ratio};
+  m.gas_pressure = 113e3;
+  m.ambient_pressure = 101'325;
+  m.start_in_equilibrium = true;
+  return m;
+}
+
+class Swing : public testing::TestWithParam<double> {};  // damping ratio
+
+/// Set going by another gas, down to none and up to almost twice as much.
+TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
+  for (const double stiffness : {200.0, 2e4})
+    for (const double pressure : {0.0, 5e4, 9e4, 116e3, 13e4, 15e4, 2e5}) {
+      Material m = swinging_ball(stiffness, GetParam());
+      World world(lone_body(m), {.integrator = "auto"});
+      run(world, 5);
+      m.gas_pressure = pressure;
+      world.set_material(0, m);
+      run(world, 3);  // the sudden force may bring the first substep's work besides
+      const auto energy = [&] {
+        const double h = world.dynamics().used_integrator().staggered ? world.dynamics().last_substep() : 0;
+        const BodyMeasures b = measure_bodies(world, h)[0];
+        return std::pair(b.energy.total() + b.staggering, b.energy.kinetic);
+      };
+      const double start = energy().first;
+      double motion = 0;
+      for (int frame = 0; frame < 120; ++frame) {
+        world.step();
+        const auto [total, kinetic] = energy();
+        motion = std::max(motion, kinetic);
+        ASSERT_LE(total, start + 0.1 * motion) << stiffness << " N/m, " << pressure << " Pa, frame " << frame;
+      }
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Damping, Swing, testing::Values(0.0, 0.005, 0.02));
+
+/// Squeezed for a frame and put back: nothing but memory asks for more substeps than before.
+class HeldSubsteps : public testing::Test {
+ protected:
+  void squeeze() {
+    const std::vector<Particle> before = particles_of(world);
+    place(world, {0.3, 0.3, 0.3});
+    world.step();
+    world.set_particles(0, before);
+    world.step();
+    squeezed = world.profile().substeps;
+  }
+
+  World world{lone_body(swinging_ball(200, 0.1)), {.integrator = "semi-implicit-euler"}};
+  int squeezed = 0;  // substeps of the frame after
+};
+
+TEST_F(HeldSubsteps, StayForHalfASecondAndAreGoneAfterOne) {
+  run(world, 5);
+  const int own = world.profile().substeps;
+  squeeze();
+  ASSERT_GT(squeezed, 2 * own);
+  for (int frame = 0; frame < 28; ++frame) {
+    world.step();
+    ASSERT_EQ(world.profile().substeps, squeezed) << frame;
+  }
+  run(world, 32);
+  EXPECT_EQ(world.profile().substeps, own);
+}
+
+TEST_F(HeldSubsteps, GoOnAfterGoingBack) {
+  run(world, 5);
+  squeeze();
+  const Snapshot then = world.snapshot();
+  run(world, 60);
+  const std::uint64_t hash = world.dynamics().hash();
+  const int later = world.profile().substeps;
+  world.restore(then);
+  run(world, 10);
+  EXPECT_EQ(world.profile().substeps, squeezed);
+  run(world, 50);
+  EXPECT_EQ(world.profile().substeps, later);
+  EXPECT_EQ(world.dynamics().hash(), hash);
+}
+
+TEST_F(HeldSubsteps, AreForgottenWhileEverybodySleeps) {
+  Scene scene = world.scene();
+  scene.sleep = {.speed = 1e6, .frames = 2};
+  World sleeper(scene, {.integrator = "semi-implicit-euler"});
+  const std::vector<Particle> before = particles_of(sleeper);
+  sleeper.step();
+  const int own = sleeper.profile().substeps;
+  place(sleeper, {0.3, 0.3, 0.3});
+  sleeper.step();
+  ASSERT_GT(sleeper.profile().substeps, 2 * own);
+  run(sleeper, 62);
+  ASSERT_TRUE(sleeper.all_at_rest());
+  sleeper.set_particles(0, before);
+  sleeper.step();
+  EXPECT_EQ(sleeper.profile().substeps, own);
+}
+
+/// They come and go, and are damped.
+TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
+  Scene scene = lone_body(spring_ball());
+  scene.materials[0].contact_stiffness = 1e4;
+  add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
+  World pair(scene, {.integrator = "semi-implicit-euler"});
+  pair.step();
+  const int touching = pair.profile().substeps;
+  std::vector<Particle> apart = particles_of(pair, 1);
+  for (Particle& p : apart) p.position.y += 1;
+  pair.set_particles(1, apart);
+  run(pair, 2);  // the first still goes by the contacts that were found before
+  EXPECT_LT(pair.profile().substeps, touching / 2);
+}
+
+/// A body that no number of substeps carries must not have its next frames cut short too.
+TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
+  run(world, 5);
+  const std::vector<Particle> before = particles_of(world);
+  std::vector<Particle> fast = before;
+  fast[0].velocity = {1e6, 0, 0};
+  world.set_particles(0, fast);
+  world.step();
+  ASSERT_LT(world.profile().seconds, world.frame_time());
+  world.set_particles(0, before);
+  world.step();
+  EXPECT_EQ(world.profile().seconds, world.frame_time());
+}
+
+}  // namespace
+}  // namespace softbody::test
