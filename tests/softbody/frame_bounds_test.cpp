@@ -34,7 +34,7 @@ TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
     world.step();
     return world.profile().substeps;
   };
-  EXPECT_EQ(most(1e4), World::max_substeps);
+  EXPECT_EQ(most(162), World::max_substeps) << "it has no more, whatever room its batch has";
   EXPECT_LT(most(100), World::max_substeps);
   EXPECT_NEAR(most(100), 2 * most(50), 1);
   EXPECT_EQ(most(0), 1);

@@ -144,6 +144,24 @@ TEST(Substeps, FollowTheBound) {
   }
 }
 
+/// However soft the body and stable the integrator.
+TEST(Substeps, AreNoLongerThanASixtiethOfASecondUnlessTheyAreFixed) {
+  for (const std::string integrator : {"semi-implicit-euler", "implicit", "xpbd"}) {
+    const int each = find_integrator(integrator)->substeps;
+    Material soft = spring_ball();
+    soft.structural.stiffness = soft.bend.stiffness = 0.01;
+    const auto substeps = [&](double frame_time, std::optional<int> fixed) {
+      World world(lone_body(soft), {.frame_time = frame_time, .integrator = integrator, .substeps = fixed});
+      world.step();
+      return world.profile().substeps;
+    };
+    EXPECT_GE(substeps(0.5, {}), 30) << integrator;
+    EXPECT_LE(substeps(0.5, {}), 32) << integrator;
+    EXPECT_EQ(substeps(1.0 / 60, {}), 1) << integrator;
+    EXPECT_EQ(substeps(0.5, 1), each) << integrator;
+  }
+}
+
 TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].structural.stiffness = 1e9;

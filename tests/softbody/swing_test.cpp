@@ -49,6 +49,29 @@ TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
 
 INSTANTIATE_TEST_SUITE_P(Damping, Swing, testing::Values(0.0, 0.005, 0.02));
 
+/// A small swing, in which forces are all but linear.
+TEST(StaggeredSteps, ConserveTheEnergyOfTheirStaggering) {
+  Material m = spring_ball();
+  m.structural.damping_ratio = m.bend.damping_ratio = 0;
+  const Scene scene = lone_body(m);
+  const int least = World(scene, {.integrator = "semi-implicit-euler"}).dynamics().substeps(1.0 / 60);
+  World world(scene, {.integrator = "semi-implicit-euler", .substeps = least});
+  place(world, {1.001, 1, 0.999});
+  double motion = 0, lowest[2]{1e300, 1e300}, highest[2]{-1e300, -1e300};
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    const BodyMeasures b = measure(world, 0, world.dynamics().last_substep());
+    motion = std::max(motion, b.energy.kinetic);
+    for (const int staggered : {0, 1}) {
+      const double energy = b.energy.total() + staggered * b.staggering;
+      lowest[staggered] = std::min(lowest[staggered], energy);
+      highest[staggered] = std::max(highest[staggered], energy);
+    }
+  }
+  EXPECT_GT(highest[0] - lowest[0], 0.1 * motion) << "the plain one swings";
+  EXPECT_LT(highest[1] - lowest[1], 0.01 * motion);
+}
+
 /// Squeezed for a frame and put back: nothing but memory asks for more substeps than before.
 class HeldSubsteps : public testing::Test {
  protected:
