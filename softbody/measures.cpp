@@ -32,6 +32,21 @@ double largest_strain(const Prototype& p, const std::vector<glm::dvec3>& x) {
   return most;
 }
 
+/// BodyMeasures::staggering, of a body whose deformation holds so many J now.
+double staggering(const World& world, BodyId id, double substep, double deformation_now) {
+  const Prototype& p = world.prototype(id);
+  std::vector<glm::dvec3> middle, before;  // of the last substep
+  double sum = 0;
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
+    const Particle q = world.dynamics().particle(id, i);
+    middle.push_back(q.position - substep / 2 * q.velocity);
+    before.push_back(q.position - substep * q.velocity);
+    sum += p.particle_mass * glm::dot(world.scene().gravity, substep / 2 * q.velocity);
+  }
+  const auto at = [&](const std::vector<glm::dvec3>& x) { return deformation(p, x, volume_of(p, x)).deformation(); };
+  return sum + 2 * at(middle) - (deformation_now + at(before)) / 2 - deformation_now;
+}
+
 }  // namespace
 
 Energy& Energy::operator+=(const Energy& other) {
@@ -47,18 +62,15 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   const Scene& scene = world.scene();
   BodyMeasures m;
   double kinetic = 0, gravity = 0;
-  std::vector<glm::dvec3> x, middle, before;  // `middle` and `before` of the last substep
-  for (auto* places : {&x, &middle, &before}) places->reserve(p.mesh.vertices.size());
+  std::vector<glm::dvec3> x;
+  x.reserve(p.mesh.vertices.size());
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
     const Particle q = world.dynamics().particle(id, i);
     x.push_back(q.position);
-    middle.push_back(q.position - substep / 2 * q.velocity);
-    before.push_back(q.position - substep * q.velocity);
     const double speed2 = glm::dot(q.velocity, q.velocity);
     m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
     kinetic += 0.5 * p.particle_mass * speed2;
     gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
-    if (substep > 0) m.staggering += p.particle_mass * glm::dot(scene.gravity, substep / 2 * q.velocity);
     m.momentum += p.particle_mass * q.velocity;
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
@@ -66,12 +78,7 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   const double volume = volume_of(p, x);
   m.energy = deformation(p, x, volume);
   m.largest_strain = largest_strain(p, x);
-  if (substep > 0) {
-    const auto at = [&](const std::vector<glm::dvec3>& places) {
-      return deformation(p, places, volume_of(p, places)).deformation();
-    };
-    m.staggering += 2 * at(middle) - (m.energy.deformation() + at(before)) / 2 - m.energy.deformation();
-  }
+  if (substep > 0) m.staggering = staggering(world, id, substep, m.energy.deformation());
   m.energy.kinetic = kinetic;
   m.energy.gravity = gravity;
   m.closed = p.mesh.closed;

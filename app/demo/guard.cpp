@@ -98,7 +98,10 @@ std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector
     const auto body = static_cast<softbody::BodyId>(lost - bodies.begin());
     return Alarm{body, world.frame(), format("Body %u is no longer finite", body)};
   }
-  if (bodies.size() != mass_.size() || looks_.empty()) begin(world, bodies.size());
+  std::size_t held = 0;
+  for (softbody::BodyId b = 0; b < bodies.size(); ++b) held += world.body(b).held;
+  if (bodies.size() != mass_.size() || held != held_ || looks_.empty()) begin(world, bodies.size());
+  held_ = held;
   Look now = sum_up(bodies);
   std::optional<Alarm> alarm;
   if (looks_.empty())

@@ -31,7 +31,8 @@ class Guard {
   /// m/s: where nothing moves, rounding makes bodies tremble far more slowly than that.
   static constexpr double tremble = 1e-3;
 
-  /// Looks at a frame; `bodies` were measured in it. Bodies that come or go begin it anew.
+  /// Looks at a frame; `bodies` were measured in it. Bodies that come or go begin it anew, and those that are let go or
+  /// held: one that was held out of its balance springs back with what no look has seen.
   std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
   /// The user has changed something: energy counts from the next look on.
   void restart() { looks_.clear(); }
@@ -53,6 +54,7 @@ class Guard {
   softbody::BodyId culprit(const std::vector<softbody::BodyMeasures>& bodies) const;
 
   std::deque<Look> looks_;              // of late
+  std::size_t held_ = 0;                // bodies
   std::vector<double> body_energy_;     // J, at the last look
   std::vector<double> resting_, mass_;  // J of the starting shape, and kg
   double fall_ = 0;                     // J: m |g| R of all
