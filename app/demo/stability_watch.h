@@ -21,7 +21,7 @@ struct StepMargin {
   enum class Bound {
     stable,         // shorter steps than it are; a fifth of it is kept in reserve
     by_damping,     // they are where springs are all that swings: gas and contacts may still gain energy
-    unconditional,  // all are: it is only to follow fast bodies near solids
+    unconditional,  // all are: it only follows fast bodies near solids, and long frames
   };
   static constexpr double reserve = 0.2;
 

@@ -85,7 +85,8 @@ Light light_of(const StepMargin& margin) {
     return {light_amber, "Amber", "a frame would take more substeps than there may be, so less of it is simulated."};
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
-    return {light_amber, "Amber", "stable at any step, but bodies this fast near solids want shorter ones."};
+    return {light_amber, "Amber",
+            "stable at any step, but bodies this fast near solids, or frames this long, want shorter ones."};
   if (margin.kind == Bound::by_damping && within && margin.taken > 0)
     return {light_amber, "Amber", "stable where dampers are strong enough: gas and contacts may still gain energy."};
   if (within) return {light_green, "Green", "the step is within the stability bound."};
