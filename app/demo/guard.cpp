@@ -14,6 +14,7 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
   looks_.clear();
   resting_.clear();
   mass_.clear();
+  deep_.clear();
   fall_ = 0;
   const double g = glm::length(world.scene().gravity);
   const softbody::Prototype* last = nullptr;
@@ -21,6 +22,7 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
     const softbody::Prototype& p = world.prototype(b);
     resting_.push_back(&p == last ? resting_.back() : softbody::starting_energy(p).deformation());
     mass_.push_back(p.material.mass);
+    deep_.push_back(deep * p.radius);
     fall_ += p.material.mass * g * p.radius;
     last = &p;
   }
@@ -52,6 +54,7 @@ Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) con
     look.active += e.kinetic + stored;
     look.speed = std::max(look.speed, bodies[b].max_speed);
     look.bounce = std::max(look.bounce, std::sqrt(2 * stored / mass_[b]));
+    look.pushed = look.pushed || bodies[b].deepest_penetration > deep_[b];
   }
   return look;
 }
@@ -60,7 +63,7 @@ Guard::Look Guard::most_of_late() const {
   Look most = looks_.front();
   for (const Look& l : looks_)
     most = {std::max(most.energy, l.energy), std::max(most.active, l.active), std::max(most.speed, l.speed),
-            std::max(most.bounce, l.bounce)};
+            std::max(most.bounce, l.bounce), false};
   return most;
 }
 
@@ -83,6 +86,7 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
         body, frame,
         format("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
   }
+  if (looks_.back().pushed) return {};
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
   if (now.energy <= energy) return {};

@@ -28,6 +28,9 @@ class Guard {
   /// Times what is within reach of a body whose particles share its energy evenly. The shipped scenes get to 0.9; gas
   /// that is suddenly set to its highest pressure drives some particles to 1.55, however short the steps.
   static constexpr double most_speed = 2;
+  /// Of a body's radius: deeper in a solid, which came where the body was, it is pushed out with energy that no look
+  /// has seen. What meets a solid as it moves stays outside.
+  static constexpr double deep = 1e-3;
   /// m/s: where nothing moves, rounding makes bodies tremble far more slowly than that.
   static constexpr double tremble = 1e-3;
 
@@ -41,10 +44,11 @@ class Guard {
 
  private:
   struct Look {
-    double energy = 0;  // J, of all bodies
-    double active = 0;  // J, of their motion and deformation
-    double speed = 0;   // m/s, of the fastest particle
-    double bounce = 0;  // m/s, that a body can give itself by springing back to its shape
+    double energy = 0;    // J, of all bodies
+    double active = 0;    // J, of their motion and deformation
+    double speed = 0;     // m/s, of the fastest particle
+    double bounce = 0;    // m/s, that a body can give itself by springing back to its shape
+    bool pushed = false;  // a body is deep in a solid
   };
   void begin(const softbody::World& world, std::size_t bodies);
   void add_contacts(const softbody::World& world, Look& first) const;
@@ -57,6 +61,7 @@ class Guard {
   std::size_t held_ = 0;                // bodies
   std::vector<double> body_energy_;     // J, at the last look
   std::vector<double> resting_, mass_;  // J of the starting shape, and kg
+  std::vector<double> deep_;            // m, of each body
   double fall_ = 0;                     // J: m |g| R of all
   double gravity_ = 0;                  // m/s, that it adds within memory
 };
