@@ -85,6 +85,7 @@ int Dynamics::substeps(double seconds) const { return substeps(bound(seconds), s
 /// Those for what is left of a frame, or as many as keep up with a body that is changing its shape, or as are held.
 int Dynamics::needed_substeps(const Progress& frame) {
   const SubstepBound b = bound(frame.left);
+  shield_work_ += double(shield_.pairs.size());
   if (!std::isfinite(b.step)) return substeps(b, frame.left, 1);
   // None that is held may cut a frame short. The rest of a frame takes what is left of its substeps, but for rounding.
   held_rate_.ask(std::min(std::max(b.swinging, b.deforming), frame.most / frame.seconds));
@@ -106,7 +107,7 @@ int Dynamics::substeps_within_bound(double h) const {
 }
 
 void Dynamics::begin_frame(double seconds) {
-  found_ = surface_work_ = implicit_ = 0;
+  found_ = surface_work_ = implicit_ = shield_work_ = 0;
   held_rate_.pass(seconds);
   if (has_surface_) wake_what_is_hit(seconds);
   moving_.clear();
@@ -147,7 +148,8 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
 bool Dynamics::spent(const Progress& frame) const {
   if (frame.substeps >= frame.most) return true;
   const double times = max_work_.times(particle_count());
-  return !frame.fixed && (surface_work_ >= times * max_work_.surface || implicit_ >= times * max_work_.implicit);
+  return !frame.fixed && (surface_work_ >= times * max_work_.surface || implicit_ >= times * max_work_.implicit ||
+                          shield_work_ >= times * max_work_.shield);
 }
 
 /// As many substeps as what bounds them may be trusted for.
@@ -170,6 +172,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
     done += steps;
     frame.substeps += steps;
+    shield_work_ += double(shield_.pairs.size()) * steps;
     if (!surface_.empty()) surface_work_ += surface_.work_of_substep(float(h)) * steps;
     for (auto& of_thread : implicit_work_)
       for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();

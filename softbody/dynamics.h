@@ -149,7 +149,7 @@ class Dynamics {
 
   /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work: unless substeps
   /// are fixed, their bound is worked out anew as bodies move, and those that are crushed may ask for any number, and
-  /// be full of candidates. after_substep: called by one thread while the others wait.
+  /// be full of contacts. after_substep: called by one thread while the others wait.
   Advance advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
   int substeps(double seconds) const;
@@ -342,7 +342,7 @@ class Dynamics {
   HeldRate held_rate_;
   std::size_t least_shared_ = 0;
   MaxWork max_work_;
-  double surface_work_ = 0, implicit_ = 0;  // of the frame at hand, as max_work_ counts them
+  double surface_work_ = 0, implicit_ = 0, shield_work_ = 0;  // of the frame at hand, as max_work_ counts them
   int active_threads_ = 1;
 };
 

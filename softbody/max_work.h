@@ -12,11 +12,12 @@ namespace softbody {
 struct MaxWork {
   double surface = 2e7;   // contact of surfaces: SurfaceContact::work_of_substep(), and SurfaceSearch::work()
   double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
+  double shield = 1e7;    // pairs, times how often each is worked out: once a substep, and once a bound of these
   double at_once = double(1 << 24);  // candidates, 1.5 GiB; see candidates()
   /// In a world of more, a frame may be no more work than in one of so many, explicit substeps included.
   double most_particles = std::numeric_limits<double>::infinity();
 
-  /// What `surface` and `implicit` are multiplied by in a world of so many particles.
+  /// What `surface`, `implicit` and `shield` are multiplied by in a world of so many particles.
   double times(std::size_t particles) const {
     return std::max(1.0, std::min(double(particles), most_particles) / 10'000);
   }

@@ -71,6 +71,37 @@ TEST(Substeps, ThatAreImplicitAreFewer) {
   EXPECT_EQ(world.time(), world.profile().seconds);
 }
 
+/// One body in another of its kind: each pair of the shield is worked out for the bound of the first substeps, in the
+/// first of them, in the others for which that bound may be trusted, and so on.
+TEST(Substeps, OfManyContactsAreBoundByTheirWork) {
+  Scene scene = lone_body(gas_ball(), {0, 5, 0});
+  add_body(scene, {0.3, 0, 0}, {});
+  scene.gravity = {};
+  const auto of_work = [&](double pairs, std::optional<int> substeps) {
+    World world(scene, {.integrator = "semi-implicit-euler", .substeps = substeps, .max_work = {.shield = pairs}});
+    world.step();
+    EXPECT_TRUE(measure(world).finite);
+    return world;
+  };
+  const World whole = of_work(1e9, {});
+  const double pairs = double(whole.dynamics().shield_energies().size());
+  ASSERT_GT(pairs, 10);
+  ASSERT_EQ(whole.profile().seconds, whole.frame_time());
+  const auto substeps = [&](double times) { return of_work(times * pairs, {}).profile().substeps; };
+  EXPECT_EQ(substeps(0), 1);
+  EXPECT_EQ(substeps(2), 1) << "a bound and a substep";
+  const int trusted = substeps(2.01);
+  EXPECT_GT(trusted, 1);
+  EXPECT_LT(trusted, whole.profile().substeps);
+  EXPECT_EQ(substeps(1 + trusted), trusted);
+  const int next = substeps(1 + trusted + 0.01);
+  EXPECT_GT(next, trusted);
+  EXPECT_EQ(substeps(1 + next + 0.5), next) << "two bounds";
+  EXPECT_GT(substeps(2 + next + 0.01), next);
+  EXPECT_LT(of_work(0, {}).profile().seconds, whole.frame_time());
+  EXPECT_EQ(of_work(0, whole.profile().substeps).profile().seconds, whole.frame_time()) << "who fixes them gets them";
+}
+
 /// Two bodies side by side in contact of their surfaces.
 Scene touching_surfaces() {
   Scene scene = lone_body(gas_ball());
