@@ -262,6 +262,14 @@ std::size_t SurfaceContact::rows() const {
   return sum;
 }
 
+bool SurfaceContact::gives_energy() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
+    const auto first = threads_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
+    return p.parting ||
+           std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.pressed > 0 && row.target > 0; });
+  });
+}
+
 std::vector<collide::ItemPair> SurfaceContact::touching() const {
   std::vector<collide::ItemPair> list;
   for (const Pair& p : pairs_)

@@ -122,6 +122,8 @@ class SurfaceContact {
   /// Every two bodies of which features may touch in the frame at hand, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
+  /// Whether the last substep pushed out what overlaps, or threw back what hit: with energy that nobody has put in.
+  bool gives_energy() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
   std::vector<SurfaceTouch> touches(const collide::Bodies& vertices) const;

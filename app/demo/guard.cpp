@@ -29,20 +29,19 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
   gravity_ = g * static_cast<double>(memory) * world.frame_time();
 }
 
-/// What contacts hold as it begins, for a body may have come where another is: shields give back the work of their
-/// push, and a surface that is pushed out of another throws an elastic body off twice as fast as it is pushed.
-void Guard::add_contacts(const softbody::World& world, Look& first) const {
-  constexpr double parting = 2 * double(softbody::SurfaceContact::push_speed);
+/// What shields hold as it begins, for a body may have come where another is: they give back the work of their push.
+void Guard::add_shields(const softbody::World& world, Look& first) const {
   const double held = softbody::total(world.shield_energies());
   first.energy += held;
   if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
-  std::vector<bool> parts(mass_.size(), false);
-  for (const auto& [a, b] : world.dynamics().surface_contact().touching()) parts[a] = parts[b] = true;
-  for (std::size_t b = 0; b < parts.size(); ++b) {
-    if (!parts[b]) continue;
-    first.energy += 0.5 * mass_[b] * parting * parting;
-    first.bounce = std::max(first.bounce, parting);
-  }
+}
+
+/// Notes whether surfaces that lay in each other as it began still come apart.
+void Guard::follow_parting(const softbody::World& world, Look& now) {
+  parting_ = world.dynamics().surface_contact().gives_energy() ? std::max(parting_, 1) - 1 : 0;
+  if (parting_ == 0) return;
+  now.pushed = true;
+  now.bounce = std::max(now.bounce, 2 * double(softbody::SurfaceContact::push_speed));  // elastic bodies are thrown off
 }
 
 Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) const {
@@ -86,7 +85,7 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
         body, frame,
         format("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
   }
-  if (looks_.back().pushed) return {};
+  if (parting_ > 0 || looks_.back().pushed) return {};
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
   if (now.energy <= energy) return {};
@@ -108,10 +107,12 @@ std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector
   held_ = held;
   Look now = sum_up(bodies);
   std::optional<Alarm> alarm;
-  if (looks_.empty())
-    add_contacts(world, now);
-  else
-    alarm = judge(now, bodies, world.frame());
+  if (looks_.empty()) {
+    add_shields(world, now);
+    parting_ = static_cast<int>(memory) + 1;
+  }
+  follow_parting(world, now);
+  if (!looks_.empty()) alarm = judge(now, bodies, world.frame());
   looks_.push_back(now);
   if (looks_.size() > memory) looks_.pop_front();
   body_energy_.clear();

@@ -35,7 +35,9 @@ class Guard {
   static constexpr double tremble = 1e-3;
 
   /// Looks at a frame; `bodies` were measured in it. Bodies that come or go begin it anew, and those that are let go or
-  /// held: one that was held out of its balance springs back with what no look has seen.
+  /// held: one that was held out of its balance springs back with what no look has seen. Surfaces that lie in each
+  /// other as it begins come apart with energy that nobody has put in: until they have, for `memory` looks at most,
+  /// none is judged.
   std::optional<Alarm> look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
   /// The user has changed something: energy counts from the next look on.
   void restart() { looks_.clear(); }
@@ -48,10 +50,11 @@ class Guard {
     double active = 0;    // J, of their motion and deformation
     double speed = 0;     // m/s, of the fastest particle
     double bounce = 0;    // m/s, that a body can give itself by springing back to its shape
-    bool pushed = false;  // a body is deep in a solid
+    bool pushed = false;  // a body is deep in a solid, or surfaces in each other as the guard began
   };
   void begin(const softbody::World& world, std::size_t bodies);
-  void add_contacts(const softbody::World& world, Look& first) const;
+  void add_shields(const softbody::World& world, Look& first) const;
+  void follow_parting(const softbody::World& world, Look& now);
   Look sum_up(const std::vector<softbody::BodyMeasures>& bodies) const;
   Look most_of_late() const;
   std::optional<Alarm> judge(const Look& now, const std::vector<softbody::BodyMeasures>& bodies, int frame) const;
@@ -59,6 +62,7 @@ class Guard {
 
   std::deque<Look> looks_;              // of late
   std::size_t held_ = 0;                // bodies
+  int parting_ = 0;                     // looks that surfaces may still take to come apart, with energy from nowhere
   std::vector<double> body_energy_;     // J, at the last look
   std::vector<double> resting_, mass_;  // J of the starting shape, and kg
   std::vector<double> deep_;            // m, of each body

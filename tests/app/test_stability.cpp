@@ -143,6 +143,55 @@ TEST(Guard, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
   EXPECT_TRUE(guard.look(world, bodies));
 }
 
+/// A row of bodies in each other, each of which is pushed off from the next.
+TEST(Guard, IsCalmWhereSurfacesArePushedOutOfEachOther) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  scene.spheres.clear();
+  scene.ground.reset();
+  scene.bodies.resize(24, scene.bodies[0]);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  Guard guard;
+  const auto look = [&](double joules) {
+    world.step();
+    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    bodies[0].energy.elastic += joules;
+    return guard.look(world, bodies);
+  };
+  ASSERT_FALSE(look(0));
+  const double first = softbody::measure(world).energy;
+  for (int i = 0; i < 100; ++i) {
+    const auto alarm = look(0);
+    ASSERT_FALSE(alarm) << "frame " << i << ": " << alarm->what;
+  }
+  const double last = softbody::measure(world).energy;
+  EXPECT_GT(last, 1.5 * first);
+  EXPECT_TRUE(look(0.2 * last)) << "they are apart";
+}
+
+/// Sheets in one plane, which never come apart.
+TEST(Guard, WaitsASecondForSurfacesToComeApart) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  for (softbody::BodySource& body : scene.bodies) {
+    body.mesh = {.kind = "grid", .columns = 6, .rows = 6, .width = 1, .depth = 1};
+    body.position = {0, 4, 0};
+  }
+  scene.bodies[1].position += glm::dvec3(0.02, 0, 0.01);
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  Guard guard;
+  for (std::size_t i = 0; i < 2 * Guard::memory; ++i) {
+    world.step();
+    ASSERT_TRUE(world.dynamics().surface_contact().gives_energy()) << i;
+    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    bodies[0].energy.elastic = std::pow(2.0, double(i));
+    EXPECT_EQ(guard.look(world, bodies).has_value(), i > Guard::memory) << i;
+  }
+}
+
 /// Gas that is suddenly set to another pressure makes bodies swing as fast as explicit steps can follow.
 TEST(Guard, IsCalmWhereBodiesSwingFast) {
   for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
