@@ -85,7 +85,7 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
         body, frame,
         format("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
   }
-  if (parting_ > 0 || looks_.back().pushed) return {};
+  if (looks_.back().pushed) return {};
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const double energy = most.energy + most_gain * (most.active + fall_) + 0.5 * mass * tremble * tremble;
   if (now.energy <= energy) return {};
