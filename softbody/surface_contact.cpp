@@ -265,8 +265,7 @@ std::size_t SurfaceContact::rows() const {
 bool SurfaceContact::gives_energy() const {
   return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
     const auto first = threads_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
-    return p.parting ||
-           std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.pressed > 0 && row.target > 0; });
+    return p.parting || std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.target > 0; });
   });
 }
 

@@ -122,7 +122,7 @@ class SurfaceContact {
   /// Every two bodies of which features may touch in the frame at hand, a < b.
   std::vector<collide::ItemPair> touching() const;
   std::size_t rows() const;
-  /// Whether the last substep pushed out what overlaps, or threw back what hit: with energy that nobody has put in.
+  /// Whether the last substep was to push out what overlaps, or throw back what hit: with energy that nobody puts in.
   bool gives_energy() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
