@@ -73,7 +73,8 @@ void OutputFile::commit() {
 }
 
 void OutputFile::fail(const std::string& why) const {
-  throw UsageError(path_.string() + ": cannot be written: " + why + "; name a file in a folder of your own");
+  throw UsageError(path_.string() + ": cannot be written: " + why +
+                   "; name a file where you may write and there is room");
 }
 
 }  // namespace app
