@@ -1,6 +1,6 @@
 // Worlds of every value that a scene file may hold, in frames of any length, under changing hands: such a scene reads
 // back as it was written, is refused in one line or moves, stays finite in every step that the program chooses by
-// itself, and goes on from a snapshot to the bit.
+// itself, and goes on from a snapshot to the bit, also in a world of other threads and instructions.
 
 #include "random_scene.h"
 #include "require.h"
@@ -68,6 +68,11 @@ void change(softbody::World& world, Bytes& bytes) {
       case 8:
         world.add(read_body(bytes, int(world.scene().materials.size())));
         break;
+      case 9: {
+        const auto all = softbody::integrators();
+        world.set_integrator(all[std::size_t(bytes.below(int(all.size())))].key, std::nullopt);
+        break;
+      }
       default:
         break;
     }
@@ -75,6 +80,25 @@ void change(softbody::World& world, Bytes& bytes) {
     require_one_line(error);
     require(world.state_hash() == before, "a refused change has changed something");
   }
+}
+
+/// One step. At times it is done three times from a snapshot of before: here, here again and in a world of its own.
+void step(softbody::World& world, const softbody::World::Options& options, bool thrice) {
+  if (!thrice) return world.step();
+  const softbody::Snapshot snapshot = world.snapshot();
+  world.step();
+  const std::uint64_t once = world.state_hash();
+  world.restore(snapshot);
+  world.step();
+  require(world.state_hash() == once, "it goes on from a snapshot in another way");
+  softbody::World::Options other_way = options;
+  other_way.threads = 2;
+  other_way.least_shared = 1;
+  other_way.isa = softbody::Isa::baseline;
+  softbody::World twin(softbody::Scene(snapshot.scene), other_way);
+  twin.restore(snapshot);
+  twin.step();
+  require(twin.state_hash() == once, "two threads of baseline code go on in another way");
 }
 
 void run(Bytes bytes) {
@@ -93,16 +117,7 @@ void run(Bytes bytes) {
     return require_one_line(error);
   }
   for (int frame = 0, substeps = 0; frame < most_frames && substeps < most_substeps; ++frame) {
-    if (bytes.below(8) != 0) {
-      world->step();
-    } else {
-      const softbody::Snapshot snapshot = world->snapshot();
-      world->step();
-      const std::uint64_t once = world->state_hash();
-      world->restore(snapshot);
-      world->step();
-      require(world->state_hash() == once, "it goes on from a snapshot in another way");
-    }
+    step(*world, options, bytes.below(8) == 0);
     substeps += world->profile().substeps;
     require(softbody::measure(*world).finite, "not finite");
     change(*world, bytes);

@@ -136,6 +136,18 @@ struct Moving {
   }
 };
 
+/// Smooth, and what meets it stays there.
+PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double need,
+                   const glm::dvec3& force = glm::dvec3(0.0)) {
+  return {.at = particle * lanes + lane,
+          .friction = 0,
+          .restitution = 0,
+          .normal = normal,
+          .need = need,
+          .out = 0,
+          .force = force};
+}
+
 TEST(ImplicitEnergy, TakesBackWhatIsUndue) {
   for (const bool pushed : {false, true}) {
     Moving m;
@@ -167,6 +179,51 @@ TEST(ImplicitEnergy, TakesBackWhatIsUndue) {
     EXPECT_FALSE(take_back(*m.prototype, m.work, 1, std::numeric_limits<double>::infinity(), pushed));
     EXPECT_EQ(m.work.end_v, before);
   }
+}
+
+/// With the force `force` whatever moves.
+LinearShield shield(std::size_t particle, std::size_t lane, const glm::dvec3& normal, const glm::dvec3& force) {
+  return {.at = particle * lanes + lane, .normal = normal, .slopes = {}, .force = force};
+}
+
+/// A plane, a shield and gravity act on a ball; what lanes beside it feel has no part in it.
+TEST(KeepsBalance, WeighsMomentumAgainstTheForces) {
+  constexpr double h = 0.01;
+  const glm::dvec3 gravity(0, -9.81, 0), by_plane(30, 200, -10), by_shield(0, 0, 150);  // N
+  Moving m;
+  m.work.planes = {plane(3, 1, {0, 1, 0}, 0, by_plane), plane(3, 2, {0, 1, 0}, 0, {1e3, 1e3, 1e3})};
+  m.work.shields = {shield(5, 1, {0, 0, 1}, by_shield), shield(5, 2, {0, 0, 1}, {0, 0, 1e3})};
+  const glm::dvec3 given = h * (by_plane + by_shield);
+  const double tenth = 0.1 * (glm::length(given) + h * m.prototype->material.mass * glm::length(gravity));
+  const auto ends_with = [&](const glm::dvec3& momentum) {  // kg m/s, more than it started with
+    for (std::size_t i = 0; i < m.prototype->mesh.vertices.size(); ++i)
+      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.prototype->material.mass);
+    return keeps_balance(*m.prototype, m.work, 1, h, gravity);
+  };
+  const glm::dvec3 due = given + h * m.prototype->material.mass * gravity;
+  for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
+    for (const double sign : {-1.0, 1.0}) {
+      EXPECT_TRUE(ends_with(due + 0.99 * sign * tenth * way));
+      EXPECT_FALSE(ends_with(due + 1.01 * sign * tenth * way));
+    }
+  EXPECT_FALSE(ends_with(glm::dvec3(std::numeric_limits<double>::quiet_NaN())));
+}
+
+/// Two planes stand in each other's way: it ends before both, at the velocity that takes it there.
+TEST(ClearPlanes, LeavesNoParticleBehind) {
+  constexpr double h = 0.01;
+  Moving m;
+  const glm::dvec3 slanting = glm::normalize(glm::dvec3(1, 2, 0));
+  m.work.planes = {plane(3, 1, {0, 1, 0}, 0.02), plane(3, 1, slanting, 0.025), plane(4, 1, {0, 1, 0}, -0.001)};
+  const Lanes before_x = m.work.end_x, before_v = m.work.end_v;
+  EXPECT_TRUE(behind_planes(m.work)[1]);
+  EXPECT_FALSE(behind_planes(m.work)[2]);
+  clear_planes(m.work, h);
+  const glm::dvec3 moved = at(m.work.end_x, 3, 1) - at(before_x, 3, 1);
+  EXPECT_GE(moved.y, 0.02);
+  EXPECT_NEAR(glm::dot(moved, slanting), 0.025, 1e-12) << "m: no farther than it needs";
+  EXPECT_LT(glm::distance(at(m.work.end_v, 3, 1) - at(before_v, 3, 1), moved / h), 1e-9);
+  EXPECT_EQ(at(m.work.end_x, 4, 1), at(before_x, 4, 1));
 }
 
 TEST(GoOnAsOne, LeavesARigidMotionAsItIs) {
@@ -202,14 +259,7 @@ TEST(GoOnAsOne, KeepsSpinAndStopsAtPlanes) {
   const glm::dvec3 spin(0, 3, 0);
   for (std::size_t i = 0; i < n; ++i)
     put(m.work.v, i, 1, glm::dvec3(2, -1, 0) + glm::cross(spin, m.prototype->start[i]));
-  for (std::size_t i = 0; i < n; ++i)
-    m.work.planes.push_back({.at = i * lanes + 1,
-                             .friction = 0,
-                             .restitution = 0,
-                             .normal = {0, 1, 0},
-                             .need = 0,
-                             .out = 0,
-                             .force = {1, 1, 1}});
+  for (std::size_t i = 0; i < n; ++i) m.work.planes.push_back(plane(i, 1, {0, 1, 0}, 0, {1, 1, 1}));
   go_on_as_one(m.work, 1, 0.01, glm::dvec3(0.0));
   const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
   EXPECT_LT(glm::distance(end.spin, spin), 0.01);
