@@ -83,7 +83,8 @@ void change(softbody::World& world, Bytes& bytes) {
 }
 
 /// One step. At times it is done three times from a snapshot of before: here, here again and in a world of its own.
-void step(softbody::World& world, const softbody::World::Options& options, bool thrice) {
+/// start: a scene that options are good for.
+void step(softbody::World& world, bool thrice, const softbody::Scene& start, const softbody::World::Options& options) {
   if (!thrice) return world.step();
   const softbody::Snapshot snapshot = world.snapshot();
   world.step();
@@ -95,7 +96,7 @@ void step(softbody::World& world, const softbody::World::Options& options, bool 
   other_way.threads = 2;
   other_way.least_shared = 1;
   other_way.isa = softbody::Isa::baseline;
-  softbody::World twin(softbody::Scene(snapshot.scene), other_way);
+  softbody::World twin(start, other_way);
   twin.restore(snapshot);
   twin.step();
   require(twin.state_hash() == once, "two threads of baseline code go on in another way");
@@ -103,7 +104,7 @@ void step(softbody::World& world, const softbody::World::Options& options, bool 
 
 void run(Bytes bytes) {
   static TextFile file(".toml");
-  softbody::Scene scene = read_scene(bytes, file.path().stem().string());
+  const softbody::Scene scene = read_scene(bytes, file.path().stem().string());
   require(through_file(scene, file) == scene, "a scene does not read back as it was written");
   softbody::World::Options options;
   options.max_work = work;
@@ -112,12 +113,12 @@ void run(Bytes bytes) {
   if (options.frame_time == 0) options.frame_time = bytes.one_of({1e-6, 0.1, 1.0});
   std::optional<softbody::World> world;
   try {
-    world.emplace(std::move(scene), options);
+    world.emplace(scene, options);
   } catch (const softbody::SceneError& error) {
     return require_one_line(error);
   }
   for (int frame = 0, substeps = 0; frame < most_frames && substeps < most_substeps; ++frame) {
-    step(*world, options, bytes.below(8) == 0);
+    step(*world, bytes.below(8) == 0, scene, options);
     substeps += world->profile().substeps;
     require(softbody::measure(*world).finite, "not finite");
     change(*world, bytes);
