@@ -82,13 +82,18 @@ int Dynamics::substeps(const SubstepBound& b, double seconds, double at_least) {
 
 int Dynamics::substeps(double seconds) const { return substeps(bound(seconds), seconds, 1); }
 
+/// most: 1/s. None that is held may cut a frame short.
+void Dynamics::hold(const SubstepBound& b, double most) {
+  held_rate_.ask(std::min(std::max(b.swinging, b.deforming), most));
+}
+
 /// Those for what is left of a frame, or as many as keep up with a body that is changing its shape, or as are held.
 int Dynamics::needed_substeps(const Progress& frame) {
   const SubstepBound b = bound(frame.left);
   shield_work_ += double(shield_.pairs.size());
   if (!std::isfinite(b.step)) return substeps(b, frame.left, 1);
-  // None that is held may cut a frame short. The rest of a frame takes what is left of its substeps, but for rounding.
-  held_rate_.ask(std::min(std::max(b.swinging, b.deforming), frame.most / frame.seconds));
+  hold(b, frame.most / frame.seconds);
+  // The rest of a frame takes what is left of its substeps, but for rounding.
   return substeps(b, frame.left, frame.left * std::max(b.deforming, held_rate_.rate() * (1 - 1e-9)));
 }
 

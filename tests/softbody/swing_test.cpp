@@ -148,18 +148,44 @@ TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
   EXPECT_LT(pair.profile().substeps, touching / 2);
 }
 
-/// A body that no number of substeps carries must not have its next frames cut short too.
+/// A body that no number of substeps carries must not have its next frames cut short too; nor one that has too many
+/// particles to be moved by implicit steps instead.
 TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
-  run(world, 5);
-  const std::vector<Particle> before = particles_of(world);
-  std::vector<Particle> fast = before;
-  fast[0].velocity = {1e6, 0, 0};
-  world.set_particles(0, fast);
-  world.step();
-  ASSERT_LT(world.profile().seconds, world.frame_time());
-  world.set_particles(0, before);
-  world.step();
-  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  Scene large = world.scene();
+  large.bodies[0].mesh.subdivisions = 4;
+  World automatic(large, {.integrator = "auto"});
+  for (World* w : {&world, &automatic}) {
+    run(*w, 5);
+    const std::vector<Particle> before = particles_of(*w);
+    std::vector<Particle> fast = before;
+    fast[0].velocity = {1e6, 0, 0};
+    w->set_particles(0, fast);
+    w->step();
+    ASSERT_EQ(w->dynamics().used_integrator().key, "semi-implicit-euler");
+    ASSERT_LT(w->profile().seconds, w->frame_time());
+    w->set_particles(0, before);
+    w->step();
+    EXPECT_EQ(w->profile().seconds, w->frame_time());
+  }
+}
+
+/// A ball that bursts open and swings, for which either way of moving it is the cheaper one at times.
+TEST_F(HeldSubsteps, DecideTheChoiceOfTheIntegrator) {
+  Material m = gas_ball(1000);
+  m.gas_pressure *= 100, m.ambient_pressure = 0;
+  m.start_in_equilibrium = false;
+  World burst(lone_body(m), {.frame_time = 1.0 / 240, .integrator = "auto"});
+  burst.step();
+  burst.step();
+  const std::string_view chosen = burst.dynamics().used_integrator().key;
+  ASSERT_EQ(chosen, "implicit") << "so many substeps are held";
+  for (int frame = 2; frame < 120; ++frame) {
+    burst.step();
+    ASSERT_EQ(burst.dynamics().used_integrator().key, chosen) << frame;
+  }
+  burst.set_integrator("auto", 20);
+  burst.step();
+  EXPECT_EQ(burst.dynamics().used_integrator().key, "semi-implicit-euler") << "as many as are asked for are stable now";
 }
 
 }  // namespace
