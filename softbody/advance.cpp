@@ -91,10 +91,10 @@ void Dynamics::hold(const SubstepBound& b, double most) {
 int Dynamics::needed_substeps(const Progress& frame) {
   const SubstepBound b = bound(frame.left);
   shield_work_ += double(shield_.pairs.size());
-  if (!std::isfinite(b.step)) return substeps(b, frame.left, 1);
+  constexpr double nearly = 1 - 1e-9;  // the rest of a frame takes what is left of its substeps, but for rounding
+  if (!std::isfinite(b.step)) return substeps(b, frame.left, frame.left * b.implicit_rate(frame.seconds) * nearly);
   hold(b, frame.most / frame.seconds);
-  // The rest of a frame takes what is left of its substeps, but for rounding.
-  return substeps(b, frame.left, frame.left * std::max(b.deforming, held_rate_.rate() * (1 - 1e-9)));
+  return substeps(b, frame.left, frame.left * std::max(b.deforming, held_rate_.rate() * nearly));
 }
 
 /// How many substeps of h seconds the bound of substeps() may be trusted for: it is worked out anew before the fastest

@@ -34,7 +34,8 @@ void Dynamics::choose(double seconds) {
   const SubstepBound b = bound(seconds);
   const bool solid =
       std::any_of(moving_.begin(), moving_.end(), [](const Batch* m) { return !m->near_solids.empty(); });
-  const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * b.fewest) : most;
+  const double steps = std::max(b.fewest, seconds * b.implicit_rate(seconds));
+  const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * steps) : most;
   if (!fixed_substeps_) hold(b, max_work_.substeps(max_substeps, particle_count()) / seconds);
   const double held = fixed_substeps_ ? 0 : held_rate_.rate();
   const double needed = std::max(seconds / b.step, seconds * std::max(b.deforming, held));

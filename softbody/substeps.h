@@ -11,6 +11,10 @@ struct SubstepBound {
   double fewest;     // of the stretch: those that keep up with the fastest body near a solid
   double deforming;  // 1/s, that keep up with the body that changes its shape fastest
   double swinging;   // 1/s, that are stable for what bodies do by themselves, contacts apart
+
+  /// Implicit steps a second that keep up with that body: a tenth as many, for one that bends it by more than its
+  /// radius leaves no round body round. None is needed for stability, so there is an end to them. frame: s.
+  double implicit_rate(double frame) const { return std::min(0.1 * deforming, 16 / frame); }
 };
 
 /// Substeps a second that bodies asked for by themselves: no fewer are taken for half a second to one second more.

@@ -2,6 +2,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+
 #include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
 
@@ -70,6 +75,41 @@ TEST(StaggeredSteps, ConserveTheEnergyOfTheirStaggering) {
   }
   EXPECT_GT(highest[0] - lowest[0], 0.1 * motion) << "the plain one swings";
   EXPECT_LT(highest[1] - lowest[1], 0.01 * motion);
+}
+
+/// How far the second moments of a body's particles about their middle are from a ball's.
+double out_of_round(const std::vector<Particle>& all) {
+  glm::dvec3 middle(0.0);
+  for (const Particle& p : all) middle += p.position / double(all.size());
+  glm::dmat3 moments(0.0);
+  for (const Particle& p : all) moments += glm::outerProduct(p.position - middle, p.position - middle);
+  const double third = (moments[0][0] + moments[1][1] + moments[2][2]) / 3;
+  double square = 0;
+  for (int i = 0; i < 3; ++i) {
+    const glm::dvec3 off = moments[i] / third - glm::dmat3(1.0)[i];
+    square += glm::dot(off, off);
+  }
+  return std::sqrt(square);
+}
+
+/// A ball flies apart with hundreds of m/s by its gas and comes together again.
+TEST(ImplicitSteps, LeaveABurstRound) {
+  Material m = gas_ball(1000);
+  m.gas_pressure *= 100, m.ambient_pressure = 0;
+  m.start_in_equilibrium = false;
+  World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = "semi-implicit-euler"});
+  world.step();
+  world.set_integrator("implicit", std::nullopt);
+  int most = 0;
+  for (int frame = 0; frame < 60; ++frame) {
+    world.step();
+    most = std::max(most, world.profile().substeps);
+    ASSERT_LT(out_of_round(particles_of(world)), 1e-3) << frame;
+  }
+  EXPECT_GT(most, 4);
+  EXPECT_LE(most, 16);
+  run(world, 420);
+  EXPECT_EQ(world.profile().substeps, 1) << "hardly deforming any more";
 }
 
 /// Squeezed for a frame and put back: nothing but memory asks for more substeps than before.
@@ -169,23 +209,20 @@ TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
   }
 }
 
-/// A ball that bursts open and swings, for which either way of moving it is the cheaper one at times.
-TEST_F(HeldSubsteps, DecideTheChoiceOfTheIntegrator) {
-  Material m = gas_ball(1000);
-  m.gas_pressure *= 100, m.ambient_pressure = 0;
-  m.start_in_equilibrium = false;
-  World burst(lone_body(m), {.frame_time = 1.0 / 240, .integrator = "auto"});
-  burst.step();
-  burst.step();
-  const std::string_view chosen = burst.dynamics().used_integrator().key;
-  ASSERT_EQ(chosen, "implicit") << "so many substeps are held";
-  for (int frame = 2; frame < 120; ++frame) {
-    burst.step();
-    ASSERT_EQ(burst.dynamics().used_integrator().key, chosen) << frame;
-  }
-  burst.set_integrator("auto", 20);
-  burst.step();
-  EXPECT_EQ(burst.dynamics().used_integrator().key, "semi-implicit-euler") << "as many as are asked for are stable now";
+/// Else a body that swings would be moved in another way with every swing.
+TEST_F(HeldSubsteps, CountWhereTheIntegratorIsChosen) {
+  world = World(lone_body(swinging_ball(3000, 0.1)), {.integrator = "auto"});
+  const auto chosen = [&] { return world.dynamics().used_integrator().key; };
+  run(world, 5);
+  ASSERT_EQ(chosen(), "semi-implicit-euler");
+  squeeze();
+  EXPECT_EQ(chosen(), "implicit") << "explicit substeps would be as many as when it was squeezed";
+  world.set_integrator("auto", 100);
+  world.step();
+  EXPECT_EQ(chosen(), "semi-implicit-euler") << "fixed ones are not";
+  world.set_integrator("auto", std::nullopt);
+  run(world, 60);
+  EXPECT_EQ(chosen(), "semi-implicit-euler");
 }
 
 }  // namespace
