@@ -82,10 +82,13 @@ int Dynamics::substeps(const SubstepBound& b, double seconds, double at_least) {
 
 int Dynamics::substeps(double seconds) const { return substeps(bound(seconds), seconds, 1); }
 
-/// most: 1/s. None that is held may cut a frame short.
-void Dynamics::hold(const SubstepBound& b, double most) {
-  held_rate_.ask(std::min(std::max(b.swinging, b.deforming), most));
+/// None that is held may cut a frame of `seconds` short.
+void Dynamics::hold(const SubstepBound& b, double seconds) {
+  held_rate_.ask(std::min(std::max(b.swinging, b.deforming), most_explicit_substeps() / seconds));
 }
+
+/// That a frame may have, unless they are fixed.
+int Dynamics::most_explicit_substeps() const { return max_work_.substeps(max_substeps, particle_count()); }
 
 /// Those for what is left of a frame, or as many as keep up with a body that is changing its shape, or as are held.
 int Dynamics::needed_substeps(const Progress& frame) {
@@ -93,7 +96,7 @@ int Dynamics::needed_substeps(const Progress& frame) {
   shield_work_ += double(shield_.pairs.size());
   constexpr double nearly = 1 - 1e-9;  // the rest of a frame takes what is left of its substeps, but for rounding
   if (!std::isfinite(b.step)) return substeps(b, frame.left, frame.left * b.implicit_rate(frame.seconds) * nearly);
-  hold(b, frame.most / frame.seconds);
+  hold(b, frame.seconds);
   return substeps(b, frame.left, frame.left * std::max(b.deforming, held_rate_.rate() * nearly));
 }
 
@@ -140,9 +143,7 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   if (moving_.empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
-  frame.most = frame.fixed             ? frame.fixed
-               : integrator_->implicit ? max_implicit_steps
-                                       : max_work_.substeps(max_substeps, particle_count());
+  frame.most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : most_explicit_substeps();
   do take_substeps(frame, after_substep);
   while (frame.left > 0 && !spent(frame));
   keep_momenta(seconds - frame.left);

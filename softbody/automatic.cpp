@@ -23,11 +23,11 @@ double Dynamics::tremble(double step) const {
 
 /// The cheaper of the two by the counts of their work, whatever the machine: a step of the quasi-Newton solver is worth
 /// about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where all
-/// bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. Explicit ones are as many as are
-/// held: a body that swings does not change its integrator with every swing. What might come to ask for more
-/// explicit substeps than there may be is left to the other, and what they cannot bring to rest, or near enough for it
-/// to fall asleep; unless there the fastest asks for too many implicit ones. Where somebody waits for the frames of a
-/// large world, both are cut alike, so that the choice is the same.
+/// bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. Both are as many as would be
+/// taken: what is held counts, or a body that swings would change its integrator with every swing. What might come to
+/// ask for more explicit substeps than there may be is left to the other, and what they cannot bring to rest, or near
+/// enough for it to fall asleep; unless there the fastest asks for too many implicit ones. Where somebody waits for the
+/// frames of a large world, both are cut alike, so that the choice is the same.
 void Dynamics::choose(double seconds) {
   constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");
@@ -36,7 +36,7 @@ void Dynamics::choose(double seconds) {
       std::any_of(moving_.begin(), moving_.end(), [](const Batch* m) { return !m->near_solids.empty(); });
   const double steps = std::max(b.fewest, seconds * b.implicit_rate(seconds));
   const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * steps) : most;
-  if (!fixed_substeps_) hold(b, max_work_.substeps(max_substeps, particle_count()) / seconds);
+  if (!fixed_substeps_) hold(b, seconds);
   const double held = fixed_substeps_ ? 0 : held_rate_.rate();
   const double needed = std::max(seconds / b.step, seconds * std::max(b.deforming, held));
   const bool cheaper = needed <= (fixed_substeps_ ? double(*fixed_substeps_) : worth) ||

@@ -215,7 +215,8 @@ class Dynamics {
   int substeps_left(const Progress& frame, int stable) const;
   int substeps_within_bound(double h) const;
   int needed_substeps(const Progress& frame);
-  void hold(const SubstepBound& bound, double most);
+  void hold(const SubstepBound& bound, double seconds);
+  int most_explicit_substeps() const;
   SubstepBound bound(double seconds) const;  // in the state at hand
   static int substeps(const SubstepBound& bound, double seconds, double at_least);
   double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
