@@ -53,22 +53,20 @@ struct Counters {
 
 /// Work that a frame did not need. Each kind is left out on a proof, so that the contacts stay the same.
 enum class Skip {
-  far_pairs,         // pairs of bodies whose boxes are out of reach of each other
-  separated_pairs,   // pairs of bodies with near boxes, but a plane or two spheres part them
-  lone_bodies,       // bodies that no other body is near: no pair pass at all
-  unfolded_bodies,   // bodies that cannot touch themselves: no self pass
-  remembered_pairs,  // pairs of bodies tested by a list of candidates only, lists made in this very frame included
-  kept_pairs,        // pairs of bodies of which neither has moved: their contacts are kept, not found again
+  far_pairs,        // pairs of bodies whose boxes are out of reach of each other
+  separated_pairs,  // pairs of bodies with near boxes, but a plane or two spheres part them
+  lone_bodies,      // bodies that no other body is near: no pair pass at all
+  unfolded_bodies,  // bodies that cannot touch themselves: no self pass
+  kept_pairs,       // pairs of near bodies of which neither has moved: their contacts are kept, not found again
 };
 struct SkipKind {
   std::string_view key;   // in JSON
   std::string_view text;  // in the panel, after a number: "3 pairs of far bodies"
 };
-inline constexpr std::array<SkipKind, 6> skip_kinds{{{"far_pairs", "pairs of far bodies"},
+inline constexpr std::array<SkipKind, 5> skip_kinds{{{"far_pairs", "pairs of far bodies"},
                                                      {"separated_pairs", "pairs parted by a plane or spheres"},
                                                      {"lone_bodies", "bodies alone"},
                                                      {"unfolded_bodies", "bodies that cannot touch themselves"},
-                                                     {"remembered_pairs", "pairs with remembered candidates"},
                                                      {"kept_pairs", "pairs at rest"}}};
 using Skipped = std::array<std::uint64_t, skip_kinds.size()>;  // by Skip
 

@@ -16,9 +16,9 @@
 //   vertex_kernels.h  the loops over the vertices of one body, in the processor's widest instructions
 //   pair_kernels.h    the loops over pairs of vertices, in the same
 //   self_proof.h      proves for a frame that a body cannot touch itself
+//   resting_contacts.h  the contacts of bodies that have not moved since the last frame
 //   overlap_tree.h    the area where two bodies overlap, cut level by level
-//   group_search.h    all contacts from these four, body by body
-//   contact_memory.h  what earlier frames say about where contacts can be
+//   group_search.h    all contacts from these, body by body
 
 #include <functional>
 #include <memory>

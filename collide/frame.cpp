@@ -43,10 +43,11 @@ Shape::Shape(Index vertex_count, std::span<const std::array<Index, 2>> edges, st
     : Shape(std::make_shared<Topology>(vertex_count, edges), std::move(rest)) {}
 
 bool Shape::excludes(Index i, Index j, float tolerance2) const {
-  if (topology_->joined(i, j)) return true;
-  if (rest_.empty()) return false;
-  const glm::vec3 &a = rest_[i], &b = rest_[j];
-  return squared_distance(a.x, a.y, a.z, b.x, b.y, b.z) < tolerance2;
+  if (!rest_.empty()) {
+    const glm::vec3 &a = rest_[i], &b = rest_[j];
+    if (squared_distance(a.x, a.y, a.z, b.x, b.y, b.z) < tolerance2) return true;
+  }
+  return topology_->joined(i, j);
 }
 
 }  // namespace collide

@@ -50,38 +50,56 @@ void GroupSearch::bound(const Frame& frame, Workers& workers, std::vector<Index>
   }
 }
 
-void GroupSearch::find(const Frame& frame, const Query& query, Workers& workers) {
-  find_near(query.distance, workers);
-  find_groups(frame, query, workers, [](Index) { return true; });
-}
-
-void GroupSearch::find_near(float distance, Workers& workers) {
-  near_.find(bounds_, live_, contact_reach(distance), workers);
+void GroupSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
+  begin(frame, query, workers);
+  near_.find(bounds_, live_, reach_, workers);
+  workers.run([&](int thread) { find_part(thread, workers.threads(), resting); });
+  for (Thread& thread : threads_) count_pairs(thread);  // the rest, so that no more pass on many threads than on one
 }
 
 void GroupSearch::begin(const Frame& frame, const Query& query, Workers& workers) {
   frame_ = &frame;
   query_ = query;
-  reach_ = contact_reach(query.distance);
-  distance2_ = query.distance * query.distance;
+  reach_ = contact_reach(query.tolerance);
   tolerance2_ = query.tolerance * query.tolerance;
   if (query.self) references_.update(frame, live_, reach_);
   threads_.resize(static_cast<std::size_t>(workers.threads()));
-  slices_.resize(frame.bodies->count());
   found_ = 0;
 }
 
 void GroupSearch::begin(Thread& own) const {
-  own.tree.begin(query_.levels, reach_, distance2_, query_.most_pairs);
+  own.tree.begin(query_.levels, reach_, tolerance2_, query_.most_pairs);
   own.pairs.clear();
-  own.partners.clear();
   own.counted = 0;
-  own.self_contacts = own.pair_tests = own.parted = own.unfolded = 0;
+  own.self_contacts = own.pair_tests = own.parted = own.unfolded = own.kept = 0;
 }
 
-void GroupSearch::find_group(int thread, Index a) {
+void GroupSearch::find_part(int thread, int threads, const RestingContacts& resting) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
-  const std::size_t first_partner = own.partners.size();
+  begin(own);
+  const Part part = part_of(near_.pairs() + live_.size(), thread, threads);
+  for (std::size_t k = 0; k < live_.size(); ++k) {
+    const Index body = live_[k];
+    const std::size_t place = near_.pairs_before(body) + k;
+    if (place < part.begin || place >= part.end) continue;
+    if (const auto group = resting.group(body, near_)) {
+      keep_group(own, body, *group);
+    } else {
+      find_group(own, body);
+    }
+    if (own.pairs.size() - own.counted >= std::min(most_pairs_between_counts, query_.most_pairs / 8)) count_pairs(own);
+  }
+}
+
+void GroupSearch::keep_group(Thread& own, Index a, std::span<const Contact> group) {
+  const Index end = frame_->bodies->first[a + 1];
+  own.self_contacts += static_cast<std::uint64_t>(
+      std::count_if(group.begin(), group.end(), [end](const Contact& contact) { return contact.b < end; }));
+  own.kept += near_.behind(a).size();
+  own.pairs.insert(own.pairs.end(), group.begin(), group.end());
+}
+
+void GroupSearch::find_group(Thread& own, Index a) {
   own.group.clear();
   if (query_.self) find_self(own, a);
   std::size_t runs = own.group.empty() ? 0 : 1;
@@ -92,15 +110,11 @@ void GroupSearch::find_group(int thread, Index a) {
     find_between(own, a, b);
     if (own.group.size() > query_.most_pairs) throw_too_many_contacts(query_.most_pairs);
     if (own.group.size() == before) continue;
-    own.partners.push_back(b);
     ++runs;
     ordered = ordered && own.tree.leaves() == leaves;
   }
   if (runs > 1 || !ordered) order(own, a, ordered);
-  slices_[a] = {static_cast<Index>(thread), own.pairs.size(), own.pairs.size() + own.group.size(), first_partner,
-                own.partners.size()};
   own.pairs.insert(own.pairs.end(), own.group.begin(), own.group.end());
-  if (own.pairs.size() - own.counted >= std::min(most_pairs_between_counts, query_.most_pairs / 8)) count_pairs(own);
 }
 
 void GroupSearch::count_pairs(Thread& own) {
@@ -116,7 +130,7 @@ void GroupSearch::find_between(Thread& own, Index a, Index b) {
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
   if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], reach_)) {
     const Facing facing =
-        face(run_a, first_a, run_b, first_b, *slab, distance2_, OverlapTree::leaf_tests, own.facing, own.group);
+        face(run_a, first_a, run_b, first_b, *slab, tolerance2_, OverlapTree::leaf_tests, own.facing, own.group);
     own.parted += facing.tests == 0;
     if (facing.done) {
       own.pair_tests += facing.tests;
@@ -136,15 +150,15 @@ void GroupSearch::find_self(Thread& own, Index body) {
   const SelfRisk risk = reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfRisk{};
   if (!risk.proven) {
     own.whole.take(vertices, first);
-    own.tree.within(own.whole, body, own.group);
+    own.tree.within(own.whole, body, own.group, {frame_->bodies->shape[body].get(), first, tolerance2_});
   }
   for (const auto& [i, j] : risk.pairs) {
     if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
-        distance2_) {
+        tolerance2_) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index odd : risk.odd) contacts_of(vertices, first, odd, distance2_, own.words, own.group);
+  for (const Index odd : risk.odd) contacts_of(vertices, first, odd, tolerance2_, own.words, own.group);
   own.unfolded += risk.proven && risk.odd.empty();
   own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
   if (!own.group.empty()) tidy_self(own, body);
@@ -179,17 +193,6 @@ void GroupSearch::order(Thread& own, Index a, bool runs_ordered) {
   own.group.swap(own.sorted);
 }
 
-std::span<const Contact> GroupSearch::group(Index body) const {
-  const Slice& slice = slices_[body];
-  return std::span(threads_[slice.thread].pairs).subspan(slice.begin, slice.end - slice.begin);
-}
-
-std::span<const Index> GroupSearch::partners(Index body) const {
-  const Slice& slice = slices_[body];
-  return std::span(threads_[slice.thread].partners)
-      .subspan(slice.first_partner, slice.last_partner - slice.first_partner);
-}
-
 void GroupSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
   std::size_t total = 0;
   for (Thread& thread : threads_)
@@ -208,6 +211,7 @@ void GroupSearch::count(Result& result) const {
     result.counters.boxes += thread.tree.leaves();
     result.skip(Skip::separated_pairs) += thread.parted;
     result.skip(Skip::unfolded_bodies) += thread.unfolded;
+    result.skip(Skip::kept_pairs) += thread.kept;
   }
   const std::uint64_t live = live_.size();
   result.counters.boxes += live;

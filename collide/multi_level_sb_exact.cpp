@@ -2,10 +2,10 @@
 // spheres come near each other, only the vertices that face the other body along the line of centres are looked at; the
 // area that they fill is subdivided level by level (§5) as long as that pays. Inside a body all pairs are looked at, by
 // the same tree, unless it is proven that it cannot touch itself. No hash: what is near a body is found by strips.
-// While bodies move little, what an earlier frame has found says where to look.
+// Bodies that have not moved since the last frame keep the contacts among them.
 
-#include "collide/contact_memory.h"
 #include "collide/detectors.h"
+#include "collide/group_search.h"
 
 namespace collide {
 
@@ -17,27 +17,25 @@ class MultiLevelSbExact final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     result.start();
-    if (memory_.recall(frame, settings, search_, workers, result)) return;
-    result.start();  // without what was tried
     search_.bound(frame, workers, result.non_finite_bodies);
+    resting_.observe(frame, settings, search_.bounds(), workers);
     search_.find(frame,
-                 {.distance = settings.tolerance,
-                  .tolerance = settings.tolerance,
+                 {.tolerance = settings.tolerance,
                   .self = settings.self_collision,
                   .levels = settings.levels,
                   .most_pairs = max_contacts},
-                 workers);
+                 resting_, workers);
     search_.concatenate(workers, result.contacts);
     search_.count(result);
-    memory_.watch(frame, result, workers);
+    resting_.store(frame, search_.near(), result.contacts);
   }
 
   void forget() override {
     search_.forget();
-    memory_.forget();
+    resting_.forget();
   }
 
-  /// Where the last search looked: while candidates are remembered, that was when some were listed.
+  /// Where the last search looked.
   DebugGeometry debug() const override {
     DebugGeometry geometry;
     geometry.boxes = search_.boxes();
@@ -47,7 +45,7 @@ class MultiLevelSbExact final : public Detector {
 
  private:
   GroupSearch search_;
-  ContactMemory memory_;
+  RestingContacts resting_;
 };
 
 }  // namespace

@@ -52,12 +52,14 @@ void OverlapTree::begin(int levels, float reach, float tolerance2, std::size_t m
 
 void OverlapTree::between(const Picked& a, const Picked& b, Index body, std::vector<Contact>& contacts) {
   body_ = body;
+  excluded_ = {};
   contacts_ = &contacts;
   cut_between(a, b, 0);
 }
 
-void OverlapTree::within(const Picked& set, Index body, std::vector<Contact>& contacts) {
+void OverlapTree::within(const Picked& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded) {
   body_ = body;
+  excluded_ = excluded;
   contacts_ = &contacts;
   cut_within(set, 0);
 }
@@ -68,7 +70,7 @@ void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
     if (tests == 0) return;
     pair_tests_ += tests;
     if (depth > 0) leaves_.push_back({bounds_of(a).lo, bounds_of(a).hi, body_});
-    contacts_between(a, b, tolerance2_, most_contacts_, words_, *contacts_);
+    contacts_between(a, b, tolerance2_, most_contacts_, words_, *contacts_, excluded_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
@@ -94,7 +96,7 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});
-    contacts_within(set, tolerance2_, most_contacts_, words_, *contacts_);
+    contacts_within(set, tolerance2_, most_contacts_, words_, *contacts_, excluded_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];

@@ -20,7 +20,7 @@ class OverlapTree {
   /// they are in no order. body: whose leaves they are. Throws std::length_error once `contacts` has more than
   /// most_contacts.
   void between(const Picked& a, const Picked& b, Index body, std::vector<Contact>& contacts);
-  void within(const Picked& set, Index body, std::vector<Contact>& contacts);
+  void within(const Picked& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded = {});
 
   std::uint64_t pair_tests() const { return pair_tests_; }
   std::uint64_t leaves() const { return leaves_.size(); }
@@ -39,6 +39,7 @@ class OverlapTree {
   float reach_ = 0, tolerance2_ = 0;
   std::size_t most_contacts_ = 0;
   Index body_ = 0;
+  Exclusion excluded_;
   std::vector<Contact>* contacts_ = nullptr;
   std::vector<Level> level_;
   Words words_;

@@ -148,24 +148,28 @@ HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Inde
 }
 
 void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
-                     std::vector<Contact>& contacts) {
+                     std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
   for (Index i = 0; i < a.size; ++i) {
     close_bits(a.x[i], a.y[i], a.z[i], b, 0, tolerance2, words.data());
-    for_bits(words.data(), b.size, [&](Index bit) HWY_ATTR { contacts.push_back({a.vertex[i], b.vertex[bit]}); });
+    for_bits(words.data(), b.size, [&](Index bit) HWY_ATTR {
+      const Contact pair{a.vertex[i], b.vertex[bit]};
+      if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
+    });
     if (contacts.size() > most) throw_too_many_contacts(most);
   }
 }
 
-void ContactsWithin(const Picked& set, float tolerance2, std::size_t most, Words& words,
-                    std::vector<Contact>& contacts) {
+void ContactsWithin(const Picked& set, float tolerance2, std::size_t most, Words& words, std::vector<Contact>& contacts,
+                    const Exclusion& excluded) {
   if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
   for (Index i = 0; i + 1 < set.size; ++i) {
     const Index begin = (i + 1) / lanes * lanes;
     close_bits(set.x[i], set.y[i], set.z[i], set, begin, tolerance2, words.data());
     words[0] &= ~std::uint64_t{0} << (i + 1 - begin);
     for_bits(words.data(), set.size - begin, [&](Index bit) HWY_ATTR {
-      contacts.push_back({set.vertex[i], set.vertex[begin + bit]});
+      const Contact pair{set.vertex[i], set.vertex[begin + bit]};
+      if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
     });
     if (contacts.size() > most) throw_too_many_contacts(most);
   }
@@ -220,13 +224,13 @@ void throw_too_many_contacts(std::size_t most) {
 }
 
 void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
-                      std::vector<Contact>& contacts) {
-  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, most, words, contacts);
+                      std::vector<Contact>& contacts, const Exclusion& excluded) {
+  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, most, words, contacts, excluded);
 }
 
 void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
-                     std::vector<Contact>& contacts) {
-  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, most, words, contacts);
+                     std::vector<Contact>& contacts, const Exclusion& excluded) {
+  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, most, words, contacts, excluded);
 }
 
 void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {

@@ -62,13 +62,22 @@ Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
 /// Throws the std::length_error of a frame with more contacts than that.
 [[noreturn]] void throw_too_many_contacts(std::size_t most);
 
-/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands, ascending if both are. Throws
-/// std::length_error once there are more than `most` pairs.
+/// Which pairs of one body's vertices can never be contacts; without a shape, none.
+struct Exclusion {
+  const Shape* shape = nullptr;
+  Index first = 0;  // the number of the body's first vertex
+  float tolerance2 = 0;
+
+  bool operator()(Index a, Index b) const { return shape && shape->excludes(a - first, b - first, tolerance2); }
+};
+
+/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands that is not excluded, ascending if both
+/// are. Throws std::length_error once there are more than `most` pairs.
 void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
-                      std::vector<Contact>& contacts);
+                      std::vector<Contact>& contacts, const Exclusion& excluded = {});
 /// The same for all pairs of one set, i before j.
 void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
-                     std::vector<Contact>& contacts);
+                     std::vector<Contact>& contacts, const Exclusion& excluded = {});
 /// The same for all pairs of vertex i of a run, whose first has the number `first`, with another.
 void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
 

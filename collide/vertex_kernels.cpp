@@ -105,24 +105,6 @@ Index ListAbove(const float* values, Index size, float limit, Index* list) {
   return above.size();
 }
 
-float FarthestMove(const Run& run, const Run& before) {
-  Copy copy_now, copy_before;
-  const Run at = readable(run, copy_now), was = readable(before, copy_before);
-  V farthest = hn::Zero(Floats()), total = farthest;
-  M moved = hn::FirstN(Floats(), 0);
-  for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
-    const V x = load(at.x + i), y = load(at.y + i), z = load(at.z + i);
-    const V wx = load(was.x + i), wy = load(was.y + i), wz = load(was.z + i);
-    const V d2 = squared_length(hn::Sub(x, wx), hn::Sub(y, wy), hn::Sub(z, wz));
-    farthest = hn::Max(farthest, d2);
-    total = hn::Add(total, d2);
-    moved = hn::Or(moved, hn::Or(hn::Ne(x, wx), hn::Or(hn::Ne(y, wy), hn::Ne(z, wz))));
-  });
-  if (!std::isfinite(sum(total))) return std::numeric_limits<float>::infinity();
-  if (hn::AllFalse(Floats(), moved)) return 0;
-  return root_above(most(farthest));
-}
-
 }  // namespace
 }  // namespace HWY_NAMESPACE
 }  // namespace collide
@@ -134,7 +116,6 @@ namespace collide {
 HWY_EXPORT(BoundOf);
 HWY_EXPORT(FitAffine);
 HWY_EXPORT(ListAbove);
-HWY_EXPORT(FarthestMove);
 
 Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
 
@@ -146,8 +127,6 @@ AffineFit fit_affine(const Run& body, const Run& reference, const std::array<flo
 Index list_above(std::span<const float> values, float limit, Index* list) {
   return HWY_DYNAMIC_DISPATCH(ListAbove)(values.data(), static_cast<Index>(values.size()), limit, list);
 }
-
-float farthest_move(const Run& run, const Run& before) { return HWY_DYNAMIC_DISPATCH(FarthestMove)(run, before); }
 
 }  // namespace collide
 #endif  // HWY_ONCE

@@ -45,8 +45,4 @@ AffineFit fit_affine(const Run& body, const Run& reference, const std::array<flo
 /// most_lanes more than there are values, of which there are at least so many.
 Index list_above(std::span<const float> values, float limit, Index* list);
 
-/// How far any vertex is from where it was, in m, rounded up: 0 if none has moved at all, infinity if some coordinate
-/// is not finite now or was not.
-float farthest_move(const Run& run, const Run& before);
-
 }  // namespace collide

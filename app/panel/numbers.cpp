@@ -16,8 +16,7 @@ constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
     "Pairs of bodies with near boxes that a plane across the line of centres, or the spheres around them, keeps apart.",
     "Bodies that no other body is near: there is no pair to look at.",
     "Bodies that are so little deformed that they cannot touch themselves (§2.4): no self pass.",
-    "Pairs of bodies that have moved little: only vertices that were near each other before are tested.",
-    "Pairs of bodies at rest: their contacts are kept, not found again."};
+    "Pairs of near bodies that have not moved since the last frame: their contacts are kept, not found again."};
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
 
 void draw_curves(Widgets& w, const Session& session, float fineness) {

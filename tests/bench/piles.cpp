@@ -48,6 +48,22 @@ State settle(softbody::Scene scene, int frames, int threads) {
   return state;
 }
 
+/// Consecutive frames of a shipped scene whose bodies are all alike and there from the start, from frame `first` on.
+State recorded(std::string_view scene_key, int first, int threads) {
+  constexpr int frames = 40;
+  softbody::Scene scene = softbody::find_scene(std::string(scene_key), engine::find_folder("assets") / "scenes");
+  const auto radius = float(scene.bodies.front().mesh.radius);
+  softbody::World world(std::move(scene), {.threads = threads});
+  State state;
+  state.radius.assign(world.positions().bodies->count(), radius);
+  state.bodies = make_bodies(state.radius);
+  while (world.frame() < first + frames) {
+    world.step();
+    if (world.frame() > first) state.frames.push_back(copy(world.positions()));
+  }
+  return state;
+}
+
 /// The centre of each body.
 std::vector<glm::dvec3> centres(const State& state) {
   const State::Positions& p = state.frames.front();
@@ -143,12 +159,21 @@ State overlap_500(int threads) { return in_motion(squeezed(pile(block(10, 5, 10,
 State mixed_500(int threads) { return in_motion(pile(block(10, 5, 10, mixed_sizes), threads)); }
 State pile_3125(int threads) { return in_motion(pile(block(25, 5, 25, one_size), threads)); }
 
-constexpr std::array<Pile, 5> table{{
+State falling_d(int threads) { return recorded("D", 19, threads); }
+State heap_d(int threads) { return recorded("D", 149, threads); }
+State asleep_d(int threads) { return recorded("D", 399, threads); }
+State full_container(int threads) { return recorded("container", 159, threads); }
+
+constexpr std::array<Pile, 9> table{{
     {"pile-47", "47 bodies at rest", 47, pile_47},
     {"pile-500", "500 bodies at rest", 500, pile_500},
     {"overlap-500", "the same, pulled together: neighbours overlap by 20 % of their diameter", 500, overlap_500},
     {"mixed-500", "500 bodies of radius 0.25 to 1 m at rest", 500, mixed_500},
     {"pile-3125", "3,125 bodies at rest", 3125, pile_3125},
+    {"D-20", "frames 20 to 59 of scene D: bodies hit the solid sphere and one another", 47, falling_d},
+    {"D-150", "frames 150 to 189 of scene D: a heap that moves slowly", 47, heap_d},
+    {"D-400", "frames 400 to 439 of scene D: most bodies sleep", 47, asleep_d},
+    {"container-160", "frames 160 to 199 of scene container: a crowd that settles", 47, full_container},
 }};
 
 }  // namespace

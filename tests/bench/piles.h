@@ -1,5 +1,6 @@
 #pragma once
-// Where the states come from: scenes of the project, simulated until the bodies lie in a pile, and set in motion.
+// Where the states come from: scenes of the project, simulated until the bodies lie in a pile and then set in motion,
+// or recorded as they move by themselves.
 
 #include <functional>
 #include <span>
@@ -18,8 +19,8 @@ struct Pile {
 
 std::span<const Pile> piles();
 
-inline constexpr int recorded_frames = 8;
-/// Mean distance in metres that a vertex moves in one frame of a recorded state.
+inline constexpr int recorded_frames = 8;  // of a pile that is set in motion
+/// Mean distance in metres that a vertex moves in one frame there.
 inline constexpr double motion = 0.022 * mean_edge;
 
 }  // namespace bench

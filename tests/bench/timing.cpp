@@ -103,11 +103,12 @@ Measured measure(const Course& course, std::span<const Candidate> candidates) {
   for (Runner& runner : runners) order.push_back(&runner);
   for (int round = 0; round < course.repeat; ++round) {
     std::shuffle(order.begin(), order.end(), random);
-    for (Runner* runner : order)
-      for (std::size_t k = 0; k < frames; ++k) {
-        const double ms = runner->run(k);
-        if (k > 0) runner->times.push_back(ms);
-      }
+    for (Runner* runner : order) {
+      runner->run(0);
+      double ms = 0;
+      for (std::size_t k = 1; k < frames; ++k) ms += runner->run(k);
+      runner->times.push_back(ms / double(frames - 1));
+    }
   }
   for (Runner& r : runners)
     measured.rows.push_back({&r.candidate(), median(r.times), *std::min_element(r.times.begin(), r.times.end())});

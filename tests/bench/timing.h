@@ -23,7 +23,7 @@ struct Course {
 
 struct Row {
   const Candidate* candidate;
-  double median_ms, min_ms;  // of one frame
+  double median_ms, min_ms;  // over the rounds: the mean of the frames of one
 };
 
 struct Measured {

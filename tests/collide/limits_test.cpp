@@ -23,7 +23,7 @@ TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
     const auto detector = find_method(method)->make();
     Result result;
     const auto see_settled = [&] {
-      for (int frame = 0; frame < 6; ++frame) {  // enough to be remembered
+      for (int frame = 0; frame < 6; ++frame) {  // enough for the contacts of bodies at rest to be kept
         detector->detect(settled.frame(), settings, workers, result);
         EXPECT_EQ(result.contacts, detect(method, settled, settings).contacts) << method;
       }
@@ -33,6 +33,15 @@ TEST(Limits, TooManyContactsAreAnErrorAndTheNextFrameIsFound) {
     detector->debug();
     see_settled();
   }
+}
+
+/// As many pairs that a mesh has at rest are no contacts, and take no memory.
+TEST(Limits, PairsThatAreCloseAtRestDoNotCount) {
+  std::mt19937 random(27);
+  const std::vector<glm::vec3> points = random_points(random, 16'400, -0.02f, 0.02f);
+  State crowd;
+  crowd.add(std::make_shared<const Shape>(Index{16'400}, std::span<const std::array<Index, 2>>{}, points), points);
+  EXPECT_TRUE(detect("multi-level-sb-exact", crowd, {}).contacts.empty());
 }
 
 TEST(Limits, PairsOfNearBodies) {

@@ -10,8 +10,8 @@ namespace {
 constexpr const char* exact = "multi-level-sb-exact";
 
 Skipped skipped(std::uint64_t far, std::uint64_t separated, std::uint64_t lone, std::uint64_t unfolded,
-                std::uint64_t remembered = 0, std::uint64_t kept = 0) {
-  return {far, separated, lone, unfolded, remembered, kept};
+                std::uint64_t kept = 0) {
+  return {far, separated, lone, unfolded, kept};
 }
 
 /// Spheres of 1 m radius with the given centres.
@@ -84,37 +84,19 @@ TEST(Skipped, OfATornSphereIsAllButTheOddVertices) {
   EXPECT_LT(result.counters.pair_tests, 162u * 161 / 2 / 10);
 }
 
-/// What is left out frame by frame: bodies are watched for two frames, candidates are listed in the third; a pair is
-/// known to be at rest when neither has moved for two frames since.
+/// A box that stays the same has its body's positions copied; in the frame after that they are compared.
 TEST(Skipped, OfBodiesAtRestBecomesThePairThatIsKept) {
   const State state = spheres({glm::vec3(0), glm::vec3(1.9f, 0, 0)});
   const auto detector = find_method(exact)->make();
   Workers workers(1);
   Result result;
-  const std::array expected{skipped(0, 0, 0, 2),       skipped(0, 0, 0, 2),       skipped(0, 0, 0, 2, 1),
-                            skipped(0, 0, 0, 0, 1, 0), skipped(0, 0, 0, 0, 0, 1), skipped(0, 0, 0, 0, 0, 1)};
+  const std::array expected{skipped(0, 0, 0, 2), skipped(0, 0, 0, 2), skipped(0, 0, 0, 0, 1), skipped(0, 0, 0, 0, 1)};
   for (const Skipped& frame : expected) {
     detector->detect(state.frame(), {}, workers, result);
     EXPECT_EQ(result.skipped, frame);
     EXPECT_GT(result.contacts.size(), 0u);
   }
   EXPECT_EQ(result.counters.pair_tests, 0u);
-}
-
-TEST(Skipped, OfBodiesThatCreepIsAllButTheCandidates) {
-  State state = spheres({glm::vec3(0), glm::vec3(1.9f, 0, 0)});
-  const auto detector = find_method(exact)->make();
-  Workers workers(1);
-  Result result;
-  for (int frame = 0; frame < 8; ++frame) {
-    detector->detect(state.frame(), {}, workers, result);
-    for (float& x : state.x) x += 1e-4f;
-    if (frame >= 3) {
-      EXPECT_EQ(result.skipped, skipped(0, 0, 0, 0, 1, 0)) << frame;
-    }
-  }
-  EXPECT_GT(result.counters.pair_tests, 0u);
-  EXPECT_LT(result.counters.pair_tests, 1000u);
 }
 
 }  // namespace

@@ -107,35 +107,6 @@ TEST_P(VertexKernels, ResidualsAreThoseOfTheMap) {
   }
 }
 
-TEST_P(VertexKernels, MovesAreBoundsOfTheFarthest) {
-  for (const Index size : sizes) {
-    const Points3 before(random_points(random_, size, -1, 1));
-    EXPECT_EQ(farthest_move(before.run(), before.run()), 0.0f);
-    for (Index v = 0; v < size; ++v) {
-      for (const float by : {1e-7f, 1e-3f, 2.0f, 1e18f}) {
-        Points3 now = before;
-        (v % 3 == 0 ? now.x : v % 3 == 1 ? now.y : now.z)[v] += by;
-        const long double moved = distance(now.run(), v, before.run(), v);
-        const auto bound = static_cast<long double>(farthest_move(now.run(), before.run()));
-        EXPECT_GE(bound, moved);
-        EXPECT_LE(bound, moved * 1.000001L);
-      }
-      Points3 now = before;
-      now.y[v] = std::nextafter(now.y[v], 2.0f);
-      EXPECT_GT(farthest_move(now.run(), before.run()), 0.0f);
-      for (const float bad : {nan, infinity, -3e38f}) {
-        now.z[v] = bad;
-        EXPECT_EQ(farthest_move(now.run(), before.run()), infinity);
-        EXPECT_EQ(farthest_move(before.run(), now.run()), infinity);
-      }
-      EXPECT_EQ(farthest_move(now.run(), now.run()), 0.0f) << "at -3e38, and still there";
-    }
-  }
-  const Points3 zero({glm::vec3(0)}), minus_zero({glm::vec3(-0.0f)}), least({glm::vec3(0, 1e-45f, 0)});
-  EXPECT_EQ(farthest_move(zero.run(), minus_zero.run()), 0.0f);
-  EXPECT_GE(farthest_move(least.run(), zero.run()), 1e-45f) << "though its square vanishes";
-}
-
 TEST_P(VertexKernels, ListsWhatIsAboveALimit) {
   for (const Index size : {16u, 17u, 31u, 64u, 101u}) {
     for (const float limit : {-2.0f, -0.5f, 0.0f, 0.9f, 2.0f}) {

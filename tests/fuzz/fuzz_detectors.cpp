@@ -11,7 +11,7 @@
 namespace fuzz {
 namespace {
 
-constexpr int most_frames = 12;                // memory takes three frames to begin
+constexpr int most_frames = 12;                // contacts of bodies at rest are kept from the third on
 constexpr std::size_t most_contacts = 50'000;  // with more an input takes seconds, and others find as much in less
 
 void require(bool holds, const char* what, std::string_view method, int frame) {
