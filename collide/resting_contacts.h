@@ -4,6 +4,7 @@
 
 #include <optional>
 
+#include "collide/detector.h"
 #include "collide/near_bodies.h"
 
 namespace collide {
