@@ -2,7 +2,8 @@
 
 #include <algorithm>
 
-#include "collide/detectors.h"
+#include "collide/exact/multi_level_sb_exact.h"
+#include "collide/methods/detectors.h"
 
 namespace collide {
 
@@ -16,25 +17,25 @@ constexpr glm::vec3 rgb(int red, int green, int blue) {
 // key, name, summary, colour, exact, uses_levels, uses_hash, make
 constexpr std::array table{
     Method{"brute-force", "Brute force", "Every vertex against every other: the exact reference.", rgb(153, 153, 153),
-           true, false, false, make_brute_force},
+           true, false, false, methods::make_brute_force},
     Method{"grid-hash", "Grid Hash", "Every vertex is hashed into a grid, without boxes (§3).", rgb(213, 94, 0), true,
-           false, true, make_grid_hash},
+           false, true, methods::make_grid_hash},
     Method{"bounding-box", "Bounding Box", "All vertices of bodies whose boxes overlap (§3).", rgb(230, 159, 0), true,
-           false, false, make_bounding_box},
+           false, false, methods::make_bounding_box},
     Method{"bounding-box-grid-hash", "Bounding Box + Grid Hash",
            "Only the vertices of bodies whose boxes overlap are hashed (§3).", rgb(204, 121, 167), true, false, true,
-           make_bounding_box_grid_hash},
+           methods::make_bounding_box_grid_hash},
     Method{"multi-level-sb", "Multi-Level SB",
            "The paper's: eight corner hashes a subdivided box (§2); may miss contacts.", rgb(86, 180, 233), false, true,
-           true, make_multi_level_sb},
+           true, methods::make_multi_level_sb},
     Method{"multi-level-sb-exact", "Multi-Level SB, exact",
            "Only what faces another body, subdivided where that pays, without a hash (§2.1, §5); misses nothing.",
-           rgb(0, 158, 115), true, true, false, make_multi_level_sb_exact},
+           rgb(0, 158, 115), true, true, false, exact::make_multi_level_sb_exact},
 };
 
 }  // namespace
 
-std::span<const Method> methods() { return table; }
+std::span<const Method> method_table() { return table; }
 
 const Method* find_method(std::string_view key) {
   const auto found = std::find_if(table.begin(), table.end(), [&](const Method& method) { return method.key == key; });

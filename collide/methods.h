@@ -4,7 +4,7 @@
 #include <memory>
 #include <string_view>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace collide {
 
@@ -19,7 +19,7 @@ struct Method {
   std::unique_ptr<Detector> (*make)();
 };
 
-std::span<const Method> methods();
+std::span<const Method> method_table();
 /// nullptr if there is no such method.
 const Method* find_method(std::string_view key);
 /// "brute-force, grid-hash, ...": for messages.

@@ -163,7 +163,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
   const int most = frame.most - frame.substeps, stable = frame.fixed ? most : needed_substeps(frame);
   if (has_surface_) {
     find_surface_contacts(frame.left, frame.left / stable, frame.left / stable);
-    for (const collide::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
+    for (const collide::surface::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
   }
   const int count = frame.fixed ? stable : substeps_left(frame, stable);
   if (frame.substeps == 0 && !integrator_->implicit && count >= many_substeps) note_momenta();

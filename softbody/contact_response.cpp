@@ -107,7 +107,7 @@ void Dynamics::wake_what_is_hit(double seconds) {
   if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.moves(); })) return;
   if (std::none_of(bodies_.begin(), bodies_.end(), [](const Body& b) { return b.asleep; })) return;
   find_surface_contacts(seconds, seconds, 0);
-  for (const collide::SurfacePair& pair : surface_.search().pairs())
+  for (const collide::surface::SurfacePair& pair : surface_.search().pairs())
     for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
       if (!bodies_[sleeper].asleep || !bodies_[by].moves() || fastest(by) <= 2 * scene_.sleep.speed) continue;
       put_to_sleep(sleeper, false);
@@ -134,7 +134,7 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
   for (BodyId id = 0; id < bodies_.size(); ++id)
     for (Index v = 0; v < vertices_->size(id); ++v)
       for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(bodies_[id], v)];
-  const collide::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
+  const collide::surface::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
   if (found_ > 0) {
     surface_.renew(motion, elapsed, float(ahead), workers_);
     surface_work_ += double(surface_.search().work());
@@ -142,7 +142,7 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
   }
   found_ = left;
   since_found_.assign(std::size_t(workers_.threads()), 0.0f);
-  std::vector<collide::SurfaceBody> traits;
+  std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> contacts;
   for (BodyId id = 0; id < bodies_.size(); ++id) {
     const Body& body = bodies_[id];

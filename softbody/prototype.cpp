@@ -170,7 +170,7 @@ std::shared_ptr<const Prototype> make_prototype(const MeshSource& source, const 
   p->start = material.start_in_equilibrium && p->has_gas ? find_equilibrium(*p, p->mesh.vertices) : p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
   const std::vector<glm::vec3> rest(p->mesh.vertices.begin(), p->mesh.vertices.end());
-  p->surface = std::make_shared<collide::Surface>(static_cast<Index>(rest.size()), p->mesh.triangles);
+  p->surface = std::make_shared<collide::surface::Surface>(static_cast<Index>(rest.size()), p->mesh.triangles);
   for (const auto& [i, j] : p->surface->edges()) p->mean_edge += glm::distance(rest[i], rest[j]);
   p->mean_edge /= double(std::max<std::size_t>(1, p->surface->edges().size()));
   p->shape = std::make_shared<collide::Shape>(static_cast<Index>(p->mesh.vertices.size()), p->mesh.edges, rest);

@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "collide/surface.h"
+#include "collide/surface/surface.h"
 #include "softbody/scene.h"
 
 namespace softbody {
@@ -41,9 +41,9 @@ struct Gas {
 struct Prototype {
   Mesh mesh;
   Material material;
-  std::shared_ptr<const collide::Shape> shape;      // what the detectors see of it
-  std::shared_ptr<const collide::Surface> surface;  // for contact of the true surfaces
-  double mean_edge = 0;                             // m, at rest
+  std::shared_ptr<const collide::Shape> shape;               // what the detectors see of it
+  std::shared_ptr<const collide::surface::Surface> surface;  // for contact of the true surfaces
+  double mean_edge = 0;                                      // m, at rest
   std::vector<Spring> structural, bend, shear;
   Gas gas;
   std::vector<Index> first_face{0}, face;  // the triangles at each vertex, one list after another

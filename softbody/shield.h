@@ -21,7 +21,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 #include "softbody/lanes.h"
 
 namespace softbody {

@@ -34,7 +34,7 @@ void Sleep::settle(Dynamics& dynamics, std::span<const BodyId> vertex_body,
     if (a != b && dynamics.body(a).moves() && dynamics.body(b).moves()) parent_[root(a)] = root(b);
   };
   for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
-  for (const collide::ItemPair& pair : dynamics.surface_contact().touching()) join(pair.a, pair.b);
+  for (const collide::surface::ItemPair& pair : dynamics.surface_contact().touching()) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: its least calm body
   for (BodyId b = 0; b < count; ++b) {
     if (!dynamics.body(b).moves()) continue;

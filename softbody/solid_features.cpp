@@ -7,7 +7,7 @@
 #include <optional>
 #include <span>
 
-#include "collide/closest_features.h"
+#include "collide/surface/closest_features.h"
 #include "softbody/dynamics.h"
 #include "softbody/solid_law.h"
 #include "softbody/surface_vectors.h"
@@ -62,8 +62,8 @@ struct Meeting {
 Meeting meet(const SolidFeature& f, std::span<const glm::vec3> x) {
   Meeting m;
   const bool face = x.size() == 3;
-  const collide::Closest c =
-      face ? collide::closest_vertex_face(f.from, x[0], x[1], x[2]) : collide::closest_edges(x[0], x[1], f.from, f.to);
+  const collide::surface::Closest c = face ? collide::surface::closest_vertex_face(f.from, x[0], x[1], x[2])
+                                           : collide::surface::closest_edges(x[0], x[1], f.from, f.to);
   std::copy_n(face ? c.weight + 1 : c.weight, x.size(), m.weight.begin());
   for (std::size_t k = 0; k < x.size(); ++k) m.point += m.weight[k] * x[k];
   m.apart = face ? -c.apart : c.apart;
@@ -99,7 +99,7 @@ void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone
   const auto position = [&](std::uint32_t v) {
     return read(x, std::size_t(v) * std::size_t(b.width) + std::size_t(lane));
   };
-  const collide::Surface& surface = *b.prototype->surface;
+  const collide::surface::Surface& surface = *b.prototype->surface;
   for (const SolidBone& bone : bones) {
     SolidFeature found{.lane = lane,
                        .solid = b.near_solids.size() - 1,

@@ -12,20 +12,22 @@
 namespace softbody {
 namespace {
 
-using collide::Closest;
-using collide::FeaturePair;
-using collide::Surface;
-using collide::SurfaceSearch;
+using collide::surface::Closest;
+using collide::surface::FeaturePair;
+using collide::surface::Surface;
+using collide::surface::SurfaceSearch;
 
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
 constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
 /// m: how far a body may stray, if it strayed so far before.
-float slack_after(float stray, const collide::SurfaceBody& before) { return std::max(2 * stray, before.slack / 2); }
+float slack_after(float stray, const collide::surface::SurfaceBody& before) {
+  return std::max(2 * stray, before.slack / 2);
+}
 
 /// The calmer a body is, the fewer candidates it needs.
-void set_slack(collide::SurfaceBody& body, float wanted) {
+void set_slack(collide::surface::SurfaceBody& body, float wanted) {
   const float slack = std::clamp(wanted, 0.015f * body.edge, 0.1f * body.edge);
   body.skin += slack - body.slack;
   body.slack = slack;
@@ -60,8 +62,8 @@ void SurfaceContact::clear() {
   rate_ = 0;
 }
 
-void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits,
-                          std::vector<ContactBody> bodies, const collide::SurfaceQuery& query, float ahead,
+void SurfaceContact::find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
+                          std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
                           collide::Workers& workers) {
   std::swap(traits, traits_);
   std::swap(bodies, bodies_);
@@ -79,9 +81,10 @@ void SurfaceContact::find(const collide::Motion& motion, std::vector<collide::Su
   search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
 }
 
-void SurfaceContact::renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers) {
+void SurfaceContact::renew(const collide::surface::Motion& motion, float elapsed, float ahead,
+                           collide::Workers& workers) {
   for (Index body = 0; body < traits_.size(); ++body) {
-    const collide::SweptBody& swept = search_.body(body);
+    const collide::surface::SweptBody& swept = search_.body(body);
     if (!swept.due()) continue;
     traits_[body].foresight = std::max(ahead, patience * (elapsed - swept.begin()));
     if (swept.strayed()) set_slack(traits_[body], slack_after(swept.stray(), traits_[body]));
@@ -105,7 +108,7 @@ void SurfaceContact::take_candidates(const collide::Frame& now) {
   std::swap(pairs_, pairs_before_);
   std::swap(memory_, memory_before_);
   pairs_.clear();
-  for (const collide::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
+  for (const collide::surface::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
   memory_.assign(search_.features().size(), {});
   room_.assign(search_.features().size(), std::numeric_limits<float>::max());
   inherit();
@@ -129,10 +132,10 @@ void SurfaceContact::leave_room(const Pair& pair) {
     const FeaturePair& f = search_.features()[i];
     if (i < pair.range.edge_edge) {
       const auto& [a, b, c] = surface.triangles()[f.b];
-      room_[i] = room(collide::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
+      room_[i] = room(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
     } else {
-      const collide::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
-      room_[i] = room(collide::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
+      const collide::surface::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
+      room_[i] = room(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
     }
   }
 }
@@ -153,7 +156,7 @@ void SurfaceContact::foresee_speeds() {
   }
 }
 
-SurfaceContact::Pair SurfaceContact::make_pair(const collide::SurfacePair& range) const {
+SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePair& range) const {
   const ContactBody &a = bodies_[range.a], &b = bodies_[range.b];
   const auto reach = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
   return {.range = range,
@@ -183,7 +186,7 @@ void SurfaceContact::inherit() {
     while (old != pairs_before_.end() && old->range.bodies() < p.range.bodies()) ++old;
     if (old == pairs_before_.end()) return;
     if (p.range.bodies() < old->range.bodies()) continue;
-    const collide::SurfacePair &from = old->range, &to = p.range;
+    const collide::surface::SurfacePair &from = old->range, &to = p.range;
     p.overlap = old->overlap;
     hand_on(from.vertex_face, from.face_vertex, to.vertex_face, to.face_vertex);
     hand_on(from.face_vertex, from.edge_edge, to.face_vertex, to.edge_edge);
@@ -210,7 +213,7 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
       if (!shells[other]->inside(p)) continue;
-      const collide::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
+      const collide::surface::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
       deepest = std::max(deepest, nearest.distance);
       along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
       deep_.push_back({v, nearest.face, of_b});
@@ -269,8 +272,8 @@ bool SurfaceContact::gives_energy() const {
   });
 }
 
-std::vector<collide::ItemPair> SurfaceContact::touching() const {
-  std::vector<collide::ItemPair> list;
+std::vector<collide::surface::ItemPair> SurfaceContact::touching() const {
+  std::vector<collide::surface::ItemPair> list;
   for (const Pair& p : pairs_)
     if (p.range.a != p.range.b && p.range.vertex_face < p.range.end) list.push_back({p.range.a, p.range.b});
   return list;

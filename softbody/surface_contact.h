@@ -28,8 +28,8 @@
 #include <span>
 #include <vector>
 
-#include "collide/closed_shell.h"
-#include "collide/surface_search.h"
+#include "collide/surface/closed_shell.h"
+#include "collide/surface/surface_search.h"
 #include "softbody/kernels.h"
 
 namespace softbody {
@@ -89,15 +89,16 @@ class SurfaceContact {
   /// The candidates of the coming `seconds`. traits and bodies: one a body; slack, and skin beyond the reach, are set
   /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least, and what is
   /// strained fast for query.least. Throws std::length_error beyond query.most_features; then nothing is remembered.
-  void find(const collide::Motion& motion, std::vector<collide::SurfaceBody> traits, std::vector<ContactBody> bodies,
-            const collide::SurfaceQuery& query, float ahead, collide::Workers& workers);
+  void find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
+            std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
+            collide::Workers& workers);
   /// `elapsed` seconds later: those of bodies that have strayed from the motion that was foreseen, or whose was not
   /// foreseen for the seconds `ahead`, anew. Throws as find() does.
-  void renew(const collide::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
+  void renew(const collide::surface::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   void clear();
   bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.holds(now, elapsed, ahead); }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
-  const collide::SurfaceSearch& search() const { return search_; }
+  const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
   float rate() const { return rate_; }
@@ -120,7 +121,7 @@ class SurfaceContact {
   double work_of_substep(float h) const;
 
   /// Every two bodies of which features may touch in the frame at hand, a < b.
-  std::vector<collide::ItemPair> touching() const;
+  std::vector<collide::surface::ItemPair> touching() const;
   std::size_t rows() const;
   /// Whether the last substep was to push out what overlaps, or throw back what hit: with energy that nobody puts in.
   bool gives_energy() const;
@@ -130,7 +131,7 @@ class SurfaceContact {
 
  private:
   struct Pair {
-    collide::SurfacePair range;
+    collide::surface::SurfacePair range;
     glm::vec3 offset;  // origin of b minus origin of a
     float distance;    // m, kept between the surfaces
     float friction, restitution;
@@ -156,13 +157,13 @@ class SurfaceContact {
   };
   /// One body of a pair, seen from the other's origin where that is the first.
   struct Side {
-    const collide::Surface* surface;
+    const collide::surface::Surface* surface;
     std::size_t slot, stride;  // as of ContactBody
     glm::vec3 offset;
     float inverse_mass;
   };
   struct Near {
-    collide::Closest closest;
+    collide::surface::Closest closest;
     glm::vec3 face_normal;  // not of unit length
     float distance2;
     std::uint32_t feature;
@@ -170,7 +171,7 @@ class SurfaceContact {
   struct alignas(64) Thread {
     std::vector<ContactRow> rows;
     std::vector<Near> near;  // faces near one vertex
-    collide::FeaturePairs meeting;
+    collide::surface::FeaturePairs meeting;
     bool undone = false;  // mend() had something to do
   };
   /// The state of a substep, as one thread sees it.
@@ -184,13 +185,13 @@ class SurfaceContact {
     float same;  // the length of this substep over that of the last one; 0: there was none
   };
 
-  using Shells = std::vector<std::optional<collide::ClosedShell>>;  // of the bodies, where one was needed
+  using Shells = std::vector<std::optional<collide::surface::ClosedShell>>;  // of the bodies, where one was needed
 
   template <class Search>
   void search(const collide::Frame& now, const Search& search);
   void take_candidates(const collide::Frame& now);
   void inherit();
-  Pair make_pair(const collide::SurfacePair& range) const;
+  Pair make_pair(const collide::surface::SurfacePair& range) const;
   void find_deep(Pair& pair, const collide::Frame& now, Shells& shells);
   void leave_room(const Pair& pair);
   void foresee_speeds();
@@ -214,9 +215,9 @@ class SurfaceContact {
   void each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
   void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
 
-  std::vector<collide::SurfaceBody> traits_;
+  std::vector<collide::surface::SurfaceBody> traits_;
   std::vector<ContactBody> bodies_;
-  collide::SurfaceSearch search_;
+  collide::surface::SurfaceSearch search_;
   std::vector<Pair> pairs_, pairs_before_;      // before: the last find() or renew()
   std::vector<Memory> memory_, memory_before_;  // of each feature pair
   std::vector<float> room_;                     // m, of each feature pair: no more than this is kept between the two
@@ -228,13 +229,13 @@ class SurfaceContact {
 };
 
 struct SurfaceContact::State {
-  std::vector<collide::SurfaceBody> traits;
+  std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> bodies;
-  std::vector<collide::SurfaceSearch::Past> past;  // one a body
-  std::vector<Pair> pairs;                         // with their ranges in ...
-  std::vector<collide::FeaturePair> features;      // ... those of which something is remembered,
-  std::vector<Memory> memory;                      // namely this,
-  std::vector<ContactRow> rows;                    // and in those that pressed
+  std::vector<collide::surface::SurfaceSearch::Past> past;  // one a body
+  std::vector<Pair> pairs;                                  // with their ranges in ...
+  std::vector<collide::surface::FeaturePair> features;      // ... those of which something is remembered,
+  std::vector<Memory> memory;                               // namely this,
+  std::vector<ContactRow> rows;                             // and in those that pressed
   float last_h = 0;
 
   std::size_t bytes() const;

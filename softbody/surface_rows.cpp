@@ -10,14 +10,15 @@
 namespace softbody {
 namespace {
 
-using collide::Closest;
-using collide::FeaturePair;
+using collide::surface::Closest;
+using collide::surface::FeaturePair;
 
 constexpr float push_share = 0.1f;  // of an overlap, a substep
 constexpr float push_kept = 0.8f;   // of an impulse that pushes out is handed on to the next substep; by trial
 
-ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility, const collide::Triangle& face,
-                      std::size_t face_slot, std::size_t stride, float face_mobility) {
+ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
+                      const collide::surface::Triangle& face, std::size_t face_slot, std::size_t stride,
+                      float face_mobility) {
   ContactRow row{};
   row.slot[0] = static_cast<std::uint32_t>(vertex_slot);
   row.weight[0] = 1;
@@ -66,7 +67,7 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
   };
   const auto& features = search_.features();
   const float look2 = step.look * step.look;
-  collide::FeaturePairs& meeting = step.own.meeting;
+  collide::surface::FeaturePairs& meeting = step.own.meeting;
   step.own.near.clear();
   const auto flush = [&] {
     if (!step.own.near.empty() && !is_deep(features[step.own.near[0].feature].a))
@@ -159,11 +160,11 @@ void SurfaceContact::deep_vertices(Step& step) {
   for (std::uint32_t i = step.pair.deep; i < step.pair.deep_end; ++i) {
     const DeepVertex& d = deep_[i];
     const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
-    const collide::Triangle& face = face_side.surface->triangles()[d.face];
+    const collide::surface::Triangle& face = face_side.surface->triangles()[d.face];
     glm::vec3 corner[3];
     for (std::size_t k = 0; k < 3; ++k) corner[k] = at(step, face_side, face[k]);
     const glm::vec3 p = at(step, vertex_side, d.vertex);
-    const Closest c = collide::closest_vertex_face(p, corner[0], corner[1], corner[2]);
+    const Closest c = collide::surface::closest_vertex_face(p, corner[0], corner[1], corner[2]);
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
     ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
                                 face_side.slot, face_side.stride, face_side.inverse_mass);
@@ -174,7 +175,7 @@ void SurfaceContact::deep_vertices(Step& step) {
 }
 
 void SurfaceContact::edges_on_edges(Step& step) {
-  const collide::SurfacePair& range = step.pair.range;
+  const collide::surface::SurfacePair& range = step.pair.range;
   const bool self = range.a == range.b;
   const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
   const bool closed = !self && one.surface->closed() && two.surface->closed();
@@ -182,14 +183,14 @@ void SurfaceContact::edges_on_edges(Step& step) {
   const auto outward = [&](const Side& s, Index edge) {
     glm::vec3 sum(0.0f);
     for (const Index f : s.surface->edge_triangles()[edge]) {
-      const collide::Triangle& face = s.surface->triangles()[f];
+      const collide::surface::Triangle& face = s.surface->triangles()[f];
       sum += unit(normal_of(at(step, s, face[0]), at(step, s, face[1]), at(step, s, face[2])), {});
     }
     return sum;
   };
   const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
     const FeaturePair& f = search_.features()[i];
-    const collide::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+    const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
     Memory& memory = memory_[i];
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
@@ -217,13 +218,13 @@ void SurfaceContact::edges_on_edges(Step& step) {
     }
     add_row(step, row, normal, crossed ? -distance : distance, memory);
   };
-  collide::FeaturePairs& meeting = step.own.meeting;
+  collide::surface::FeaturePairs& meeting = step.own.meeting;
   for (std::uint32_t i = range.edge_edge; i < range.end;) {
     meeting.clear();
     for (; i < range.end && !meeting.full(); ++i) {
       const FeaturePair& f = search_.features()[i];
       if (f.from > step.until) continue;
-      const collide::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+      const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
       meeting.add({at(step, one, e1[0]), at(step, one, e1[1]), at(step, two, e2[0]), at(step, two, e2[1])}, i);
     }
     meeting.meet_edges();

@@ -30,7 +30,7 @@ SurfaceContact::State SurfaceContact::save() const {
   };
   for (const Pair& pair : pairs_) {
     Pair& kept = state.pairs.emplace_back(pair);
-    const collide::SurfacePair& from = pair.range;
+    const collide::surface::SurfacePair& from = pair.range;
     kept.range.vertex_face = static_cast<std::uint32_t>(state.features.size());
     kept.range.face_vertex = keep_features(from.vertex_face, from.face_vertex);
     kept.range.edge_edge = keep_features(from.face_vertex, from.edge_edge);

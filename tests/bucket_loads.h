@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace tests {
 

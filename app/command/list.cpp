@@ -27,7 +27,7 @@ void list_scenes(const std::filesystem::path& folder) {
 
 void list(const std::string& what) {
   if (what == "methods") {
-    for (const collide::Method& m : collide::methods()) row(m.key, m.name);
+    for (const collide::Method& m : collide::method_table()) row(m.key, m.name);
   } else if (what == "integrators") {
     for (const softbody::Integrator& i : softbody::integrators()) row(i.key, i.name);
   } else if (what == "contact-surfaces") {

@@ -29,7 +29,7 @@ struct FrameRow {
   softbody::Profile profile;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
-  std::optional<collide::SurfaceFigures> oracle;  // if asked for
+  std::optional<collide::oracle::SurfaceFigures> oracle;  // if asked for
 };
 
 FrameRow take_row(const softbody::World& world) {
@@ -44,7 +44,7 @@ FrameRow take_row(const softbody::World& world) {
           {}};
 }
 
-Json to_json(const collide::SurfaceFigures& f) {
+Json to_json(const collide::oracle::SurfaceFigures& f) {
   return {{"penetrating_vertices", f.penetrating_vertices},
           {"overlapping_pairs", f.overlapping_pairs},
           {"self_intersecting_bodies", f.self_intersecting_bodies},
@@ -223,7 +223,8 @@ void simulate(const Options& options) {
     world.step();
     rows.push_back(take_row(world));
     if (options.oracle)
-      rows.back().oracle = collide::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+      rows.back().oracle =
+          collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
     motion.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);

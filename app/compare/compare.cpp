@@ -28,12 +28,12 @@ CompareRow scored(const collide::Result& found, const std::vector<collide::Conta
 }  // namespace
 
 std::size_t method_index(std::string_view key) {
-  return static_cast<std::size_t>(collide::find_method(key) - collide::methods().data());
+  return static_cast<std::size_t>(collide::find_method(key) - collide::method_table().data());
 }
 
 Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
-    : budget_(budget), random_(seed), entries_(collide::methods().size()) {
-  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::methods()[i].make();
+    : budget_(budget), random_(seed), entries_(collide::method_table().size()) {
+  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::method_table()[i].make();
 }
 
 CompareReport Comparison::run(const Snapshot& snapshot, const std::stop_token& stop) {
@@ -67,7 +67,7 @@ std::vector<std::size_t> Comparison::choose(const Snapshot& snapshot, CompareRep
     if (!snapshot.chosen[i]) continue;
     if (const Work work = forecast_.of(i); work.cost() > budget_) {
       report.rows[i].not_run = "not run: " + work.in_words() + " predicted";
-    } else if (collide::methods()[i].key != collide::reference_method) {
+    } else if (collide::method_table()[i].key != collide::reference_method) {
       order.push_back(i);
     }
   }
@@ -95,9 +95,9 @@ std::optional<std::size_t> Comparison::find_reference(const Snapshot& snapshot, 
   if (work.cost() <= budget_) return brute_force;
   stands_in = "brute force would take " + work.in_words();
   // Methods that build boxes of their own and methods that do not share the least code.
-  const bool driver_uses_levels = collide::methods()[snapshot.driver].uses_levels;
+  const bool driver_uses_levels = collide::method_table()[snapshot.driver].uses_levels;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
-    const collide::Method& method = collide::methods()[i];
+    const collide::Method& method = collide::method_table()[i];
     if (i == brute_force || !method.exact || method.uses_levels == driver_uses_levels) continue;
     if (entries_[i].done || forecast_.of(i).cost() <= budget_) return i;
   }

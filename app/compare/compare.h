@@ -13,7 +13,7 @@
 
 namespace app {
 
-/// The index of a key in collide::methods(), which must have it.
+/// The index of a key in collide::method_table(), which must have it.
 std::size_t method_index(std::string_view key);
 
 /// One frame, copied, and what to run on it.

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "app/base/text.h"
-#include "collide/reach.h"
+#include "collide/core/cutoff.h"
 
 namespace app {
 namespace {
@@ -42,7 +42,7 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 void Forecast::begin(const collide::Frame& frame, const collide::Settings& settings, std::uint64_t world) {
   const collide::Bodies& bodies = *frame.bodies;
   if (world != world_ || settings != settings_) learnt_.clear();
-  learnt_.resize(collide::methods().size());
+  learnt_.resize(collide::method_table().size());
   world_ = world;
   settings_ = settings;
   vertices_ = bodies.vertex_count();
@@ -62,7 +62,7 @@ void Forecast::begin(const collide::Frame& frame, const collide::Settings& setti
     return std::max(16 * vertices, tests >> settings.levels);
   };
   in_near_bodies_ = exact_tests_ = 0;
-  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_reach(settings.tolerance))) {
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
     in_near_bodies_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
     exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
   }
@@ -75,7 +75,7 @@ void Forecast::begin(const collide::Frame& frame, const collide::Settings& setti
 
 Work Forecast::of(std::size_t method) const {
   const Learnt& learnt = learnt_[method];
-  const collide::Method& row = collide::methods()[method];
+  const collide::Method& row = collide::method_table()[method];
   if (learnt.vertices == 0 || (!row.uses_hash && !row.uses_levels)) return estimate(row);
   const double growth = vertices_ / learnt.vertices;  // by bodies dropped since: pairs grow with its square
   return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),

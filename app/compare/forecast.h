@@ -7,7 +7,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "collide/body_boxes.h"
+#include "collide/core/body_boxes.h"
 #include "collide/methods.h"
 
 namespace app {
@@ -27,7 +27,7 @@ inline std::uint64_t pairs_of(std::uint64_t n) { return n * (n - (n > 0)) / 2; }
 /// Distances that brute force evaluates on these bodies.
 std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision);
 
-/// Predicts the work of every method of collide::methods(), by its index. Exact for brute force and Bounding Box;
+/// Predicts the work of every method of collide::method_table(), by its index. Exact for brute force and Bounding Box;
 /// for the others what they did last with the same settings in the same world, and before that an estimate: all
 /// vertices of bodies whose boxes overlap, and aliasing as if the entries were spread evenly over the buckets. A method
 /// with levels and no table is taken to test some sixteen others for each vertex that it reads.

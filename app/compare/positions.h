@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "collide/frame.h"
+#include "collide/core/frame.h"
 
 namespace app {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace app {
 

@@ -39,8 +39,8 @@ glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
 std::vector<Configuration> sweep_configurations(const softbody::World& world) {
   const collide::Settings& settings = world.collision();
   std::vector<Configuration> all;
-  for (std::size_t m = 0; m < collide::methods().size(); ++m) {
-    const collide::Method& method = collide::methods()[m];
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+    const collide::Method& method = collide::method_table()[m];
     for (const int levels : axis(method.uses_levels, sweep_levels, settings.levels)) {
       const glm::vec3 automatic = automatic_cell_size(world, levels);
       for (const std::uint32_t buckets : axis(method.uses_hash, sweep_buckets, settings.buckets)) {
@@ -59,7 +59,7 @@ std::vector<Configuration> sweep_configurations(const softbody::World& world) {
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
              collide::Workers& workers)
     : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
-  for (const collide::Method& method : collide::methods()) detectors_.push_back(method.make());
+  for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
   for (const Configuration& c : configurations) report_.rows.emplace_back().configuration = c;
   predict();
 }
@@ -106,7 +106,7 @@ double Sweep::progress() const {
 
 void Sweep::find_reference() {
   const auto run = [&](const Configuration& c) {
-    collide::methods()[c.method].make()->detect(frame_, c.settings, workers_, result_);
+    collide::method_table()[c.method].make()->detect(frame_, c.settings, workers_, result_);
     truth_ = result_.contacts;
     report_.true_contacts = truth_.size();
     report_.reference = c;
@@ -123,11 +123,11 @@ void Sweep::find_reference() {
 std::optional<Configuration> Sweep::choose_reference() {
   std::optional<std::size_t> best;
   const auto rank = [&](std::size_t i) {
-    return std::pair(collide::methods()[report_.rows[i].configuration.method].uses_levels, predicted_[i]);
+    return std::pair(collide::method_table()[report_.rows[i].configuration.method].uses_levels, predicted_[i]);
   };
   for (std::size_t i = 0; i < report_.rows.size(); ++i) {
     const SweepRow& row = report_.rows[i];
-    const collide::Method& method = collide::methods()[row.configuration.method];
+    const collide::Method& method = collide::method_table()[row.configuration.method];
     if (method.key == collide::reference_method) {
       if (row.not_run.empty()) return row.configuration;
       report_.stands_in = "brute force is " + row.not_run;
@@ -152,7 +152,7 @@ void Sweep::check(SweepRow& row) {
   const Configuration& c = row.configuration;
   collide::Result result;
   const std::size_t before = heap_in_use();
-  const auto detector = collide::methods()[c.method].make();
+  const auto detector = collide::method_table()[c.method].make();
   detector->detect(frame_, c.settings, workers_, result);
   row.memory = std::max(heap_in_use(), before) - before;
   row.counters = result.counters;

@@ -20,7 +20,7 @@ inline constexpr std::array<double, 5> sweep_cells{0.25, 0.5, 1, 2, 4};  // in a
 
 /// A method with the settings it runs with.
 struct Configuration {
-  std::size_t method = 0;      // index in collide::methods()
+  std::size_t method = 0;      // index in collide::method_table()
   collide::Settings settings;  // what the method has no use for is as in the world
   double cell = 1;             // the cell size in units of the automatic one
 };

@@ -48,7 +48,7 @@ const CellGroup* BucketContents::group(const std::optional<Cell>& cell) const {
 TableContents::TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame,
                              const collide::Settings& settings)
     : vertices_(!debug.vertices.empty()) {
-  const collide::CellHash hash(settings);
+  const collide::methods::CellHash hash(settings);
   const auto add = [&](const Cell& cell, collide::Index item) { entries_.push_back({hash.bucket(cell), cell, item}); };
   for (const collide::Index v : debug.vertices) add(hash.cell(frame.x[v], frame.y[v], frame.z[v]), v);
   for (collide::Index box = 0; box < debug.boxes.size(); ++box)

@@ -4,11 +4,11 @@
 #include <optional>
 #include <vector>
 
-#include "collide/cell_hash.h"
+#include "collide/methods/cell_hash.h"
 
 namespace app {
 
-using Cell = collide::CellHash::Cell;
+using Cell = collide::methods::CellHash::Cell;
 
 /// A box in the cell of one of its corners, or a vertex in its cell.
 struct TableEntry {

@@ -6,18 +6,18 @@
 
 #include <glm/geometric.hpp>
 
-#include "collide/closed_shell.h"
+#include "collide/surface/closed_shell.h"
 
 namespace app {
 
-collide::Surfaces surfaces_of(const softbody::World& world) {
-  collide::Surfaces surfaces;
+collide::surface::Surfaces surfaces_of(const softbody::World& world) {
+  collide::surface::Surfaces surfaces;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) surfaces.push_back(world.prototype(b).surface);
   return surfaces;
 }
 
-collide::Overlaps WorldOracle::overlaps(const softbody::World& world) {
-  return collide::find_overlaps(world.positions(), surfaces_of(world), workers_);
+collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
+  return collide::oracle::find_overlaps(world.positions(), surfaces_of(world), workers_);
 }
 
 double WorldOracle::moved(const softbody::World& world) const {
@@ -30,12 +30,12 @@ double WorldOracle::moved(const softbody::World& world) const {
   return std::sqrt(most2);
 }
 
-std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& world) {
+std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::World& world) {
   const collide::Frame now = world.positions(), before{before_.x, before_.y, before_.z, &bodies_};
   const std::size_t known = bodies_.vertex_count();  // arrivals come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
-  std::vector<collide::Crossing> found;
-  if (moved(world) > 0) found = collide::find_crossings(before, after, surfaces_, workers_);
+  std::vector<collide::oracle::Crossing> found;
+  if (moved(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
   std::swap(earlier_, before_);
   before_.copy(now);
   bodies_ = world.bodies();
@@ -43,11 +43,12 @@ std::vector<collide::Crossing> WorldOracle::crossings(const softbody::World& wor
   return found;
 }
 
-bool WorldOracle::came_inside(const collide::Crossing& crossing) const {
+bool WorldOracle::came_inside(const collide::oracle::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
     const collide::Run at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
-    return collide::ClosedShell(*surfaces_[crossing.other], at).inside({p.x[vertex], p.y[vertex], p.z[vertex]});
+    return collide::surface::ClosedShell(*surfaces_[crossing.other], at)
+        .inside({p.x[vertex], p.y[vertex], p.z[vertex]});
   };
   return inside(before_) && !inside(earlier_);
 }

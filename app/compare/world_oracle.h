@@ -2,14 +2,14 @@
 // The surface oracle on a world in motion.
 
 #include "app/compare/positions.h"
-#include "collide/surface_oracle.h"
-#include "collide/workers.h"
+#include "collide/core/workers.h"
+#include "collide/oracle/surface_oracle.h"
 #include "softbody/world.h"
 
 namespace app {
 
 /// The surface of each body, as the oracle wants them.
-collide::Surfaces surfaces_of(const softbody::World& world);
+collide::surface::Surfaces surfaces_of(const softbody::World& world);
 
 class WorldOracle {
  public:
@@ -17,23 +17,23 @@ class WorldOracle {
   explicit WorldOracle(int threads) : workers_(threads) {}
 
   /// What overlaps at this instant.
-  collide::Overlaps overlaps(const softbody::World& world);
+  collide::oracle::Overlaps overlaps(const softbody::World& world);
 
   /// m: how far a vertex is at the most from where it was when crossings() was called last; 0 before.
   double moved(const softbody::World& world) const;
 
   /// What passed through what since the last call, each vertex taken along the straight line between the two: bodies
   /// that arrived in between are left out, and the first call finds nothing. To be called for one world only.
-  std::vector<collide::Crossing> crossings(const softbody::World& world);
+  std::vector<collide::oracle::Crossing> crossings(const softbody::World& world);
   /// Whether a vertex that crossed a face of a closed body in the last call came to be inside it. Crossings alone do
   /// not tell: of those through one face only the first is listed, and those through a rim are those of two.
-  bool came_inside(const collide::Crossing& crossing) const;
+  bool came_inside(const collide::oracle::Crossing& crossing) const;
 
  private:
   collide::Workers workers_;
-  Positions before_, earlier_;  // of the last call and the one before it
-  collide::Bodies bodies_;      // of before_
-  collide::Surfaces surfaces_;  // likewise
+  Positions before_, earlier_;           // of the last call and the one before it
+  collide::Bodies bodies_;               // of before_
+  collide::surface::Surfaces surfaces_;  // likewise
 };
 
 }  // namespace app

@@ -11,7 +11,7 @@ CompareReport CompareTask::answer(const Snapshot& snapshot, const std::stop_toke
     report.id = snapshot.id;
     report.frame = snapshot.frame_number;
     report.stands_in = std::string("the comparison failed: ") + error.what();
-    report.rows.resize(collide::methods().size());
+    report.rows.resize(collide::method_table().size());
     return report;
   }
 }

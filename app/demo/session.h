@@ -16,7 +16,7 @@
 #include "app/panel/solid_list.h"
 #include "app/view/drawn_positions.h"
 #include "app/view/overlays.h"
-#include "collide/detectors.h"
+#include "collide/methods/detectors.h"
 #include "softbody/snapshot.h"
 
 namespace app {
@@ -28,15 +28,15 @@ struct SceneChoice {
 struct History {
   Ring frame_ms;  // real time from one advance() to the next
   Ring detect_ms, solve_ms, contacts, recall;
-  Ring ghost;                                                                  // distance(), in radii
-  std::vector<Ring> method_ms = std::vector<Ring>(collide::methods().size());  // of the comparison, by method
+  Ring ghost;                                                                       // distance(), in radii
+  std::vector<Ring> method_ms = std::vector<Ring>(collide::method_table().size());  // of the comparison, by method
   void clear() { *this = {}; }
 };
 
 /// What to compare with the driving method, which is compared with the reference in any case.
 struct CompareChoice {
   bool on = false;
-  std::vector<bool> methods = std::vector<bool>(collide::methods().size(), true);
+  std::vector<bool> methods = std::vector<bool>(collide::method_table().size(), true);
   std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
 };
 
@@ -176,7 +176,7 @@ class Session {
   /// The index of the driving method, and its row: nullptr until it is measured, or if it cannot be.
   std::size_t driver() const { return method_index(world_->method().key); }
   const CompareRow* driver_row() const;
-  /// The index in collide::methods() of the method whose missed contacts are shown.
+  /// The index in collide::method_table() of the method whose missed contacts are shown.
   std::size_t misses_of() const { return compare.on ? compare.misses_of.value_or(driver()) : driver(); }
   /// What the method of choice missed; nullptr if that is not known.
   const std::vector<collide::Contact>* missed() const;
@@ -265,7 +265,7 @@ class Session {
   std::optional<std::uint32_t> selected_bucket_;
   std::optional<Cell> selected_cell_;
   std::unique_ptr<collide::Detector> exact_;  // shows its areas
-  mutable collide::PaperStructure paper_structure_ = collide::make_paper_structure();
+  mutable collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();
   // What is shown of the state, each with the revision that it belongs to.
   mutable OfRevision<collide::DebugGeometry> debug_, paper_;
   mutable OfRevision<TableContents> table_;

@@ -10,7 +10,7 @@ namespace app {
 Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
   Forecast forecast;
   forecast.begin(world_->positions(), settings, 0);
-  return forecast.of(static_cast<std::size_t>(&method - collide::methods().data()));
+  return forecast.of(static_cast<std::size_t>(&method - collide::method_table().data()));
 }
 
 /// False, with a notice(), if the method would hold the window up: it runs where the bodies are moved and drawn.
@@ -34,7 +34,7 @@ void Session::set_method(std::string_view key) {
 }
 
 void Session::next_method() {
-  const auto all = collide::methods();
+  const auto all = collide::method_table();
   const auto here = std::ranges::find(all, world_->method().key, &collide::Method::key);
   const auto first = static_cast<std::size_t>(here - all.begin());
   for (std::size_t i = 1; i < all.size(); ++i) {

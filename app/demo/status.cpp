@@ -52,7 +52,7 @@ double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
 
 std::string reference_sentence(const CompareReport& report) {
   if (!report.reference) return report.stands_in.empty() ? "Measuring" : "Not measured: " + report.stands_in;
-  const std::string name(collide::methods()[*report.reference].name);
+  const std::string name(collide::method_table()[*report.reference].name);
   std::string text = "Measured against " + name;
   return report.stands_in.empty() ? text : text + ": " + report.stands_in;
 }
@@ -160,7 +160,7 @@ void draw_legend(Widgets& w, const Session& session, bool of_which_method) {
   if (shown.missed)
     legend_line(w, contact_missed_colour,
                 std::string(session.missed() && session.missed()->empty() ? "none missed by " : "missed by ") +
-                    std::string(collide::methods()[session.misses_of()].name));
+                    std::string(collide::method_table()[session.misses_of()].name));
   if (shown.areas) legend_line(w, area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");

@@ -34,7 +34,7 @@ std::vector<Curve> curves_of(const Session& session) {
                             {"strain", motion.strain},
                             {"speed_m_s", motion.speed}};
   for (std::size_t i = 0; i < history.method_ms.size(); ++i)
-    curves.push_back({std::string(collide::methods()[i].key) + "_ms", history.method_ms[i]});
+    curves.push_back({std::string(collide::method_table()[i].key) + "_ms", history.method_ms[i]});
   return curves;
 }
 

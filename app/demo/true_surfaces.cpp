@@ -9,15 +9,15 @@ glm::vec3 from_vertex(const Positions& at, collide::Index v, const glm::dvec3& p
   return glm::vec3(point - glm::dvec3(at.x[v], at.y[v], at.z[v]));
 }
 
-std::vector<SurfaceMark> marks_of(const Positions& at, const collide::Overlaps& overlaps,
-                                  const collide::Missed& missed) {
+std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Overlaps& overlaps,
+                                  const collide::oracle::Missed& missed) {
   std::vector<SurfaceMark> marks;
   for (const std::size_t i : missed.penetrations) {
-    const collide::Penetration& in = overlaps.penetrations[i];
+    const collide::oracle::Penetration& in = overlaps.penetrations[i];
     marks.push_back({in.vertex, from_vertex(at, in.vertex, in.point), false});
   }
   for (const std::size_t i : missed.piercings) {
-    const collide::Piercing& through = overlaps.piercings[i];
+    const collide::oracle::Piercing& through = overlaps.piercings[i];
     marks.push_back({through.edge[0], from_vertex(at, through.edge[0], through.point), true});
   }
   return marks;
@@ -37,13 +37,13 @@ Positions completed(Positions before, const Positions& at) {
 void judge(const StepCopy& step, const std::stop_token& stop, SurfaceReport& report) {
   collide::Workers alone(1);
   const collide::Frame now{step.at.x, step.at.y, step.at.z, &step.bodies};
-  const collide::Overlaps overlaps = collide::find_overlaps(now, step.surfaces, alone);
+  const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, alone);
   if (stop.stop_requested()) return;
   const Positions start = completed(step.before, step.at);
   const collide::Frame before{start.x, start.y, start.z, &step.bodies};
-  const auto crossings = collide::find_crossings(before, now, step.surfaces, alone);
-  report.figures = collide::figures_of(now, overlaps, crossings);
-  const collide::Missed missed = collide::missed_by(step.contacts, now, step.surfaces, overlaps);
+  const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, alone);
+  report.figures = collide::oracle::figures_of(now, overlaps, crossings);
+  const collide::oracle::Missed missed = collide::oracle::missed_by(step.contacts, now, step.surfaces, overlaps);
   report.penetrations = overlaps.penetrations.size();
   report.missed_penetrations = missed.penetrations.size();
   report.missed_piercings = missed.piercings.size();

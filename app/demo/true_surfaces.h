@@ -7,7 +7,7 @@
 
 #include "app/compare/positions.h"
 #include "app/demo/background_worker.h"
-#include "collide/surface_oracle.h"
+#include "collide/oracle/surface_oracle.h"
 
 namespace app {
 
@@ -17,7 +17,7 @@ struct StepCopy {
   int frame = 0;         // of the world, after the step
   Positions before, at;  // `before` may lack the last bodies: they have just come, and count as not having moved
   collide::Bodies bodies;
-  collide::Surfaces surfaces;
+  collide::surface::Surfaces surfaces;
   std::vector<collide::Contact> contacts;  // found by the detector
 };
 
@@ -31,9 +31,9 @@ struct SurfaceMark {
 struct SurfaceReport {
   std::uint64_t id = 0;  // of the step; 0: nothing judged yet
   int frame = 0;
-  collide::SurfaceFigures figures;
+  collide::oracle::SurfaceFigures figures;
   std::size_t penetrations = 0;  // vertices inside bodies, once for each body
-  std::size_t missed_penetrations = 0, missed_piercings = 0, missed_pairs = 0;  // as in collide::Missed
+  std::size_t missed_penetrations = 0, missed_piercings = 0, missed_pairs = 0;  // as in collide::oracle::Missed
   std::vector<SurfaceMark> marks;                                               // of these penetrations and piercings
   std::string failure;                                                          // why there are no figures, else empty
 };

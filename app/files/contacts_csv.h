@@ -2,7 +2,7 @@
 // The contacts of `detect` as a table of comma-separated values.
 
 #include "app/files/output_file.h"
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace app {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "collide/frame.h"
+#include "collide/core/frame.h"
 #include "softbody/obj_file.h"
 
 namespace app {

@@ -247,8 +247,8 @@ std::string footing(const Session& session) {
 float compare_height(float width, float scale) {
   const float line = ImGui::GetFontSize() + (2 * frame_padding + row_gap) * scale;
   const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < least_inside() * scale;
-  return static_cast<float>(collide::methods().size() + 1) * line + ImGui::GetFontSize() + 2 * window_padding * scale +
-         (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+  return static_cast<float>(collide::method_table().size() + 1) * line + ImGui::GetFontSize() +
+         2 * window_padding * scale + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
 }
 
 void draw_compare(Widgets& w, Session& session, const SceneArea& area) {
@@ -265,10 +265,10 @@ void draw_compare(Widgets& w, Session& session, const SceneArea& area) {
   const Scale scale = common_scale(session);
   const CompareReport& report = session.comparison();
   const std::size_t driver = session.driver();
-  for (std::size_t i = 0; i < collide::methods().size(); ++i) {
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     draw_row(w, session, grid,
-             {i, collide::methods()[i], report.rows.empty() ? nullptr : &report.rows[i], session.compare.methods[i],
-              i == driver, report.reference == i},
+             {i, collide::method_table()[i], report.rows.empty() ? nullptr : &report.rows[i],
+              session.compare.methods[i], i == driver, report.reference == i},
              scale);
   }
   w.line(footing(session));

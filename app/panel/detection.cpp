@@ -31,7 +31,7 @@ void draw_method(Widgets& w, Session& session) {
   const std::string name(method.name);
   if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
   std::string_view chosen = method.key;
-  for (const collide::Method& each : collide::methods()) {
+  for (const collide::Method& each : collide::method_table()) {
     w.chip(each.colour, ImGui::GetTextLineHeight());
     ImGui::SameLine();
     const std::string label(each.name), tooltip(each.summary);

@@ -25,7 +25,7 @@ std::string power_of_ten(int exponent) { return format("%g", std::pow(10.0, expo
 int exponent_below(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
 std::size_t level_index(const Configuration& c) {
-  if (!collide::methods()[c.method].uses_levels) return 0;
+  if (!collide::method_table()[c.method].uses_levels) return 0;
   return static_cast<std::size_t>(std::ranges::find(sweep_levels, c.settings.levels) - sweep_levels.begin());
 }
 
@@ -59,7 +59,7 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
   for (const Point& point : points_) {
     const bool pale = emphasis.method && *emphasis.method != point.method;
     draw_mark(point.at, w.px(mark_radius), point.level,
-              to_imgui(collide::methods()[point.method].colour, pale ? 0.12f : 0.8f));
+              to_imgui(collide::method_table()[point.method].colour, pale ? 0.12f : 0.8f));
   }
   draw_front(w);
   for (const Point& point : points_) {
@@ -83,7 +83,7 @@ void SweepPlot::lay_out(const Widgets& w, ImVec2 min, ImVec2 max) {
   }
   const float label_width = ImGui::CalcTextSize(power_of_ten(std::min(least, -4)).c_str()).x;
   floor_ = max.y - 2 * line - w.px(label_gap);
-  const float lanes = w.px(lane_height) * static_cast<float>(collide::methods().size() + 2);
+  const float lanes = w.px(lane_height) * static_cast<float>(collide::method_table().size() + 2);
   time_ = {fastest, slowest, min.x + label_width + w.px(label_gap), max.x - w.px(12)};
   error_ = {0, least, min.y + line + w.px(10), floor_ - lanes};
   for (Point& point : points_) {

@@ -10,7 +10,7 @@ class SweepPlot {
  public:
   struct Point {
     std::size_t row;     // of the report
-    std::size_t method;  // in collide::methods()
+    std::size_t method;  // in collide::method_table()
     std::size_t level;   // in sweep_levels; 0 for methods without levels
     Tradeoff value;      // median time
     ImVec2 at{-1, -1};   // where it was drawn last

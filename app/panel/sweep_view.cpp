@@ -14,7 +14,7 @@ bool was_run(const SweepRow& row) { return row.not_run.empty(); }
 
 /// "Multi-Level SB, level 3, 1,001 buckets, cells x 0.5": without what the method has no use for.
 std::string in_words(const Configuration& c) {
-  const collide::Method& method = collide::methods()[c.method];
+  const collide::Method& method = collide::method_table()[c.method];
   std::string text(method.name);
   if (method.uses_levels) text += format(", level %d", c.settings.levels);
   if (method.uses_hash) text += joined(", ", grouped(c.settings.buckets), format(" buckets, cells x %g", c.cell));
@@ -24,7 +24,7 @@ std::string in_words(const Configuration& c) {
 std::string tooltip(const SweepRow& row) {
   std::string text = in_words(row.configuration);
   const glm::vec3& cell = row.configuration.settings.cell_size;
-  if (collide::methods()[row.configuration.method].uses_hash) {
+  if (collide::method_table()[row.configuration.method].uses_hash) {
     text += format("\nCells of %.3g x %.3g x %.3g m", double{cell.x}, double{cell.y}, double{cell.z});
     text += format(", %g of the automatic size", row.configuration.cell);
   }
@@ -55,7 +55,7 @@ std::string reasons(const SweepReport& report) {
 }
 
 bool in_use(const SweepRow& row, const softbody::World& world) {
-  const collide::Method& method = collide::methods()[row.configuration.method];
+  const collide::Method& method = collide::method_table()[row.configuration.method];
   const collide::Settings &its = row.configuration.settings, &now = world.collision();
   if (method.key != world.method().key || (method.uses_levels && its.levels != now.levels)) return false;
   return !method.uses_hash || (its.buckets == now.buckets && its.cell_size == now.cell_size);
@@ -63,7 +63,7 @@ bool in_use(const SweepRow& row, const softbody::World& world) {
 
 /// Only what the sweep varies; the rest stays as it is by now.
 void apply(const Configuration& c, Session& session) {
-  const collide::Method& method = collide::methods()[c.method];
+  const collide::Method& method = collide::method_table()[c.method];
   collide::Settings settings = session.world().collision();
   bool automatic = session.world().uses_default_cell_size();
   if (method.uses_levels) settings.levels = c.settings.levels;
@@ -95,9 +95,9 @@ std::string footing(const SweepState& state) {
   std::string text = joined(state.scene, ", frame ", std::to_string(state.frame), ". ");
   const SweepReport& report = state.report;
   if (report.reference) {
-    text +=
-        joined(grouped(report.true_contacts), " true contacts by ", collide::methods()[report.reference->method].name,
-               report.stands_in.empty() ? "." : ", which stands in for brute force.");
+    text += joined(grouped(report.true_contacts), " true contacts by ",
+                   collide::method_table()[report.reference->method].name,
+                   report.stands_in.empty() ? "." : ", which stands in for brute force.");
   } else if (!report.stands_in.empty()) {
     text += joined("No true contacts: ", report.stands_in, ".");
   }
@@ -164,8 +164,8 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
 
 void SweepView::draw_legend(Widgets& w) {
   looked_at_.reset();
-  for (std::size_t m = 0; m < collide::methods().size(); ++m) {
-    const collide::Method& method = collide::methods()[m];
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+    const collide::Method& method = collide::method_table()[m];
     legend_entry(w, std::string(method.name), "Its points alone.", m == 0,
                  [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
     if (ImGui::IsItemHovered()) looked_at_ = m;

@@ -12,8 +12,8 @@
 #include "app/compare/forecast.h"
 #include "app/compare/score.h"
 #include "app/tour/excerpt.h"
-#include "collide/body_boxes.h"
-#include "collide/detectors.h"
+#include "collide/core/body_boxes.h"
+#include "collide/methods/detectors.h"
 #include "softbody/measures.h"
 
 namespace app {
@@ -140,7 +140,7 @@ Index box_of(const Findings& f, const glm::vec3& at) {
   return box;
 }
 
-std::array<HashedCorner, 8> hashed(const collide::DebugGeometry::Box& box, const collide::CellHash& hash) {
+std::array<HashedCorner, 8> hashed(const collide::DebugGeometry::Box& box, const collide::methods::CellHash& hash) {
   std::array<HashedCorner, 8> corners{};
   const auto points = corners_of(box);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -169,7 +169,7 @@ std::size_t telling_corner(const Findings& f) {
 
 /// Boxes, table and the corners of the box that is nearest to the other body.
 void look_at_structure(const softbody::World& world, Findings& f) {
-  const collide::CellHash hash(world.collision());
+  const collide::methods::CellHash hash(world.collision());
   for (Index i = 0; i < f.structure.boxes.size(); ++i)
     if (f.structure.boxes[i].body == f.body) f.boxes.push_back(i);
   f.box = box_of(f, vertex(world, f.closest ? f.closest->a : world.bodies().first[f.body]));
@@ -184,7 +184,7 @@ std::uint64_t predicted_tests(const softbody::World& world, std::size_t method) 
 }
 
 std::size_t paper_index() {
-  return static_cast<std::size_t>(collide::find_method(collide::paper_method) - collide::methods().data());
+  return static_cast<std::size_t>(collide::find_method(collide::paper_method) - collide::method_table().data());
 }
 
 }  // namespace
@@ -216,7 +216,7 @@ std::optional<Findings> Finder::find(const softbody::World& world, std::optional
   const std::uint64_t tests = predicted_tests(world, paper_index());
   f.predicted_tests = tests > most_tests;
   if (f.predicted_tests) {
-    f.structure = collide::make_paper_structure()(frame, settings, alone_);
+    f.structure = collide::methods::make_paper_structure()(frame, settings, alone_);
     f.work = {.hashes = 8 * f.structure.boxes.size(), .boxes = f.structure.boxes.size(), .pair_tests = tests};
   } else {
     missed = score(detect(*paper_, frame, settings, alone_, &f.work), truth).missed;

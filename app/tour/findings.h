@@ -5,7 +5,7 @@
 #include <optional>
 
 #include "app/compare/table_contents.h"
-#include "collide/aabb.h"
+#include "collide/core/aabb.h"
 #include "collide/methods.h"
 #include "softbody/world.h"
 

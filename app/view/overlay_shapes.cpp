@@ -213,7 +213,7 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
                  engine::FrameData& frame) {
   constexpr float outside = 0.08f;  // of the length of an edge
   engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.5f};
-  const collide::Surface& surface = *world.prototype(id).surface;
+  const collide::surface::Surface& surface = *world.prototype(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
     const auto& [a, b, c] = surface.triangles()[face];

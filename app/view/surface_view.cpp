@@ -28,7 +28,7 @@ void draw_state(Widgets& w, const Session& session) {
          "frame while bodies move. Solids are not judged.");
 }
 
-void draw_overlaps(Widgets& w, const collide::SurfaceFigures& figures) {
+void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
   w.figure("Penetrating vertices", grouped(figures.penetrating_vertices), "Vertices inside another closed body.");
   w.figure("Overlapping pairs", grouped(figures.overlapping_pairs),
            "Pairs of bodies of which one has a vertex in the other, or an edge through a face of it.");
@@ -38,7 +38,7 @@ void draw_overlaps(Widgets& w, const collide::SurfaceFigures& figures) {
   w.figure("Mean depth", millimetres(figures.mean_depth), "Over all penetrating vertices.");
 }
 
-void draw_crossings(Widgets& w, const collide::SurfaceFigures& figures, const CrossingSums& sums) {
+void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const CrossingSums& sums) {
   w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
            "Vertices that passed through a face in the step to this frame, either way, and pairs of edges that passed "
            "through each other: on straight lines from the frame before.");

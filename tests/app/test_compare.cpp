@@ -25,7 +25,7 @@ Snapshot snapshot_of(const softbody::World& world) {
   snapshot.settings = world.collision();
   snapshot.driver = method_index(world.method().key);
   snapshot.found = world.detection();
-  snapshot.chosen.assign(collide::methods().size(), true);
+  snapshot.chosen.assign(collide::method_table().size(), true);
   return snapshot;
 }
 
@@ -71,8 +71,8 @@ TEST(Comparison, RowsAreWhatTheDetectorsFindThemselves) {
   const softbody::World world = world_with("multi-level-sb", 0.13f);
   const CompareReport report = Comparison(seed).run(snapshot_of(world));
   EXPECT_EQ(report.id, 1u);
-  ASSERT_EQ(report.rows.size(), collide::methods().size());
-  for (const collide::Method& method : collide::methods()) {
+  ASSERT_EQ(report.rows.size(), collide::method_table().size());
+  for (const collide::Method& method : collide::method_table()) {
     collide::Workers alone(1);
     collide::Result expected;
     method.make()->detect(world.positions(), world.collision(), alone, expected);
@@ -108,7 +108,7 @@ TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
 TEST(Comparison, FindsNothingMissingInExactMethods) {
   for (const float cell : {0.05f, 0.13f, 0.7f}) {
     const CompareReport report = Comparison(seed).run(snapshot_of(world_with("brute-force", cell)));
-    for (const collide::Method& method : collide::methods()) {
+    for (const collide::Method& method : collide::method_table()) {
       if (!method.exact) continue;
       EXPECT_EQ(row(report, method.key).recall, 1.0) << method.key;
       EXPECT_EQ(row(report, method.key).precision, 1.0) << method.key;
@@ -152,11 +152,11 @@ TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
 
 TEST(Comparison, RunsOnlyWhatIsChosen) {
   Snapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
-  snapshot.chosen.assign(collide::methods().size(), false);
+  snapshot.chosen.assign(collide::method_table().size(), false);
   snapshot.chosen[method_index("bounding-box")] = true;
   const CompareReport report = Comparison(seed).run(snapshot);
   EXPECT_EQ(report.order, std::vector{method_index("bounding-box")});
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     EXPECT_EQ(row(report, method.key).ms.has_value(), method.key == "bounding-box") << method.key;
   }
 }
@@ -168,7 +168,7 @@ TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
   for (int i = 0; i < 12; ++i) {
     const auto order = one.run(snapshot).order;
     EXPECT_EQ(order, same.run(snapshot).order);
-    EXPECT_EQ(order.size(), collide::methods().size() - 1);
+    EXPECT_EQ(order.size(), collide::method_table().size() - 1);
     EXPECT_EQ(std::ranges::count(order, method_index("brute-force")), 0);
     orders.insert(order);
   }
@@ -188,12 +188,12 @@ TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
 }
 
 TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
-  for (const collide::Method& driver : collide::methods()) {
+  for (const collide::Method& driver : collide::method_table()) {
     if (driver.key == "brute-force") continue;
     const softbody::World world = three_bodies(driver.key);
     const CompareReport report = Comparison(seed, tight_budget).run(snapshot_of(world));
     ASSERT_TRUE(report.reference) << driver.key;
-    const collide::Method& reference = collide::methods()[*report.reference];
+    const collide::Method& reference = collide::method_table()[*report.reference];
     EXPECT_EQ(reference.key, driver.uses_levels ? "grid-hash" : "multi-level-sb-exact") << driver.key;
     EXPECT_EQ(report.true_contacts, true_contacts(world).size());
     EXPECT_EQ(report.stands_in, "brute force would take 117,855 pair tests");

@@ -44,7 +44,7 @@ TEST(CompareView, AClickOnANameMakesItTheDriver) {
   PanelRig rig;
   rig.session.compare.on = true;
   rig.frames(3);
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     rig.click("Drive " + std::string(method.name));
     EXPECT_EQ(rig.session.world().method().key, method.key);
   }

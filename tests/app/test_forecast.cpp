@@ -34,7 +34,7 @@ TEST(Forecast, OfHashMethodsIsNeverMoreThanBruteForceAndNotMuchTooSmall) {
   const softbody::World world(touching_pair(), {});
   Forecast forecast;
   forecast.begin(world.positions(), world.collision(), 1);
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     const std::uint64_t predicted = forecast.of(method_index(method.key)).pair_tests;
     EXPECT_LE(predicted, tests_of(world, "brute-force")) << method.key;
     EXPECT_GE(2 * predicted, tests_of(world, method.key)) << method.key;

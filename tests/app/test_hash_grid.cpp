@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "app/panel/hash_grid.h"
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace app {
 namespace {

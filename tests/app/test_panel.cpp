@@ -29,7 +29,7 @@ TEST(Panel, SwitchesEveryOverlay) {
 
 TEST(Panel, ChoosesEveryMethodWhileRunning) {
   PanelRig rig;
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     rig.click("Method");
     rig.click(method.name);
     EXPECT_EQ(rig.session.world().method().key, method.key);
@@ -104,7 +104,7 @@ TEST(Panel, NamesTheBodyThatExplodesAndRewinds) {
 TEST(Panel, EnablesOnlyWhatTheMethodUses) {
   PanelRig rig;
   rig.ui.table = false;
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     rig.session.set_method(method.key);
     rig.frames(2);
     EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
@@ -205,7 +205,7 @@ TEST(Panel, DragsEverySliderToItsEnds) {
 
 TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {
   PanelRig rig;
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     rig.session.set_method(method.key);
     for (const int levels : {0, collide::max_levels}) {
       for (const float cell : {least_cell, most_cell}) {

@@ -43,7 +43,7 @@ TEST(Session, ShowsNewContactsWhilePausedAfterAChange) {
 TEST(Session, GoesThroughAllMethods) {
   Session session = make_session();
   const std::string first(session.world().method().key);
-  for (std::size_t i = 0; i < collide::methods().size(); ++i) {
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     session.next_method();
     session.advance(tick);
     EXPECT_TRUE(session.notice().empty());
@@ -66,7 +66,7 @@ TEST(Session, LeavesOutAMethodThatWouldTakeTooLong) {
   session.set_method("brute-force");
   EXPECT_EQ(session.world().method().key, first);
   EXPECT_NE(session.notice().find("too long to drive"), std::string::npos) << session.notice();
-  for (std::size_t i = 0; i < collide::methods().size(); ++i) {
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     session.next_method();
     EXPECT_NE(session.world().method().key, "brute-force");
   }
@@ -87,7 +87,7 @@ TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
 
 TEST(Session, HandsOutTheInnerPictureOfTheDrivingMethodOrElseThePapers) {
   Session session = make_session();
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     session.set_method(method.key);
     session.advance(tick);
     const std::string_view shown = method.uses_hash ? method.key : collide::paper_method;

@@ -23,7 +23,7 @@ const softbody::World& pair_world() {
 std::vector<Configuration> some_configurations() {
   std::vector<Configuration> some;
   for (const Configuration& c : sweep_configurations(pair_world())) {
-    const bool hashes = collide::methods()[c.method].uses_hash;
+    const bool hashes = collide::method_table()[c.method].uses_hash;
     if (!hashes || c.settings.buckets == sweep_buckets.back()) some.push_back(c);
   }
   return some;
@@ -42,7 +42,7 @@ std::size_t count(std::string_view method) {
 
 TEST(SweepConfigurations, EveryMethodTakesAllCombinationsOfTheAxesThatItUses) {
   std::size_t expected = 0;
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     const std::size_t own = (method.uses_levels ? 4 : 1) * (method.uses_hash ? 4 * 5 : 1);
     EXPECT_EQ(count(method.key), own) << method.key;
     expected += own;
@@ -59,7 +59,7 @@ TEST(SweepConfigurations, TheAutomaticCellIsTheWorldsOwn) {
   EXPECT_EQ(automatic_cell_size(world, world.collision().levels), world.collision().cell_size);
   EXPECT_LT(automatic_cell_size(world, 9).x, automatic_cell_size(world, 0).x);
   for (const Configuration& c : sweep_configurations(world)) {
-    if (!collide::methods()[c.method].uses_hash) continue;
+    if (!collide::method_table()[c.method].uses_hash) continue;
     EXPECT_EQ(c.settings.cell_size, automatic_cell_size(world, c.settings.levels) * static_cast<float>(c.cell));
   }
 }
@@ -74,7 +74,7 @@ TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
   EXPECT_GT(report.true_contacts, 0u);
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const Configuration& c = configurations[i];
-    const collide::Method& method = collide::methods()[c.method];
+    const collide::Method& method = collide::method_table()[c.method];
     collide::Result expected;
     method.make()->detect(pair_world().positions(), c.settings, alone(), expected);
     const SweepRow& row = report.rows[i];
@@ -118,7 +118,7 @@ TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
     EXPECT_EQ(row.times.ms.empty(), !row.not_run.empty());
   }
   ASSERT_TRUE(report.reference) << "another exact method stands in";
-  const collide::Method& reference = collide::methods()[report.reference->method];
+  const collide::Method& reference = collide::method_table()[report.reference->method];
   EXPECT_TRUE(reference.exact);
   EXPECT_FALSE(reference.uses_levels);
   EXPECT_EQ(report.stands_in, "brute force is over budget: 117,855 pair tests predicted");

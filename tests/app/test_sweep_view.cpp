@@ -197,7 +197,7 @@ TEST(SweepView, AClickOnAPointMakesItsSettingsThoseOfTheDemo) {
   sweep(rig);
   ASSERT_TRUE(wait_until(rig, has_ended));
   const SweepView& view = rig.interface.sweep_view();
-  std::vector<bool> clicked(collide::methods().size());
+  std::vector<bool> clicked(collide::method_table().size());
   for (std::size_t i = 0; i < view.plot().points().size(); ++i) {
     const SweepPlot::Point point = view.plot().points()[i];
     if (clicked[point.method]) continue;
@@ -208,7 +208,7 @@ TEST(SweepView, AClickOnAPointMakesItsSettingsThoseOfTheDemo) {
       const Configuration& c = view.state().report.rows[other.row].configuration;
       const collide::Settings& now = rig.session.world().collision();
       return std::abs(other.at.x - point.at.x) < 9 && std::abs(other.at.y - point.at.y) < 9 &&
-             collide::methods()[c.method].key == method.key &&
+             collide::method_table()[c.method].key == method.key &&
              (!method.uses_levels || c.settings.levels == now.levels) &&
              (!method.uses_hash || (c.settings.buckets == now.buckets && c.settings.cell_size == now.cell_size &&
                                     (c.cell == 1) == rig.session.world().uses_default_cell_size()));

@@ -6,8 +6,8 @@
 #include <random>
 #include <set>
 
-#include "collide/detectors.h"
 #include "collide/methods.h"
+#include "collide/methods/detectors.h"
 #include "tests/bucket_loads.h"
 
 namespace app {
@@ -70,7 +70,7 @@ TEST_P(TableContentsOf, HoldsWhatTheMethodHasPutIntoItsBuckets) {
   settings.cell_size = glm::vec3(cell);
   const collide::DebugGeometry debug = structure(method, points, settings);
   const TableContents table(debug, points.frame(), settings);
-  const collide::CellHash hash(settings);
+  const collide::methods::CellHash hash(settings);
   const std::vector<std::uint32_t> loads = tests::bucket_loads(debug);
   Sharing sum;
   for (std::uint32_t b = 0; b < buckets; ++b) {
@@ -114,7 +114,7 @@ TEST(PaperStructure, IsThatOfAWholeDetection) {
   const collide::Settings settings;
   collide::Workers alone(1);
   const auto whole = structure(collide::paper_method, points, settings);
-  const auto alone_built = collide::make_paper_structure()(points.frame(), settings, alone);
+  const auto alone_built = collide::methods::make_paper_structure()(points.frame(), settings, alone);
   EXPECT_EQ(alone_built.box_bucket, whole.box_bucket);
   EXPECT_EQ(alone_built.loads, whole.loads);
   EXPECT_EQ(alone_built.cells, whole.cells);

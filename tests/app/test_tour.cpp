@@ -95,7 +95,7 @@ TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
   rig.ui.tour.next();
   rig.ui.tour.next();
   rig.frames(3);
-  const collide::CellHash hash(rig.session.world().collision());
+  const collide::methods::CellHash hash(rig.session.world().collision());
   for (std::size_t corner = 0; corner < 8; ++corner) {
     rig.click("Corner " + std::to_string(corner + 1));
     const auto view = rig.ui.tour.view(rig.session);
@@ -140,7 +140,7 @@ TEST(Tour, PicksBodiesThatTouchAndAllTheirContacts) {
 TEST(Tour, FindsTheSameWhicheverMethodDrives) {
   Session session(touching_pair(), {}, 1);
   const auto before = Finder().find(session.world(), std::nullopt);
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     session.set_method(method.key);
     const auto now = Finder().find(session.world(), std::nullopt);
     EXPECT_EQ(now->box, before->box) << method.key;

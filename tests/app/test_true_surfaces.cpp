@@ -79,11 +79,11 @@ TEST(TrueSurfaces, CountsWhatPassedThroughInTheStep) {
   StepCopy step = pair_apart(0.8);
   EXPECT_EQ(judge(step).figures.crossed_pairs, 0u);
   step.before = pair_apart(1.5).at;
-  const collide::SurfaceFigures passed = judge(step).figures;
+  const collide::oracle::SurfaceFigures passed = judge(step).figures;
   EXPECT_EQ(passed.crossed_vertices, passed.penetrating_vertices);
   EXPECT_EQ(passed.crossed_pairs, 1u);
   for (auto* some : {&step.before.x, &step.before.y, &step.before.z}) some->resize(step.bodies.first[1]);
-  const collide::SurfaceFigures arrived = judge(step).figures;  // the second body has just come
+  const collide::oracle::SurfaceFigures arrived = judge(step).figures;  // the second body has just come
   EXPECT_GT(arrived.crossed_vertices, 0u);
   step.before = {};
   EXPECT_EQ(judge(step).figures.crossed_pairs, 0u);  // both have

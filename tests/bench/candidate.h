@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace bench {
 

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace bench {
 

@@ -7,7 +7,7 @@
 
 #include <tbb/enumerable_thread_specific.h>
 
-#include "collide/detector.h"
+#include "collide/core/detector.h"
 
 namespace bench {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "collide/frame.h"
+#include "collide/core/frame.h"
 
 namespace bench {
 

@@ -1,12 +1,14 @@
 // Pairs of overlapping boxes against plain loops, with and without cuts, on every target.
 
-#include "collide/box_pairs.h"
+#include "collide/surface/box_pairs.h"
 
 #include <algorithm>
 
 #include "every_target.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 using Boxes = std::vector<Aabb>;

@@ -1,10 +1,12 @@
-#include "collide/box_tree.h"
+#include "collide/surface/box_tree.h"
 
 #include <gtest/gtest.h>
 
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {

@@ -1,17 +1,20 @@
 // inside() against the exact oracle, nearest_face() against a look at every face.
 
-#include "collide/closed_shell.h"
+#include "collide/surface/closed_shell.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "collide/closest_features.h"
+#include "collide/surface/closest_features.h"
 #include "every_target.h"
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 namespace {
 
 TEST(ClosedShell, InsideIsWhatTheExactOracleSays) {

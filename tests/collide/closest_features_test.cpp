@@ -1,6 +1,6 @@
 // Closest points against the least over corners, sides and insides worked out in double.
 
-#include "collide/closest_features.h"
+#include "collide/surface/closest_features.h"
 
 #include <gtest/gtest.h>
 
@@ -11,6 +11,8 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 using glm::dvec3;

@@ -4,12 +4,14 @@
 #include <numeric>
 #include <set>
 
-#include "collide/cell_hash.h"
-#include "collide/reach.h"
+#include "collide/core/cutoff.h"
+#include "collide/methods/cell_hash.h"
 #include "states.h"
 #include "tests/bucket_loads.h"
 
 namespace collide::test {
+
+using namespace collide::methods;
 namespace {
 
 DebugGeometry picture(std::string_view method, const State& state, const Settings& settings) {
@@ -33,7 +35,7 @@ TEST(Debug, IsEmptyWithoutBoxesAndTable) {
     const DebugGeometry geometry = picture(method, state, settings_of(state, 0.5f));
     EXPECT_TRUE(geometry.boxes.empty() && geometry.cells.empty() && geometry.loads.empty() && geometry.buckets == 0);
   }
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     EXPECT_TRUE(method.make()->debug().boxes.empty()) << "before the first frame";
   }
 }
@@ -41,7 +43,7 @@ TEST(Debug, IsEmptyWithoutBoxesAndTable) {
 TEST(Debug, AgreesWithItselfAndWithTheHash) {
   for (const NamedState& named : named_states()) {
     const State state = named.make();
-    for (const Method& method : methods()) {
+    for (const Method& method : method_table()) {
       if (!method.uses_hash) continue;
       const Settings settings = settings_of(state, 0.5f);
       const DebugGeometry geometry = picture(method.key, state, settings);

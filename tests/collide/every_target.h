@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include "collide/vertex_run.h"
+#include "collide/core/vertex_run.h"
 #include "states.h"
 
 namespace collide::test {

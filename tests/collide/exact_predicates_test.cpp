@@ -1,7 +1,7 @@
 // Against rationals throughout, with points of few values so that every tie occurs, of many values, far away, and of
 // all exponents.
 
-#include "collide/exact_predicates.h"
+#include "collide/oracle/exact_predicates.h"
 
 #include <gmpxx.h>
 #include <gtest/gtest.h>
@@ -9,6 +9,8 @@
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
 namespace {
 
 using Exact = std::array<mpq_class, 3>;

@@ -1,6 +1,6 @@
 // Pairs of features by the dozen against one by one: the same to the bit, on every instruction set.
 
-#include "collide/feature_pairs.h"
+#include "collide/surface/feature_pairs.h"
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,8 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 class FeaturePairsOnTargets : public OnEveryTarget {

@@ -4,10 +4,12 @@
 #include <random>
 #include <vector>
 
-#include "collide/bucket_table.h"
-#include "collide/cell_hash.h"
+#include "collide/methods/bucket_table.h"
+#include "collide/methods/cell_hash.h"
 
 namespace collide::test {
+
+using namespace collide::methods;
 namespace {
 
 CellHash hash_of(std::uint32_t buckets, const glm::vec3& cell = glm::vec3(1)) {

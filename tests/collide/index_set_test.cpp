@@ -1,4 +1,4 @@
-#include "collide/index_set.h"
+#include "collide/core/index_set.h"
 
 #include <gtest/gtest.h>
 

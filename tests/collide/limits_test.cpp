@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "collide/body_boxes.h"
+#include "collide/core/body_boxes.h"
 #include "states.h"
 
 namespace collide::test {

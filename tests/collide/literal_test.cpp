@@ -5,10 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "collide/subdivision.h"
+#include "collide/methods/subdivision.h"
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::methods;
 namespace {
 
 /// The boxes of a frame and which of them share a bucket, by the detector's own picture of them.

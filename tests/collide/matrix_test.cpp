@@ -56,7 +56,7 @@ struct Bench {
   std::size_t runs = 0;
 
   Bench() {
-    for (const Method& method : methods()) detectors.push_back(method.make());
+    for (const Method& method : method_table()) detectors.push_back(method.make());
   }
 };
 
@@ -78,8 +78,8 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
   const std::size_t inside = inside_bodies(state, with_self).size();
   ASSERT_EQ(inside, with_self.size() - between.size());
 
-  for (std::size_t m = 0; m < methods().size(); ++m) {
-    const Method& method = methods()[m];
+  for (std::size_t m = 0; m < method_table().size(); ++m) {
+    const Method& method = method_table()[m];
     for (Settings tried : all_settings(state, method)) {
       tried.self_collision = bench_->runs % 4 != 3;
       Workers& workers = bench_->workers[++bench_->runs % bench_->workers.size()];
@@ -105,7 +105,7 @@ TEST_P(Matrix, FindsWhatTheOracleFinds) {
 TEST_P(Matrix, IsTheSameOnAnyThreadCountAndTheNextTime) {
   const State state = GetParam().make();
   const State other = named_states()[1].make();
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     for (const float cell : {0.02f, 0.6f}) {
       Settings settings;
       settings.tolerance = state.tolerance;

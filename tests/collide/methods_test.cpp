@@ -19,15 +19,15 @@ TEST(Methods, HasTheSixOfTheCommandLine) {
 TEST(Methods, TellsThemApart) {
   std::set<std::string_view> keys, names;
   std::set<std::array<float, 3>> colours;
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     keys.insert(method.key);
     names.insert(method.name);
     colours.insert({method.colour.x, method.colour.y, method.colour.z});
     EXPECT_EQ(method.exact, method.key != "multi-level-sb");
   }
-  EXPECT_EQ(keys.size(), methods().size());
-  EXPECT_EQ(names.size(), methods().size());
-  EXPECT_EQ(colours.size(), methods().size());
+  EXPECT_EQ(keys.size(), method_table().size());
+  EXPECT_EQ(names.size(), method_table().size());
+  EXPECT_EQ(colours.size(), method_table().size());
 }
 
 TEST(Methods, NamesBodiesThatAreNotFinite) {
@@ -37,7 +37,7 @@ TEST(Methods, NamesBodiesThatAreNotFinite) {
   state.add({});
   state.add({glm::vec3(0, 0.05f, 0)});
   state.add({glm::vec3(0, 0, -INFINITY)});
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     const Result result = detect(method.key, state, Settings{});
     EXPECT_EQ(result.non_finite_bodies, (std::vector<Index>{1, 4})) << method.key;
     EXPECT_EQ(result.contacts, (std::vector<Contact>{{0, 1}, {0, 4}, {1, 4}})) << method.key;
@@ -50,7 +50,7 @@ TEST(Methods, LeavesOutEdgesAndPairsNearAtRest) {
   const std::array<std::array<Index, 2>, 1> edges{{{0, 1}}};
   State state;
   state.add(std::make_shared<const Shape>(4, edges, rest), std::vector<glm::vec3>(4, glm::vec3(3)));
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     EXPECT_EQ(detect(method.key, state, Settings{}).contacts, (std::vector<Contact>{{0, 2}, {0, 3}, {1, 2}, {1, 3}}))
         << method.key;
   }
@@ -67,7 +67,7 @@ TEST(Methods, AreBoundedForSettingsWithoutSense) {
   Settings settings;
   settings.tolerance = 0.02f;
   const std::vector<Contact> expected = oracle(state, settings);
-  for (const Method& method : methods()) {
+  for (const Method& method : method_table()) {
     for (const float cell : {1e-30f, 1e-6f, 1e30f}) {
       for (const std::uint32_t buckets : {1u, max_buckets}) {
         settings.levels = max_levels;

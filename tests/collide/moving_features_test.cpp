@@ -1,4 +1,4 @@
-#include "collide/moving_features.h"
+#include "collide/oracle/moving_features.h"
 
 #include <cmath>
 
@@ -8,6 +8,8 @@
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
 namespace {
 
 MovingPoint still(const glm::vec3& p) { return {p, p}; }

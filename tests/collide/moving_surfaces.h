@@ -3,10 +3,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "collide/surface_search.h"
+#include "collide/surface/surface_search.h"
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 
 /// Bodies that move, and what is asked about them.
 struct Moving {

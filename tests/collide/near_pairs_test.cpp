@@ -1,6 +1,6 @@
 // The loops over runs of slots against plain ones, on every target.
 
-#include "collide/near_pairs.h"
+#include "collide/core/near_pairs.h"
 
 #include <algorithm>
 #include <tuple>

@@ -1,15 +1,17 @@
 // The tree against all pairs, at every level.
 
-#include "collide/overlap_tree.h"
+#include "collide/exact/overlap_tree.h"
 
 #include <gtest/gtest.h>
 
 #include <stdexcept>
 
-#include "collide/reach.h"
+#include "collide/core/cutoff.h"
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::exact;
 namespace {
 
 constexpr std::size_t no_limit = std::size_t{1} << 22;
@@ -70,7 +72,7 @@ TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
     std::uint64_t uncut = 0;
     for (int levels = 0; levels <= max_levels; ++levels) {
       OverlapTree tree;
-      tree.begin(levels, contact_reach(sets.tolerance), tolerance2, no_limit);
+      tree.begin(levels, contact_cutoff(sets.tolerance), tolerance2, no_limit);
       std::vector<Contact> contacts;
       tree.between(a, b, 3, contacts);
       if (tree.leaves() == 0) {
@@ -97,7 +99,7 @@ TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
     std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
     OverlapTree tree;
     for (int levels = max_levels; levels >= 0; --levels) {  // one tree, so that it has more memory than it needs
-      tree.begin(levels, contact_reach(sets.tolerance), tolerance2, no_limit);
+      tree.begin(levels, contact_cutoff(sets.tolerance), tolerance2, no_limit);
       std::vector<Contact> contacts;
       tree.within(set, 3, contacts);
       for (Contact& pair : contacts) pair = {std::min(pair.a, pair.b), std::max(pair.a, pair.b)};
@@ -113,7 +115,7 @@ TEST(OverlapTree, SavesTests) {
   const Picked a = picked(sets.a, 0), b = picked(sets.b, 500);
   OverlapTree tree;
   std::vector<Contact> contacts;
-  tree.begin(6, contact_reach(sets.tolerance), sets.tolerance * sets.tolerance, no_limit);
+  tree.begin(6, contact_cutoff(sets.tolerance), sets.tolerance * sets.tolerance, no_limit);
   tree.between(a, b, 0, contacts);
   EXPECT_LT(tree.pair_tests(), std::uint64_t{a.size} * b.size / 2);
 }

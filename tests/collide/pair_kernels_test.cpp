@@ -1,11 +1,13 @@
 // The loops over pairs of vertices against plain scalar code, on every target.
 
-#include "collide/pair_kernels.h"
+#include "collide/exact/pair_kernels.h"
 
-#include "collide/reach.h"
+#include "collide/core/cutoff.h"
 #include "every_target.h"
 
 namespace collide::test {
+
+using namespace collide::exact;
 namespace {
 
 constexpr std::size_t no_limit = std::size_t{1} << 20;
@@ -99,7 +101,7 @@ TEST_P(PairKernels, FaceFindsAllContactsOfTheVerticesThatItPicks) {
     const Points3 a(random_points(random_, size_a, -0.5f, 0.5f));
     const Points3 b(moved(random_points(random_, size_b, -0.5f, 0.5f), normal * uniform(random_, 0.2f, 1.8f)));
     const float tolerance = 0.3f;
-    const Slab slab{normal, contact_reach(tolerance) + 1e-5f};
+    const Slab slab{normal, contact_cutoff(tolerance) + 1e-5f};
     const auto along = [&](const Points3& p, Index v) {
       return normal.x * p.x[v] + normal.y * p.y[v] + normal.z * p.z[v];
     };

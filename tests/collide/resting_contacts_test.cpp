@@ -6,10 +6,12 @@
 #include <cmath>
 #include <limits>
 
-#include "collide/group_search.h"
+#include "collide/exact/body_pair_search.h"
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::exact;
 namespace {
 
 constexpr float tolerance = 0.1f;
@@ -290,7 +292,7 @@ TEST(RestingContacts, KeepsNothingOverAFrameThatWasNotStored) {
   Workers workers(1);
   Settings settings;
   settings.tolerance = state.tolerance;
-  GroupSearch search;
+  BodyPairSearch search;
   RestingContacts resting;
   std::vector<Index> non_finite;
   const auto kept = [&](bool stored) {

@@ -1,4 +1,4 @@
-#include "collide/subdivision.h"
+#include "collide/methods/subdivision.h"
 
 #include <gtest/gtest.h>
 
@@ -7,6 +7,8 @@
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::methods;
 namespace {
 
 std::vector<SubdividedBox> boxes_of(const State& state, int levels, Points* points = nullptr) {

@@ -6,6 +6,9 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 namespace {
 
 using Kind = Crossing::Kind;

@@ -6,6 +6,9 @@
 
 namespace collide::test {
 
+using namespace collide::oracle;
+using namespace collide::surface;
+
 SurfaceMesh ball(float radius, int subdivisions) {
   Ball sphere = icosphere(subdivisions, radius);
   return {std::move(sphere.vertices), std::move(sphere.faces)};

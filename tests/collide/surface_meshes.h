@@ -1,10 +1,13 @@
 #pragma once
 // Meshes and scenes that the surface oracle is tried on.
 
-#include "collide/surface_oracle.h"
+#include "collide/oracle/surface_oracle.h"
 #include "states.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 
 struct SurfaceMesh {
   std::vector<glm::vec3> vertices;

@@ -1,6 +1,6 @@
 // What holds for all questions: figures, missed contacts, order, threads, and input that is refused or left out.
 
-#include "collide/surface_oracle.h"
+#include "collide/oracle/surface_oracle.h"
 
 #include <limits>
 #include <stdexcept>
@@ -10,6 +10,9 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 namespace {
 
 /// Balls in a heap, each a little inside its neighbours; the second frame has them moved.

@@ -8,6 +8,9 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 namespace {
 
 bool vertex_is_inside(const Overlaps& overlaps, Index vertex) {

@@ -6,6 +6,9 @@
 #include "moving_surfaces.h"
 
 namespace collide::test {
+
+using namespace collide::oracle;
+using namespace collide::surface;
 namespace {
 
 /// Dented balls that are strained more and more: those that are not looked into must not pierce themselves at any time.

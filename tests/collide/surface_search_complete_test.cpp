@@ -9,6 +9,8 @@
 #include "moving_surfaces.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 /// The candidates of two bodies as a table: when they begin, infinity if they are none.

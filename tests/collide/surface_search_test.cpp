@@ -9,6 +9,8 @@
 #include "moving_surfaces.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 /// Everything that was found, as numbers that can be compared.

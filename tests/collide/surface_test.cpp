@@ -1,4 +1,4 @@
-#include "collide/surface.h"
+#include "collide/surface/surface.h"
 
 #include <stdexcept>
 
@@ -7,6 +7,8 @@
 #include "surface_meshes.h"
 
 namespace collide::test {
+
+using namespace collide::surface;
 namespace {
 
 Surface surface_of(const SurfaceMesh& mesh) { return {static_cast<Index>(mesh.vertices.size()), mesh.triangles}; }

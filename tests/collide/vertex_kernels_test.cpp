@@ -1,6 +1,6 @@
 // The loops over the vertices of a body against plain scalar code, on every target.
 
-#include "collide/vertex_kernels.h"
+#include "collide/core/vertex_kernels.h"
 
 #include "every_target.h"
 

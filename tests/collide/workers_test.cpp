@@ -1,4 +1,4 @@
-#include "collide/workers.h"
+#include "collide/core/workers.h"
 
 #include <gtest/gtest.h>
 

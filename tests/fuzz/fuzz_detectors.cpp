@@ -83,7 +83,7 @@ void run(Bytes bytes) {
   collide::Settings settings = read_settings(bytes);
   Bodies bodies = read_bodies(bytes, large ? all_sizes : small_sizes);
   std::vector<Detectors> detectors;
-  for (const collide::Method& method : collide::methods()) detectors.emplace_back(method, both);
+  for (const collide::Method& method : collide::method_table()) detectors.emplace_back(method, both);
   for (int frame = 0; frame < most_frames; ++frame) {
     if (!collide::problem(settings).empty()) return;
     const collide::test::State state = bodies.state(settings.tolerance);

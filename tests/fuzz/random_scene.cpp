@@ -106,7 +106,8 @@ void read_solid(Bytes& bytes, Scene& scene) {
 }
 
 void read_collision(Bytes& bytes, Scene& scene) {
-  scene.method = collide::methods()[static_cast<std::size_t>(bytes.below(int(collide::methods().size())))].key;
+  scene.method =
+      collide::method_table()[static_cast<std::size_t>(bytes.below(int(collide::method_table().size())))].key;
   scene.contact_surface = bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
   collide::Settings& c = scene.collision;
   c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, softbody::least_length, softbody::most_tolerance}));

@@ -12,7 +12,7 @@ namespace {
 using app::Session;
 
 void method(DemoRig& demo, Dice& dice) {
-  demo.session.set_method(collide::methods()[dice.pick(collide::methods().size())].key);
+  demo.session.set_method(collide::method_table()[dice.pick(collide::method_table().size())].key);
 }
 
 void contact_surface(DemoRig& demo, Dice&) { demo.session.next_contact_surface(); }

@@ -172,7 +172,7 @@ class Soak {
   void fill_tables() {
     app::Session& session = demo_.session;
     session.compare.on = true;
-    for (const collide::Method& method : collide::methods()) {
+    for (const collide::Method& method : collide::method_table()) {
       if (!method.uses_hash) continue;
       session.set_method(method.key);
       collide::Settings settings = session.world().collision();

@@ -98,7 +98,7 @@ TEST_P(DropWith, EqualContactsMakeAnEqualTrajectory) {
 
 std::vector<std::string> exact_methods() {
   std::vector<std::string> keys;
-  for (const collide::Method& m : collide::methods())
+  for (const collide::Method& m : collide::method_table())
     if (m.exact && m.key != collide::default_method) keys.emplace_back(m.key);
   return keys;
 }

@@ -131,7 +131,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   // them.
   const World one = of_work(0);
   EXPECT_EQ(one.profile().substeps, 1);
-  const collide::SurfaceSearch& search = one.dynamics().surface_contact().search();
+  const collide::surface::SurfaceSearch& search = one.dynamics().surface_contact().search();
   const double half = 0.5 * double(search.features().size()), least = of_substep(one);
   ASSERT_GT(half, 0);
   EXPECT_GT(double(search.work()), 2 * half);

@@ -65,11 +65,11 @@ struct Recall {
 class Bench {
  public:
   Bench() {
-    for (const collide::Method& method : collide::methods()) detectors_.push_back(method.make());
+    for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
   }
   const collide::Result& detect(const collide::Method& method, const Moment& moment,
                                 const collide::Settings& settings) {
-    const auto index = static_cast<std::size_t>(&method - collide::methods().data());
+    const auto index = static_cast<std::size_t>(&method - collide::method_table().data());
     detectors_[index]->detect(moment.frame(), settings, workers_, result_);
     return result_;
   }
@@ -121,7 +121,7 @@ TEST_P(SceneMethods, FindWhatBruteForceFindsOrSayThatTheyMayMissSome) {
       const std::vector<Contact> truth =
           bench.detect(*collide::find_method(collide::reference_method), moment, settings).contacts;
       ASSERT_GE(truth.size(), self ? 10u : 0u) << "frame " << frame;
-      for (const collide::Method& method : collide::methods()) {
+      for (const collide::Method& method : collide::method_table()) {
         for (collide::Settings tried : all_settings(scene, method)) {
           tried.self_collision = self;
           ASSERT_NO_FATAL_FAILURE(bench.expect(method, moment, tried, truth, recall)) << "frame " << frame;
@@ -147,7 +147,7 @@ TEST(SceneMethodsOfAMillionFaces, ExactOnesAgreeAndTheLiteralOneFindsAPart) {
   const std::vector<Contact> truth =
       bench.detect(*collide::find_method("bounding-box"), moment, world.collision()).contacts;
   ASSERT_GT(truth.size(), 1000u);
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     if (method.key == collide::reference_method) continue;
     for (const int level : method.uses_levels ? std::vector{3, 6} : std::vector{3}) {
       collide::Settings settings = world.collision();

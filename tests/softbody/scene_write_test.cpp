@@ -112,7 +112,7 @@ class Filler {
     set_all(name, look_at, gravity, surface, collision, default_cell, list, bodies, spheres, planes, boxes, capsules,
             ground, dropper, sleep, view, captions);
     key = "saved";
-    method = collide::methods()[random_() % collide::methods().size()].key;
+    method = collide::method_table()[random_() % collide::method_table().size()].key;
     if (default_cell) collision.cell_size = collide::Settings().cell_size;  // nobody reads it, so nobody writes it
   }
 

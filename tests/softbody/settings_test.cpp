@@ -94,7 +94,7 @@ class SliderEnd : public testing::TestWithParam<End> {};
 
 TEST_P(SliderEnd, KeepsTheRunningSceneWhole) {
   const End& end = GetParam();
-  for (const collide::Method& method : collide::methods()) {
+  for (const collide::Method& method : collide::method_table()) {
     World world(drop_scene(), {.threads = 2});
     run(world, 330);  // about when bodies roll off the solid sphere against each other
     world.set_method(method.key);

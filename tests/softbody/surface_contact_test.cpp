@@ -76,7 +76,7 @@ TEST_P(ThrownBall, NeitherPassesThroughNorSinksIn) {
   }
   for (int i = 0; i < 15; ++i) {
     world.step();
-    const collide::SurfaceFigures now = judge.look();
+    const collide::oracle::SurfaceFigures now = judge.look();
     ASSERT_EQ(now.penetrating_vertices, 0u) << frame_of(world) << ", deepest " << now.deepest;
     ASSERT_EQ(now.overlapping_pairs, 0u) << frame_of(world);
     ASSERT_TRUE(measure(world).finite);

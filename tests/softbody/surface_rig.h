@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "collide/surface_oracle.h"
+#include "collide/oracle/surface_oracle.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -30,18 +30,19 @@ class Judge {
     for (BodyId b = 0; b < world.bodies().count(); ++b) surfaces_.push_back(world.prototype(b).surface);
   }
   /// What overlaps now.
-  collide::SurfaceFigures look() {
-    return collide::figures_of(world_.positions(), collide::find_overlaps(world_.positions(), surfaces_, workers_));
+  collide::oracle::SurfaceFigures look() {
+    return collide::oracle::figures_of(world_.positions(),
+                                       collide::oracle::find_overlaps(world_.positions(), surfaces_, workers_));
   }
   void expect_clean(const std::string& when) {
-    const collide::SurfaceFigures f = look();
+    const collide::oracle::SurfaceFigures f = look();
     EXPECT_EQ(f.penetrating_vertices, 0u) << when << ", deepest " << f.deepest;
     EXPECT_EQ(f.piercings, 0u) << when;
   }
 
  private:
   const World& world_;
-  collide::Surfaces surfaces_;
+  collide::surface::Surfaces surfaces_;
   collide::Workers workers_{1};
 };
 

@@ -55,12 +55,12 @@ class OneRow {
       seen_[2].push_back(float(corners[i].z));
       for (int k = 0; k < 3; ++k) speed_[std::size_t(k)].push_back(velocity[k]);
     }
-    const std::vector<collide::Edge> none;
+    const std::vector<collide::surface::Edge> none;
     bodies_.add(std::make_shared<const collide::Shape>(3, none));
   }
   void solve() {
-    const collide::Surface triangle(3, {{0, 1, 2}});
-    const collide::SurfaceBody traits{&triangle, reach, 0, 1, true};
+    const collide::surface::Surface triangle(3, {{0, 1, 2}});
+    const collide::surface::SurfaceBody traits{&triangle, reach, 0, 1, true};
     const auto body = [&](std::size_t lane, float inverse_mass, float restitution) {
       return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, restitution};
     };

@@ -8,7 +8,7 @@
 #include "app/report/contact/results.h"
 #include "app/report/detection/recording.h"
 #include "app/report/files.h"
-#include "collide/workers.h"
+#include "collide/core/workers.h"
 
 namespace app {
 namespace {

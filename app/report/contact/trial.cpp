@@ -88,8 +88,8 @@ class Trial {
   /// Unless no vertex has gone so far (m) since the last look.
   void look_for_passages(double way) {
     if (oracle_.moved(world_) < way) return;
-    const std::vector<collide::Crossing> crossings = oracle_.crossings(world_);
-    const auto figures = collide::figures_of(world_.positions(), {}, crossings);
+    const std::vector<collide::oracle::Crossing> crossings = oracle_.crossings(world_);
+    const auto figures = collide::oracle::figures_of(world_.positions(), {}, crossings);
     result_.passed += passed(crossings);
     result_.crossed_vertices += figures.crossed_vertices;
     result_.edge_crossings += figures.edge_crossings;
@@ -99,11 +99,11 @@ class Trial {
   /// Vertices that came to be inside a closed body, or on the other side of an open or their own surface. The straight
   /// way from one look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for
   /// having stayed outside, unless the two bodies passed each other by more than the smallest body's radius meanwhile.
-  std::size_t passed(const std::vector<collide::Crossing>& crossings) const {
+  std::size_t passed(const std::vector<collide::oracle::Crossing>& crossings) const {
     std::map<std::pair<collide::Index, collide::Index>, int> balance;  // by vertex and the other body
     std::set<collide::Index> vertices;
-    for (const collide::Crossing& c : crossings) {
-      if (c.kind != collide::Crossing::Kind::vertex_face) continue;
+    for (const collide::oracle::Crossing& c : crossings) {
+      if (c.kind != collide::oracle::Crossing::Kind::vertex_face) continue;
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
       if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
         balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
@@ -125,10 +125,10 @@ class Trial {
     const softbody::Measures measures = softbody::measure(world_);
     result_.finite = result_.finite && measures.finite;
     result_.solid_depth = std::max(result_.solid_depth, measures.deepest_penetration);
-    const collide::Overlaps overlaps = oracle_.overlaps(world_);
-    const auto figures = collide::figures_of(world_.positions(), overlaps);
+    const collide::oracle::Overlaps overlaps = oracle_.overlaps(world_);
+    const auto figures = collide::oracle::figures_of(world_.positions(), overlaps);
     const auto missed =
-        collide::missed_by(world_.detection().contacts, world_.positions(), surfaces_of(world_), overlaps);
+        collide::oracle::missed_by(world_.detection().contacts, world_.positions(), surfaces_of(world_), overlaps);
     ++result_.looks;
     result_.penetrations += overlaps.penetrations.size();
     result_.missed += missed.penetrations.size();

@@ -82,9 +82,9 @@ std::string table_1(const DetectionResults& r) {
       "## Table 1: frames per second\n\nIn the form of the paper's Table 1, measured: detection alone, 1 / its mean "
       "time on the recorded states; level 3, automatic cell size.\n\n",
       heading(names, 1));
-  for (std::size_t method = 0; method < collide::methods().size(); ++method) {
-    if (collide::methods()[method].key == collide::reference_method) continue;
-    Cells cells{std::string(collide::methods()[method].name)};
+  for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
+    if (collide::method_table()[method].key == collide::reference_method) continue;
+    Cells cells{std::string(collide::method_table()[method].name)};
     for (std::size_t i = 0; i < columns.size(); ++i)
       cells.push_back(detections_per_second(with_papers_settings(all[i], *columns[i], method)));
     text += line(cells);
@@ -97,7 +97,7 @@ std::string table_1(const DetectionResults& r) {
 /// Of each method the fastest configuration, and the fastest of those that miss least where that is another one.
 std::vector<std::size_t> best_rows(const std::vector<Mean>& means) {
   std::vector<std::size_t> best;
-  for (std::size_t method = 0; method < collide::methods().size(); ++method) {
+  for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
     std::optional<std::size_t> fastest, truest;
     for (std::size_t i = 0; i < means.size(); ++i) {
       const Mean& m = means[i];
@@ -148,7 +148,8 @@ std::string not_run(const std::vector<Mean>& means) {
   std::string text;
   for (const auto& [method, n] : count) {
     if (n.first == 0) continue;
-    text += joined(text.empty() ? "" : "; ", collide::methods()[method].name, format(": %d of %d", n.first, n.second));
+    text +=
+        joined(text.empty() ? "" : "; ", collide::method_table()[method].name, format(": %d of %d", n.first, n.second));
   }
   if (text.empty()) return "Nothing was over budget.\n";
   return joined("Over budget in one state or more: ", text, " configurations.\n");

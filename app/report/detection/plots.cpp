@@ -21,7 +21,7 @@ class Floor {
     top_ = std::pow(10, std::floor(std::log10(least)));
   }
   double top() const { return top_; }  // the least error that the axis shows
-  double bottom() const { return top_ * std::pow(step, static_cast<double>(collide::methods().size()) + 1); }
+  double bottom() const { return top_ * std::pow(step, static_cast<double>(collide::method_table().size()) + 1); }
   double lane(const Mean& m) const { return top_ * std::pow(step, 1.0 + static_cast<double>(m.configuration.method)); }
   double middle() const { return std::sqrt(top_ * bottom()); }
   double height(const Mean& m) const { return m.error() > 0 ? m.error() : lane(m); }
@@ -55,7 +55,7 @@ struct Marker {
 
   bool covers(const Configuration& c) const { return c.method == method && (!level || c.settings.levels == *level); }
   std::string title() const {
-    const std::string_view name = collide::methods()[method].name;
+    const std::string_view name = collide::method_table()[method].name;
     return level ? joined(name, format(", level %d", *level)) : std::string(name);
   }
   /// Disc, square, triangle, triangle upside down.
@@ -67,8 +67,8 @@ struct Marker {
 
 std::vector<Marker> markers() {
   std::vector<Marker> all;
-  for (std::size_t m = 0; m < collide::methods().size(); ++m) {
-    if (!collide::methods()[m].uses_levels) {
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+    if (!collide::method_table()[m].uses_levels) {
       all.push_back({m, {}});
     } else {
       for (const int level : sweep_levels) all.push_back({m, level});
@@ -90,7 +90,7 @@ std::string add_points(std::string& script, const std::vector<Mean>& means, cons
     const std::string block = format("$m%d", number++);
     script += joined(block, " << EOD\n", points, "EOD\n");
     plots += joined(", ", block, format(" with points pointtype %d pointsize 0.9 linecolor rgb ", marker.shape()),
-                    colour(collide::methods()[marker.method]), " title ", literal(marker.title()));
+                    colour(collide::method_table()[marker.method]), " title ", literal(marker.title()));
   }
   return plots;
 }

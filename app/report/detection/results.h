@@ -54,7 +54,7 @@ std::vector<std::size_t> pareto_front(const std::vector<Mean>& means);
 inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"};
 inline constexpr int paper_level = 3;
 
-inline const collide::Method& method_of(const Configuration& c) { return collide::methods()[c.method]; }
+inline const collide::Method& method_of(const Configuration& c) { return collide::method_table()[c.method]; }
 
 // A setting, or nothing where the method has no use for it.
 std::string levels_of(const Configuration& c);

@@ -9,7 +9,7 @@
 #include "app/report/files.h"
 #include "app/report/stability/cell.h"
 #include "app/report/stability/results.h"
-#include "collide/workers.h"
+#include "collide/core/workers.h"
 
 namespace app {
 namespace {

@@ -1,0 +1,56 @@
+#pragma once
+// Axis-aligned boxes, and which of them come near each other.
+
+#include <algorithm>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "collide/core/frame.h"
+
+namespace collide {
+
+struct Aabb {
+  glm::vec3 lo, hi;  // m, closed
+};
+
+/// True unless the gap between the boxes exceeds reach along an axis. Rounding cannot make a pair within reach look
+/// farther away: subtraction rounds monotonically and reach is a float itself.
+inline bool near(const Aabb& a, const Aabb& b, float reach) {
+  return a.lo.x - b.hi.x <= reach && b.lo.x - a.hi.x <= reach &&  //
+         a.lo.y - b.hi.y <= reach && b.lo.y - a.hi.y <= reach &&  //
+         a.lo.z - b.hi.z <= reach && b.lo.z - a.hi.z <= reach;
+}
+
+/// Sweep and prune: calls meet(a, b) once for every two different items of `order` whose boxes box_of(a), box_of(b) are
+/// near(). Sorts `order` along the axis on which the boxes are spread widest.
+template <class BoxOf, class Meet>
+void sweep(std::vector<Index>& order, float reach, const BoxOf& box_of, const Meet& meet) {
+  if (order.size() < 2) return;
+  glm::vec3 least = box_of(order[0]).lo, most = least;
+  for (const Index item : order) {
+    const glm::vec3& lo = box_of(item).lo;
+    for (int axis = 0; axis < 3; ++axis) {
+      least[axis] = std::min(least[axis], lo[axis]);
+      most[axis] = std::max(most[axis], lo[axis]);
+    }
+  }
+  int axis = 0;
+  for (int other = 1; other < 3; ++other) {
+    if (most[other] - least[other] > most[axis] - least[axis]) axis = other;
+  }
+  std::sort(order.begin(), order.end(), [&](Index a, Index b) {
+    const float x = box_of(a).lo[axis], y = box_of(b).lo[axis];
+    return x != y ? x < y : a < b;
+  });
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const Aabb& box = box_of(order[i]);
+    for (std::size_t j = i + 1; j < order.size(); ++j) {
+      const Aabb& other = box_of(order[j]);
+      if (other.lo[axis] - box.hi[axis] > reach) break;
+      if (near(box, other, reach)) meet(order[i], order[j]);
+    }
+  }
+}
+
+}  // namespace collide

@@ -1,0 +1,40 @@
+#include "collide/core/body_boxes.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "collide/core/vertex_kernels.h"
+
+namespace collide {
+
+void BodyBoxes::build(const Frame& frame, Result& result) {
+  const Bodies& bodies = *frame.bodies;
+  result.start();
+  result.contacts.clear();
+  box.resize(bodies.count());
+  live.clear();
+  for (Index body = 0; body < bodies.count(); ++body) {
+    const Index first = bodies.first[body], size = bodies.size(body);
+    if (size == 0) continue;
+    const Bound bound = bound_of({&frame.x[first], &frame.y[first], &frame.z[first], size});
+    box[body] = bound.box;
+    (bound.finite ? live : result.non_finite_bodies).push_back(body);
+  }
+}
+
+const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float reach, std::size_t most_pairs) {
+  pairs_.clear();
+  order_ = bodies.live;
+  sweep(
+      order_, reach, [&](Index body) -> const Aabb& { return bodies.box[body]; },
+      [&](Index a, Index b) {
+        pairs_.push_back({std::min(a, b), std::max(a, b)});
+        if (pairs_.size() > most_pairs) {
+          throw std::length_error("more than " + std::to_string(most_pairs) + " pairs of near bodies");
+        }
+      });
+  return pairs_;
+}
+
+}  // namespace collide

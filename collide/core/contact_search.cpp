@@ -1,0 +1,72 @@
+#include "collide/core/contact_search.h"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace collide {
+
+void ContactSearch::begin(const Frame& frame, const Settings& settings, const Points& points, int threads) {
+  frame_ = &frame;
+  points_ = &points;
+  tolerance2_ = settings.tolerance * settings.tolerance;
+  self_collision_ = settings.self_collision;
+  found_ = 0;
+  threads_.resize(static_cast<std::size_t>(threads));
+  for (Thread& thread : threads_) {
+    thread.hits.clear();
+    thread.contacts.clear();
+    thread.self_contacts = thread.pair_tests = 0;
+  }
+}
+
+void ContactSearch::test(int thread, Range a, Range b) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  const std::uint64_t na = a.size(), nb = b.size();
+  constexpr std::uint64_t most_tests = 1u << 20;  // between two looks at the number of contacts
+  const Index most_rows =
+      na * nb <= most_tests ? a.size() : static_cast<Index>(std::max(most_tests / nb, std::uint64_t{1}));
+  for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
+    rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
+    near_pairs(*points_, rows, b, tolerance2_, own.hits);
+    keep_contacts(own);
+  }
+  own.pair_tests += na * nb - (a.begin == b.begin ? na * (na + 1) / 2 : 0);
+}
+
+void ContactSearch::test(int thread, Range a, std::span<const Range> runs) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  near_pairs(*points_, a, runs, tolerance2_, own.hits);
+  keep_contacts(own);
+  for (const Range run : runs) own.pair_tests += std::uint64_t{a.size()} * run.size();
+}
+
+void ContactSearch::keep_contacts(Thread& own) {
+  if (own.hits.empty()) return;
+  const Points& points = *points_;
+  const Bodies& bodies = *frame_->bodies;
+  const std::size_t before = own.contacts.size();
+  for (const SlotPair& hit : own.hits) {
+    const Index a = points.vertex[hit.a], b = points.vertex[hit.b];
+    const Index body = points.body[hit.a], first = bodies.first[body];
+    const bool self = body == points.body[hit.b];
+    if (self && (!self_collision_ || bodies.shape[body]->excludes(a - first, b - first, tolerance2_))) continue;
+    own.self_contacts += self;
+    own.contacts.push_back({std::min(a, b), std::max(a, b)});
+  }
+  own.hits.clear();
+  const std::size_t added = own.contacts.size() - before;
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > max_contacts) {
+    throw std::length_error("more than 134217728 contacts in one frame: lower the tolerance");
+  }
+}
+
+void ContactSearch::finish(Result& result) {
+  for (const Thread& thread : threads_) {
+    result.contacts.insert(result.contacts.end(), thread.contacts.begin(), thread.contacts.end());
+    result.self_contacts += thread.self_contacts;
+    result.counters.pair_tests += thread.pair_tests;
+  }
+  std::sort(result.contacts.begin(), result.contacts.end());
+}
+
+}  // namespace collide

@@ -1,0 +1,19 @@
+#pragma once
+// The cuts of the trees over an overlapped area: at midpoints as in §2.1, but always across the widest side.
+
+#include "collide/core/aabb.h"
+
+namespace collide {
+
+struct MidpointCut {
+  int axis;
+  float mid;
+};
+
+inline MidpointCut cut_of(const Aabb& box) {
+  const glm::vec3 side = box.hi - box.lo;
+  const int axis = side.x >= side.y && side.x >= side.z ? 0 : side.y >= side.z ? 1 : 2;
+  return {axis, box.lo[axis] * 0.5f + box.hi[axis] * 0.5f};
+}
+
+}  // namespace collide

@@ -1,0 +1,38 @@
+#pragma once
+// Vertices in the order in which a method tests them.
+
+#include "collide/core/frame.h"
+
+namespace collide {
+
+/// A run of slots of Points: [begin, end).
+struct Range {
+  Index begin, end;
+  Index size() const { return end - begin; }
+};
+
+/// Structure of arrays: slot s holds the vertex vertex[s] of the body body[s]. Every array goes on for `padding` values
+/// of no meaning, so that whole blocks can be read at the end.
+struct Points {
+  static constexpr Index padding = 16;
+  std::vector<float> x, y, z;
+  std::vector<Index> vertex, body;
+
+  Index size() const { return size_; }
+  void resize(Index count);
+  void set(Index slot, const Frame& frame, Index of_vertex, Index of_body) {
+    x[slot] = frame.x[of_vertex];
+    y[slot] = frame.y[of_vertex];
+    z[slot] = frame.z[of_vertex];
+    vertex[slot] = of_vertex;
+    body[slot] = of_body;
+  }
+
+  /// All vertices of the given bodies, in their order. ranges[k] becomes the slots of the body which[k].
+  void gather(const Frame& frame, std::span<const Index> which, std::vector<Range>& ranges);
+
+ private:
+  Index size_ = 0;
+};
+
+}  // namespace collide

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+
+#include "collide/core/body_boxes.h"
+#include "collide/core/cutoff.h"
+#include "collide/core/cuts.h"
+#include "collide/core/detector.h"
+
+namespace collide {
+
+namespace {
+
+bool positive(float value) { return std::isfinite(value) && value > 0; }
+
+template <class Value>
+std::string complaint(const char* setting, const Value& value, const char* allowed) {
+  std::ostringstream text;
+  text << setting << " is " << value << "; it must be " << allowed;
+  return text.str();
+}
+
+}  // namespace
+
+std::string problem(const Settings& settings) {
+  if (!positive(settings.tolerance)) return complaint("tolerance", settings.tolerance, "finite and above 0 m");
+  if (settings.levels < 0 || settings.levels > max_levels) return complaint("levels", settings.levels, "0 to 15");
+  if (settings.buckets < 1 || settings.buckets > max_buckets) {
+    return complaint("buckets", settings.buckets, "1 to 16777216");
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!positive(settings.cell_size[axis])) {
+      return complaint("cell size", settings.cell_size[axis], "finite and above 0 m along every axis");
+    }
+  }
+  for (const std::uint32_t prime : settings.primes) {
+    if (prime == 0) return complaint("prime", prime, "above 0");
+  }
+  return {};
+}
+
+std::string hash_warning(const Settings& settings) {
+  const auto& prime = settings.primes;
+  std::ostringstream text;
+  const auto add = [&]() -> std::ostream& { return text << (text.tellp() > 0 ? "; " : ""); };
+  for (std::size_t i = 0; i < prime.size(); ++i) {
+    if (prime[i] % settings.buckets == 0) {
+      add() << "prime " << prime[i] << " is 0 modulo " << settings.buckets << " buckets, so its axis is lost";
+    }
+    for (std::size_t j = i + 1; j < prime.size(); ++j) {
+      if (prime[i] % settings.buckets == prime[j] % settings.buckets) {
+        add() << "primes " << prime[i] << " and " << prime[j] << " are equal modulo " << settings.buckets
+              << " buckets, so two axes are mixed";
+      }
+    }
+  }
+  return text.str();
+}
+
+glm::vec3 default_cell_size(const Frame& frame, int levels, float tolerance) {
+  BodyBoxes bodies;
+  Result ignored;
+  bodies.build(frame, ignored);
+  std::array<double, 3> widest{};
+  Cuts cuts;
+  for (const Index body : bodies.live) {
+    const Aabb& box = bodies.box[body];
+    for (int axis = 0; axis < 3; ++axis) {
+      cuts.build(box.lo[axis], box.hi[axis], cuts_along(axis, levels));
+      for (int i = 0; i < cuts.intervals(); ++i) {
+        widest[axis] = std::max(widest[axis], double{cuts.border[i + 1]} - double{cuts.border[i]});
+      }
+    }
+  }
+  const auto size = [&](int axis) { return round_up(widest[axis] + tolerance); };
+  return {size(0), size(1), size(2)};
+}
+
+}  // namespace collide

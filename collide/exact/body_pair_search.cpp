@@ -1,0 +1,240 @@
+#include "collide/exact/body_pair_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include <glm/common.hpp>
+
+#include "collide/core/cutoff.h"
+
+namespace collide::exact {
+
+namespace {
+
+constexpr std::size_t most_pairs_between_counts = 1u << 16;  // of one thread
+
+/// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the reach by 3u of
+/// it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
+std::optional<Slab> slab_between(const Bound& a, const Bound& b, float reach) {
+  const float largest = std::max(a.largest, b.largest);
+  const glm::vec3 d = b.centre - a.centre;
+  const float length2 = d.x * d.x + d.y * d.y + d.z * d.z;
+  if (!(largest < 1e18f && length2 > 1e-30f)) return std::nullopt;
+  return Slab{d * (1 / std::sqrt(length2)), reach * (1 + 0x1p-19f) + largest * 0x1p-18f};
+}
+
+}  // namespace
+
+Run BodyPairSearch::run(Index body) const {
+  const Index first = frame_->bodies->first[body];
+  return {frame_->x.data() + first, frame_->y.data() + first, frame_->z.data() + first, frame_->bodies->size(body)};
+}
+
+void BodyPairSearch::bound(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies) {
+  frame_ = &frame;
+  const Index bodies = frame.bodies->count();
+  bounds_.resize(bodies);
+  workers.run([&](int thread) {
+    const Part part = part_of(bodies, thread, workers.threads());
+    for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
+      if (frame.bodies->size(body) > 0) bounds_[body] = bound_of(run(body));
+    }
+  });
+  live_.clear();
+  non_finite_bodies.clear();
+  for (Index body = 0; body < bodies; ++body) {
+    if (frame.bodies->size(body) == 0) continue;
+    (bounds_[body].finite ? live_ : non_finite_bodies).push_back(body);
+  }
+}
+
+void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
+  begin(frame, query, workers);
+  near_.find(bounds_, live_, reach_, workers);
+  workers.run([&](int thread) { find_part(thread, workers.threads(), resting); });
+  for (Thread& thread : threads_) count_pairs(thread);  // the rest, so that no more pass on many threads than on one
+}
+
+void BodyPairSearch::begin(const Frame& frame, const Query& query, Workers& workers) {
+  frame_ = &frame;
+  query_ = query;
+  reach_ = contact_cutoff(query.tolerance);
+  tolerance2_ = query.tolerance * query.tolerance;
+  if (query.self) references_.update(frame, live_, reach_);
+  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  found_ = 0;
+}
+
+void BodyPairSearch::begin(Thread& own) const {
+  own.tree.begin(query_.levels, reach_, tolerance2_, query_.most_pairs);
+  own.pairs.clear();
+  own.counted = 0;
+  own.self_contacts = own.pair_tests = own.parted = own.unfolded = own.kept = 0;
+}
+
+void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& resting) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  begin(own);
+  const Part part = part_of(near_.pairs() + live_.size(), thread, threads);
+  for (std::size_t k = 0; k < live_.size(); ++k) {
+    const Index body = live_[k];
+    const std::size_t place = near_.pairs_before(body) + k;
+    if (place < part.begin || place >= part.end) continue;
+    if (const auto group = resting.group(body, near_)) {
+      keep_group(own, body, *group);
+    } else {
+      find_group(own, body);
+    }
+    if (own.pairs.size() - own.counted >= std::min(most_pairs_between_counts, query_.most_pairs / 8)) count_pairs(own);
+  }
+}
+
+void BodyPairSearch::keep_group(Thread& own, Index a, std::span<const Contact> group) {
+  const Index end = frame_->bodies->first[a + 1];
+  own.self_contacts += static_cast<std::uint64_t>(
+      std::count_if(group.begin(), group.end(), [end](const Contact& contact) { return contact.b < end; }));
+  own.kept += near_.behind(a).size();
+  own.pairs.insert(own.pairs.end(), group.begin(), group.end());
+}
+
+void BodyPairSearch::find_group(Thread& own, Index a) {
+  own.group.clear();
+  if (query_.self) find_self(own, a);
+  std::size_t runs = own.group.empty() ? 0 : 1;
+  own.self_contacts += own.group.size();
+  bool ordered = true;
+  for (const Index b : near_.behind(a)) {
+    const std::size_t before = own.group.size(), leaves = own.tree.leaves();
+    find_between(own, a, b);
+    if (own.group.size() > query_.most_pairs) throw_too_many_contacts(query_.most_pairs);
+    if (own.group.size() == before) continue;
+    ++runs;
+    ordered = ordered && own.tree.leaves() == leaves;
+  }
+  if (runs > 1 || !ordered) order(own, a, ordered);
+  own.pairs.insert(own.pairs.end(), own.group.begin(), own.group.end());
+}
+
+void BodyPairSearch::count_pairs(Thread& own) {
+  const std::size_t added = own.pairs.size() - own.counted;
+  own.counted = own.pairs.size();
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.most_pairs) {
+    throw_too_many_contacts(query_.most_pairs);
+  }
+}
+
+void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
+  const Run run_a = run(a), run_b = run(b);
+  const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
+  if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], reach_)) {
+    const Facing facing =
+        face(run_a, first_a, run_b, first_b, *slab, tolerance2_, OverlapTree::leaf_tests, own.facing, own.group);
+    own.parted += facing.tests == 0;
+    if (facing.done) {
+      own.pair_tests += facing.tests;
+      return;
+    }
+  } else {
+    own.facing.near_a.take(run_a, first_a);
+    own.facing.near_b.take(run_b, first_b);
+  }
+  own.tree.between(own.facing.near_a, own.facing.near_b, a, own.group);
+}
+
+void BodyPairSearch::find_self(Thread& own, Index body) {
+  const Index first = frame_->bodies->first[body];
+  const Run vertices = run(body);
+  const CullingReference* reference = references_.of(body);
+  const SelfCollisionCandidates risk =
+      reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
+  if (!risk.proven) {
+    own.whole.take(vertices, first);
+    own.tree.within(own.whole, body, own.group, {frame_->bodies->shape[body].get(), first, tolerance2_});
+  }
+  for (const auto& [i, j] : risk.pairs) {
+    if (squared_distance(vertices.x[i], vertices.y[i], vertices.z[i], vertices.x[j], vertices.y[j], vertices.z[j]) <
+        tolerance2_) {
+      own.group.push_back({first + i, first + j});
+    }
+  }
+  for (const Index odd : risk.odd) contacts_of(vertices, first, odd, tolerance2_, own.words, own.group);
+  own.unfolded += risk.proven && risk.odd.empty();
+  own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
+  if (!own.group.empty()) tidy_self(own, body);
+}
+
+/// Brings the pairs into order, each once, and leaves out those that can never be contacts.
+void BodyPairSearch::tidy_self(Thread& own, Index body) {
+  const Index first = frame_->bodies->first[body];
+  const Shape& shape = *frame_->bodies->shape[body];
+  std::erase_if(own.group, [&](Contact& pair) {
+    if (pair.a > pair.b) std::swap(pair.a, pair.b);
+    return shape.excludes(pair.a - first, pair.b - first, tolerance2_);
+  });
+  std::sort(own.group.begin(), own.group.end());
+  own.group.erase(std::unique(own.group.begin(), own.group.end()), own.group.end());
+}
+
+/// Sorts a group. If each of its runs is ordered and they come by their second body, it takes a stable sort by the
+/// first vertex: counting, unless the body has far more vertices than contacts.
+void BodyPairSearch::order(Thread& own, Index a, bool runs_ordered) {
+  const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
+  if (!runs_ordered || own.group.size() < size / 16) {
+    std::sort(own.group.begin(), own.group.end());
+    return;
+  }
+  own.vertex_count.assign(size, 0);
+  for (const Contact& contact : own.group) ++own.vertex_count[contact.a - first];
+  Index end = 0;
+  for (Index& count : own.vertex_count) end += std::exchange(count, end);
+  own.sorted.resize(own.group.size());
+  for (const Contact& contact : own.group) own.sorted[own.vertex_count[contact.a - first]++] = contact;
+  own.group.swap(own.sorted);
+}
+
+void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
+  std::size_t total = 0;
+  for (Thread& thread : threads_)
+    thread.counted = std::exchange(total, total + thread.pairs.size());  // its first place
+  pairs.resize(total);
+  workers.run([&](int thread) {
+    const Thread& own = threads_[static_cast<std::size_t>(thread)];
+    std::copy(own.pairs.begin(), own.pairs.end(), pairs.begin() + static_cast<std::ptrdiff_t>(own.counted));
+  });
+}
+
+void BodyPairSearch::count(Result& result) const {
+  for (const Thread& thread : threads_) {
+    result.self_contacts += thread.self_contacts;
+    result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
+    result.counters.boxes += thread.tree.leaves();
+    result.skip(Skip::separated_pairs) += thread.parted;
+    result.skip(Skip::unfolded_bodies) += thread.unfolded;
+    result.skip(Skip::kept_pairs) += thread.kept;
+  }
+  const std::uint64_t live = live_.size();
+  result.counters.boxes += live;
+  result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_boxes();
+  result.skip(Skip::separated_pairs) += near_.near_boxes() - near_.pairs();
+  result.skip(Skip::lone_bodies) += near_.alone();
+}
+
+std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
+  std::vector<DebugGeometry::Box> boxes;
+  for (const Index a : live_) {
+    for (const Index b : near_.behind(a)) {
+      const Aabb &one = bounds_[a].box, &other = bounds_[b].box;
+      const float half = reach_ / 2;
+      boxes.push_back({glm::max(one.lo, other.lo) - half, glm::min(one.hi, other.hi) + half, a});
+    }
+  }
+  for (const Thread& thread : threads_) {
+    const auto& leaves = thread.tree.leaves_list();
+    boxes.insert(boxes.end(), leaves.begin(), leaves.end());
+  }
+  return boxes;
+}
+
+}  // namespace collide::exact

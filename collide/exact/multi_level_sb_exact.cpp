@@ -1,0 +1,55 @@
+// Multi-Level SB Collide made exact, and kept to where bodies can touch. Of every two bodies whose boxes (§2.1) and
+// spheres come near each other, only the vertices that face the other body along the line of centres are looked at; the
+// area that they fill is subdivided level by level (§5) as long as that pays. Inside a body all pairs are looked at, by
+// the same tree, unless it is proven that it cannot touch itself. No hash: what is near a body is found by strips.
+// Bodies that have not moved since the last frame keep the contacts among them.
+
+#include "collide/exact/multi_level_sb_exact.h"
+#include "collide/exact/body_pair_search.h"
+
+namespace collide::exact {
+
+namespace {
+
+constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
+
+class MultiLevelSbExact final : public Detector {
+ public:
+  void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
+    result.start();
+    search_.bound(frame, workers, result.non_finite_bodies);
+    resting_.observe(frame, settings, search_.bounds(), workers);
+    search_.find(frame,
+                 {.tolerance = settings.tolerance,
+                  .self = settings.self_collision,
+                  .levels = settings.levels,
+                  .most_pairs = max_contacts},
+                 resting_, workers);
+    search_.concatenate(workers, result.contacts);
+    search_.count(result);
+    resting_.store(frame, search_.near(), result.contacts);
+  }
+
+  void forget() override {
+    search_.forget();
+    resting_.forget();
+  }
+
+  /// Where the last search looked.
+  DebugGeometry debug() const override {
+    DebugGeometry geometry;
+    geometry.boxes = search_.boxes();
+    geometry.box_first.assign(geometry.boxes.size() + 1, 0);
+    return geometry;
+  }
+
+ private:
+  BodyPairSearch search_;
+  RestingContacts resting_;
+};
+
+}  // namespace
+
+std::unique_ptr<Detector> make_multi_level_sb_exact() { return std::make_unique<MultiLevelSbExact>(); }
+
+}  // namespace collide::exact

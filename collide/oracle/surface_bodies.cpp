@@ -1,0 +1,33 @@
+#include "collide/oracle/surface_bodies.h"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace collide::oracle {
+
+Index body_of(const Bodies& bodies, Index vertex) {
+  return static_cast<Index>(std::upper_bound(bodies.first.begin(), bodies.first.end(), vertex) - bodies.first.begin()) -
+         1;
+}
+
+void require_match(const Frame& frame, const surface::Surfaces& surfaces) {
+  const Bodies& bodies = *frame.bodies;
+  if (surfaces.size() != bodies.count()) throw std::invalid_argument("surfaces: one a body");
+  for (Index body = 0; body < bodies.count(); ++body) {
+    if (surfaces[body] && surfaces[body]->vertex_count() != bodies.size(body)) {
+      throw std::invalid_argument("surfaces: as many vertices as the body has");
+    }
+  }
+}
+
+surface::Box box_of_body(const Frame& frame, Index body) {
+  surface::Box box;
+  for (Index v = frame.bodies->first[body]; v < frame.bodies->first[body + 1]; ++v) {
+    const glm::vec3 p = position(frame, v);
+    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) return {};
+    box.add(glm::dvec3(p));
+  }
+  return box;
+}
+
+}  // namespace collide::oracle

@@ -1,0 +1,111 @@
+#include "collide/oracle/surface_oracle.h"
+
+#include <algorithm>
+
+#include "collide/oracle/surface_bodies.h"
+
+namespace collide::oracle {
+
+namespace {
+
+template <class T>
+void sort_unique(std::vector<T>& values) {
+  std::sort(values.begin(), values.end());
+  values.erase(std::unique(values.begin(), values.end()), values.end());
+}
+
+OverlappingPair pair_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
+
+/// The ascending contacts, looked up both ways.
+class ContactLookup {
+ public:
+  ContactLookup(std::span<const Contact> contacts, const Bodies& bodies) : contacts_(contacts) {
+    for (const Contact& contact : contacts) {
+      const Index a = body_of(bodies, contact.a), b = body_of(bodies, contact.b);
+      bodies_.push_back({a, b});  // a <= b, as the vertices
+      vertex_in_.push_back({contact.a, b});
+      vertex_in_.push_back({contact.b, a});
+    }
+    sort_unique(bodies_);
+    sort_unique(vertex_in_);
+  }
+  bool joins(Index a, Index b) const {
+    return std::binary_search(contacts_.begin(), contacts_.end(), Contact{std::min(a, b), std::max(a, b)});
+  }
+  bool joins_vertex_to_body(Index vertex, Index body) const {
+    return std::binary_search(vertex_in_.begin(), vertex_in_.end(), std::array{vertex, body});
+  }
+  bool joins_bodies(const OverlappingPair& pair) const {
+    return std::binary_search(bodies_.begin(), bodies_.end(), pair);
+  }
+
+ private:
+  std::span<const Contact> contacts_;
+  std::vector<OverlappingPair> bodies_;
+  std::vector<std::array<Index, 2>> vertex_in_;  // a vertex, and a body with a vertex that a contact joins it to
+};
+
+}  // namespace
+
+std::vector<OverlappingPair> overlapping_pairs(const Frame& frame, const Overlaps& overlaps) {
+  std::vector<OverlappingPair> pairs;
+  for (const Penetration& in : overlaps.penetrations)
+    pairs.push_back(pair_of(body_of(*frame.bodies, in.vertex), in.body));
+  for (const Piercing& through : overlaps.piercings) pairs.push_back(pair_of(through.edge_body, through.triangle_body));
+  sort_unique(pairs);
+  return pairs;
+}
+
+SurfaceFigures figures_of(const Frame& frame, const Overlaps& overlaps, std::span<const Crossing> crossings) {
+  SurfaceFigures figures;
+  for (const OverlappingPair& pair : overlapping_pairs(frame, overlaps)) {
+    ++(pair.a == pair.b ? figures.self_intersecting_bodies : figures.overlapping_pairs);
+  }
+  figures.piercings = overlaps.piercings.size();
+  std::vector<Index> inside, crossed;
+  for (const Penetration& in : overlaps.penetrations) {
+    inside.push_back(in.vertex);
+    figures.deepest = std::max(figures.deepest, in.depth);
+    figures.mean_depth += in.depth / static_cast<double>(overlaps.penetrations.size());
+  }
+  std::vector<OverlappingPair> crossed_pairs;
+  for (const Crossing& crossing : crossings) {
+    if (crossing.kind == Crossing::Kind::vertex_face)
+      crossed.push_back(crossing.feature[0]);
+    else
+      ++figures.edge_crossings;
+    if (crossing.body != crossing.other) crossed_pairs.push_back(pair_of(crossing.body, crossing.other));
+  }
+  sort_unique(inside);
+  sort_unique(crossed);
+  sort_unique(crossed_pairs);
+  figures.penetrating_vertices = inside.size();
+  figures.crossed_vertices = crossed.size();
+  figures.crossed_pairs = crossed_pairs.size();
+  return figures;
+}
+
+Missed missed_by(std::span<const Contact> contacts, const Frame& frame, const surface::Surfaces& surfaces,
+                 const Overlaps& overlaps) {
+  const ContactLookup seen(contacts, *frame.bodies);
+  Missed missed;
+  for (std::size_t i = 0; i < overlaps.penetrations.size(); ++i) {
+    const Penetration& in = overlaps.penetrations[i];
+    if (!seen.joins_vertex_to_body(in.vertex, in.body)) missed.penetrations.push_back(i);
+  }
+  for (std::size_t i = 0; i < overlaps.piercings.size(); ++i) {
+    const Piercing& through = overlaps.piercings[i];
+    const surface::Triangle face =
+        over_frame(frame, through.triangle_body, surfaces[through.triangle_body]->triangles()[through.triangle]);
+    const bool joined = std::any_of(face.begin(), face.end(), [&](Index corner) {
+      return seen.joins(through.edge[0], corner) || seen.joins(through.edge[1], corner);
+    });
+    if (!joined) missed.piercings.push_back(i);
+  }
+  for (const OverlappingPair& pair : overlapping_pairs(frame, overlaps)) {
+    if (!seen.joins_bodies(pair)) missed.pairs.push_back(pair);
+  }
+  return missed;
+}
+
+}  // namespace collide::oracle

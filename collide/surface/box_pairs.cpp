@@ -1,0 +1,198 @@
+#include "collide/surface/box_pairs.h"
+
+#include <algorithm>
+#include <bit>
+#include <limits>
+#include <stdexcept>
+#include <string>
+
+#include <glm/common.hpp>
+
+#include "collide/core/midpoint_cut.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "collide/surface/box_pairs.cpp"
+#include <hwy/foreach_target.h>
+
+#include <hwy/highway.h>
+
+HWY_BEFORE_NAMESPACE();
+namespace collide::surface {
+namespace HWY_NAMESPACE {
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// A bit a box from `begin` (a multiple of 64) on: whether it overlaps `box`.
+void Overlapping(const BoxList& list, Index begin, const Aabb& box, std::uint64_t* words) {
+  const hn::ScalableTag<float> d;
+  constexpr auto lanes = static_cast<Index>(hn::MaxLanes(d));
+  static_assert(lanes <= BoxList::padding && 64 % lanes == 0);
+  for (Index first = begin; first < list.size; first += 64) {
+    std::uint64_t word = 0;
+    for (Index k = 0; k < 64 && first + k < list.size; k += lanes) {
+      auto apart = hn::Gt(hn::Set(d, box.lo.x), hn::LoadU(d, &list.hi[0][first + k]));
+      apart = hn::Or(apart, hn::Gt(hn::LoadU(d, &list.lo[0][first + k]), hn::Set(d, box.hi.x)));
+      apart = hn::Or(apart, hn::Gt(hn::Set(d, box.lo.y), hn::LoadU(d, &list.hi[1][first + k])));
+      apart = hn::Or(apart, hn::Gt(hn::LoadU(d, &list.lo[1][first + k]), hn::Set(d, box.hi.y)));
+      apart = hn::Or(apart, hn::Gt(hn::Set(d, box.lo.z), hn::LoadU(d, &list.hi[2][first + k])));
+      apart = hn::Or(apart, hn::Gt(hn::LoadU(d, &list.lo[2][first + k]), hn::Set(d, box.hi.z)));
+      std::uint64_t bits = 0;
+      hn::StoreMaskBits(d, hn::Not(apart), reinterpret_cast<std::uint8_t*>(&bits));
+      word |= bits << k;
+    }
+    words[(first - begin) / 64] = word;
+  }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace collide::surface
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace collide::surface {
+namespace {
+
+HWY_EXPORT(Overlapping);
+
+/// Calls visit(k) for each box from `begin` on that overlaps `box`.
+template <class Visit>
+void for_overlapping(const BoxList& list, Index begin, const Aabb& box, std::vector<std::uint64_t>& words,
+                     const Visit& visit) {
+  if (begin >= list.size) return;
+  const Index start = begin / 64 * 64, count = (list.size - start + 63) / 64;
+  if (words.size() < count) words.resize(count);
+  HWY_DYNAMIC_DISPATCH(Overlapping)(list, start, box, words.data());
+  words[0] &= ~std::uint64_t{0} << (begin - start);
+  for (Index w = 0; w < count; ++w)
+    for (std::uint64_t word = words[w]; word != 0; word &= word - 1)
+      visit(start + 64 * w + static_cast<Index>(std::countr_zero(word)));
+}
+
+/// Those that reach below the cut, or those that reach it from above.
+void take(const BoxList& list, const MidpointCut& cut, bool low, BoxList& taken) {
+  const auto axis = static_cast<std::size_t>(cut.axis);
+  taken.clear();
+  taken.reserve(list.size);
+  for (Index k = 0; k < list.size; ++k)
+    if (low ? list.lo[axis][k] < cut.mid : list.hi[axis][k] >= cut.mid) taken.add(list.box(k), list.item[k]);
+  taken.end();
+}
+
+glm::vec3 above(glm::vec3 from, const MidpointCut& cut) {
+  from[cut.axis] = std::max(from[cut.axis], cut.mid);
+  return from;
+}
+
+constexpr std::size_t most_cuts = 48;
+const glm::vec3 anywhere(std::numeric_limits<float>::lowest());
+
+}  // namespace
+
+void BoxList::reserve(Index count) {
+  const std::size_t wanted = std::size_t{count} + padding;
+  if (item.size() >= wanted) return;
+  for (auto* side : {&lo, &hi})
+    for (auto& values : *side) values.resize(wanted);
+  item.resize(wanted);
+}
+
+void BoxList::add(const Aabb& box, Index i) {
+  for (int axis = 0; axis < 3; ++axis) {
+    lo[static_cast<std::size_t>(axis)][size] = box.lo[axis];
+    hi[static_cast<std::size_t>(axis)][size] = box.hi[axis];
+  }
+  item[size++] = i;
+}
+
+void BoxList::end() {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    for (Index k = size; k < size + padding; ++k) {
+      lo[axis][k] = std::numeric_limits<float>::max();
+      hi[axis][k] = std::numeric_limits<float>::lowest();
+    }
+}
+
+Aabb BoxList::bounds() const {
+  Aabb all = box(0);
+  for (Index k = 1; k < size; ++k) {
+    all.lo = glm::min(all.lo, box(k).lo);
+    all.hi = glm::max(all.hi, box(k).hi);
+  }
+  return all;
+}
+
+void BoxPairs::pick(const BoxList& list, const Aabb& box, BoxList& picked) {
+  picked.clear();
+  picked.reserve(list.size);
+  for_overlapping(list, 0, box, words_, [&](Index k) { picked.add(list.box(k), list.item[k]); });
+  picked.end();
+}
+
+void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t most) {
+  pairs_ = &pairs;
+  most_ = most;
+  const std::size_t before = pairs.size();
+  cut_between(a, b, anywhere, 0);
+  if (std::uint64_t{a.size} * b.size > leaf_tests)
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
+}
+
+void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t most) {
+  pairs_ = &pairs;
+  most_ = most;
+  const std::size_t before = pairs.size();
+  cut_within(list, anywhere, 0);
+  if (std::uint64_t{list.size} * list.size / 2 > leaf_tests)
+    std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
+}
+
+/// Pairs of box i with those of b from `begin` on. A pair belongs to the cell with the lower corner of its overlap, so
+/// that those in two cells come up once: `from` is the lower corner of this one, and no list here reaches beyond it.
+void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, const glm::vec3& from) {
+  const Aabb box = a.box(i);
+  for_overlapping(b, begin, box, words_, [&](Index k) {
+    const glm::vec3 corner = glm::max(box.lo, b.box(k).lo);
+    if (corner.x >= from.x && corner.y >= from.y && corner.z >= from.z) pairs_->push_back({a.item[i], b.item[k]});
+  });
+  if (pairs_->size() > most_)
+    throw std::length_error("more than " + std::to_string(most_) +
+                            " boxes of bodies overlap: take them apart, or away");
+}
+
+BoxPairs::Level& BoxPairs::level(std::size_t depth) {
+  while (levels_.size() <= depth) levels_.push_back(std::make_unique<Level>());
+  return *levels_[depth];
+}
+
+void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& from, std::size_t depth) {
+  const auto tests = [](const BoxList& one, const BoxList& other) { return std::uint64_t{one.size} * other.size; };
+  if (tests(a, b) > leaf_tests && depth < most_cuts) {
+    const MidpointCut cut = cut_of(a.bounds());
+    Level& own = level(depth);
+    take(a, cut, true, own.low_a), take(b, cut, true, own.low_b);
+    take(a, cut, false, own.up_a), take(b, cut, false, own.up_b);
+    if (tests(own.low_a, own.low_b) + tests(own.up_a, own.up_b) < tests(a, b) / 8 * 7) {
+      cut_between(own.low_a, own.low_b, from, depth + 1);
+      cut_between(own.up_a, own.up_b, above(from, cut), depth + 1);
+      return;
+    }
+  }
+  for (Index i = 0; i < a.size; ++i) test(a, i, b, 0, from);
+}
+
+void BoxPairs::cut_within(const BoxList& list, const glm::vec3& from, std::size_t depth) {
+  const auto tests = [](const BoxList& one) { return std::uint64_t{one.size} * one.size / 2; };
+  if (tests(list) > leaf_tests && depth < most_cuts) {
+    const MidpointCut cut = cut_of(list.bounds());
+    Level& own = level(depth);
+    take(list, cut, true, own.low_a), take(list, cut, false, own.up_a);
+    if (tests(own.low_a) + tests(own.up_a) < tests(list) / 8 * 7) {
+      cut_within(own.low_a, from, depth + 1);
+      cut_within(own.up_a, above(from, cut), depth + 1);
+      return;
+    }
+  }
+  for (Index i = 0; i < list.size; ++i) test(list, i, list, i + 1, from);
+}
+
+}  // namespace collide::surface
+#endif  // HWY_ONCE

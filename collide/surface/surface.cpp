@@ -1,0 +1,52 @@
+#include "collide/surface/surface.h"
+
+#include <algorithm>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+namespace collide::surface {
+
+namespace {
+
+constexpr Index missing = std::numeric_limits<Index>::max();
+
+}  // namespace
+
+Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
+    : vertex_count_(vertex_count), triangles_(std::move(triangles)), first_(vertex_count + std::size_t{1}, 0) {
+  std::vector<Edge> up, down;  // sides that run from the smaller vertex to the greater one, and the others turned round
+  for (const Triangle& triangle : triangles_) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = triangle[k], b = triangle[(k + 1) % 3];
+      if (a >= vertex_count) throw std::invalid_argument("Surface: a triangle names a missing vertex");
+      if (a == b) throw std::invalid_argument("Surface: a triangle names a vertex twice");
+      (a < b ? up : down).push_back({std::min(a, b), std::max(a, b)});
+      ++first_[a + std::size_t{1}];
+    }
+  }
+  std::sort(up.begin(), up.end());
+  std::sort(down.begin(), down.end());
+  closed_ = !triangles_.empty() && up == down;
+  std::set_union(up.begin(), up.end(), down.begin(), down.end(), std::back_inserter(edges_));
+  edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
+
+  edge_triangles_.assign(edges_.size(), {missing, missing});
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
+      const auto edge = std::lower_bound(edges_.begin(), edges_.end(), Edge{std::min(a, b), std::max(a, b)});
+      auto& at = edge_triangles_[static_cast<std::size_t>(edge - edges_.begin())];
+      at = {at[0] == missing ? t : at[0], t};
+    }
+  }
+
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  around_.resize(3 * triangles_.size());
+  std::vector<Index> next(first_.begin(), first_.end() - 1);
+  for (Index t = 0; t < triangles_.size(); ++t) {
+    for (const Index vertex : triangles_[t]) around_[next[vertex]++] = t;
+  }
+}
+
+}  // namespace collide::surface
