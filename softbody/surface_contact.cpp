@@ -35,9 +35,9 @@ void set_slack(collide::surface::SurfaceBody& body, float wanted) {
 
 /// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
 /// each other, but those of bodies in one place do not.
-bool faces_along(const Surface& own, const collide::Run& own_at, Index vertex, const Surface& other,
-                 const collide::Run& other_at, Index face) {
-  const auto normal = [](const Surface& surface, const collide::Run& at, Index f) {
+bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
+                 const collide::VertexRun& other_at, Index face) {
+  const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
     const auto corner = [&](std::size_t k) {
       const Index v = surface.triangles()[f][k];
       return glm::vec3(at.x[v], at.y[v], at.z[v]);
@@ -198,7 +198,7 @@ void SurfaceContact::inherit() {
 void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& shells) {
   const auto run = [&](Index body) {
     const Index first = now.bodies->first[body];
-    return collide::Run{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
+    return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
   };
   pair.deep = static_cast<std::uint32_t>(deep_.size());
   float deepest = 0;
@@ -206,8 +206,8 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
-    const collide::Run vertices = run(own);
-    if (!collide::near(collide::bound_of(vertices).box, collide::bound_of(run(other)).box, 0.0f)) continue;
+    const collide::VertexRun vertices = run(own);
+    if (!collide::near(collide::measure_bounds(vertices).box, collide::measure_bounds(run(other)).box, 0.0f)) continue;
     shells.resize(bodies_.size());
     if (!shells[other]) shells[other].emplace(*traits_[other].surface, run(other));
     for (Index v = 0; v < vertices.size; ++v) {

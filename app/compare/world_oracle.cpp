@@ -46,7 +46,7 @@ std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::Wo
 bool WorldOracle::came_inside(const collide::oracle::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
-    const collide::Run at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
+    const collide::VertexRun at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
     return collide::surface::ClosedShell(*surfaces_[crossing.other], at)
         .inside({p.x[vertex], p.y[vertex], p.z[vertex]});
   };

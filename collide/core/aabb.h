@@ -14,18 +14,18 @@ struct Aabb {
   glm::vec3 lo, hi;  // m, closed
 };
 
-/// True unless the gap between the boxes exceeds reach along an axis. Rounding cannot make a pair within reach look
-/// farther away: subtraction rounds monotonically and reach is a float itself.
-inline bool near(const Aabb& a, const Aabb& b, float reach) {
-  return a.lo.x - b.hi.x <= reach && b.lo.x - a.hi.x <= reach &&  //
-         a.lo.y - b.hi.y <= reach && b.lo.y - a.hi.y <= reach &&  //
-         a.lo.z - b.hi.z <= reach && b.lo.z - a.hi.z <= reach;
+/// True unless the gap between the boxes exceeds the cutoff (m) along an axis. Rounding never hides a near pair:
+/// subtraction rounds monotonically, and the cutoff is a float itself.
+inline bool near(const Aabb& a, const Aabb& b, float cutoff) {
+  return a.lo.x - b.hi.x <= cutoff && b.lo.x - a.hi.x <= cutoff &&  //
+         a.lo.y - b.hi.y <= cutoff && b.lo.y - a.hi.y <= cutoff &&  //
+         a.lo.z - b.hi.z <= cutoff && b.lo.z - a.hi.z <= cutoff;
 }
 
 /// Sweep and prune: calls meet(a, b) once for every two different items of `order` whose boxes box_of(a), box_of(b) are
 /// near(). Sorts `order` along the axis on which the boxes are spread widest.
 template <class BoxOf, class Meet>
-void sweep(std::vector<Index>& order, float reach, const BoxOf& box_of, const Meet& meet) {
+void sweep(std::vector<Index>& order, float cutoff, const BoxOf& box_of, const Meet& meet) {
   if (order.size() < 2) return;
   glm::vec3 least = box_of(order[0]).lo, most = least;
   for (const Index item : order) {
@@ -47,8 +47,8 @@ void sweep(std::vector<Index>& order, float reach, const BoxOf& box_of, const Me
     const Aabb& box = box_of(order[i]);
     for (std::size_t j = i + 1; j < order.size(); ++j) {
       const Aabb& other = box_of(order[j]);
-      if (other.lo[axis] - box.hi[axis] > reach) break;
-      if (near(box, other, reach)) meet(order[i], order[j]);
+      if (other.lo[axis] - box.hi[axis] > cutoff) break;
+      if (near(box, other, cutoff)) meet(order[i], order[j]);
     }
   }
 }

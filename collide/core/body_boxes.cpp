@@ -17,21 +17,21 @@ void BodyBoxes::build(const Frame& frame, Result& result) {
   for (Index body = 0; body < bodies.count(); ++body) {
     const Index first = bodies.first[body], size = bodies.size(body);
     if (size == 0) continue;
-    const Bound bound = bound_of({&frame.x[first], &frame.y[first], &frame.z[first], size});
+    const BodyBounds bound = measure_bounds({&frame.x[first], &frame.y[first], &frame.z[first], size});
     box[body] = bound.box;
     (bound.finite ? live : result.non_finite_bodies).push_back(body);
   }
 }
 
-const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float reach, std::size_t most_pairs) {
+const std::vector<BodyPair>& BodyPairs::find(const BodyBoxes& bodies, float cutoff, std::size_t limit) {
   pairs_.clear();
   order_ = bodies.live;
   sweep(
-      order_, reach, [&](Index body) -> const Aabb& { return bodies.box[body]; },
+      order_, cutoff, [&](Index body) -> const Aabb& { return bodies.box[body]; },
       [&](Index a, Index b) {
         pairs_.push_back({std::min(a, b), std::max(a, b)});
-        if (pairs_.size() > most_pairs) {
-          throw std::length_error("more than " + std::to_string(most_pairs) + " pairs of near bodies");
+        if (pairs_.size() > limit) {
+          throw std::length_error("more than " + std::to_string(limit) + " pairs of near bodies");
         }
       });
   return pairs_;

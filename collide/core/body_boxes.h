@@ -18,13 +18,13 @@ struct BodyPair {
   Index a, b;  // a < b
 };
 
-/// Every two live bodies whose boxes are within reach of each other (see contact_cutoff).
+/// Every two live bodies whose boxes are within the cutoff of each other (see contact_cutoff).
 class BodyPairs {
  public:
   static constexpr std::size_t max_pairs = std::size_t{1} << 27;  // 1 GiB of them
 
-  /// Throws std::length_error at more than most_pairs.
-  const std::vector<BodyPair>& find(const BodyBoxes& bodies, float reach, std::size_t most_pairs = max_pairs);
+  /// Throws std::length_error at more than limit.
+  const std::vector<BodyPair>& find(const BodyBoxes& bodies, float cutoff, std::size_t limit = max_pairs);
 
  private:
   std::vector<Index> order_;

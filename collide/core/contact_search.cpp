@@ -22,11 +22,11 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
 void ContactSearch::test(int thread, Range a, Range b) {
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   const std::uint64_t na = a.size(), nb = b.size();
-  constexpr std::uint64_t most_tests = 1u << 20;  // between two looks at the number of contacts
-  const Index most_rows =
-      na * nb <= most_tests ? a.size() : static_cast<Index>(std::max(most_tests / nb, std::uint64_t{1}));
+  constexpr std::uint64_t max_tests = 1u << 20;  // between two looks at the number of contacts
+  const Index max_rows =
+      na * nb <= max_tests ? a.size() : static_cast<Index>(std::max(max_tests / nb, std::uint64_t{1}));
   for (Range rows{a.begin, a.begin}; rows.begin < a.end; rows.begin = rows.end) {
-    rows.end = rows.begin + std::min(most_rows, a.end - rows.begin);
+    rows.end = rows.begin + std::min(max_rows, a.end - rows.begin);
     near_pairs(*points_, rows, b, tolerance2_, own.hits);
     keep_contacts(own);
   }

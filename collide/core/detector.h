@@ -53,7 +53,7 @@ struct Counters {
 
 /// Work that a frame did not need. Each kind is left out on a proof, so that the contacts stay the same.
 enum class Skip {
-  far_pairs,        // pairs of bodies whose boxes are out of reach of each other
+  far_pairs,        // pairs of bodies whose boxes are farther apart than the cutoff
   separated_pairs,  // pairs of bodies with near boxes, but a plane or two spheres part them
   lone_bodies,      // bodies that no other body is near: no pair pass at all
   unfolded_bodies,  // bodies that cannot touch themselves: no self pass

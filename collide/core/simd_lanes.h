@@ -1,5 +1,6 @@
-// Highway's vectors of floats, and what the loops over vertices share. Compiled once for each of its targets: include
-// it after <hwy/foreach_target.h>, and with no include guard but this one.
+// What the vectorised loops share: Highway's vectors of floats, blocks of vertices, and lists of vertices. It is
+// compiled once for each of Highway's targets: include it after <hwy/foreach_target.h>. This include guard is
+// Highway's.
 #if defined(COLLIDE_SIMD_LANES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef COLLIDE_SIMD_LANES_H
 #undef COLLIDE_SIMD_LANES_H
@@ -24,7 +25,7 @@ using Floats = hn::ScalableTag<float>;
 using V = hn::Vec<Floats>;
 using M = hn::Mask<Floats>;
 constexpr Index lanes = static_cast<Index>(hn::MaxLanes(Floats()));
-static_assert(lanes <= most_lanes && 64 % lanes == 0);
+static_assert(lanes <= max_lanes && 64 % lanes == 0);
 
 HWY_INLINE V load(const float* at) { return hn::LoadU(Floats(), at); }
 HWY_INLINE V all(float value) { return hn::Set(Floats(), value); }
@@ -36,9 +37,9 @@ HWY_INLINE std::uint64_t bits_of(Tag tag, hn::Mask<Tag> mask) {
   return bits;
 }
 
-/// Calls block(first, skip) for blocks that cover 0 .. size - 1. The last one is moved back to end with the last
-/// vertex: its first `skip` lanes come up for the second time. `first` is negative if there are fewer vertices than
-/// lanes.
+/// Calls block(first, skip) for blocks of lanes that cover 0 .. size - 1. The last block ends with the last vertex, so
+/// it may overlap the block before it: its first `skip` lanes were in that block already. `first` is negative if there
+/// are fewer vertices than lanes.
 template <class Block>
 HWY_INLINE void for_blocks(Index size, const Block& block) {
   Index i = 0;
@@ -46,13 +47,14 @@ HWY_INLINE void for_blocks(Index size, const Block& block) {
   if (i < size) block(static_cast<std::ptrdiff_t>(size) - static_cast<std::ptrdiff_t>(lanes), lanes - (size - i));
 }
 
-/// Where a run is copied to if it has fewer vertices than lanes.
+/// Memory for readable().
 struct Copy {
   float x[lanes], y[lanes], z[lanes];
 };
 
-/// A run in front of which for_blocks() may read: the run itself, or its copy, led by repetitions of the first vertex.
-HWY_INLINE Run readable(const Run& run, Copy& copy) {
+/// Returns a run that for_blocks() may read: the run itself, or, if it has fewer vertices than lanes, a copy that
+/// starts with repetitions of the first vertex.
+HWY_INLINE VertexRun readable(const VertexRun& run, Copy& copy) {
   if (HWY_LIKELY(run.size >= lanes)) return run;
   const Index skip = lanes - run.size;
   for (Index lane = 0; lane < lanes; ++lane) {
@@ -69,7 +71,7 @@ HWY_INLINE Vector squared_length(Vector x, Vector y, Vector z) {  // as squared_
   return hn::Add(hn::Add(hn::Mul(x, x), hn::Mul(y, y)), hn::Mul(z, z));
 }
 
-/// The numbers of the set bits of each byte, ascending, one after another.
+/// For each byte, the numbers of its set bits; ascending, without gaps.
 constexpr auto numbers_of_bits = [] {
   std::array<std::array<std::uint8_t, 8>, 256> table{};
   for (std::size_t bits = 0; bits < table.size(); ++bits) {
@@ -81,12 +83,11 @@ constexpr auto numbers_of_bits = [] {
   return table;
 }();
 
-/// Lists what it is given by the block. Writes whole blocks: there must be room for one behind the list.
+/// Appends the numbers of selected lanes to a list. It writes whole blocks, so the list needs room for one more block.
 class ListWriter {
  public:
   explicit ListWriter(Index* list) : list_(list) {}
-  /// The numbers of those lanes of the mask that come up for the first time (see for_blocks()), if the first lane has
-  /// the number `first`.
+  /// Appends the numbers of the lanes in the mask, without the first `skip` lanes. first: the number of the first lane.
   HWY_INLINE void add(M mask, std::ptrdiff_t first, Index skip) {
     if (skip != 0) mask = hn::AndNot(hn::FirstN(Floats(), skip), mask);
     hn::StoreU(hn::Add(first_lanes(mask), hn::Set(Numbers(), static_cast<Index>(first))), Numbers(), list_ + size_);
@@ -115,8 +116,8 @@ HWY_INLINE float least(V v) { return hn::GetLane(hn::MinOfLanes(Floats(), v)); }
 HWY_INLINE float most(V v) { return hn::GetLane(hn::MaxOfLanes(Floats(), v)); }
 HWY_INLINE float sum(V v) { return hn::GetLane(hn::SumOfLanes(Floats(), v)); }
 
-/// Not below the root of a squared length that was computed as above: four units of rounding, and what products lose by
-/// underflow.
+/// Returns a bound of the true length, given its square as squared_length() computes it: the factor covers four units
+/// of rounding, the sum covers what products lose by underflow.
 HWY_INLINE float root_above(float squared) {
   return static_cast<float>(std::sqrt(double{squared} + 0x1p-147) * (1 + 0x1p-21));
 }

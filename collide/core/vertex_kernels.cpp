@@ -14,23 +14,23 @@ namespace collide {
 namespace HWY_NAMESPACE {
 namespace {
 
-bool all_finite(const Run& run) {
+bool all_finite(const VertexRun& run) {
   for (Index v = 0; v < run.size; ++v) {
     if (!std::isfinite(run.x[v]) || !std::isfinite(run.y[v]) || !std::isfinite(run.z[v])) return false;
   }
   return true;
 }
 
-Bound BoundOf(const Run& run) {
+BodyBounds BoundOf(const VertexRun& run) {
   Copy copy;
-  const Run at = readable(run, copy);
+  const VertexRun at = readable(run, copy);
   V lx = all(run.x[0]), ly = all(run.y[0]), lz = all(run.z[0]), hx = lx, hy = ly, hz = lz;
   for_blocks(run.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
     const V x = load(at.x + i), y = load(at.y + i), z = load(at.z + i);
     lx = hn::Min(lx, x), ly = hn::Min(ly, y), lz = hn::Min(lz, z);
     hx = hn::Max(hx, x), hy = hn::Max(hy, y), hz = hn::Max(hz, z);
   });
-  Bound bound;
+  BodyBounds bound;
   bound.box = {{least(lx), least(ly), least(lz)}, {most(hx), most(hy), most(hz)}};
   bound.centre = bound.box.lo * 0.5f + bound.box.hi * 0.5f;
   bound.largest =
@@ -50,7 +50,7 @@ Bound BoundOf(const Run& run) {
   return bound;
 }
 
-AffineFit FitAffine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+AffineFit FitAffine(const VertexRun& body, const VertexRun& reference, const std::array<float, 9>& inverse_moment,
                     const glm::vec3& centre, float* residual2) {
   const V cx = all(centre.x), cy = all(centre.y), cz = all(centre.z), zero = hn::Zero(Floats());
   V xx = zero, xy = zero, xz = zero, yx = zero, yy = zero, yz = zero, zx = zero, zy = zero, zz = zero;
@@ -117,9 +117,9 @@ HWY_EXPORT(BoundOf);
 HWY_EXPORT(FitAffine);
 HWY_EXPORT(ListAbove);
 
-Bound bound_of(const Run& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
+BodyBounds measure_bounds(const VertexRun& run) { return HWY_DYNAMIC_DISPATCH(BoundOf)(run); }
 
-AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+AffineFit fit_affine(const VertexRun& body, const VertexRun& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2) {
   return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
 }

@@ -10,17 +10,17 @@
 namespace collide {
 
 /// Where a body is. `radius`: m, every vertex is within it of the box's centre, rounding included.
-struct Bound {
+struct BodyBounds {
   Aabb box;
   glm::vec3 centre;
   float radius;
   float largest;  // the greatest coordinate, whatever its sign
   bool finite;    // if not, the rest means nothing
 };
-Bound bound_of(const Run& run);
+BodyBounds measure_bounds(const VertexRun& run);
 
 /// The vertices that an affine map is fitted to: some of them, spread over the body, are enough. Calls visit(v).
-inline constexpr Index sample_run = most_lanes;
+inline constexpr Index sample_run = max_lanes;
 constexpr Index sample_stride(Index size) { return size < 8 * sample_run ? sample_run : 4 * sample_run; }
 template <class Visit>
 void for_samples(Index size, const Visit& visit) {
@@ -38,11 +38,11 @@ struct AffineFit {
 };
 /// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T over the samples. Sizes are equal, at least
 /// sample_run. residual2: the squared distance of each vertex from where the map takes its reference, as computed.
-AffineFit fit_affine(const Run& body, const Run& reference, const std::array<float, 9>& inverse_moment,
+AffineFit fit_affine(const VertexRun& body, const VertexRun& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
 /// The numbers of those values that are not at most the limit, ascending; returns how many. The list has room for
-/// most_lanes more than there are values, of which there are at least so many.
+/// max_lanes more than there are values, of which there are at least so many.
 Index list_above(std::span<const float> values, float limit, Index* list);
 
 }  // namespace collide

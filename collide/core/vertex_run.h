@@ -1,17 +1,17 @@
 #pragma once
-// The vertices of one body, as the vector loops take them.
+// The vertices of one body, in the form that the vectorised loops read.
 
 #include "collide/core/frame.h"
 
 namespace collide {
 
-/// Some vertices of one body.
-struct Run {
+/// Consecutive vertices of one body: coordinates in metres.
+struct VertexRun {
   const float *x, *y, *z;
   Index size;  // > 0
 };
 
-/// As many values as one instruction takes, at most: arrays that vector loops read go on for so many.
-inline constexpr Index most_lanes = 16;
+/// The most values that one vector instruction takes. Arrays that vectorised loops read are padded by this many.
+inline constexpr Index max_lanes = 16;
 
 }  // namespace collide

@@ -21,27 +21,27 @@ constexpr std::size_t cells_a_body = 4;  // at most, lest most of them be empty
 
 }  // namespace
 
-void BodyBroadPhase::find(std::span<const Bound> bounds, std::span<const Index> live, float reach, Workers& workers,
-                          std::size_t most_pairs) {
+void BodyBroadPhase::find(std::span<const BodyBounds> bounds, std::span<const Index> live, float cutoff,
+                          Workers& workers, std::size_t limit) {
   first_.assign(bounds.size() + 1, 0);  // no pairs, should this fail
   other_.clear();
-  divide(bounds, live, reach);
+  divide(bounds, live, cutoff);
   place(bounds, live);
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   workers.run([&](int thread) {
     Thread& own = threads_[static_cast<std::size_t>(thread)];
     own.found.clear();
     own.count.clear();
-    own.near_boxes = 0;
+    own.near_box_pairs = 0;
     const Part rows = part_of(live.size(), thread, workers.threads());
     for (auto row = static_cast<Index>(rows.begin); row < rows.end; ++row) {
       const std::size_t before = own.found.size();
-      find_row(own, row, reach);
+      find_row(own, row, cutoff);
       own.count.push_back(static_cast<Index>(own.found.size() - before));
-      if (own.found.size() > most_pairs) throw_too_many_pairs(most_pairs);
+      if (own.found.size() > limit) throw_too_many_pairs(limit);
     }
     workers.barrier();
-    if (thread == 0) group(bounds.size(), most_pairs);
+    if (thread == 0) group(bounds.size(), limit);
     workers.barrier();
     const Part bodies = part_of(bounds.size(), thread, workers.threads());
     for (std::size_t body = bodies.begin; body < bodies.end; ++body) {
@@ -56,7 +56,7 @@ std::size_t BodyBroadPhase::Parts::of(double value) const {
 }
 
 /// Chooses strips and cells for the boxes.
-void BodyBroadPhase::divide(std::span<const Bound> bounds, std::span<const Index> live, float reach) {
+void BodyBroadPhase::divide(std::span<const BodyBounds> bounds, std::span<const Index> live, float cutoff) {
   const glm::vec3 lowest(std::numeric_limits<float>::lowest());
   glm::vec3 least(-lowest), most(lowest);
   glm::dvec3 widest(0), sum(0);
@@ -72,18 +72,18 @@ void BodyBroadPhase::divide(std::span<const Bound> bounds, std::span<const Index
   along_ = spread.x >= spread.y && spread.x >= spread.z ? 0 : spread.y >= spread.z ? 1 : 2;
   const int one = (along_ + 1) % 3, two = (along_ + 2) % 3;
   across_ = spread[one] >= spread[two] ? one : two;
-  const auto parts = [&](int axis, double width, std::size_t most_parts) {
-    width = std::max(width, spread[axis] / static_cast<double>(most_parts));
+  const auto parts = [&](int axis, double width, std::size_t max_parts) {
+    width = std::max(width, spread[axis] / static_cast<double>(max_parts));
     if (!(width > 0)) width = 1;
-    return Parts{least[axis], width, std::min(most_parts, static_cast<std::size_t>(spread[axis] / width) + 1)};
+    return Parts{least[axis], width, std::min(max_parts, static_cast<std::size_t>(spread[axis] / width) + 1)};
   };
   const std::size_t bodies = std::max<std::size_t>(live.size(), 1);
-  strips_ = parts(across_, widest[across_] + reach, bodies);
+  strips_ = parts(across_, widest[across_] + cutoff, bodies);
   cells_ = parts(along_, cell_width * sum[along_] / static_cast<double>(bodies), cells_a_body * bodies / strips_.count);
 }
 
 /// Counting sort by strip and cell.
-void BodyBroadPhase::place(std::span<const Bound> bounds, std::span<const Index> live) {
+void BodyBroadPhase::place(std::span<const BodyBounds> bounds, std::span<const Index> live) {
   widest_.assign(strips_.count, 0);
   cell_begin_.assign(strips_.count * cells_.count + 2, 0);
   cell_.clear();
@@ -98,7 +98,7 @@ void BodyBroadPhase::place(std::span<const Bound> bounds, std::span<const Index>
   boxes_.resize(static_cast<Index>(live.size()));
   body_.resize(live.size());
   for (std::size_t k = 0; k < live.size(); ++k) {
-    const Bound& bound = bounds[live[k]];
+    const BodyBounds& bound = bounds[live[k]];
     const Index place = cell_begin_[cell_[k] + std::size_t{1}]++;  // in the end, where the next cell begins
     body_[place] = live[k];
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -112,29 +112,29 @@ void BodyBroadPhase::place(std::span<const Bound> bounds, std::span<const Index>
 }
 
 /// Those behind it in its own strip, and those of the strips that it reaches into.
-void BodyBroadPhase::find_row(Thread& own, Index place, float reach) const {
+void BodyBroadPhase::find_row(Thread& own, Index place, float cutoff) const {
   const auto along = static_cast<std::size_t>(along_), across = static_cast<std::size_t>(across_);
   const double lo = boxes_.lo[along][place], hi = boxes_.hi[along][place];
-  const std::size_t last_cell = cells_.of(hi + reach);
+  const std::size_t last_cell = cells_.of(hi + cutoff);
   const std::size_t strip = strips_.of(boxes_.lo[across][place]);
-  const std::size_t last_strip = strips_.of(double{boxes_.hi[across][place]} + reach);
+  const std::size_t last_strip = strips_.of(double{boxes_.hi[across][place]} + cutoff);
   const auto sweep = [&](std::size_t s, Index begin) {
     const Index end = cell_begin_[s * cells_.count + last_cell + 1];
-    own.near_boxes += sweep_strip(boxes_, place, begin, end, reach, own.found);
+    own.near_box_pairs += sweep_strip(boxes_, place, begin, end, cutoff, own.found);
   };
   sweep(strip, place + 1);
   for (std::size_t next = strip + 1; next <= last_strip; ++next) {
-    // Boxes that end within reach of this one begin at most their width earlier; the margin is for rounding.
-    const double earliest = lo - reach - widest_[next];
+    // Boxes that end within cutoff of this one begin at most their width earlier; the margin is for rounding.
+    const double earliest = lo - cutoff - widest_[next];
     const std::size_t first_cell = cells_.of(earliest - 1e-6 * (std::abs(earliest) + widest_[next]));
     sweep(next, cell_begin_[next * cells_.count + first_cell]);
   }
 }
 
 /// Counting sort by the smaller number of each pair.
-void BodyBroadPhase::group(std::size_t bodies, std::size_t most_pairs) {
+void BodyBroadPhase::group(std::size_t bodies, std::size_t limit) {
   in_pair_.assign(bodies, 0);
-  near_boxes_ = 0;
+  near_box_pairs_ = 0;
   std::size_t pairs = 0;
   const auto for_each = [&](const auto& visit) {
     Index row = 0;
@@ -153,12 +153,12 @@ void BodyBroadPhase::group(std::size_t bodies, std::size_t most_pairs) {
     in_pair_[a] = in_pair_[b] = 1;
     ++pairs;
   });
-  if (pairs > most_pairs) {
+  if (pairs > limit) {
     first_.assign(bodies + 1, 0);
-    throw_too_many_pairs(most_pairs);
+    throw_too_many_pairs(limit);
   }
-  alone_ = body_.size() - static_cast<std::size_t>(std::count(in_pair_.begin(), in_pair_.end(), 1));
-  for (const Thread& thread : threads_) near_boxes_ += thread.near_boxes;
+  isolated_bodies_ = body_.size() - static_cast<std::size_t>(std::count(in_pair_.begin(), in_pair_.end(), 1));
+  for (const Thread& thread : threads_) near_box_pairs_ += thread.near_box_pairs;
 
   std::uint32_t end = 0;
   for (std::uint32_t& count : first_) count = end += count;  // becomes the end of each group

@@ -13,33 +13,33 @@ namespace collide::exact {
 
 namespace {
 
-constexpr std::size_t most_pairs_between_counts = 1u << 16;  // of one thread
+constexpr std::size_t max_uncounted_pairs = 1u << 16;  // of one thread
 
-/// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the reach by 3u of
-/// it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
-std::optional<Slab> slab_between(const Bound& a, const Bound& b, float reach) {
+/// See Slab. With u = 2^-24, a projection errs by at most 7u of the largest coordinate, the sum with the cutoff by 3u
+/// of it, and the normal is longer than 1 by a few u. Nothing where squares could overflow or underflow.
+std::optional<Slab> slab_between(const BodyBounds& a, const BodyBounds& b, float cutoff) {
   const float largest = std::max(a.largest, b.largest);
   const glm::vec3 d = b.centre - a.centre;
   const float length2 = d.x * d.x + d.y * d.y + d.z * d.z;
   if (!(largest < 1e18f && length2 > 1e-30f)) return std::nullopt;
-  return Slab{d * (1 / std::sqrt(length2)), reach * (1 + 0x1p-19f) + largest * 0x1p-18f};
+  return Slab{d * (1 / std::sqrt(length2)), cutoff * (1 + 0x1p-19f) + largest * 0x1p-18f};
 }
 
 }  // namespace
 
-Run BodyPairSearch::run(Index body) const {
+VertexRun BodyPairSearch::run(Index body) const {
   const Index first = frame_->bodies->first[body];
   return {frame_->x.data() + first, frame_->y.data() + first, frame_->z.data() + first, frame_->bodies->size(body)};
 }
 
-void BodyPairSearch::bound(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies) {
+void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies) {
   frame_ = &frame;
   const Index bodies = frame.bodies->count();
   bounds_.resize(bodies);
   workers.run([&](int thread) {
     const Part part = part_of(bodies, thread, workers.threads());
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
-      if (frame.bodies->size(body) > 0) bounds_[body] = bound_of(run(body));
+      if (frame.bodies->size(body) > 0) bounds_[body] = measure_bounds(run(body));
     }
   });
   live_.clear();
@@ -52,26 +52,27 @@ void BodyPairSearch::bound(const Frame& frame, Workers& workers, std::vector<Ind
 
 void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
   begin(frame, query, workers);
-  near_.find(bounds_, live_, reach_, workers);
+  near_.find(bounds_, live_, cutoff_, workers);
   workers.run([&](int thread) { find_part(thread, workers.threads(), resting); });
-  for (Thread& thread : threads_) count_pairs(thread);  // the rest, so that no more pass on many threads than on one
+  for (Thread& thread : threads_)
+    check_contact_limit(thread);  // the rest, so that no more pass on many threads than on one
 }
 
 void BodyPairSearch::begin(const Frame& frame, const Query& query, Workers& workers) {
   frame_ = &frame;
   query_ = query;
-  reach_ = contact_cutoff(query.tolerance);
+  cutoff_ = contact_cutoff(query.tolerance);
   tolerance2_ = query.tolerance * query.tolerance;
-  if (query.self) references_.update(frame, live_, reach_);
+  if (query.self) references_.update(frame, live_, cutoff_);
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   found_ = 0;
 }
 
 void BodyPairSearch::begin(Thread& own) const {
-  own.tree.begin(query_.levels, reach_, tolerance2_, query_.most_pairs);
+  own.tree.begin(query_.levels, cutoff_, tolerance2_, query_.max_contacts);
   own.pairs.clear();
-  own.counted = 0;
-  own.self_contacts = own.pair_tests = own.parted = own.unfolded = own.kept = 0;
+  own.checked = 0;
+  own.self_contacts = own.pair_tests = own.separated = own.unfolded = own.kept = 0;
 }
 
 void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& resting) {
@@ -87,7 +88,8 @@ void BodyPairSearch::find_part(int thread, int threads, const RestingContacts& r
     } else {
       find_group(own, body);
     }
-    if (own.pairs.size() - own.counted >= std::min(most_pairs_between_counts, query_.most_pairs / 8)) count_pairs(own);
+    if (own.pairs.size() - own.checked >= std::min(max_uncounted_pairs, query_.max_contacts / 8))
+      check_contact_limit(own);
   }
 }
 
@@ -95,7 +97,7 @@ void BodyPairSearch::keep_group(Thread& own, Index a, std::span<const Contact> g
   const Index end = frame_->bodies->first[a + 1];
   own.self_contacts += static_cast<std::uint64_t>(
       std::count_if(group.begin(), group.end(), [end](const Contact& contact) { return contact.b < end; }));
-  own.kept += near_.behind(a).size();
+  own.kept += near_.later_neighbours(a).size();
   own.pairs.insert(own.pairs.end(), group.begin(), group.end());
 }
 
@@ -105,33 +107,33 @@ void BodyPairSearch::find_group(Thread& own, Index a) {
   std::size_t runs = own.group.empty() ? 0 : 1;
   own.self_contacts += own.group.size();
   bool ordered = true;
-  for (const Index b : near_.behind(a)) {
+  for (const Index b : near_.later_neighbours(a)) {
     const std::size_t before = own.group.size(), leaves = own.tree.leaves();
     find_between(own, a, b);
-    if (own.group.size() > query_.most_pairs) throw_too_many_contacts(query_.most_pairs);
+    if (own.group.size() > query_.max_contacts) throw_too_many_contacts(query_.max_contacts);
     if (own.group.size() == before) continue;
     ++runs;
     ordered = ordered && own.tree.leaves() == leaves;
   }
-  if (runs > 1 || !ordered) order(own, a, ordered);
+  if (runs > 1 || !ordered) sort_group(own, a, ordered);
   own.pairs.insert(own.pairs.end(), own.group.begin(), own.group.end());
 }
 
-void BodyPairSearch::count_pairs(Thread& own) {
-  const std::size_t added = own.pairs.size() - own.counted;
-  own.counted = own.pairs.size();
-  if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.most_pairs) {
-    throw_too_many_contacts(query_.most_pairs);
+void BodyPairSearch::check_contact_limit(Thread& own) {
+  const std::size_t added = own.pairs.size() - own.checked;
+  own.checked = own.pairs.size();
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > query_.max_contacts) {
+    throw_too_many_contacts(query_.max_contacts);
   }
 }
 
 void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
-  const Run run_a = run(a), run_b = run(b);
+  const VertexRun run_a = run(a), run_b = run(b);
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
-  if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], reach_)) {
-    const Facing facing =
-        face(run_a, first_a, run_b, first_b, *slab, tolerance2_, OverlapTree::leaf_tests, own.facing, own.group);
-    own.parted += facing.tests == 0;
+  if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], cutoff_)) {
+    const FacingResult facing = find_facing_contacts(run_a, first_a, run_b, first_b, *slab, tolerance2_,
+                                                     OverlapTree::leaf_tests, own.facing, own.group);
+    own.separated += facing.tests == 0;
     if (facing.done) {
       own.pair_tests += facing.tests;
       return;
@@ -145,11 +147,11 @@ void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
 
 void BodyPairSearch::find_self(Thread& own, Index body) {
   const Index first = frame_->bodies->first[body];
-  const Run vertices = run(body);
+  const VertexRun vertices = run(body);
   const CullingReference* reference = references_.of(body);
   const SelfCollisionCandidates risk =
-      reference ? reference->at_risk(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
-  if (!risk.proven) {
+      reference ? reference->candidates_of(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};
+  if (!risk.culled) {
     own.whole.take(vertices, first);
     own.tree.within(own.whole, body, own.group, {frame_->bodies->shape[body].get(), first, tolerance2_});
   }
@@ -159,14 +161,14 @@ void BodyPairSearch::find_self(Thread& own, Index body) {
       own.group.push_back({first + i, first + j});
     }
   }
-  for (const Index odd : risk.odd) contacts_of(vertices, first, odd, tolerance2_, own.words, own.group);
-  own.unfolded += risk.proven && risk.odd.empty();
-  own.pair_tests += risk.pairs.size() + std::uint64_t{risk.odd.size()} * (vertices.size - 1);
-  if (!own.group.empty()) tidy_self(own, body);
+  for (const Index outlier : risk.outliers) contacts_of(vertices, first, outlier, tolerance2_, own.words, own.group);
+  own.unfolded += risk.culled && risk.outliers.empty();
+  own.pair_tests += risk.pairs.size() + std::uint64_t{risk.outliers.size()} * (vertices.size - 1);
+  if (!own.group.empty()) sort_self_contacts(own, body);
 }
 
 /// Brings the pairs into order, each once, and leaves out those that can never be contacts.
-void BodyPairSearch::tidy_self(Thread& own, Index body) {
+void BodyPairSearch::sort_self_contacts(Thread& own, Index body) {
   const Index first = frame_->bodies->first[body];
   const Shape& shape = *frame_->bodies->shape[body];
   std::erase_if(own.group, [&](Contact& pair) {
@@ -179,7 +181,7 @@ void BodyPairSearch::tidy_self(Thread& own, Index body) {
 
 /// Sorts a group. If each of its runs is ordered and they come by their second body, it takes a stable sort by the
 /// first vertex: counting, unless the body has far more vertices than contacts.
-void BodyPairSearch::order(Thread& own, Index a, bool runs_ordered) {
+void BodyPairSearch::sort_group(Thread& own, Index a, bool runs_ordered) {
   const Index first = frame_->bodies->first[a], size = frame_->bodies->size(a);
   if (!runs_ordered || own.group.size() < size / 16) {
     std::sort(own.group.begin(), own.group.end());
@@ -197,11 +199,11 @@ void BodyPairSearch::order(Thread& own, Index a, bool runs_ordered) {
 void BodyPairSearch::concatenate(Workers& workers, std::vector<Contact>& pairs) {
   std::size_t total = 0;
   for (Thread& thread : threads_)
-    thread.counted = std::exchange(total, total + thread.pairs.size());  // its first place
+    thread.checked = std::exchange(total, total + thread.pairs.size());  // its first place
   pairs.resize(total);
   workers.run([&](int thread) {
     const Thread& own = threads_[static_cast<std::size_t>(thread)];
-    std::copy(own.pairs.begin(), own.pairs.end(), pairs.begin() + static_cast<std::ptrdiff_t>(own.counted));
+    std::copy(own.pairs.begin(), own.pairs.end(), pairs.begin() + static_cast<std::ptrdiff_t>(own.checked));
   });
 }
 
@@ -210,23 +212,23 @@ void BodyPairSearch::count(Result& result) const {
     result.self_contacts += thread.self_contacts;
     result.counters.pair_tests += thread.pair_tests + thread.tree.pair_tests();
     result.counters.boxes += thread.tree.leaves();
-    result.skip(Skip::separated_pairs) += thread.parted;
+    result.skip(Skip::separated_pairs) += thread.separated;
     result.skip(Skip::unfolded_bodies) += thread.unfolded;
     result.skip(Skip::kept_pairs) += thread.kept;
   }
   const std::uint64_t live = live_.size();
   result.counters.boxes += live;
-  result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_boxes();
-  result.skip(Skip::separated_pairs) += near_.near_boxes() - near_.pairs();
-  result.skip(Skip::lone_bodies) += near_.alone();
+  result.skip(Skip::far_pairs) += live * (live - std::min<std::uint64_t>(live, 1)) / 2 - near_.near_box_pairs();
+  result.skip(Skip::separated_pairs) += near_.near_box_pairs() - near_.pairs();
+  result.skip(Skip::lone_bodies) += near_.isolated_bodies();
 }
 
 std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
   std::vector<DebugGeometry::Box> boxes;
   for (const Index a : live_) {
-    for (const Index b : near_.behind(a)) {
+    for (const Index b : near_.later_neighbours(a)) {
       const Aabb &one = bounds_[a].box, &other = bounds_[b].box;
-      const float half = reach_ / 2;
+      const float half = cutoff_ / 2;
       boxes.push_back({glm::max(one.lo, other.lo) - half, glm::min(one.hi, other.hi) + half, a});
     }
   }

@@ -1,6 +1,6 @@
 #pragma once
-// The work of a frame, body by body: the group of a body is every contact whose first vertex is the body's. All
-// contacts of the frame, in their order, are the groups one after another.
+// Finds all contacts of a frame, body by body. The group of a body holds every contact whose first vertex belongs to
+// the body. The groups one after another are all contacts of the frame in their order.
 
 #include <atomic>
 
@@ -15,28 +15,29 @@ class BodyPairSearch {
  public:
   struct Query {
     float tolerance;  // m
-    bool self;        // also pairs within bodies
-    int levels;       // of cuts of the area where two bodies, or one and itself, overlap
-    std::size_t most_pairs;
+    bool self;        // also find contacts inside one body
+    int levels;       // maximum depth of the cuts in OverlapTree
+    std::size_t max_contacts;
   };
 
-  /// Finds where the bodies are, and names those that are not finite: they are in no group.
-  void bound(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies);
+  /// Computes bounds() of the frame's bodies. Lists the bodies with a coordinate that is not finite; these have no
+  /// group.
+  void find_bounds(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies);
 
-  std::span<const Bound> bounds() const { return bounds_; }
+  std::span<const BodyBounds> bounds() const { return bounds_; }
 
-  /// Finds the bodies near each other, then all groups but those that `resting`, which has observed the frame, has
-  /// kept. After bound() of the same frame. Throws std::length_error at more than query.most_pairs contacts.
+  /// Runs the broad phase, then finds all groups except those that `resting` has kept. Call find_bounds() and
+  /// resting.observe() on the same frame before. Throws std::length_error at more than query.max_contacts contacts.
   void find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers);
 
   const BodyBroadPhase& near() const { return near_; }
 
-  /// Copies all groups, one after another.
+  /// Copies all groups, one after another, into `pairs`.
   void concatenate(Workers& workers, std::vector<Contact>& pairs);
 
-  /// Adds what the last search did and what it could leave out.
+  /// Adds the counters of the last search, and what it left out, to the result.
   void count(Result& result) const;
-  /// Where bodies overlap, and the leaves of the cuts there.
+  /// Returns the areas where bodies overlap and the leaves of the cuts there, for drawing.
   std::vector<DebugGeometry::Box> boxes() const;
 
   void forget() { references_.forget(); }
@@ -47,31 +48,32 @@ class BodyPairSearch {
     FacingScratch facing;
     CullingReference::Scratch self;
     Words words;
-    Picked whole;                // of one body
+    VertexSet whole;             // of one body
     std::vector<Contact> pairs;  // of its groups, in order
-    std::size_t counted = 0;     // of the pairs, in found_
+    std::size_t checked = 0;     // how many of the pairs are counted in found_
     std::vector<Contact> group, sorted;
     std::vector<Index> vertex_count;
-    std::uint64_t self_contacts = 0, pair_tests = 0, parted = 0, unfolded = 0, kept = 0;
+    std::uint64_t self_contacts = 0, pair_tests = 0, separated = 0, unfolded = 0, kept = 0;
   };
 
   void begin(const Frame& frame, const Query& query, Workers& workers);
   void begin(Thread& own) const;
-  /// Bodies are dealt by their pairs, each thread's one after another.
+  /// Finds the groups of one thread's share of the bodies. Each thread gets consecutive bodies, with about as many near
+  /// pairs as every other thread.
   void find_part(int thread, int threads, const RestingContacts& resting);
   void find_group(Thread& own, Index a);
   void keep_group(Thread& own, Index a, std::span<const Contact> group);
   void find_between(Thread& own, Index a, Index b);
   void find_self(Thread& own, Index body);
-  void tidy_self(Thread& own, Index body);
-  void order(Thread& own, Index a, bool runs_ordered);
-  void count_pairs(Thread& own);
-  Run run(Index body) const;
+  void sort_self_contacts(Thread& own, Index body);
+  void sort_group(Thread& own, Index a, bool runs_ordered);
+  void check_contact_limit(Thread& own);
+  VertexRun run(Index body) const;
 
   const Frame* frame_ = nullptr;
   Query query_{};
-  float reach_ = 0, tolerance2_ = 0;
-  std::vector<Bound> bounds_;  // of every body
+  float cutoff_ = 0, tolerance2_ = 0;
+  std::vector<BodyBounds> bounds_;  // of every body
   std::vector<Index> live_;
   BodyBroadPhase near_;
   SelfCollisionCulling references_;

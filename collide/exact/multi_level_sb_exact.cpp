@@ -17,13 +17,13 @@ class MultiLevelSbExact final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
     result.start();
-    search_.bound(frame, workers, result.non_finite_bodies);
+    search_.find_bounds(frame, workers, result.non_finite_bodies);
     resting_.observe(frame, settings, search_.bounds(), workers);
     search_.find(frame,
                  {.tolerance = settings.tolerance,
                   .self = settings.self_collision,
                   .levels = settings.levels,
-                  .most_pairs = max_contacts},
+                  .max_contacts = max_contacts},
                  resting_, workers);
     search_.concatenate(workers, result.contacts);
     search_.count(result);

@@ -8,7 +8,7 @@ namespace collide::exact {
 
 namespace {
 
-Aabb bounds_of(const Picked& set) {
+Aabb bounds_of(const VertexSet& set) {
   Aabb box{glm::vec3(set.x[0], set.y[0], set.z[0]), glm::vec3(set.x[0], set.y[0], set.z[0])};
   for (Index k = 1; k < set.size; ++k) {
     box.lo = glm::vec3(std::min(box.lo.x, set.x[k]), std::min(box.lo.y, set.y[k]), std::min(box.lo.z, set.z[k]));
@@ -19,7 +19,7 @@ Aabb bounds_of(const Picked& set) {
 
 /// Those of a set that `keep` says.
 template <class Keep>
-void filter(const Picked& set, Picked& kept, const Keep& keep) {
+void filter(const VertexSet& set, VertexSet& kept, const Keep& keep) {
   kept.reserve(set.size);
   kept.size = 0;
   for (Index k = 0; k < set.size; ++k) {
@@ -28,75 +28,77 @@ void filter(const Picked& set, Picked& kept, const Keep& keep) {
   kept.end();
 }
 
-/// Those within reach of a box. Never loses a contact: subtraction rounds monotonically.
-void filter_near(const Picked& set, const Aabb& box, float reach, Picked& kept) {
+/// Those within cutoff of a box. Never loses a contact: subtraction rounds monotonically.
+void filter_near(const VertexSet& set, const Aabb& box, float cutoff, VertexSet& kept) {
   filter(set, kept, [&](Index k) {
     const glm::vec3 p(set.x[k], set.y[k], set.z[k]);
-    return near({p, p}, box, reach);
+    return near({p, p}, box, cutoff);
   });
 }
 
-const std::vector<float>& along(const Picked& set, int axis) { return axis == 0 ? set.x : axis == 1 ? set.y : set.z; }
+const std::vector<float>& along(const VertexSet& set, int axis) {
+  return axis == 0 ? set.x : axis == 1 ? set.y : set.z;
+}
 
 }  // namespace
 
-void OverlapTree::begin(int levels, float reach, float tolerance2, std::size_t most_contacts) {
-  most_contacts_ = most_contacts;
+void OverlapTree::begin(int levels, float cutoff, float tolerance2, std::size_t max_contacts) {
+  max_contacts_ = max_contacts;
   levels_ = levels;
-  reach_ = reach;
+  cutoff_ = cutoff;
   tolerance2_ = tolerance2;
   level_.resize(static_cast<std::size_t>(levels) + 1);
   leaves_.clear();
   pair_tests_ = 0;
 }
 
-void OverlapTree::between(const Picked& a, const Picked& b, Index body, std::vector<Contact>& contacts) {
+void OverlapTree::between(const VertexSet& a, const VertexSet& b, Index body, std::vector<Contact>& contacts) {
   body_ = body;
   excluded_ = {};
   contacts_ = &contacts;
   cut_between(a, b, 0);
 }
 
-void OverlapTree::within(const Picked& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded) {
+void OverlapTree::within(const VertexSet& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded) {
   body_ = body;
   excluded_ = excluded;
   contacts_ = &contacts;
   cut_within(set, 0);
 }
 
-void OverlapTree::cut_between(const Picked& a, const Picked& b, int depth) {
+void OverlapTree::cut_between(const VertexSet& a, const VertexSet& b, int depth) {
   const std::uint64_t tests = std::uint64_t{a.size} * b.size;
   if (tests <= leaf_tests || depth == levels_) {
     if (tests == 0) return;
     pair_tests_ += tests;
     if (depth > 0) leaves_.push_back({bounds_of(a).lo, bounds_of(a).hi, body_});
-    contacts_between(a, b, tolerance2_, most_contacts_, words_, *contacts_, excluded_);
+    contacts_between(a, b, tolerance2_, max_contacts_, words_, *contacts_, excluded_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
-  filter_near(a, bounds_of(b), reach_, own.near_a);
+  filter_near(a, bounds_of(b), cutoff_, own.near_a);
   if (own.near_a.size == 0) return;
-  filter_near(b, bounds_of(own.near_a), reach_, own.near_b);
+  filter_near(b, bounds_of(own.near_a), cutoff_, own.near_b);
   const MidpointCut cut = cut_of(bounds_of(own.near_a));
   const int axis = cut.axis;
   const float mid = cut.mid;
   const std::vector<float>&va = along(own.near_a, axis), &vb = along(own.near_b, axis);
   filter(own.near_a, own.low_a, [&](Index k) { return va[k] < mid; });
-  filter(own.near_b, own.low_b, [&](Index k) { return vb[k] - mid <= reach_; });
+  filter(own.near_b, own.low_b, [&](Index k) { return vb[k] - mid <= cutoff_; });
   filter(own.near_a, own.up_a, [&](Index k) { return va[k] >= mid; });
-  filter(own.near_b, own.up_b, [&](Index k) { return mid - vb[k] <= reach_; });
+  filter(own.near_b, own.up_b, [&](Index k) { return mid - vb[k] <= cutoff_; });
   cut_between(own.low_a, own.low_b, depth + 1);
   cut_between(own.up_a, own.up_b, depth + 1);
 }
 
-void OverlapTree::cut_within(const Picked& set, int depth) {
+void OverlapTree::cut_within(const VertexSet& set, int depth) {
   const std::uint64_t tests = std::uint64_t{set.size} * (std::max<Index>(set.size, 1) - 1) / 2;
   // All pairs of one set cost less than a cut and the pairs across it, up to more of them than between two sets.
   if (tests <= 4 * leaf_tests || depth == levels_) {
     if (tests == 0) return;
     pair_tests_ += tests;
     leaves_.push_back({bounds_of(set).lo, bounds_of(set).hi, body_});
-    contacts_within(set, tolerance2_, most_contacts_, words_, *contacts_, excluded_);
+    contacts_within(set, tolerance2_, max_contacts_, words_, *contacts_, excluded_);
     return;
   }
   Level& own = level_[static_cast<std::size_t>(depth)];
@@ -106,8 +108,8 @@ void OverlapTree::cut_within(const Picked& set, int depth) {
   const std::vector<float>& v = along(set, axis);
   filter(set, own.low, [&](Index k) { return v[k] < mid; });
   filter(set, own.up, [&](Index k) { return v[k] >= mid; });
-  filter(set, own.low_edge, [&](Index k) { return v[k] < mid && mid - v[k] <= reach_; });
-  filter(set, own.up_edge, [&](Index k) { return v[k] >= mid && v[k] - mid <= reach_; });
+  filter(set, own.low_edge, [&](Index k) { return v[k] < mid && mid - v[k] <= cutoff_; });
+  filter(set, own.up_edge, [&](Index k) { return v[k] >= mid && v[k] - mid <= cutoff_; });
   cut_within(own.low, depth + 1);
   cut_within(own.up, depth + 1);
   cut_between(own.low_edge, own.up_edge, depth + 1);

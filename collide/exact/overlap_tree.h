@@ -1,43 +1,43 @@
 #pragma once
-// The tree over the area where two bodies, or a body and itself, can touch: what the paper's §5 names as future work.
-// The area is cut at midpoints as in §2.1, level by level, but only where enough vertices of both sides are left.
+// A tree over the area where two bodies, or a body and itself, can touch: the future work of the paper's §5. The area
+// is cut at midpoints as in §2.1, level by level, but only where enough vertices of both sides are left.
 
 #include "collide/core/aabb.h"
 #include "collide/exact/pair_kernels.h"
 
 namespace collide::exact {
 
-/// One thread's search for the contacts of picked vertices. Keeps its memory.
+/// Finds the contacts between sets of vertices, for one thread. Keeps its memory from call to call.
 class OverlapTree {
  public:
-  /// A cut reads both sides several times, vertex by vertex; that pays only where it saves more tests than these.
+  /// Up to this many pairs are tested without a further cut: a cut reads both sides several times.
   static constexpr std::uint64_t leaf_tests = 16384;
 
-  /// levels: of cuts, at most. Clears the counts and the leaves.
-  void begin(int levels, float reach, float tolerance2, std::size_t most_contacts);
+  /// Starts a frame: clears the counters and the leaves. levels: maximum depth of the cuts. cutoff: m.
+  void begin(int levels, float cutoff, float tolerance2, std::size_t max_contacts);
 
-  /// Appends the contacts between two sets of vertices, or within one; each pair once. If there was more than one leaf
-  /// they are in no order. body: whose leaves they are. Throws std::length_error once `contacts` has more than
-  /// most_contacts.
-  void between(const Picked& a, const Picked& b, Index body, std::vector<Contact>& contacts);
-  void within(const Picked& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded = {});
+  /// Appends each contact between two sets of vertices, or within one set, once. The contacts are sorted only if there
+  /// was a single leaf. body: the owner of the leaves, for drawing. Throws std::length_error if `contacts` grows beyond
+  /// max_contacts.
+  void between(const VertexSet& a, const VertexSet& b, Index body, std::vector<Contact>& contacts);
+  void within(const VertexSet& set, Index body, std::vector<Contact>& contacts, const Exclusion& excluded = {});
 
   std::uint64_t pair_tests() const { return pair_tests_; }
   std::uint64_t leaves() const { return leaves_.size(); }
-  /// The boxes of the leaves that come from cuts, and of the uncut areas within bodies.
+  /// Returns the boxes of the leaves that come from cuts, and of the uncut areas inside bodies.
   const std::vector<DebugGeometry::Box>& leaves_list() const { return leaves_; }
 
  private:
   struct Level {
-    Picked near_a, near_b, low_a, low_b, up_a, up_b;  // of between()
-    Picked low, up, low_edge, up_edge;                // of within()
+    VertexSet near_a, near_b, low_a, low_b, up_a, up_b;  // of between()
+    VertexSet low, up, low_edge, up_edge;                // of within()
   };
-  void cut_between(const Picked& a, const Picked& b, int depth);
-  void cut_within(const Picked& set, int depth);
+  void cut_between(const VertexSet& a, const VertexSet& b, int depth);
+  void cut_within(const VertexSet& set, int depth);
 
   int levels_ = 0;
-  float reach_ = 0, tolerance2_ = 0;
-  std::size_t most_contacts_ = 0;
+  float cutoff_ = 0, tolerance2_ = 0;
+  std::size_t max_contacts_ = 0;
   Index body_ = 0;
   Exclusion excluded_;
   std::vector<Contact>* contacts_ = nullptr;

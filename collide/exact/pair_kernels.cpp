@@ -18,6 +18,8 @@ namespace collide::exact {
 namespace HWY_NAMESPACE {
 namespace {
 
+using namespace collide::HWY_NAMESPACE;
+
 /// One bit a vertex: bits come in by the block, in order. The words must have room for whole blocks, and one more.
 class BitWriter {
  public:
@@ -49,7 +51,7 @@ HWY_INLINE void for_bits(const std::uint64_t* words, Index bits, const Visit& vi
 }
 
 /// Picks the listed vertices.
-HWY_INLINE void pick(const Run& run, Index first, const Index* list, Index size, Picked& picked) {
+HWY_INLINE void pick(const VertexRun& run, Index first, const Index* list, Index size, VertexSet& picked) {
   float *const x = picked.x.data(), *const y = picked.y.data(), *const z = picked.z.data();
   Index* const vertex = picked.vertex.data();
   for (Index k = 0; k < size; ++k) {
@@ -65,7 +67,7 @@ HWY_INLINE void pick(const Run& run, Index first, const Index* list, Index size,
 }
 
 /// Appends the contacts of some vertices of a run, by their numbers, with picked ones of another body.
-HWY_INLINE void find_contacts(const Run& a, Index first_a, const Index* list_a, Index size_a, const Picked& b,
+HWY_INLINE void find_contacts(const VertexRun& a, Index first_a, const Index* list_a, Index size_a, const VertexSet& b,
                               float tolerance2, std::vector<std::uint64_t>& words, std::vector<Contact>& contacts) {
   Index shift = std::countr_zero(lanes);  // each vertex of a takes 2^shift bits
   while (Index{1} << shift < b.size) ++shift;
@@ -92,22 +94,23 @@ HWY_INLINE void find_contacts(const Run& a, Index first_a, const Index* list_a, 
   });
 }
 
-Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
-            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts) {
+FacingResult FindFacingContacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b, const Slab& slab,
+                                float tolerance2, std::uint64_t max_tests, FacingScratch& scratch,
+                                std::vector<Contact>& contacts) {
   const V nx = all(slab.normal.x), ny = all(slab.normal.y), nz = all(slab.normal.z);
-  const auto along = [nx, ny, nz](const Run& at, std::ptrdiff_t i) HWY_ATTR {
+  const auto along = [nx, ny, nz](const VertexRun& at, std::ptrdiff_t i) HWY_ATTR {
     return hn::Add(hn::Add(hn::Mul(nx, load(at.x + i)), hn::Mul(ny, load(at.y + i))), hn::Mul(nz, load(at.z + i)));
   };
   float* const along_a = scratch.along_a.data() + lanes;
   Copy copy_a, copy_b;
-  const Run at_a = readable(a, copy_a), at_b = readable(b, copy_b);
+  const VertexRun at_a = readable(a, copy_a), at_b = readable(b, copy_b);
   V front = all(-std::numeric_limits<float>::infinity());
   for_blocks(a.size, [&](std::ptrdiff_t i, Index) HWY_ATTR {
     const V p = along(at_a, i);
     hn::StoreU(p, Floats(), along_a + i);
     front = hn::Max(front, p);
   });
-  const V limit_b = all(most(front) + slab.reach);
+  const V limit_b = all(most(front) + slab.cutoff);
   V back = all(std::numeric_limits<float>::infinity());
   Index* const list = scratch.list.data();
   ListWriter list_b(list);
@@ -120,12 +123,12 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
   if (!(back_b <= hn::GetLane(limit_b))) return {};
   pick(b, first_b, list, list_b.size(), scratch.near_b);
 
-  const V limit_a = all(back_b - slab.reach);
+  const V limit_a = all(back_b - slab.cutoff);
   ListWriter list_a(list);
   for_blocks(a.size,
              [&](std::ptrdiff_t i, Index skip) HWY_ATTR { list_a.add(hn::Ge(load(along_a + i), limit_a), i, skip); });
   const std::uint64_t tests = std::uint64_t{list_a.size()} * scratch.near_b.size;
-  if (tests > most_tests) {
+  if (tests > max_tests) {
     pick(a, first_a, list, list_a.size(), scratch.near_a);
     return {tests, false};
   }
@@ -134,7 +137,7 @@ Facing Face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab
 }
 
 /// Bits of the vertices of a set, from the block of `begin` on, that are close to one point.
-HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Index begin, float tolerance2,
+HWY_INLINE void close_bits(float px, float py, float pz, const VertexSet& set, Index begin, float tolerance2,
                            std::uint64_t* words) {
   const V x = all(px), y = all(py), z = all(pz), limit = all(tolerance2);
   const float *sx = set.x.data(), *sy = set.y.data(), *sz = set.z.data();
@@ -147,7 +150,7 @@ HWY_INLINE void close_bits(float px, float py, float pz, const Picked& set, Inde
   bits.end();
 }
 
-void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
+void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
   for (Index i = 0; i < a.size; ++i) {
@@ -160,8 +163,8 @@ void ContactsBetween(const Picked& a, const Picked& b, float tolerance2, std::si
   }
 }
 
-void ContactsWithin(const Picked& set, float tolerance2, std::size_t most, Words& words, std::vector<Contact>& contacts,
-                    const Exclusion& excluded) {
+void ContactsWithin(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
+                    std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
   for (Index i = 0; i + 1 < set.size; ++i) {
     const Index begin = (i + 1) / lanes * lanes;
@@ -175,10 +178,11 @@ void ContactsWithin(const Picked& set, float tolerance2, std::size_t most, Words
   }
 }
 
-void ContactsOf(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+void ContactsOf(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,
+                std::vector<Contact>& contacts) {
   if (words.size() < run.size / 64 + 2) words.resize(run.size / 64 + 2);
   Copy copy;
-  const Run at = readable(run, copy);
+  const VertexRun at = readable(run, copy);
   const V x = all(run.x[i]), y = all(run.y[i]), z = all(run.z[i]), limit = all(tolerance2);
   BitWriter bits(words.data());
   for_blocks(run.size, [&](std::ptrdiff_t j, Index skip) HWY_ATTR {
@@ -198,58 +202,61 @@ HWY_AFTER_NAMESPACE();
 #if HWY_ONCE
 namespace collide::exact {
 
-HWY_EXPORT(Face);
+HWY_EXPORT(FindFacingContacts);
 HWY_EXPORT(ContactsBetween);
 HWY_EXPORT(ContactsWithin);
 HWY_EXPORT(ContactsOf);
 
-Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
-            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts) {
+FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b,
+                                  const Slab& slab, float tolerance2, std::uint64_t max_tests, FacingScratch& scratch,
+                                  std::vector<Contact>& contacts) {
   scratch.reserve(a.size, b.size);
-  return HWY_DYNAMIC_DISPATCH(Face)(a, first_a, b, first_b, slab, tolerance2, most_tests, scratch, contacts);
+  return HWY_DYNAMIC_DISPATCH(FindFacingContacts)(a, first_a, b, first_b, slab, tolerance2, max_tests, scratch,
+                                                  contacts);
 }
 
 void FacingScratch::reserve(Index size_a, Index size_b) {
   const std::size_t size = std::max(size_a, size_b);
-  if (along_a.size() >= size + Picked::padding) return;
-  along_a.resize(size + Picked::padding);
+  if (along_a.size() >= size + VertexSet::padding) return;
+  along_a.resize(size + VertexSet::padding);
   words.resize(size / 64 + 2);
-  list.resize(size + 2 * Picked::padding);
+  list.resize(size + 2 * VertexSet::padding);
   near_a.reserve(static_cast<Index>(list.size()));
   near_b.reserve(static_cast<Index>(list.size()));
 }
 
-void throw_too_many_contacts(std::size_t most) {
-  throw std::length_error("more than " + std::to_string(most) + " contacts in one frame: lower the tolerance");
+void throw_too_many_contacts(std::size_t max_contacts) {
+  throw std::length_error("more than " + std::to_string(max_contacts) + " contacts in one frame: lower the tolerance");
 }
 
-void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
+void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
                       std::vector<Contact>& contacts, const Exclusion& excluded) {
   HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, most, words, contacts, excluded);
 }
 
-void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
+void contacts_within(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded) {
   HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, most, words, contacts, excluded);
 }
 
-void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts) {
+void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,
+                 std::vector<Contact>& contacts) {
   HWY_DYNAMIC_DISPATCH(ContactsOf)(run, first, i, tolerance2, words, contacts);
 }
 
-void Picked::reserve(Index count) {
+void VertexSet::reserve(Index count) {
   if (x.size() >= std::size_t{count} + padding) return;
   for (auto* coordinate : {&x, &y, &z}) coordinate->resize(std::size_t{count} + padding);
   vertex.resize(count);
 }
 
-void Picked::end() {
+void VertexSet::end() {
   for (Index k = size; k < size + padding; ++k) {
     x[k] = y[k] = z[k] = std::numeric_limits<float>::quiet_NaN();
   }
 }
 
-void Picked::take(const Run& run, Index first) {
+void VertexSet::take(const VertexRun& run, Index first) {
   reserve(run.size);
   size = 0;
   for (Index v = 0; v < run.size; ++v) add(run.x[v], run.y[v], run.z[v], first + v);

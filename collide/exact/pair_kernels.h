@@ -1,6 +1,7 @@
 #pragma once
-// The loops over the vertices of two bodies, or over pairs of one, in the widest instructions of the processor (chosen
-// at run time). Which contacts come out is the same on all of them: distances by squared_distance(), never fused.
+// The inner loops of the exact method over pairs of vertices. Vectorised with Highway, which chooses the processor's
+// instruction set at run time. Every instruction set finds the same contacts: distances are those of
+// squared_distance(), never fused.
 
 #include <vector>
 
@@ -9,10 +10,11 @@
 
 namespace collide::exact {
 
-/// Vertices picked out of a body, with their numbers in the frame; padded with NaN, which is near nothing.
-class Picked {
+/// Some vertices of a body with their numbers in the frame. The coordinates are padded with NaN, which is close to
+/// nothing, so that whole vectors can be read at the end.
+class VertexSet {
  public:
-  static constexpr Index padding = most_lanes;
+  static constexpr Index padding = max_lanes;
   std::vector<float> x, y, z;
   std::vector<Index> vertex;
   Index size = 0;
@@ -24,23 +26,24 @@ class Picked {
     z[size] = pz;
     vertex[size++] = v;
   }
-  void end();  // writes the padding
-  /// All vertices of a run, whose first has the number `first`.
-  void take(const Run& run, Index first);
+  void end();  // writes the padding; call it after the last add()
+  /// Takes all vertices of a run whose first vertex has the number `first`.
+  void take(const VertexRun& run, Index first);
 };
 
-/// Two vertices a and b in contact satisfy dot(normal, b) - dot(normal, a) <= reach, rounding included.
+/// A test along the line of centres of two bodies: vertices a and b in contact satisfy
+/// dot(normal, b) - dot(normal, a) <= cutoff, rounding included.
 struct Slab {
-  glm::vec3 normal;
-  float reach;
+  glm::vec3 normal;  // of length 1, rounded
+  float cutoff;      // m
 };
 
-/// Bits that say which vertices are close: memory of the functions below.
+/// Scratch memory of the functions below: one bit for each pair, set if the pair is close.
 using Words = std::vector<std::uint64_t>;
 
-/// Memory of face(), and what it has picked if that was too much for it.
+/// Scratch memory of find_facing_contacts(), and its result where it stopped early.
 struct FacingScratch {
-  Picked near_a, near_b;
+  VertexSet near_a, near_b;
   std::vector<float> along_a;
   std::vector<Index> list;
   Words words;
@@ -48,37 +51,40 @@ struct FacingScratch {
   void reserve(Index size_a, Index size_b);
 };
 
-/// What face() has come to.
-struct Facing {
-  std::uint64_t tests = 0;  // pairs that face each other; 0: a plane parts the two bodies
-  bool done = true;         // if not, near_a and near_b of the scratch hold the vertices to test
+struct FacingResult {
+  std::uint64_t tests = 0;  // how many pairs of vertices face each other; 0: a plane separates the two bodies
+  bool done = true;         // false: near_a and near_b of the scratch hold the vertices that must still be tested
 };
 
-/// Of two bodies, takes the vertices that the slab cannot part from all of the other body's, both in order, and appends
-/// their contacts, ascending; or leaves them in the scratch if that takes more than most_tests.
-Facing face(const Run& a, Index first_a, const Run& b, Index first_b, const Slab& slab, float tolerance2,
-            std::uint64_t most_tests, FacingScratch& scratch, std::vector<Contact>& contacts);
+/// Selects the vertices of two bodies that the slab does not separate from all vertices of the other body, and appends
+/// the contacts among them; ascending. If that takes more than max_tests tests, only selects them.
+FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const VertexRun& b, Index first_b,
+                                  const Slab& slab, float tolerance2, std::uint64_t max_tests, FacingScratch& scratch,
+                                  std::vector<Contact>& contacts);
 
-/// Throws the std::length_error of a frame with more contacts than that.
-[[noreturn]] void throw_too_many_contacts(std::size_t most);
+/// Throws the std::length_error of a frame with more than `max_contacts` contacts.
+[[noreturn]] void throw_too_many_contacts(std::size_t max_contacts);
 
-/// Which pairs of one body's vertices can never be contacts; without a shape, none.
+/// Says which pairs of one body's vertices can never be contacts. Without a shape, it excludes no pair.
 struct Exclusion {
   const Shape* shape = nullptr;
-  Index first = 0;  // the number of the body's first vertex
-  float tolerance2 = 0;
+  Index first = 0;       // the number of the body's first vertex
+  float tolerance2 = 0;  // m^2, see Shape::excludes()
 
   bool operator()(Index a, Index b) const { return shape && shape->excludes(a - first, b - first, tolerance2); }
 };
 
-/// Appends every pair (a, b) with squared_distance < tolerance2 as it stands that is not excluded, ascending if both
-/// are. Throws std::length_error once there are more than `most` pairs.
-void contacts_between(const Picked& a, const Picked& b, float tolerance2, std::size_t most, Words& words,
+/// Appends every pair of a vertex of a and a vertex of b, in this order, whose squared_distance() is below tolerance2
+/// and that is not excluded. The pairs are sorted if both sets are. Throws std::length_error if `contacts` grows beyond
+/// `most`.
+void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
                       std::vector<Contact>& contacts, const Exclusion& excluded = {});
-/// The same for all pairs of one set, i before j.
-void contacts_within(const Picked& set, float tolerance2, std::size_t most, Words& words,
+/// Does the same for all pairs of one set, the earlier vertex first.
+void contacts_within(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded = {});
-/// The same for all pairs of vertex i of a run, whose first has the number `first`, with another.
-void contacts_of(const Run& run, Index first, Index i, float tolerance2, Words& words, std::vector<Contact>& contacts);
+/// Does the same, without a limit, for all pairs of vertex i of a run with another vertex of it. first: the number of
+/// the run's first vertex.
+void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,
+                 std::vector<Contact>& contacts);
 
 }  // namespace collide::exact

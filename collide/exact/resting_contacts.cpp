@@ -9,7 +9,7 @@ namespace collide::exact {
 
 namespace {
 
-Run run_of(const Frame& frame, Index body) {
+VertexRun run_of(const Frame& frame, Index body) {
   const Index first = frame.bodies->first[body];
   return {frame.x.data() + first, frame.y.data() + first, frame.z.data() + first, frame.bodies->size(body)};
 }
@@ -23,7 +23,7 @@ bool RestingContacts::same_bodies(const Frame& frame, const Settings& settings) 
          frame.bodies->first == first_ && frame.bodies->shape == shape_;
 }
 
-void RestingContacts::observe(const Frame& frame, const Settings& settings, std::span<const Bound> bounds,
+void RestingContacts::observe(const Frame& frame, const Settings& settings, std::span<const BodyBounds> bounds,
                               Workers& workers) {
   assert(bounds.size() == frame.bodies->count());
   const bool stored = std::exchange(stored_, false);
@@ -46,9 +46,9 @@ void RestingContacts::observe(const Frame& frame, const Settings& settings, std:
   });
 }
 
-RestingContacts::Motion RestingContacts::observe(const Run& now, const Bound& bound, Index body) {
+RestingContacts::Motion RestingContacts::observe(const VertexRun& now, const BodyBounds& bound, Index body) {
   if (now.size == 0) return Motion::moving;
-  const Bound before = std::exchange(bounds_[body], bound);
+  const BodyBounds before = std::exchange(bounds_[body], bound);
   if (!bound.finite || !before.finite || !same_box(bound.box, before.box)) return Motion::moving;
   const std::size_t first = first_[body], bytes = now.size * sizeof(float);
   if (motion_[body] != Motion::moving && std::memcmp(now.x, &x_[first], bytes) == 0 &&
@@ -65,7 +65,7 @@ std::optional<std::span<const Contact>> RestingContacts::group(Index body, const
   if (!is_resting(body)) return std::nullopt;
   const auto resting = [&](Index other) { return is_resting(other); };
   const auto before = std::span(near_).subspan(near_begin_[body], near_begin_[body + 1] - near_begin_[body]);
-  const std::span<const Index> now = near.behind(body);
+  const std::span<const Index> now = near.later_neighbours(body);
   if (!std::all_of(before.begin(), before.end(), resting) || !std::all_of(now.begin(), now.end(), resting)) {
     return std::nullopt;
   }
@@ -83,7 +83,7 @@ void RestingContacts::store(const Frame& frame, const BodyBroadPhase& near, std:
   for (Index body = 0; body < bodies; ++body) {
     group_begin_.push_back(static_cast<std::size_t>(at - contacts.begin()));
     at = std::lower_bound(at, contacts.end(), Contact{first_[body + 1], 0});
-    const std::span<const Index> others = near.behind(body);
+    const std::span<const Index> others = near.later_neighbours(body);
     near_.insert(near_.end(), others.begin(), others.end());
     near_begin_.push_back(static_cast<Index>(near_.size()));
   }

@@ -11,9 +11,9 @@ namespace collide::exact {
 
 class RestingContacts {
  public:
-  /// Compares a frame with the one before it. bounds: of all bodies of this frame, as bound_of() gives them. From here
-  /// on until store(), group() answers for this frame; a frame that ends before store() leaves nothing to keep.
-  void observe(const Frame& frame, const Settings& settings, std::span<const Bound> bounds, Workers& workers);
+  /// Compares a frame with the one before it. bounds: of all bodies of this frame, as measure_bounds() gives them. From
+  /// here on until store(), group() answers for this frame; a frame that ends before store() leaves nothing to keep.
+  void observe(const Frame& frame, const Settings& settings, std::span<const BodyBounds> bounds, Workers& workers);
 
   /// The contacts of the last frame whose first vertex is the body's, if they are those of this frame too: if neither
   /// the body nor any that is or was near it has moved since. near: of this frame.
@@ -34,14 +34,14 @@ class RestingContacts {
   };
 
   bool same_bodies(const Frame& frame, const Settings& settings) const;
-  Motion observe(const Run& now, const Bound& bound, Index body);
+  Motion observe(const VertexRun& now, const BodyBounds& bound, Index body);
   bool is_resting(Index body) const { return motion_[body] == Motion::resting; }
 
   float tolerance_ = 0;
   bool self_collision_ = false;
   std::vector<Index> first_;
   std::vector<std::shared_ptr<const Shape>> shape_;
-  std::vector<Bound> bounds_;
+  std::vector<BodyBounds> bounds_;
   std::vector<Motion> motion_;
   std::vector<float> x_, y_, z_;  // copies of positions
   bool stored_ = false;           // what follows is of the last frame

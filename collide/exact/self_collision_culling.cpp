@@ -37,10 +37,11 @@ double least_singular_value(const std::array<float, 9>& m) {
 
 }  // namespace
 
-CullingReference::CullingReference(const Run& positions, const Topology& topology, float reach) : reach_(reach) {
+CullingReference::CullingReference(const VertexRun& positions, const Topology& topology, float cutoff)
+    : cutoff_(cutoff) {
   const Index size = positions.size;
   if (size < fewest || size > most) return;
-  const Bound bound = bound_of(positions);
+  const BodyBounds bound = measure_bounds(positions);
   if (!(bound.finite && bound.radius < largest_radius)) return;
   glm::dvec3 centre(0);
   Index sampled = 0;
@@ -75,9 +76,9 @@ CullingReference::CullingReference(const Run& positions, const Topology& topolog
 }
 
 void CullingReference::list_pairs(const Topology& topology) {
-  Picked all;
+  VertexSet all;
   all.take({x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())}, 0);
-  covered_ = reach_ + 0.3f * radius_;
+  covered_ = cutoff_ + 0.3f * radius_;
   Words words;
   std::vector<Contact> close;
   contacts_within(all, covered_ * covered_, std::size_t{most} * most, words, close);
@@ -91,12 +92,12 @@ void CullingReference::list_pairs(const Topology& topology) {
     const float d2 = squared_distance(x_[pair.a], y_[pair.a], z_[pair.a], x_[pair.b], y_[pair.b], z_[pair.b]);
     listed.push_back({std::sqrt(d2), {pair.a, pair.b}});
   }
-  const std::size_t most_pairs = x_.size() * x_.size() / 128;  // to test them takes a third of a self pass
-  if (listed.size() > most_pairs) {
-    const auto first_left_out = listed.begin() + static_cast<std::ptrdiff_t>(most_pairs);
+  const std::size_t max_pairs = x_.size() * x_.size() / 128;  // to test them takes a third of a self pass
+  if (listed.size() > max_pairs) {
+    const auto first_left_out = listed.begin() + static_cast<std::ptrdiff_t>(max_pairs);
     std::nth_element(listed.begin(), first_left_out, listed.end());
     covered_ = first_left_out->first;
-    listed.resize(most_pairs);
+    listed.resize(max_pairs);
   }
   std::sort(listed.begin(), listed.end());
   covered_ = covered_ * (1 - 1e-6f) - static_cast<float>(lost_below);  // for the rounding of the distances
@@ -106,7 +107,8 @@ void CullingReference::list_pairs(const Topology& topology) {
   }
 }
 
-SelfCollisionCandidates CullingReference::at_risk(const Run& body, const Bound& bound, Scratch& scratch) const {
+SelfCollisionCandidates CullingReference::candidates_of(const VertexRun& body, const BodyBounds& bound,
+                                                        Scratch& scratch) const {
   scratch.residual2.resize(body.size);
   const AffineFit fit = fit_affine(body, {x_.data(), y_.data(), z_.data(), static_cast<Index>(x_.size())},
                                    inverse_moment_, bound.centre, scratch.residual2);
@@ -117,22 +119,22 @@ SelfCollisionCandidates CullingReference::at_risk(const Run& body, const Bound& 
   for (const float t : fit.offset) size += std::abs(double{t});
   const double rounding = 2 * 8 * 0x1p-24 * size + lost_below;
   const double stretch = least_singular_value(fit.matrix);
-  const double allowed = (stretch * covered_ - reach_) * (0.5 - 1e-6) - rounding;  // of a residual
-  if (!(allowed > 0)) return {};                                                   // also where it is no number
+  const double allowed = (stretch * covered_ - cutoff_) * (0.5 - 1e-6) - rounding;  // of a residual
+  if (!(allowed > 0)) return {};                                                    // also where it is no number
   if (fit.residual <= allowed) {
-    const double needed = (reach_ + 2 * (fit.residual + rounding)) / stretch * (1 + 1e-6) + lost_below;
+    const double needed = (cutoff_ + 2 * (fit.residual + rounding)) / stretch * (1 + 1e-6) + lost_below;
     const auto end = std::upper_bound(distance_.begin(), distance_.end(), round_up(needed));
     return {true, std::span(pairs_).first(static_cast<std::size_t>(end - distance_.begin())), {}};
   }
-  if (scratch.odd.size() < body.size + most_lanes) scratch.odd.resize(body.size + most_lanes);
+  if (scratch.outliers.size() < body.size + max_lanes) scratch.outliers.resize(body.size + max_lanes);
   constexpr double largest = std::numeric_limits<float>::max();  // an infinite residual is never allowed
   const auto allowed2 = static_cast<float>(std::min(allowed * allowed * (1 - 1e-6), largest));
-  const Index odd = list_above(scratch.residual2, allowed2, scratch.odd.data());
-  if (odd > body.size / 8) return {};
-  return {true, pairs_, std::span(scratch.odd).first(odd)};
+  const Index outliers = list_above(scratch.residual2, allowed2, scratch.outliers.data());
+  if (outliers > body.size / 8) return {};
+  return {true, pairs_, std::span(scratch.outliers).first(outliers)};
 }
 
-void SelfCollisionCulling::update(const Frame& frame, std::span<const Index> live, float reach) {
+void SelfCollisionCulling::update(const Frame& frame, std::span<const Index> live, float cutoff) {
   for (auto& [topology, entry] : entries_) entry.bodies = 0;
   by_body_.resize(frame.bodies->count());
   Entry* entry = nullptr;
@@ -147,26 +149,26 @@ void SelfCollisionCulling::update(const Frame& frame, std::span<const Index> liv
   }
   std::erase_if(entries_, [](const auto& item) { return item.second.bodies == 0; });
   for (auto& [topology, made] : entries_) {
-    if (made.reach != reach) make(made, frame, reach);
+    if (made.cutoff != cutoff) make(made, frame, cutoff);
   }
 }
 
 void SelfCollisionCulling::forget() {
-  for (auto& [topology, entry] : entries_) entry.reach = entry.from_frame ? 0 : entry.reach;
+  for (auto& [topology, entry] : entries_) entry.cutoff = entry.from_frame ? 0 : entry.cutoff;
 }
 
-void SelfCollisionCulling::make(Entry& entry, const Frame& frame, float reach) {
+void SelfCollisionCulling::make(Entry& entry, const Frame& frame, float cutoff) {
   const Shape& shape = *frame.bodies->shape[entry.first_body];
   const Index first = frame.bodies->first[entry.first_body], size = shape.vertex_count();
   entry.reference.reset();
   entry.from_frame = shape.rest().empty();
   if (entry.from_frame && entry.bodies < enough) return;
-  entry.reach = reach;
+  entry.cutoff = cutoff;
   std::vector<float> x, y, z;
   for (const glm::vec3& p : shape.rest()) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
-  const Run run = entry.from_frame ? Run{&frame.x[first], &frame.y[first], &frame.z[first], size}
-                                   : Run{x.data(), y.data(), z.data(), size};
-  auto reference = std::make_unique<CullingReference>(run, shape.topology(), reach);
+  const VertexRun run = entry.from_frame ? VertexRun{&frame.x[first], &frame.y[first], &frame.z[first], size}
+                                         : VertexRun{x.data(), y.data(), z.data(), size};
+  auto reference = std::make_unique<CullingReference>(run, shape.topology(), cutoff);
   if (reference->usable()) entry.reference = std::move(reference);
 }
 

@@ -1,5 +1,6 @@
 #pragma once
-// When a body cannot touch itself: a proof for each frame that costs less than the self pass that it saves.
+// Culling of self-collision: proves, frame by frame, that most vertices of a body cannot touch one another. The proof
+// costs less than the test of all pairs that it saves.
 
 #include <memory>
 #include <unordered_map>
@@ -8,69 +9,71 @@
 
 namespace collide::exact {
 
-/// What is left to test of a body's own pairs, if not all of them.
+/// The pairs of a body's vertices that must still be tested.
 struct SelfCollisionCandidates {
-  bool proven;                                  // if not, all pairs are
-  std::span<const std::array<Index, 2>> pairs;  // these (some of odd vertices, too),
-  std::span<const Index> odd;                   // and each of these vertices with every other; ascending
+  bool culled;                                  // false: all pairs must be tested, and the rest means nothing
+  std::span<const std::array<Index, 2>> pairs;  // test these pairs, which may name outliers, too
+  std::span<const Index> outliers;              // test each of these vertices with every other one; ascending
 };
 
-/// A mesh as it was seen somewhere, whatever the frame: the shape that bodies are compared with.
+/// The reference positions X of a mesh, which the bodies x of that mesh are compared with.
 ///
 /// Fit an affine map to a body: x_i = A X_i + t + e_i. Then for any two of its vertices
 ///     |x_i - x_j| >= s |X_i - X_j| - |e_i| - |e_j|,   s the smallest singular value of A.
-/// All pairs closer than `covered` in the reference are listed here, once. Every other pair is farther apart than the
-/// reach, unless |e| exceeds (s covered - reach) / 2 for one of its two vertices: these are the odd ones. Where a body
-/// is neither flattened nor folded, both are few. The bodies' positions decide how much is left, never what is found.
+/// All pairs closer than `covered` in the reference are listed once, when the reference is made. Every other pair is
+/// farther apart than the cutoff, unless |e| exceeds (s covered - cutoff) / 2 for one of its two vertices: such
+/// vertices are the outliers. Where a body is neither flattened nor folded, both lists are short. The body's positions
+/// decide how much is left to test, never which contacts are found.
 class CullingReference {
  public:
-  /// Positions of one body. usable() if it has neither too few nor too many vertices and is finite and not flat.
-  CullingReference(const Run& positions, const Topology& topology, float reach);
+  /// positions: of one body. cutoff: m. The reference is usable() if it has `fewest` to `most` vertices, is finite and
+  /// is not flat.
+  CullingReference(const VertexRun& positions, const Topology& topology, float cutoff);
 
   bool usable() const { return usable_; }
 
   struct Scratch {
     std::vector<float> residual2;
-    std::vector<Index> odd;
+    std::vector<Index> outliers;
   };
-  /// The answer lives as long as the scratch and the reference are left alone.
-  SelfCollisionCandidates at_risk(const Run& body, const Bound& bound, Scratch& scratch) const;
+  /// Returns what must be tested of a body of this mesh. The spans point into the scratch and the reference.
+  SelfCollisionCandidates candidates_of(const VertexRun& body, const BodyBounds& bound, Scratch& scratch) const;
 
  private:
   void list_pairs(const Topology& topology);
 
   static constexpr Index fewest = sample_run, most = 2048;  // vertices
   bool usable_ = false;
-  float reach_ = 0;
+  float cutoff_ = 0;
   std::vector<float> x_, y_, z_;             // centred
   std::array<float, 9> inverse_moment_;      // of the sum of X X^T
-  float radius_ = 0;                         // the farthest vertex from the centre
-  float covered_ = 0;                        // all pairs not joined by an edge and closer than this are listed
+  float radius_ = 0;                         // m: no vertex is farther from the centre
+  float covered_ = 0;                        // m: pairs_ holds all closer pairs that no edge joins
   std::vector<std::array<Index, 2>> pairs_;  // the closest first
   std::vector<float> distance_;              // of each pair
 };
 
-/// A reference for each topology of a frame: its shape at rest where that is known, else its first body in the frame if
-/// enough bodies share it.
+/// Holds a reference for each topology of a frame: the rest shape where it is known, else the first body of that
+/// topology in the frame, if enough bodies share it.
 class SelfCollisionCulling {
  public:
-  /// Makes what is missing and throws away what no live body needs any more.
-  void update(const Frame& frame, std::span<const Index> live, float reach);
-  /// Drops the references taken from frames; those at rest stay.
+  /// Makes the missing references of the frame's live bodies and drops those that no live body needs.
+  void update(const Frame& frame, std::span<const Index> live, float cutoff);
+  /// Drops the references that were taken from frames. Those of rest shapes stay.
   void forget();
 
-  /// nullptr if the body has none.
+  /// Returns the reference of a live body, or nullptr if it has none.
   const CullingReference* of(Index body) const { return by_body_[body]->reference.get(); }
 
  private:
   struct Entry {
-    std::shared_ptr<const Topology> topology;     // kept, so that no other one can take its address
-    std::unique_ptr<CullingReference> reference;  // if there is one of use
-    float reach = 0;
+    std::shared_ptr<const Topology> topology;     // kept alive, so that no other topology can take its address
+    std::unique_ptr<CullingReference> reference;  // null if no usable one could be made
+    float cutoff = 0;
     bool from_frame = false;
     Index first_body = 0, bodies = 0;  // in this frame
   };
-  static void make(Entry& entry, const Frame& frame, float reach);
+  static void make(Entry& entry, const Frame& frame, float cutoff);
 
   static constexpr Index enough = 4;
   std::unordered_map<const Topology*, Entry> entries_;

@@ -1,5 +1,6 @@
 #pragma once
-// Boxes in strips, and the sweep along one, in the widest instructions of the processor (chosen at run time).
+// The inner loop of the broad phase: a sweep over boxes that are sorted into strips. Vectorised with Highway, which
+// chooses the processor's instruction set at run time.
 
 #include <array>
 #include <vector>
@@ -8,8 +9,8 @@
 
 namespace collide::exact {
 
-/// Boxes in an order in which those near each other are close: of each one its bounds on the axes and the sphere around
-/// its centre. Padded, so that blocks can be read at the end.
+/// Boxes with their bounding spheres, sorted so that near boxes have near places. The arrays are padded by max_lanes
+/// values, so that whole vectors can be read at the end.
 struct SweepStrips {
   std::array<std::vector<float>, 3> lo, hi, centre;
   std::vector<float> radius;
@@ -17,8 +18,8 @@ struct SweepStrips {
 
   void resize(Index count);
 };
-/// Appends every box from the place `begin` on, and before `end`, that is near() box i and whose sphere is within reach
-/// of its own. Returns how many were near(), whatever their spheres.
-Index sweep_strip(const SweepStrips& boxes, Index i, Index begin, Index end, float reach, std::vector<Index>& found);
+/// Appends to `found` every place in [begin, end) whose box is near() box i and whose sphere is within the cutoff (m)
+/// of that of box i. Returns how many boxes were near(), whatever their spheres.
+Index sweep_strip(const SweepStrips& boxes, Index i, Index begin, Index end, float cutoff, std::vector<Index>& found);
 
 }  // namespace collide::exact

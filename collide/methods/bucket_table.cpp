@@ -37,7 +37,7 @@ void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uin
   meetings_ = longest_ = 0;
   used_ = runs_.size();
   Index end = 0;
-  for (Run& run : runs_) {  // becomes the end of each run
+  for (VertexRun& run : runs_) {  // becomes the end of each run
     const std::uint64_t n = run.begin;
     longest_ = std::max(longest_, n);
     meetings_ += n * (n - 1) / 2;

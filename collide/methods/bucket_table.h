@@ -25,22 +25,22 @@ class BucketTable {
   std::uint64_t meetings() const { return meetings_; }
   void count(Counters& counters) const;
   std::size_t bytes() const {
-    return sizeof(Index) * (run_of_.capacity() + slot_.capacity()) + sizeof(Run) * runs_.capacity();
+    return sizeof(Index) * (run_of_.capacity() + slot_.capacity()) + sizeof(VertexRun) * runs_.capacity();
   }
   std::uint32_t buckets() const { return static_cast<std::uint32_t>(run_of_.size()); }
   /// Of the buckets that are used, in the order of their runs.
   std::vector<BucketLoad> loads() const;
 
  private:
-  struct Run {
+  struct VertexRun {
     std::uint32_t bucket;
     Index begin;  // slot
   };
   void clear(std::uint32_t buckets);
 
-  std::vector<Index> run_of_;  // of each bucket: 1 + its place in runs_, 0 if it is not used
-  std::vector<Run> runs_;      // and one more, where the slots end
-  std::vector<Index> slot_;    // of each entry
+  std::vector<Index> run_of_;    // of each bucket: 1 + its place in runs_, 0 if it is not used
+  std::vector<VertexRun> runs_;  // and one more, where the slots end
+  std::vector<Index> slot_;      // of each entry
   std::uint64_t meetings_ = 0, used_ = 0, longest_ = 0;
 };
 

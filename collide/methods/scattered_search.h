@@ -19,14 +19,14 @@ class ScatteredSearch {
     if (own.rows.size() > short_run || run.size() > short_run) {
       search_->test(thread, own.rows, run);
     } else {
-      if (own.runs.size() == most_runs) finish(thread);
+      if (own.runs.size() == max_runs) finish(thread);
       own.runs.push_back(run);
     }
   }
   void finish(int thread);
 
  private:
-  static constexpr Index short_run = 64, most_runs = 256;  // 2^20 pairs
+  static constexpr Index short_run = 64, max_runs = 256;  // 2^20 pairs
   struct alignas(64) Thread {
     Range rows;
     std::vector<Range> runs;

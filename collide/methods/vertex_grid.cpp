@@ -10,7 +10,7 @@ void VertexGrid::detect(const Frame& frame, std::span<const Index> which, const 
                         Result& result) {
   settings_ = settings;
   const CellHash hash(settings);
-  const double reach = contact_cutoff(settings.tolerance);
+  const double cutoff = contact_cutoff(settings.tolerance);
   hash_vertices(frame, which);
   search_.begin(frame, settings, points_, workers.threads());
   threads_.resize(static_cast<std::size_t>(workers.threads()));
@@ -18,7 +18,7 @@ void VertexGrid::detect(const Frame& frame, std::span<const Index> which, const 
     threads_[static_cast<std::size_t>(thread)].hashes = 0;
     const auto step = static_cast<Index>(workers.threads());
     for (auto slot = static_cast<Index>(thread); slot < points_.size(); slot += step) {
-      visit_cells(thread, slot, reach, hash);
+      visit_cells(thread, slot, cutoff, hash);
     }
   });
   table_.count(result.counters);
@@ -44,9 +44,9 @@ void VertexGrid::hash_vertices(const Frame& frame, std::span<const Index> which)
   for (std::size_t e = 0; e < vertex_.size(); ++e) points_.set(table_.slot(e), frame, vertex_[e], body_[e]);
 }
 
-void VertexGrid::visit_cells(int thread, Index slot, double reach, const CellHash& hash) {
+void VertexGrid::visit_cells(int thread, Index slot, double cutoff, const CellHash& hash) {
   const double x = points_.x[slot], y = points_.y[slot], z = points_.z[slot];
-  const CellRange near{hash.cell(x - reach, y - reach, z - reach), hash.cell(x + reach, y + reach, z + reach)};
+  const CellRange near{hash.cell(x - cutoff, y - cutoff, z - cutoff), hash.cell(x + cutoff, y + cutoff, z + cutoff)};
   // To visit a cell takes about as long as to test 32 vertices. Where there are too many cells, test all that are left.
   if (near.count() > std::max(64.0, points_.size() / 32.0)) {
     search_.test(thread, {slot, slot + 1}, {slot + 1, points_.size()});

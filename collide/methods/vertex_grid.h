@@ -26,7 +26,7 @@ class VertexGrid {
     std::uint64_t hashes;
   };
   void hash_vertices(const Frame& frame, std::span<const Index> which);
-  void visit_cells(int thread, Index slot, double reach, const CellHash& hash);
+  void visit_cells(int thread, Index slot, double cutoff, const CellHash& hash);
 
   Settings settings_;
   std::vector<Index> vertex_, body_;   // in the order in which they are hashed

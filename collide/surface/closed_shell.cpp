@@ -11,8 +11,8 @@
 
 namespace collide::surface {
 
-ClosedShell::ClosedShell(const Surface& surface, const Run& at) : surface_(surface), at_(at) {
-  const Bound bound = bound_of(at);
+ClosedShell::ClosedShell(const Surface& surface, const VertexRun& at) : surface_(surface), at_(at) {
+  const BodyBounds bound = measure_bounds(at);
   if (!bound.finite) return;
   // Distances to faces are rounded in float: they may be this much less than those to the exact boxes.
   const glm::dvec3 hair(1e-6 * double(bound.largest));

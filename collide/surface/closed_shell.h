@@ -11,7 +11,7 @@ namespace collide::surface {
 class ClosedShell {
  public:
   /// at: the vertices; they and the surface have to outlive this. Where one is not finite, nothing is inside.
-  ClosedShell(const Surface& surface, const Run& at);
+  ClosedShell(const Surface& surface, const VertexRun& at);
 
   /// By the parity of a ray.
   bool inside(const glm::vec3& point) const;
@@ -30,7 +30,7 @@ class ClosedShell {
   }
 
   const Surface& surface_;
-  Run at_;
+  VertexRun at_;
   BoxTree faces_;
 };
 

@@ -63,7 +63,7 @@ class SweptBody {
   glm::vec3 mean_velocity() const { return mean_; }
   float spread() const { return spread_; }            // m/s: no vertex differs more from the mean velocity
   float most_strain() const { return most_strain_; }  // m/s, nor from the rigid motion
-  Run run() const { return {start_[0].data(), start_[1].data(), start_[2].data(), count_}; }
+  VertexRun run() const { return {start_[0].data(), start_[1].data(), start_[2].data(), count_}; }
   glm::vec3 at(Index v) const { return {start_[0][v], start_[1][v], start_[2][v]}; }
   glm::vec3 velocity(Index v) const { return {velocity_[0][v], velocity_[1][v], velocity_[2][v]}; }
   glm::vec3 at(Index v, float time) const { return at(v) + (time - begin_) * velocity(v); }

@@ -16,14 +16,14 @@ namespace collide::test {
 using namespace collide::exact;
 namespace {
 
-Bound bound_around(const glm::vec3& lo, const glm::vec3& hi, float radius) {
-  Bound bound{{lo, hi}, lo * 0.5f + hi * 0.5f, radius, 0, true};
+BodyBounds bound_around(const glm::vec3& lo, const glm::vec3& hi, float radius) {
+  BodyBounds bound{{lo, hi}, lo * 0.5f + hi * 0.5f, radius, 0, true};
   return bound;
 }
 
 /// Boxes of sides up to `side` in a box of the given size; the spheres around them reach less far than their corners.
-std::vector<Bound> boxes(std::mt19937& random, Index count, const glm::vec3& space, float side) {
-  std::vector<Bound> bounds;
+std::vector<BodyBounds> boxes(std::mt19937& random, Index count, const glm::vec3& space, float side) {
+  std::vector<BodyBounds> bounds;
   for (Index i = 0; i < count; ++i) {
     const glm::vec3 lo = random_points(random, 1, 0, 1)[0] * space, size = random_points(random, 1, 0, side)[0];
     bounds.push_back(bound_around(lo, lo + size, 0.4f * std::max({size.x, size.y, size.z})));
@@ -33,14 +33,15 @@ std::vector<Bound> boxes(std::mt19937& random, Index count, const glm::vec3& spa
 
 struct Expected {
   std::vector<std::vector<Index>> behind;
-  std::uint64_t near_boxes = 0, pairs = 0, alone = 0;
+  std::uint64_t near_box_pairs = 0, pairs = 0, alone = 0;
 
-  Expected(const std::vector<Bound>& bounds, const std::vector<Index>& live, float reach) : behind(bounds.size()) {
+  Expected(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live, float reach)
+      : later_neighbours(bounds.size()) {
     std::set<Index> paired;
     for (const Index a : live) {
       for (const Index b : live) {
         if (a >= b || !near(bounds[a].box, bounds[b].box, reach)) continue;
-        ++near_boxes;
+        ++near_box_pairs;
         const glm::dvec3 d = glm::dvec3(bounds[b].centre) - glm::dvec3(bounds[a].centre);
         const double reached = double{bounds[a].radius} + bounds[b].radius + reach;
         if (d.x * d.x + d.y * d.y + d.z * d.z > reached * reached * 1.000004) continue;  // with the kernel's margin
@@ -53,18 +54,18 @@ struct Expected {
   }
 };
 
-void check(const std::vector<Bound>& bounds, const std::vector<Index>& live, float reach, const char* what) {
+void check(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live, float reach, const char* what) {
   const Expected expected(bounds, live, reach);
   for (const int threads : {1, 2, 3}) {
     Workers workers(threads);
     BodyBroadPhase near;
     near.find(bounds, live, reach, workers);
     EXPECT_EQ(near.pairs(), expected.pairs) << what;
-    EXPECT_EQ(near.near_boxes(), expected.near_boxes) << what;
-    EXPECT_EQ(near.alone(), expected.alone) << what;
+    EXPECT_EQ(near.near_box_pairs(), expected.near_box_pairs) << what;
+    EXPECT_EQ(near.isolated_bodies(), expected.alone) << what;
     std::uint64_t before = 0;
     for (Index body = 0; body < bounds.size(); ++body) {
-      const auto behind = near.behind(body);
+      const auto behind = near.later_neighbours(body);
       ASSERT_EQ(std::vector<Index>(behind.begin(), behind.end()), expected.behind[body]) << what << ' ' << body;
       EXPECT_EQ(near.pairs_before(body), before);
       before += behind.size();
@@ -72,7 +73,7 @@ void check(const std::vector<Bound>& bounds, const std::vector<Index>& live, flo
   }
 }
 
-std::vector<Index> all_of(const std::vector<Bound>& bounds) {
+std::vector<Index> all_of(const std::vector<BodyBounds>& bounds) {
   std::vector<Index> live;
   for (Index i = 0; i < bounds.size(); ++i) live.push_back(i);
   return live;
@@ -84,7 +85,7 @@ TEST(BodyBroadPhase, AreThoseOfAllPairs) {
     for (const glm::vec3& space :
          {glm::vec3(6), glm::vec3(40, 3, 1), glm::vec3(0, 30, 0), glm::vec3(0, 9, 9), glm::vec3(0)}) {
       for (const float side : {0.0f, 0.3f, 1.5f}) {
-        const std::vector<Bound> bounds = boxes(random, count, space, side);
+        const std::vector<BodyBounds> bounds = boxes(random, count, space, side);
         check(bounds, all_of(bounds), 0.1f, "random");
       }
     }
@@ -93,7 +94,7 @@ TEST(BodyBroadPhase, AreThoseOfAllPairs) {
 
 TEST(BodyBroadPhase, IncludeOneThatIsHugeAndAreOnlyTheLiveOnes) {
   std::mt19937 random(52);
-  std::vector<Bound> bounds = boxes(random, 200, glm::vec3(30), 0.8f);
+  std::vector<BodyBounds> bounds = boxes(random, 200, glm::vec3(30), 0.8f);
   bounds[77] = bound_around(glm::vec3(-5), glm::vec3(20), 25);
   check(bounds, all_of(bounds), 0.2f, "huge");
   std::vector<Index> live;
@@ -105,7 +106,7 @@ TEST(BodyBroadPhase, IncludeOneThatIsHugeAndAreOnlyTheLiveOnes) {
 
 TEST(BodyBroadPhase, IncludeThoseThatBeginFarBeforeTheOther) {
   std::mt19937 random(54);
-  std::vector<Bound> bounds;
+  std::vector<BodyBounds> bounds;
   for (Index i = 0; i < 200; ++i) {
     const glm::vec3 lo = random_points(random, 1, 0, 1)[0] * glm::vec3(40, 10, 1);
     const glm::vec3 size = random_points(random, 1, 0.1f, 1)[0] * glm::vec3(6, 0.2f, 0.2f);  // long and thin
@@ -117,8 +118,8 @@ TEST(BodyBroadPhase, IncludeThoseThatBeginFarBeforeTheOther) {
 TEST(BodyBroadPhase, AreFoundAtAnySize) {
   std::mt19937 random(53);
   for (const float scale : {1e-40f, 1e-20f, 1e10f, 1e17f}) {
-    std::vector<Bound> bounds = boxes(random, 120, glm::vec3(8), 1);
-    for (Bound& bound : bounds) {
+    std::vector<BodyBounds> bounds = boxes(random, 120, glm::vec3(8), 1);
+    for (BodyBounds& bound : bounds) {
       bound = bound_around(bound.box.lo * scale, bound.box.hi * scale, std::numeric_limits<float>::infinity());
     }
     check(bounds, all_of(bounds), 0.1f * scale, "scaled");
@@ -126,16 +127,16 @@ TEST(BodyBroadPhase, AreFoundAtAnySize) {
 }
 
 TEST(BodyBroadPhase, AreLimitedAndThenFoundAgain) {
-  const std::vector<Bound> crowd(20, bound_around(glm::vec3(0), glm::vec3(1), 1));
+  const std::vector<BodyBounds> crowd(20, bound_around(glm::vec3(0), glm::vec3(1), 1));
   for (const int threads : {1, 3}) {
     Workers workers(threads);
     BodyBroadPhase near;
     near.find(crowd, all_of(crowd), 0.1f, workers, 190);
     EXPECT_EQ(near.pairs(), 190u);
     EXPECT_THROW(near.find(crowd, all_of(crowd), 0.1f, workers, 189), std::length_error);
-    for (Index body = 0; body < crowd.size(); ++body) EXPECT_TRUE(near.behind(body).empty());
+    for (Index body = 0; body < crowd.size(); ++body) EXPECT_TRUE(near.later_neighbours(body).empty());
     near.find(crowd, all_of(crowd), 0.1f, workers);
-    EXPECT_EQ(near.behind(0).size(), 19u);
+    EXPECT_EQ(near.later_neighbours(0).size(), 19u);
   }
 }
 

@@ -21,7 +21,7 @@ struct Points3 {
   explicit Points3(const std::vector<glm::vec3>& points) {
     for (const glm::vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   }
-  Run run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
+  VertexRun run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
 };
 
 /// A test for each target, whose instructions it uses.

@@ -16,8 +16,8 @@ namespace {
 
 constexpr std::size_t no_limit = std::size_t{1} << 22;
 
-Picked picked(const std::vector<glm::vec3>& points, Index first) {
-  Picked set;
+VertexSet picked(const std::vector<glm::vec3>& points, Index first) {
+  VertexSet set;
   set.reserve(static_cast<Index>(points.size()));
   for (const glm::vec3& p : points) set.add(p.x, p.y, p.z, first++);
   set.end();
@@ -29,7 +29,7 @@ std::vector<Contact> sorted(std::vector<Contact> contacts) {
   return contacts;
 }
 
-std::vector<Contact> between(const Picked& a, const Picked& b, float tolerance2) {
+std::vector<Contact> between(const VertexSet& a, const VertexSet& b, float tolerance2) {
   std::vector<Contact> contacts;
   for (Index i = 0; i < a.size; ++i) {
     for (Index j = 0; j < b.size; ++j) {
@@ -66,7 +66,7 @@ std::vector<Sets> examples() {
 
 TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
   for (const Sets& sets : examples()) {
-    const Picked a = picked(sets.a, 5), b = picked(sets.b, 9000);
+    const VertexSet a = picked(sets.a, 5), b = picked(sets.b, 9000);
     const float tolerance2 = sets.tolerance * sets.tolerance;
     const std::vector<Contact> expected = between(a, b, tolerance2);
     std::uint64_t uncut = 0;
@@ -93,7 +93,7 @@ TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
   for (const Sets& sets : examples()) {
     std::vector<glm::vec3> both = sets.a;
     both.insert(both.end(), sets.b.begin(), sets.b.end());
-    const Picked set = picked(both, 5);
+    const VertexSet set = picked(both, 5);
     const float tolerance2 = sets.tolerance * sets.tolerance;
     std::vector<Contact> expected = between(set, set, tolerance2);
     std::erase_if(expected, [](const Contact& pair) { return pair.a >= pair.b; });
@@ -112,7 +112,7 @@ TEST(OverlapTree, WithinASetFindsAllPairsOnceAtEveryLevel) {
 
 TEST(OverlapTree, SavesTests) {
   const Sets sets = examples().front();
-  const Picked a = picked(sets.a, 0), b = picked(sets.b, 500);
+  const VertexSet a = picked(sets.a, 0), b = picked(sets.b, 500);
   OverlapTree tree;
   std::vector<Contact> contacts;
   tree.begin(6, contact_cutoff(sets.tolerance), sets.tolerance * sets.tolerance, no_limit);
@@ -121,8 +121,8 @@ TEST(OverlapTree, SavesTests) {
 }
 
 TEST(OverlapTree, StopsAtTheMost) {
-  const Picked a = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 0),
-               b = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 200);
+  const VertexSet a = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 0),
+                  b = picked(std::vector<glm::vec3>(200, glm::vec3(1)), 200);
   for (const int levels : {0, 4}) {
     OverlapTree tree;
     std::vector<Contact> contacts;

@@ -12,8 +12,8 @@ namespace {
 
 constexpr std::size_t no_limit = std::size_t{1} << 20;
 
-Picked picked(const Points3& points, Index first) {
-  Picked set;
+VertexSet picked(const Points3& points, Index first) {
+  VertexSet set;
   set.take(points.run(), first);
   return set;
 }
@@ -68,7 +68,7 @@ TEST_P(PairKernels, ContactsAreThoseOfPlainLoops) {
 
 TEST_P(PairKernels, ContactsOfNothingAreNone) {
   const Points3 some(random_points(random_, 20, 0, 1));
-  Picked nothing;
+  VertexSet nothing;
   nothing.reserve(0);
   nothing.end();
   contacts_between(picked(some, 0), nothing, 9, no_limit, words_, contacts_);
@@ -78,7 +78,7 @@ TEST_P(PairKernels, ContactsOfNothingAreNone) {
 }
 
 TEST_P(PairKernels, ContactsStopAtTheMost) {
-  const Picked crowd = picked(Points3(std::vector<glm::vec3>(30, glm::vec3(0))), 0);
+  const VertexSet crowd = picked(Points3(std::vector<glm::vec3>(30, glm::vec3(0))), 0);
   contacts_between(crowd, crowd, 1, 900, words_, contacts_);
   EXPECT_EQ(contacts_.size(), 900u);
   contacts_.clear();
@@ -117,15 +117,16 @@ TEST_P(PairKernels, FaceFindsAllContactsOfTheVerticesThatItPicks) {
     }
     const std::vector<Contact> expected = all_between(a, 70, b, 900, tolerance * tolerance);
     contacts_.clear();
-    const Facing all = face(a.run(), 70, b.run(), 900, slab, tolerance * tolerance, 16384, scratch, contacts_);
+    const FacingResult all =
+        find_facing_contacts(a.run(), 70, b.run(), 900, slab, tolerance * tolerance, 16384, scratch, contacts_);
     ASSERT_TRUE(all.done);
     ASSERT_EQ(contacts_, expected);
     ASSERT_EQ(all.tests, facing_b.empty() ? 0 : facing_a.size() * facing_b.size());
     (all.tests == 0 ? parted : some) += 1;
     if (all.tests == 0) continue;
     contacts_.clear();
-    const Facing too_many =
-        face(a.run(), 70, b.run(), 900, slab, tolerance * tolerance, all.tests - 1, scratch, contacts_);
+    const FacingResult too_many =
+        find_facing_contacts(a.run(), 70, b.run(), 900, slab, tolerance * tolerance, all.tests - 1, scratch, contacts_);
     ASSERT_FALSE(too_many.done);
     ASSERT_TRUE(contacts_.empty());
     ASSERT_EQ(std::vector<Index>(scratch.near_a.vertex.begin(), scratch.near_a.vertex.begin() + scratch.near_a.size),

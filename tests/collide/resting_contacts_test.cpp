@@ -296,7 +296,7 @@ TEST(RestingContacts, KeepsNothingOverAFrameThatWasNotStored) {
   RestingContacts resting;
   std::vector<Index> non_finite;
   const auto kept = [&](bool stored) {
-    search.bound(frame, workers, non_finite);
+    search.find_bounds(frame, workers, non_finite);
     resting.observe(frame, settings, search.bounds(), workers);
     search.find(frame, {settings.tolerance, true, 3, 1000}, resting, workers);
     const bool any = resting.group(0, search.near()).has_value();

@@ -24,7 +24,7 @@ struct Body {
   explicit Body(const std::vector<glm::vec3>& points) {
     for (const glm::vec3& p : points) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);
   }
-  Run run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
+  VertexRun run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
 };
 
 /// One deformation of a sphere of radius 1.
@@ -72,22 +72,22 @@ std::vector<glm::vec3> deformed(std::vector<glm::vec3> points, int kind, std::mt
   return points;
 }
 
-/// Counts the bodies that are proven; fails where a pair that is left out is a contact.
-int proven(const CullingReference& reference, const Topology& topology, const std::vector<glm::vec3>& points,
+/// Counts the bodies that are culled; fails where a pair that is left out is a contact.
+int culled(const CullingReference& reference, const Topology& topology, const std::vector<glm::vec3>& points,
            float tolerance) {
   const Body body(points);
   CullingReference::Scratch scratch;
-  const SelfCollisionCandidates risk = reference.at_risk(body.run(), bound_of(body.run()), scratch);
-  if (!risk.proven) return 0;
+  const SelfCollisionCandidates risk = reference.candidates_of(body.run(), measure_bounds(body.run()), scratch);
+  if (!risk.culled) return 0;
   const std::set<std::array<Index, 2>> listed(risk.pairs.begin(), risk.pairs.end());
-  const std::set<Index> odd(risk.odd.begin(), risk.odd.end());
+  const std::set<Index> outliers(risk.outliers.begin(), risk.outliers.end());
   for (Index i = 0; i < points.size(); ++i) {
     for (Index j = i + 1; j < points.size(); ++j) {
       if (!(squared_distance(body.x[i], body.y[i], body.z[i], body.x[j], body.y[j], body.z[j]) <
             tolerance * tolerance)) {
         continue;
       }
-      if (topology.joined(i, j) || listed.contains({i, j}) || odd.contains(i) || odd.contains(j)) continue;
+      if (topology.joined(i, j) || listed.contains({i, j}) || outliers.contains(i) || outliers.contains(j)) continue;
       ADD_FAILURE() << i << " and " << j << " are in contact and left out";
       return 1;
     }
@@ -109,7 +109,7 @@ TEST(SelfProof, LeavesOutNoContact) {
         for (int trial = 0; trial < 40; ++trial) {
           const glm::vec3 at = random_points(random, 1, -50, 50)[0];
           count[static_cast<std::size_t>(kind)] +=
-              proven(reference, topology, moved(deformed(ball.vertices, kind, random), at), tolerance);
+              culled(reference, topology, moved(deformed(ball.vertices, kind, random), at), tolerance);
         }
       }
     }
@@ -119,7 +119,7 @@ TEST(SelfProof, LeavesOutNoContact) {
     EXPECT_EQ(count[5], 0) << "collapsed";
     EXPECT_EQ(count[9], 0) << "random";
     if (subdivisions == 2) {
-      EXPECT_GT(count[6], 80) << "torn: a few odd vertices";
+      EXPECT_GT(count[6], 80) << "torn: a few outliers";
     }
   }
 }
@@ -142,7 +142,7 @@ TEST(SelfProof, HoldsAtItsLimit) {
       const float together = (length - tolerance * uniform(random, 0.9f, 0.9999f)) / 2 / length;
       points[i] += d * together;
       points[j] -= d * together;
-      proofs += proven(reference, topology, points, tolerance);
+      proofs += culled(reference, topology, points, tolerance);
     }
   }
   EXPECT_GT(proofs, 1000);
@@ -163,7 +163,7 @@ TEST(SelfProof, HoldsWhereSquaresUnderflowOrOverflow) {
       for (int trial = 0; trial < 20; ++trial) {
         std::vector<glm::vec3> points = deformed(ball.vertices, kind, random);
         for (glm::vec3& p : points) p *= scale;
-        proven(reference, topology, points, tolerance);
+        culled(reference, topology, points, tolerance);
       }
     }
   }
@@ -186,7 +186,7 @@ TEST(SelfProof, HoldsForABodyFarLargerThanItsReference) {
     }
   }
   points[unsampled] = points[opposite];
-  proven(reference, topology, points, 0.1f);
+  culled(reference, topology, points, 0.1f);
 }
 
 TEST(SelfProof, RefusesReferencesOfNoUse) {

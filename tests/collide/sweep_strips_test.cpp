@@ -35,16 +35,16 @@ TEST_P(StripKernel, BoxesAreThoseOfPlainLoops) {
       for (Index i = 0; i < size; ++i) {
         const Index begin = random_() % (size + 1), end = begin + random_() % (size + 1 - begin);
         std::vector<Index> expected, found{77};
-        Index near_boxes = 0;
+        Index near_box_pairs = 0;
         for (Index j = begin; j < end; ++j) {
           if (!near(all[i], all[j], reach)) continue;
-          ++near_boxes;
+          ++near_box_pairs;
           const glm::vec3 d = centre(j) - centre(i);
           const float reached = radius(i) + radius(j) + reach;
           if (d.x * d.x + d.y * d.y + d.z * d.z <= reached * reached * 1.000003f) expected.push_back(j);
         }
         expected.insert(expected.begin(), 77);
-        EXPECT_EQ(sweep_strip(boxes, i, begin, end, reach, found), near_boxes);
+        EXPECT_EQ(sweep_strip(boxes, i, begin, end, reach, found), near_box_pairs);
         EXPECT_EQ(found, expected);
       }
     }

@@ -9,7 +9,7 @@ namespace {
 
 using VertexKernels = OnEveryTarget;
 
-long double distance(const Run& a, Index i, const Run& b, Index j) {
+long double distance(const VertexRun& a, Index i, const VertexRun& b, Index j) {
   const long double dx = static_cast<long double>(a.x[i]) - static_cast<long double>(b.x[j]),
                     dy = static_cast<long double>(a.y[i]) - static_cast<long double>(b.y[j]),
                     dz = static_cast<long double>(a.z[i]) - static_cast<long double>(b.z[j]);
@@ -20,7 +20,7 @@ TEST_P(VertexKernels, BoundHoldsEveryVertexAndIsTight) {
   for (const Index size : sizes) {
     for (const float scale : {1e-42f, 1e-21f, 1.0f, 1e15f, 1e38f}) {
       const Points3 points(random_points(random_, size, -scale, 2 * scale));
-      const Bound bound = bound_of(points.run());
+      const BodyBounds bound = measure_bounds(points.run());
       ASSERT_TRUE(bound.finite);
       glm::vec3 lo(infinity), hi(-infinity);
       long double farthest = 0;
@@ -48,7 +48,7 @@ TEST_P(VertexKernels, BoundKnowsWhatIsNotFinite) {
       for (const float bad : {nan, infinity, -infinity}) {
         Points3 points(random_points(random_, size, -1, 1));
         (v % 3 == 0 ? points.x : v % 3 == 1 ? points.y : points.z)[v] = bad;
-        EXPECT_FALSE(bound_of(points.run()).finite) << size << ' ' << v;
+        EXPECT_FALSE(measure_bounds(points.run()).finite) << size << ' ' << v;
       }
     }
   }
@@ -113,7 +113,7 @@ TEST_P(VertexKernels, ListsWhatIsAboveALimit) {
       std::vector<float> values = Points3(random_points(random_, size, -1, 1)).x;
       values[size / 2] = nan;
       values[size / 3] = limit;
-      std::vector<Index> above, list(size + most_lanes);
+      std::vector<Index> above, list(size + max_lanes);
       for (Index v = 0; v < size; ++v) {
         if (!(values[v] <= limit)) above.push_back(v);
       }
