@@ -1,5 +1,6 @@
 #pragma once
-// First stage of every method: the bodies' bounding boxes (§2.1), and which bodies take part at all.
+// The first stage of every method but the exact one: the bounding boxes of the bodies (§2.1), and which bodies take
+// part.
 
 #include "collide/core/aabb.h"
 #include "collide/core/detector.h"
@@ -7,10 +8,10 @@
 namespace collide {
 
 struct BodyBoxes {
-  std::vector<Aabb> box;    // of every body; meaningless unless the body is live
-  std::vector<Index> live;  // bodies with vertices, all of them finite; ascending
+  std::vector<Aabb> box;    // of every body; only those of live bodies mean anything
+  std::vector<Index> live;  // the bodies that have vertices, all of them finite; ascending
 
-  /// Starts the result afresh and names the bodies that are not finite in it.
+  /// Computes the boxes of a frame. Clears the result and lists the bodies that are not finite in it.
   void build(const Frame& frame, Result& result);
 };
 
@@ -18,12 +19,12 @@ struct BodyPair {
   Index a, b;  // a < b
 };
 
-/// Every two live bodies whose boxes are within the cutoff of each other (see contact_cutoff).
+/// Finds the pairs of live bodies whose boxes are near().
 class BodyPairs {
  public:
   static constexpr std::size_t max_pairs = std::size_t{1} << 27;  // 1 GiB of them
 
-  /// Throws std::length_error at more than limit.
+  /// cutoff: m, see contact_cutoff(). Throws std::length_error if there are more than `limit` pairs.
   const std::vector<BodyPair>& find(const BodyBoxes& bodies, float cutoff, std::size_t limit = max_pairs);
 
  private:

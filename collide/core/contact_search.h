@@ -1,7 +1,7 @@
 #pragma once
-// Last stage of every method: tests runs of vertices against each other, leaves out what can never be a contact, and
-// brings what is left into its one order. Keeps its memory from frame to frame: at most max_contacts contacts and, for
-// each thread, 2^20 hits or as many as a run has vertices.
+// The last stage of every method but the exact one: tests runs of vertices against each other, leaves out pairs that
+// can never be contacts, and sorts the contacts. Keeps its memory from frame to frame: at most max_contacts contacts
+// and, for each thread, 2^20 hits or as many as a run has vertices.
 
 #include <atomic>
 
@@ -12,18 +12,19 @@ namespace collide {
 
 class ContactSearch {
  public:
-  /// All of it must stay alive and unchanged until finish().
+  /// Starts a frame. All arguments must stay alive and unchanged until finish().
   void begin(const Frame& frame, const Settings& settings, const Points& points, int threads);
 
-  /// Finds the contacts of all slots i < j, i from a and j from b. Either b begins with all of a, or a ends where b
-  /// begins or before. No pair may come up twice in one frame. Throws std::length_error at more than max_contacts
+  /// Finds the contacts among all pairs of slots i < j with i in a and j in b. Precondition: b begins with all of a, or
+  /// lies behind a. No pair may be tested twice in one frame. Throws std::length_error at more than max_contacts
   /// contacts.
   void test(int thread, Range a, Range b);
 
-  /// The same for each of many short runs that begin where a ends or later: 2^20 pairs at most.
+  /// Does the same for each of many short runs that lie behind a: 2^20 pairs at most.
   void test(int thread, Range a, std::span<const Range> runs);
 
-  /// Adds the contacts, the self contacts and the pair tests to a result that BodyBoxes::build() has started.
+  /// Adds the sorted contacts, the number of self contacts and the pair tests to a result that BodyBoxes::build()
+  /// cleared.
   void finish(Result& result);
 
   static constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them

@@ -1,5 +1,5 @@
 #pragma once
-// How far apart two vertices in contact can be, so that boxes and cells never prune a contact.
+// The cutoff: the largest distance of two vertices in contact, rounding included, so that no stage prunes a contact.
 
 #include <cmath>
 #include <limits>
@@ -8,7 +8,7 @@
 
 namespace collide {
 
-/// The smallest float that is not below the value; the largest float where there is none.
+/// Returns the smallest float that is not below the value, or the largest float if there is none.
 inline float round_up(double value) {
   constexpr float largest = std::numeric_limits<float>::max();
   if (value >= largest) return largest;
@@ -16,7 +16,8 @@ inline float round_up(double value) {
   return rounded < value ? std::nextafter(rounded, largest) : rounded;
 }
 
-/// An upper bound of the true distance of any two vertices that squared_distance() < tolerance * tolerance accepts.
+/// Returns an upper bound (m) of the true distance of any two vertices that the test
+/// squared_distance() < tolerance * tolerance accepts.
 ///
 /// Let D be the true distance, u = 2^-24 the rounding unit and e = 2^-150 the largest error of a product that
 /// underflows. A difference and a sum of floats err by the factor 1 - u at most, also when they underflow; a product by

@@ -1,6 +1,6 @@
 #pragma once
-// The midpoint cuts of one axis of a body's box (§2.1). The cuts run along x, y, z in turn, so each axis is halved by
-// itself and a box is one interval of each axis.
+// The midpoint cuts of a body's box (§2.1). The cuts run across x, y and z in turn, so each axis is halved on its own,
+// and a subdivided box is one interval on each axis.
 
 #include <array>
 
@@ -8,7 +8,7 @@
 
 namespace collide {
 
-/// How many of `levels` cuts fall on the axis: the first is along x, the second along y, the third along z, ...
+/// Returns how many of `levels` cuts halve the axis: the first cut halves x, the second y, the third z, and so on.
 constexpr int cuts_along(int axis, int levels) { return (levels + 2 - axis) / 3; }
 
 /// The 2^depth intervals between border[0] = lo and border[2^depth] = hi, each border shared by both its sides.
@@ -28,7 +28,7 @@ struct Cuts {
     }
   }
 
-  /// The interval of a value: at every cut it goes up if value >= mid.
+  /// Returns the interval of a value. A value on a cut belongs to the upper side.
   int interval_of(float value) const {
     int interval = 0;
     for (int step = intervals() / 2; step > 0; step /= 2) interval += value >= border[interval + step] ? step : 0;
@@ -36,7 +36,7 @@ struct Cuts {
   }
 };
 
-/// The cuts of a body's box along x, y and z.
+/// Returns the cuts of a body's box on the x, y and z axes.
 inline std::array<Cuts, 3> cuts_of(const Aabb& box, int levels) {
   std::array<Cuts, 3> cuts;
   for (int axis = 0; axis < 3; ++axis) {

@@ -1,6 +1,6 @@
 #pragma once
-// A set of small numbers that is filled without branches and read as runs: bits, and one bit for each word of bits
-// that is not 0, so that few members among many numbers are found without looking at all words.
+// A set of small numbers as a two-level bit set: one bit for each number, and one bit for each word that is not 0. It
+// is filled without branches and read as runs, and few members among many numbers are found quickly.
 
 #include <bit>
 #include <utility>
@@ -26,8 +26,8 @@ class IndexSet {
     used_[word / word_size] |= Word{1} << word % word_size;
   }
 
-  /// Empties the set and calls take(run) for every longest run of consecutive members, ascending. `least` is no larger
-  /// than any member.
+  /// Empties the set and calls take(run) for every maximal run of consecutive members; ascending. Precondition: no
+  /// member is below `least`.
   template <class Take>
   void take_runs(Index least, const Take& take) {
     Range run{0, 0};

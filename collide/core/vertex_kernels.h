@@ -1,5 +1,6 @@
 #pragma once
-// The loops over the vertices of one body, in the widest instructions of the processor (chosen at run time).
+// The loops over the vertices of one body. Vectorised with Highway, which chooses the processor's instruction set at
+// run time.
 
 #include <array>
 #include <span>
@@ -9,17 +10,17 @@
 
 namespace collide {
 
-/// Where a body is. `radius`: m, every vertex is within it of the box's centre, rounding included.
+/// The bounding volumes of a body.
 struct BodyBounds {
   Aabb box;
-  glm::vec3 centre;
-  float radius;
-  float largest;  // the greatest coordinate, whatever its sign
-  bool finite;    // if not, the rest means nothing
+  glm::vec3 centre;  // of the box
+  float radius;      // m: every vertex is within this distance of the centre, rounding included
+  float largest;     // m: the largest absolute value of a coordinate
+  bool finite;       // false: a coordinate is not finite, and the rest means nothing
 };
 BodyBounds measure_bounds(const VertexRun& run);
 
-/// The vertices that an affine map is fitted to: some of them, spread over the body, are enough. Calls visit(v).
+/// Calls visit(v) for the vertices that fit_affine() uses: a sample that is spread over the body.
 inline constexpr Index sample_run = max_lanes;
 constexpr Index sample_stride(Index size) { return size < 8 * sample_run ? sample_run : 4 * sample_run; }
 template <class Visit>
@@ -29,20 +30,21 @@ void for_samples(Index size, const Visit& visit) {
   }
 }
 
-/// An affine map of reference positions that is fitted to a body: x = matrix * X + offset + centre. The mean of the
-/// reference's samples is the origin.
+/// An affine map from reference positions X to positions x of a body: x = matrix * X + offset + centre. The mean of the
+/// sampled reference positions is the origin.
 struct AffineFit {
   std::array<float, 9> matrix;  // by row
   std::array<float, 3> offset;
   float residual;  // m, the root of the greatest residual2
 };
-/// inverse_moment: 3 x 3, symmetric, by row, of the sum of X X^T over the samples. Sizes are equal, at least
-/// sample_run. residual2: the squared distance of each vertex from where the map takes its reference, as computed.
+/// Fits an affine map by least squares. inverse_moment: the inverse of the sum of X X^T over the samples; 3 x 3,
+/// symmetric, by row. Body and reference have the same size, at least sample_run. Writes to residual2 the squared
+/// distance (m^2) of each vertex from where the map takes its reference position.
 AffineFit fit_affine(const VertexRun& body, const VertexRun& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2);
 
-/// The numbers of those values that are not at most the limit, ascending; returns how many. The list has room for
-/// max_lanes more than there are values, of which there are at least so many.
+/// Writes the numbers of the values that are above the limit or NaN to `list`; ascending. Returns how many there are.
+/// Precondition: there are at least max_lanes values, and the list has room for max_lanes more than that.
 Index list_above(std::span<const float> values, float limit, Index* list);
 
 }  // namespace collide

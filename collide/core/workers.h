@@ -1,6 +1,6 @@
 #pragma once
-// Threads that wait for work. No clock and no work stealing: who does what depends on nothing but the thread count, and
-// callers write results so that not even that shows.
+// A pool of threads. It uses no clock and no work stealing: which thread does what depends only on the number of
+// threads, and callers store their results so that not even that shows.
 
 #include <functional>
 #include <memory>
@@ -9,8 +9,8 @@ namespace collide {
 
 class Workers {
  public:
-  /// threads >= 1, else std::invalid_argument; the caller's own thread included: Workers(1) starts none. The threads
-  /// sleep while there is nothing to run.
+  /// Starts threads - 1 threads: the caller's own thread is one of them. The threads sleep while there is nothing to
+  /// run. Throws std::invalid_argument if threads < 1.
   explicit Workers(int threads);
   ~Workers();
   Workers(const Workers&) = delete;
@@ -18,13 +18,13 @@ class Workers {
 
   int threads() const { return threads_; }
 
-  /// Calls task(thread) once on each of `threads()` threads, thread 0 being the caller, and returns when all are done.
-  /// The first exception thrown by a task is rethrown here, after all have returned; the other tasks run on until their
-  /// next barrier(), which then throws as well, so that none waits for ever or goes on with half of the data. Let what
-  /// barrier() throws pass. Not reentrant, and to be called by one thread at a time.
+  /// Calls task(thread) once on each of threads() threads; thread 0 is the caller. Returns when all tasks have
+  /// returned. If a task throws, run() rethrows the first exception after all tasks have returned. The other tasks run
+  /// on until their next barrier(), which then throws too: do not catch that exception. Not reentrant; only one thread
+  /// may call it at a time.
   void run(const std::function<void(int thread)>& task);
 
-  /// Waits until every thread of the current run() has got here. Only inside a task, and by all threads alike.
+  /// Waits until every thread of the current run() has called it. Only for use inside a task, by all threads.
   void barrier();
 
  private:
@@ -33,7 +33,7 @@ class Workers {
   std::unique_ptr<Shared> shared_;
 };
 
-/// The part [begin, end) of count items that falls to one thread: contiguous, in order, sizes differ by at most one.
+/// One thread's share [begin, end) of `count` items. The shares are consecutive, and their sizes differ by at most one.
 struct Part {
   std::size_t begin, end;
 };

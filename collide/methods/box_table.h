@@ -1,7 +1,7 @@
 #pragma once
-// Boxes in the lists of buckets, and which boxes share a bucket (§2.2, §2.3).
-// Memory: 24 bytes for each bucket that a box is in, so 200 a box at eight corners, whatever the cells' size; 4 bytes a
-// bucket; and a bit a box for each thread.
+// The lists of boxes in the buckets, and the boxes that share a bucket (§2.2, §2.3).
+// Memory: 24 bytes for each bucket that a box is in, so 200 bytes a box with eight corners, whatever the size of the
+// cells; 4 bytes a bucket; one bit a box and thread.
 
 #include "collide/core/index_set.h"
 #include "collide/methods/bucket_table.h"
@@ -11,32 +11,33 @@ namespace collide::methods {
 class BoxTable {
  public:
   void clear();
-  /// Puts the next box into each of the buckets, once however often it is named.
+  /// Adds the next box to each of its buckets. A bucket may be named more than once; the box joins it once.
   void add(std::span<const std::uint32_t> buckets_of_box);
-  /// Throws std::length_error at 2^32 entries, for which 6 GiB of positions would be needed.
+  /// Builds the table from the boxes added. Throws std::length_error at 2^32 entries (that takes 6 GiB of positions).
   void build(std::uint32_t buckets);
 
-  /// Calls meet(run) for all runs of consecutive boxes b >= least, ascending, that share a bucket with the box, each
-  /// box once however many buckets the two share. least >= box. Prepare first, once and not in parallel.
+  /// Calls meet(run) for every run of consecutive boxes b >= least that share a bucket with `box`; ascending. Each b
+  /// comes up once, however many buckets the two boxes share. least >= box. Call prepare_meetings() before, on one
+  /// thread.
   void prepare_meetings(int threads);
   template <class Meet>
   void for_each_run(int thread, Index box, Index least, const Meet& meet);
 
   std::size_t size() const { return first_.size() - 1; }
   const BucketTable& buckets() const { return table_; }
-  /// Copies the boxes' buckets and the loads.
+  /// Copies the buckets of each box and the loads, for drawing.
   void describe(DebugGeometry& geometry) const;
 
  private:
-  /// Appends the box in the slot to the list of its bucket, which begins at first_slot; returns the place of its word.
+  /// Appends a box to the list of its bucket, which begins at first_slot. Returns the place of the box's word.
   Index add_to_list(Index box, Index slot, Index first_slot);
 
   std::vector<std::uint32_t> first_{0};  // size() + 1 offsets into bucket_
   std::vector<std::uint32_t> bucket_;    // of each entry: box by box
   BucketTable table_;
 
-  // Neighbouring boxes are often in one bucket. So a bucket's list holds words of an IndexSet, ascending, from the
-  // bucket's first slot on; there are no more of them than slots.
+  // Neighbouring boxes are often in the same bucket. So the list of a bucket holds words of an IndexSet; ascending,
+  // from the bucket's first slot on. A bucket has no more words than slots.
   std::vector<Index> place_;          // of each slot's box: where its word is
   std::vector<Index> word_;           // by place
   std::vector<IndexSet::Word> bits_;  // by place

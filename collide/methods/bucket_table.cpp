@@ -11,41 +11,43 @@ constexpr std::size_t worth_returning = 1u << 20;  // buckets, of 4 MiB
 }  // namespace
 
 void BucketTable::clear(std::uint32_t buckets) {
-  if (run_of_.capacity() > std::max(worth_returning, 4 * std::size_t{buckets}))
-    run_of_ = std::vector<Index>();  // was larger by far
-  if (run_of_.size() == buckets) {
-    for (std::size_t r = 0; r + 1 < runs_.size(); ++r) run_of_[runs_[r].bucket] = 0;
+  if (place_of_.capacity() > std::max(worth_returning, 4 * std::size_t{buckets}))
+    place_of_ = std::vector<Index>();  // was larger by far
+  if (place_of_.size() == buckets) {
+    for (std::size_t r = 0; r + 1 < used_buckets_.size(); ++r) place_of_[used_buckets_[r].bucket] = 0;
   } else {
-    run_of_.assign(buckets, 0);
+    place_of_.assign(buckets, 0);
   }
-  runs_.clear();
+  used_buckets_.clear();
 }
 
 void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uint32_t buckets) {
   clear(buckets);
-  runs_.reserve(std::min<std::size_t>(buckets, bucket_of_entry.size()) + 1);  // from here on nothing throws half-way
+  used_buckets_.reserve(std::min<std::size_t>(buckets, bucket_of_entry.size()) +
+                        1);  // from here on nothing throws half-way
   slot_.resize(bucket_of_entry.size());
   for (const std::uint32_t bucket : bucket_of_entry) {
-    Index& run = run_of_[bucket];
+    Index& run = place_of_[bucket];
     if (run == 0) {
-      runs_.push_back({bucket, 0});
-      run = static_cast<Index>(runs_.size());
+      used_buckets_.push_back({bucket, 0});
+      run = static_cast<Index>(used_buckets_.size());
     }
-    ++runs_[run - 1].begin;  // its load, at first
+    ++used_buckets_[run - 1].begin;  // its load, at first
   }
 
   meetings_ = longest_ = 0;
-  used_ = runs_.size();
+  used_ = used_buckets_.size();
   Index end = 0;
-  for (VertexRun& run : runs_) {  // becomes the end of each run
+  for (UsedBucket& run : used_buckets_) {  // becomes the end of each run
     const std::uint64_t n = run.begin;
     longest_ = std::max(longest_, n);
     meetings_ += n * (n - 1) / 2;
     run.begin = end += run.begin;
   }
-  runs_.push_back({buckets, end});
+  used_buckets_.push_back({buckets, end});
 
-  for (std::size_t e = bucket_of_entry.size(); e-- > 0;) slot_[e] = --runs_[run_of_[bucket_of_entry[e]] - 1].begin;
+  for (std::size_t e = bucket_of_entry.size(); e-- > 0;)
+    slot_[e] = --used_buckets_[place_of_[bucket_of_entry[e]] - 1].begin;
 }
 
 void BucketTable::count(Counters& counters) const {
@@ -55,8 +57,8 @@ void BucketTable::count(Counters& counters) const {
 
 std::vector<BucketLoad> BucketTable::loads() const {
   std::vector<BucketLoad> loads;
-  for (std::size_t r = 0; r + 1 < runs_.size(); ++r)
-    loads.push_back({runs_[r].bucket, runs_[r + 1].begin - runs_[r].begin});
+  for (std::size_t r = 0; r + 1 < used_buckets_.size(); ++r)
+    loads.push_back({used_buckets_[r].bucket, used_buckets_[r + 1].begin - used_buckets_[r].begin});
   return loads;
 }
 

@@ -16,7 +16,7 @@ class CellHash {
     for (int axis = 0; axis < 3; ++axis) size_[static_cast<std::size_t>(axis)] = settings.cell_size[axis];
   }
 
-  /// floor(value / size) of a cell's side. Clamped, so that any coordinate has an index; never decreases with value.
+  /// Returns floor(value / cell size), clamped so that every coordinate has an index. Monotonic in value.
   std::int64_t index(int axis, double value) const {
     constexpr double limit = 0x1p60;
     const double quotient = value / size_[static_cast<std::size_t>(axis)];
@@ -27,7 +27,8 @@ class CellHash {
 
   Cell cell(double x, double y, double z) const { return {index(0, x), index(1, y), index(2, z)}; }
 
-  /// One axis's share of the sum: the index, reduced to 0 .. buckets - 1 so that nothing overflows, times the prime.
+  /// Returns one summand of the hash: the index, reduced modulo the bucket count so that nothing overflows, times the
+  /// prime.
   std::uint64_t term(int axis, std::int64_t index) const {
     const auto count = static_cast<std::int64_t>(buckets_);
     const std::int64_t rest = index % count;
@@ -38,8 +39,7 @@ class CellHash {
     return static_cast<std::uint32_t>((x_term + y_term + z_term) % buckets_);
   }
 
-  /// A term of the sum modulo the number of buckets, for terms that many corners share; and the bucket of three of
-  /// them.
+  /// The same modulo the bucket count, for summands that many corners share, and the bucket of three such residues.
   std::uint32_t residue(int axis, std::int64_t index) const {
     return static_cast<std::uint32_t>(term(axis, index) % buckets_);
   }
@@ -61,14 +61,14 @@ class CellHash {
 struct CellRange {
   CellHash::Cell lo, hi;
 
-  /// How many they are; a double, for there may be 2^183.
+  /// Returns the number of cells, as a double: there may be 2^183.
   double count() const {
     double product = 1;
     for (std::size_t axis = 0; axis < 3; ++axis) product *= static_cast<double>(hi[axis] - lo[axis] + 1);
     return product;
   }
 
-  /// Calls visit(cell) for each of them, x slowest: the minimum corner's cell comes first.
+  /// Calls visit(cell) for each cell; x changes slowest, and the cell of the minimum corner comes first.
   template <class Visit>
   void for_each(const Visit& visit) const {
     for (std::int64_t x = lo[0]; x <= hi[0]; ++x) {
@@ -79,7 +79,7 @@ struct CellRange {
   }
 };
 
-/// The first DebugGeometry::debug_cell_limit of all cells added, in ascending order and without duplicates.
+/// Collects cells for drawing: the first DebugGeometry::debug_cell_limit of those added; ascending, without duplicates.
 class CellList {
  public:
   void add(const CellHash::Cell& cell, const CellHash& hash) {

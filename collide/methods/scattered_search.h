@@ -1,5 +1,5 @@
 #pragma once
-// One run of slots against many short runs, which are tested together. Memory: 256 runs a thread.
+// Tests one run of slots against many short runs, many of them at a time. Memory: 256 runs a thread.
 
 #include "collide/core/contact_search.h"
 
@@ -7,13 +7,13 @@ namespace collide::methods {
 
 class ScatteredSearch {
  public:
-  /// search must stay alive.
+  /// Starts a frame. `search` must stay alive until the frame ends.
   void begin(ContactSearch& search, int threads);
 
-  // For each run of rows on a thread: start(), add() what it meets, finish(). In the end all have been tested as
-  // ContactSearch::test(thread, rows, run) does it.
+  // For each run of rows, on one thread: call start(), then add() for each run that the rows meet, then finish(). Then
+  // every pair of runs has been tested as by ContactSearch::test(thread, rows, run).
   void start(int thread, Range rows, bool rows_meet_themselves);
-  /// The run begins where rows ends or later.
+  /// run: begins where the rows end, or later.
   void add(int thread, Range run) {
     Thread& own = threads_[static_cast<std::size_t>(thread)];
     if (own.rows.size() > short_run || run.size() > short_run) {

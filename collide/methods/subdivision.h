@@ -1,7 +1,7 @@
 #pragma once
-// The subdivided bounding boxes of §2.1: every body's box cut at midpoints into 2^levels regions.
-// Memory: empty regions are not kept, so a vertex costs 104 bytes at most whatever the level, and a thread 5 *
-// 2^levels.
+// The subdivided bounding boxes of §2.1: the box of each body, cut at midpoints into 2^levels regions.
+// Memory: empty regions are not kept, so at most 104 bytes a vertex, whatever the level, and 5 * 2^levels bytes a
+// thread.
 
 #include "collide/core/body_boxes.h"
 #include "collide/core/cuts.h"
@@ -11,16 +11,16 @@
 namespace collide::methods {
 
 struct SubdividedBox {
-  Aabb region;                             // between the cuts, not refitted to the vertices
-  std::array<std::uint8_t, 3> interval{};  // of the body's Cuts on each axis
+  Aabb region;                             // the region between the cuts, not refitted to the vertices
+  std::array<std::uint8_t, 3> interval{};  // which interval of the body's Cuts it is on each axis
   Index body;
-  Range slots;  // its vertices
+  Range slots;  // its vertices, as slots of Subdivision::points()
 };
 
 class Subdivision {
  public:
-  /// Boxes of the bodies `which`, in their order; within a body by their place, x first, so that neighbours are often
-  /// next to each other. Boxes without vertices are left out. Every vertex is in exactly one box.
+  /// Builds the boxes of the bodies `which`, in their order. Within a body they are sorted by place, x fastest, so that
+  /// neighbours are often consecutive. Boxes without vertices are left out. Every vertex is in exactly one box.
   void build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels, Workers& workers);
 
   const std::vector<SubdividedBox>& boxes() const { return boxes_; }

@@ -1,7 +1,7 @@
 #pragma once
-// Vertices hashed one by one into a grid (§2.2 without boxes): what both methods with a grid hash have in common.
-// Memory: 36 bytes a vertex and 4 a bucket; a thread lists no more cells at a time than a 32nd of the vertices, or 64,
-// however small the cells are.
+// Vertices hashed one by one into a grid (§2.2 without boxes): the common stage of the two grid-hash methods.
+// Memory: 36 bytes a vertex and 4 bytes a bucket. However small the cells are, a thread lists at most 64 cells at a
+// time, or a 32nd of the number of vertices.
 
 #include "collide/core/body_boxes.h"
 #include "collide/core/contact_search.h"
@@ -12,12 +12,12 @@ namespace collide::methods {
 
 class VertexGrid {
  public:
-  /// Finds all contacts among the vertices of the bodies `which`, whatever the size of the cells, and adds them and the
-  /// counters to the result.
+  /// Finds all contacts among the vertices of the bodies `which`, at any cell size. Adds the contacts and the counters
+  /// to the result.
   void detect(const Frame& frame, std::span<const Index> which, const Settings& settings, Workers& workers,
               Result& result);
 
-  /// The cells with a vertex, and the loads.
+  /// Returns the occupied cells and the loads of the buckets.
   DebugGeometry debug() const;
 
  private:
