@@ -1,6 +1,7 @@
 #include "collide/core/body_boxes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 #include <string>
 
@@ -9,6 +10,7 @@
 namespace collide {
 
 void BodyBoxes::build(const Frame& frame, Result& result) {
+  assert(is_complete(frame));
   const Bodies& bodies = *frame.bodies;
   result.start();
   result.contacts.clear();

@@ -1,6 +1,7 @@
 #include "collide/core/contact_search.h"
 
 #include <algorithm>
+#include <cassert>
 #include <stdexcept>
 
 namespace collide {
@@ -20,6 +21,7 @@ void ContactSearch::begin(const Frame& frame, const Settings& settings, const Po
 }
 
 void ContactSearch::test(int thread, Range a, Range b) {
+  assert((b.begin == a.begin && b.end >= a.end) || b.begin >= a.end);
   Thread& own = threads_[static_cast<std::size_t>(thread)];
   const std::uint64_t na = a.size(), nb = b.size();
   constexpr std::uint64_t max_tests = 1u << 20;  // between two looks at the number of contacts

@@ -1,5 +1,5 @@
 #pragma once
-// What a detector is given: positions as three spans of world floats, and which body owns which of them.
+// The input of a detector: positions, as three spans of floats, and the bodies that own them.
 
 #include <array>
 #include <cstdint>
@@ -13,16 +13,16 @@ namespace collide {
 
 using Index = std::uint32_t;
 
-/// Which vertices of a mesh are joined by an edge. Shared by all bodies that are copies of one mesh. Immutable.
+/// The edges of a mesh. All bodies that are copies of one mesh share it. Immutable.
 class Topology {
  public:
-  /// edges: pairs of local vertex indices, in any order, duplicates allowed; self loops are ignored.
-  /// Throws std::invalid_argument if an edge names a missing vertex.
+  /// edges: pairs of local vertex indices, in any order; duplicates are allowed, self loops are ignored.
+  /// Throws std::invalid_argument if an edge names a vertex that does not exist.
   Topology(Index vertex_count, std::span<const std::array<Index, 2>> edges);
 
   Index vertex_count() const { return static_cast<Index>(first_.size() - 1); }
   bool joined(Index i, Index j) const;
-  /// The vertices joined to one by an edge; ascending.
+  /// Returns the vertices that an edge joins to vertex i; ascending.
   std::span<const Index> neighbours(Index i) const {
     return std::span(neighbour_).subspan(first_[i], first_[i + std::size_t{1}] - first_[i]);
   }
@@ -33,14 +33,14 @@ class Topology {
   std::vector<Index> neighbour_;  // the mesh neighbours of each vertex, ascending
 };
 
-/// A mesh and, where it is known, its shape at rest. It decides which vertex pairs of one body can never be contacts:
-/// those joined by a mesh edge, and those closer than the tolerance at rest. Immutable.
+/// A mesh and, where it is known, its rest shape. It decides which vertex pairs of one body can never be contacts:
+/// those that a mesh edge joins, and those that are closer than the tolerance in the rest shape. Immutable.
 class Shape {
  public:
-  /// rest: rest positions in metres, one a vertex, or empty: then no pair is left out for its rest distance.
-  /// Throws std::invalid_argument if the number of rest positions is another.
+  /// rest: rest positions in metres, one for each vertex; or empty if the rest shape is not known.
+  /// Throws std::invalid_argument if their number is neither.
   explicit Shape(std::shared_ptr<const Topology> topology, std::vector<glm::vec3> rest = {});
-  /// With a topology of its own.
+  /// Makes a topology of its own.
   Shape(Index vertex_count, std::span<const std::array<Index, 2>> edges, std::vector<glm::vec3> rest = {});
 
   Index vertex_count() const { return topology_->vertex_count(); }
@@ -48,8 +48,8 @@ class Shape {
   const std::shared_ptr<const Topology>& shared_topology() const { return topology_; }
   const std::vector<glm::vec3>& rest() const { return rest_; }
 
-  /// True if the local vertices i and j may never be a contact of one body.
-  /// tolerance2 = tolerance * tolerance in float; the rest distance is tested with collide::squared_distance.
+  /// Returns true if the local vertices i and j can never be a contact of one body. tolerance2: tolerance * tolerance
+  /// in float (m^2); the rest distance is compared with it by squared_distance().
   bool excludes(Index i, Index j, float tolerance2) const;
 
  private:
@@ -71,14 +71,22 @@ struct Bodies {
   }
 };
 
-/// One frame: world positions in metres, bodies->vertex_count() of each coordinate. Owns nothing.
+/// One frame: world positions in metres, bodies->vertex_count() of each coordinate. It owns nothing.
 struct Frame {
   std::span<const float> x, y, z;
   const Bodies* bodies = nullptr;
 };
 
-/// The one distance expression of the project, so that equal sets are equal to the bit. A contact is
-/// squared_distance < tolerance * tolerance, all in float and (by a compiler flag) never fused.
+/// Returns true if the frame has bodies and a position for each of their vertices: the precondition of every detection.
+inline bool is_complete(const Frame& frame) {
+  if (!frame.bodies) return false;
+  const std::size_t count = frame.bodies->vertex_count();
+  return frame.x.size() == count && frame.y.size() == count && frame.z.size() == count;
+}
+
+/// Returns the squared distance of two vertices (m^2). Every method uses this expression, so that all exact methods
+/// find the same contacts to the bit: a contact is squared_distance() < tolerance * tolerance, in float and (by a
+/// compiler flag) without fused multiply-add.
 inline float squared_distance(float ax, float ay, float az, float bx, float by, float bz) {
   const float dx = ax - bx, dy = ay - by, dz = az - bz;
   return dx * dx + dy * dy + dz * dz;

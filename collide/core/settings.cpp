@@ -1,3 +1,5 @@
+#include "collide/core/settings.h"
+
 #include <algorithm>
 #include <cmath>
 #include <sstream>
@@ -5,7 +7,6 @@
 #include "collide/core/body_boxes.h"
 #include "collide/core/cutoff.h"
 #include "collide/core/cuts.h"
-#include "collide/core/detector.h"
 
 namespace collide {
 

@@ -121,10 +121,12 @@ BodyBounds measure_bounds(const VertexRun& run) { return HWY_DYNAMIC_DISPATCH(Bo
 
 AffineFit fit_affine(const VertexRun& body, const VertexRun& reference, const std::array<float, 9>& inverse_moment,
                      const glm::vec3& centre, std::span<float> residual2) {
+  assert(body.size == reference.size && body.size >= sample_run && residual2.size() >= body.size);
   return HWY_DYNAMIC_DISPATCH(FitAffine)(body, reference, inverse_moment, centre, residual2.data());
 }
 
 Index list_above(std::span<const float> values, float limit, Index* list) {
+  assert(values.size() >= max_lanes);
   return HWY_DYNAMIC_DISPATCH(ListAbove)(values.data(), static_cast<Index>(values.size()), limit, list);
 }
 

@@ -2,6 +2,8 @@
 // A pool of threads. It uses no clock and no work stealing: which thread does what depends only on the number of
 // threads, and callers store their results so that not even that shows.
 
+#include <cassert>
+#include <cstddef>
 #include <functional>
 #include <memory>
 
@@ -38,6 +40,7 @@ struct Part {
   std::size_t begin, end;
 };
 inline Part part_of(std::size_t count, int thread, int threads) {
+  assert(thread >= 0 && thread < threads);
   const auto t = static_cast<std::size_t>(thread), n = static_cast<std::size_t>(threads);
   return {count * t / n, count * (t + 1) / n};
 }

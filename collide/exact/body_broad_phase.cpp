@@ -1,6 +1,7 @@
 #include "collide/exact/body_broad_phase.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 #include <stdexcept>
@@ -23,6 +24,7 @@ constexpr std::size_t cells_a_body = 4;  // at most, lest most of them be empty
 
 void BodyBroadPhase::find(std::span<const BodyBounds> bounds, std::span<const Index> live, float cutoff,
                           Workers& workers, std::size_t limit) {
+  assert(cutoff > 0 && std::is_sorted(live.begin(), live.end()));
   first_.assign(bounds.size() + 1, 0);  // no pairs, should this fail
   other_.clear();
   divide(bounds, live, cutoff);

@@ -1,6 +1,7 @@
 #include "collide/exact/body_pair_search.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -33,6 +34,7 @@ VertexRun BodyPairSearch::run(Index body) const {
 }
 
 void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies) {
+  assert(is_complete(frame));
   frame_ = &frame;
   const Index bodies = frame.bodies->count();
   bounds_.resize(bodies);
@@ -51,6 +53,7 @@ void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vect
 }
 
 void BodyPairSearch::find(const Frame& frame, const Query& query, const RestingContacts& resting, Workers& workers) {
+  assert(bounds_.size() == frame.bodies->count());
   begin(frame, query, workers);
   near_.find(bounds_, live_, cutoff_, workers);
   workers.run([&](int thread) { find_part(thread, workers.threads(), resting); });

@@ -3,6 +3,8 @@
 // Memory: 24 bytes for each bucket that a box is in, so 200 bytes a box with eight corners, whatever the size of the
 // cells; 4 bytes a bucket; one bit a box and thread.
 
+#include <cassert>
+
 #include "collide/core/index_set.h"
 #include "collide/methods/bucket_table.h"
 
@@ -46,6 +48,7 @@ class BoxTable {
 
 template <class Meet>
 void BoxTable::for_each_run(int thread, Index box, Index least, const Meet& meet) {
+  assert(least >= box);
   IndexSet& met = met_[static_cast<std::size_t>(thread)];
   const Index least_word = least / IndexSet::word_size;
   const IndexSet::Word from_least = ~IndexSet::Word{0} << least % IndexSet::word_size;

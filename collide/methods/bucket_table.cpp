@@ -1,6 +1,7 @@
 #include "collide/methods/bucket_table.h"
 
 #include <algorithm>
+#include <cassert>
 
 namespace collide::methods {
 
@@ -27,6 +28,7 @@ void BucketTable::build(std::span<const std::uint32_t> bucket_of_entry, std::uin
                         1);  // from here on nothing throws half-way
   slot_.resize(bucket_of_entry.size());
   for (const std::uint32_t bucket : bucket_of_entry) {
+    assert(bucket < buckets);
     Index& run = place_of_[bucket];
     if (run == 0) {
       used_buckets_.push_back({bucket, 0});

@@ -1,5 +1,7 @@
 #include "collide/methods/subdivision.h"
 
+#include <cassert>
+
 namespace collide::methods {
 
 namespace {
@@ -22,6 +24,7 @@ SubdividedBox box_of(const std::array<Cuts, 3>& cuts, std::uint32_t code, Index 
 
 void Subdivision::build(const Frame& frame, const BodyBoxes& bodies, std::span<const Index> which, int levels,
                         Workers& workers) {
+  assert(levels >= 0 && levels <= max_levels);
   levels_ = levels;
   first_slot_.clear();
   Index slots = 0;
