@@ -5,13 +5,14 @@
 #include <iostream>
 #include <new>
 
-#include "app/command/detect.h"
-#include "app/command/list.h"
-#include "app/command/options.h"
-#include "app/command/simulate.h"
+#include "app/cli/detect.h"
+#include "app/cli/list.h"
+#include "app/cli/options.h"
+#include "app/cli/simulate.h"
+#include "app/files/scene_folder.h"
 #include "app/report/report.h"
 #if SBCOLLIDE_GRAPHICS
-#include "app/demo/demo.h"
+#include "app/window/demo.h"
 #endif
 
 namespace {
@@ -28,7 +29,7 @@ int run(const app::Options& options) {
       app::detect(options);
       return 0;
     case app::Command::report:
-      app::report(options);
+      app::report(options.report);
       return 0;
     case app::Command::demo:
       break;

@@ -1,4 +1,5 @@
 #include "app/report/files.h"
+#include "app/files/scene_folder.h"
 
 #include <unistd.h>
 

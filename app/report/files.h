@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "app/command/options.h"
 #include "app/report/plot.h"
+#include "app/report/report.h"
 
 namespace app {
 

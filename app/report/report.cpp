@@ -1,4 +1,5 @@
 #include "app/report/report.h"
+#include "app/files/scene_folder.h"
 
 #include <algorithm>
 #include <array>
@@ -13,7 +14,7 @@ namespace {
 
 struct Report {
   std::string_view name;
-  void (*make)(const Options& options);
+  void (*make)(const ReportOptions& options);
 };
 
 /// All there are.
@@ -30,8 +31,8 @@ const Report& find_report(const std::string& name) {
 
 }  // namespace
 
-void report(const Options& options) {
-  const Report& report = find_report(options.report.name);
+void report(const ReportOptions& options) {
+  const Report& report = find_report(options.name);
   scene_folder();  // throws where there is none: some reports open their scenes only after minutes
   report.make(options);
 }

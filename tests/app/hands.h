@@ -3,7 +3,7 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/demo/session.h"
+#include "app/session/session.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "app/demo/interface.h"
+#include "app/ui/interface.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
 #include "engine/headless.h"

@@ -6,7 +6,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/command/options.h"
+#include "app/cli/options.h"
 #include "app/files/output_file.h"
 #include "tests/bench/piles.h"
 #include "tests/bench/report.h"

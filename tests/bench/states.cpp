@@ -6,7 +6,7 @@
 #include <fstream>
 #include <map>
 
-#include "app/command/options.h"
+#include "app/cli/options.h"
 #include "app/files/output_file.h"
 #include "softbody/mesh.h"
 

@@ -6,7 +6,7 @@
 
 #include <fstream>
 
-#include "app/command/options.h"
+#include "app/cli/options.h"
 #include "tests/cli/process.h"
 
 namespace cli::test {

@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "app/command/options.h"
+#include "app/cli/options.h"
 #include "require.h"
 
 namespace {

@@ -154,7 +154,7 @@ void import_mesh(DemoRig& demo, Dice& dice) {
 void resize(DemoRig& demo, Dice& dice) { demo.resize({end_or_between(dice, 1, 900), end_or_between(dice, 1, 700)}); }
 
 void view(DemoRig& demo, Dice& dice) {
-  for (const app::OverlayRow& row : app::overlay_table) demo.session.overlays.*row.shown = dice.pick(4) == 0;
+  for (const app::OverlayRow& row : app::overlay_table) demo.ui.overlays.*row.shown = dice.pick(4) == 0;
   demo.ui.panel = dice.heads();
   demo.ui.table = dice.heads();
   demo.ui.help = dice.pick(8) == 0;

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "app/demo/overlay_request.h"
+#include "app/window/overlay_request.h"
 #include "engine/resources.h"
 
 namespace soak {
@@ -29,7 +29,7 @@ void DemoRig::frame(bool draw) {
   if (draw)
     canvas_.update(input.display_size, true, ui.take_away.wants_picture(), [this](const engine::Viewport& whole) {
       view_.draw(session.world(), app::overlay_request(session, ui), camera_, whole, 1,
-                 session.drawn_positions(app::whole_steps(session)));
+                 session.drawn_positions(app::whole_steps(session, ui.overlays)));
     });
   target_.bind();
   gui_.end_frame();

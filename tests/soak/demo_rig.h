@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
-#include "app/demo/canvas.h"
-#include "app/demo/interface.h"
-#include "app/demo/scene_mouse.h"
-#include "app/view/scene_view.h"
+#include "app/render/canvas.h"
+#include "app/render/scene_view.h"
+#include "app/ui/interface.h"
+#include "app/window/scene_mouse.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
 #include "engine/headless.h"

@@ -41,10 +41,10 @@ struct Job {
 
 class Plan {
  public:
-  explicit Plan(const Options& options) : options_(options) {
-    const bool quick = options.report.quick;
+  explicit Plan(const ReportOptions& options) : options_(options) {
+    const bool quick = options.quick;
     results.quick = quick;
-    results.command = command_of(options.report);
+    results.command = command_of(options);
     results.limits = quick ? TrialLimits{.frames = 600, .stride = 20, .seconds = 10} : TrialLimits{};
     results.vertex_frames = quick ? 3'000'000 : 10'000'000;
     results.choices = make_choices(quick);
@@ -92,7 +92,7 @@ class Plan {
     results.cases.push_back(std::move(c));
   }
 
-  const Options& options_;
+  const ReportOptions& options_;
   std::vector<Job> jobs_;
 };
 
@@ -105,15 +105,14 @@ void add_impacts(Plan& plan, bool quick) {
 
 }  // namespace
 
-void report_contact(const Options& options) {
-  const ReportOptions& o = options.report;
-  const std::vector<softbody::Scene> scenes = chosen_scenes(o);
+void report_contact(const ReportOptions& options) {
+  const std::vector<softbody::Scene> scenes = chosen_scenes(options);
   prepare_folder(options.out);
   Plan plan(options);
   for (const softbody::Scene& scene : scenes) {
-    if (!o.quick || o.scene || std::ranges::count(quick_scenes, scene.key) > 0) plan.add_scene(scene);
+    if (!options.quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0) plan.add_scene(scene);
   }
-  if (!o.scene) add_impacts(plan, o.quick);
+  if (!options.scene) add_impacts(plan, options.quick);
   plan.run();
   const ContactResults& results = plan.results;
   write_report(options.out, {.csv_name = "contact.csv",

@@ -9,8 +9,8 @@
 
 #include "app/base/text.h"
 #include "app/base/usage_error.h"
-#include "app/command/options.h"
 #include "app/compare/world_oracle.h"
+#include "app/files/scene_folder.h"
 #include "app/report/cpu_clock.h"
 #include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"

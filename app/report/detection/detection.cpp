@@ -62,22 +62,21 @@ SceneResult sweep_growth(const Recording& recording, const DetectionResults& res
   return growth;
 }
 
-DetectionResults measure(const Options& options, const std::vector<softbody::Scene>& scenes) {
-  const ReportOptions& o = options.report;
+DetectionResults measure(const ReportOptions& options, const std::vector<softbody::Scene>& scenes) {
   DetectionResults results;
-  results.quick = o.quick;
-  results.threads = o.threads.value_or(1);
-  results.limits = limits_of(o);
-  results.command = command_of(o);
+  results.quick = options.quick;
+  results.threads = options.threads.value_or(1);
+  results.limits = limits_of(options);
+  results.command = command_of(options);
   collide::Workers workers(results.threads);
   const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
   const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
     const bool largest = bodies(scene) == most_bodies;
-    const bool swept = !o.quick || o.scene || std::ranges::count(paper_scenes, scene.key) > 0;
+    const bool swept = !options.quick || options.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);
-    const Recording recording = record(scene, plan_recording(vertex_count(scene), o.quick), options.threads);
+    const Recording recording = record(scene, plan_recording(vertex_count(scene), options.quick), options.cores);
     if (swept) results.scenes.push_back(sweep_scene(recording, results, workers));
     if (largest) results.growth = sweep_growth(recording, results, workers);
   }
@@ -86,8 +85,8 @@ DetectionResults measure(const Options& options, const std::vector<softbody::Sce
 
 }  // namespace
 
-void report_detection(const Options& options) {
-  const std::vector<softbody::Scene> scenes = chosen_scenes(options.report);
+void report_detection(const ReportOptions& options) {
+  const std::vector<softbody::Scene> scenes = chosen_scenes(options);
   prepare_folder(options.out);
   const DetectionResults results = measure(options, scenes);
   write_report(options.out, {.csv_name = "detection.csv",

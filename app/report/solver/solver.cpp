@@ -119,10 +119,10 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
 
 }  // namespace
 
-void report_solver(const Options& options) {
-  std::vector<SolverScene> scenes = scenes_for(options.report);
+void report_solver(const ReportOptions& options) {
+  std::vector<SolverScene> scenes = scenes_for(options);
   prepare_folder(options.out);
-  SolverReport report(options.report, std::move(scenes));
+  SolverReport report(options, std::move(scenes));
   report.run();
   const SolverResults& results = report.results;
   write_report(options.out, {.csv_name = "solver.csv",

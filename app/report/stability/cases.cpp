@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/usage_error.h"
-#include "app/command/options.h"
+#include "app/files/scene_folder.h"
 
 namespace app {
 namespace {

@@ -118,19 +118,18 @@ class StabilityReport {
 
 }  // namespace
 
-void report_stability(const Options& options) {
-  const ReportOptions& o = options.report;
-  StabilityReport report(o);
-  if (o.scene) {
-    const softbody::Scene scene = chosen_scenes(o).front();
+void report_stability(const ReportOptions& options) {
+  StabilityReport report(options);
+  if (options.scene) {
+    const softbody::Scene scene = chosen_scenes(options).front();
     if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to judge; add a [[body]]");
     report.add_scene(scene);
   } else {
     for (const StabilityCase& c : stability_cases())
-      if (!o.quick || std::ranges::count(quick_cases, c.key) > 0) report.add_case(c);
+      if (!options.quick || std::ranges::count(quick_cases, c.key) > 0) report.add_case(c);
   }
   prepare_folder(options.out);
-  collide::Workers workers(o.threads.value_or(options.threads));
+  collide::Workers workers(options.threads.value_or(options.cores));
   report.run(workers);
   const StabilityResults& results = report.results;
   write_report(options.out, {.csv_name = "stability.csv",

@@ -1,0 +1,88 @@
+#include "app/cli/detection_options.h"
+
+#include <limits>
+
+#include <CLI/CLI.hpp>
+
+#include "app/base/number_text.h"
+#include "app/cli/options.h"
+#include "app/cli/whole_number_option.h"
+
+namespace app {
+namespace {
+
+std::array<std::uint32_t, 3> read_primes(const std::string& text) {
+  const auto parts = split(text, ',');
+  std::array<std::uint32_t, 3> primes{};
+  bool good = parts.size() == primes.size();
+  for (std::size_t axis = 0; good && axis < primes.size(); ++axis) {
+    const auto number = whole_number(parts[axis]);
+    good = number && *number >= 1 && *number <= std::numeric_limits<std::uint32_t>::max();
+    if (good) primes[axis] = static_cast<std::uint32_t>(*number);
+  }
+  if (!good)
+    throw UsageError("--primes " + text +
+                     ": must be three whole numbers from 1 to 4294967295, e.g. 73856093,19349669,83492791");
+  return primes;
+}
+
+glm::vec3 read_cell_size(const std::string& text) {
+  const auto sides = real_numbers(text, ',');
+  if (!sides || (sides->size() != 1 && sides->size() != 3))
+    throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
+  return {float(sides->front()), float((*sides)[sides->size() / 2]), float(sides->back())};
+}
+
+}  // namespace
+
+void add_detection_options(CLI::App& command, DetectionOptions& options) {
+  command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
+  command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes")
+      ->type_name("N")
+      ->transform(whole_number_from(0, collide::max_levels));
+  command.add_option("--buckets", options.buckets, "number of buckets of the hash table")
+      ->type_name("N")
+      ->transform(whole_number_from(1, collide::max_buckets));
+  command
+      .add_option(
+          "--cell-size", options.cell_size,
+          "sides of a grid cell in metres, or auto: as large as the largest subdivided box at rest + the tolerance")
+      ->type_name("S|X,Y,Z|auto");
+  command
+      .add_option("--primes", options.primes,
+                  "factors of a cell's x, y and z in the hash function (default: 73856093,19349669,83492791)")
+      ->type_name("A,B,C");
+  command.add_option("--tolerance", options.tolerance, "collision tolerance in metres")->type_name("H");
+}
+
+const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise) {
+  const collide::Method* method = collide::find_method(options.method ? *options.method : otherwise);
+  if (!method) throw UsageError("--method " + *options.method + ": unknown; use one of: " + collide::method_keys());
+  return *method;
+}
+
+bool automatic_cell_size(const DetectionOptions& options, bool otherwise) {
+  return options.cell_size ? *options.cell_size == "auto" : otherwise;
+}
+
+void apply(const DetectionOptions& options, collide::Settings& settings) {
+  const auto check = [&](const char* option) {
+    if (const std::string wrong = collide::problem(settings); !wrong.empty())
+      throw UsageError(std::string(option) + ": " + wrong);
+  };
+  if (options.levels) settings.levels = *options.levels;
+  if (options.buckets) settings.buckets = *options.buckets;
+  if (options.tolerance) settings.tolerance = static_cast<float>(*options.tolerance);
+  check("--tolerance");
+  if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
+  check("--cell-size");
+  if (options.primes) settings.primes = read_primes(*options.primes);
+}
+
+std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings) {
+  std::string hash = method.uses_hash ? collide::hash_warning(settings) : "";
+  if (hash.empty()) return {};
+  return {std::move(hash)};
+}
+
+}  // namespace app

@@ -1,0 +1,40 @@
+#include "app/cli/list.h"
+
+#include <iostream>
+
+#include "app/files/scene_folder.h"
+#include "softbody/integrators.h"
+
+namespace app {
+namespace {
+
+void row(std::string_view key, std::string_view name) { std::cout << key << '\t' << name << '\n'; }
+
+/// A file that is not in order hides no other.
+void list_scenes(const std::filesystem::path& folder) {
+  std::optional<softbody::SceneError> first_error;
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    try {
+      row(key, softbody::find_scene(key, folder).name);
+    } catch (const softbody::SceneError& error) {
+      if (!first_error) first_error = error;
+    }
+  }
+  if (first_error) throw *first_error;
+}
+
+}  // namespace
+
+void list(const std::string& what) {
+  if (what == "methods") {
+    for (const collide::Method& m : collide::method_table()) row(m.key, m.name);
+  } else if (what == "integrators") {
+    for (const softbody::Integrator& i : softbody::integrators()) row(i.key, i.name);
+  } else if (what == "contact-surfaces") {
+    for (const softbody::ContactSurfaceInfo& s : softbody::contact_surfaces) row(s.key, s.name);
+  } else {
+    list_scenes(scene_folder());
+  }
+}
+
+}  // namespace app

@@ -1,0 +1,275 @@
+#include "app/cli/options.h"
+
+#include <algorithm>
+#include <thread>
+
+#include <CLI/CLI.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "app/base/number_text.h"
+#include "app/base/text.h"
+#include "app/cli/whole_number_option.h"
+#include "app/files/scene_folder.h"
+#include "softbody/limits.h"
+#include "softbody/world.h"
+
+namespace app {
+namespace {
+
+std::string one_line(std::string text) {
+  while (!text.empty() && text.back() == '\n') text.pop_back();
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  return text;
+}
+
+/// Why the library refuses the command line.
+std::string reason(const CLI::ParseError& error) {
+  constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
+  std::string why = one_line(error.what());
+  if (!why.ends_with(value_of_flag)) return why;
+  return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
+}
+
+/// "1280x720" to width and height.
+void parse_size(const std::string& text, Options& options) {
+  const auto parts = split(text, 'x');
+  const auto side = [&](std::size_t which) {
+    const auto pixels = parts.size() == 2 ? whole_number(parts[which]) : std::nullopt;
+    if (!pixels || *pixels < 1 || *pixels > 16384)
+      throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
+    return static_cast<int>(*pixels);
+  };
+  options.width = side(0);
+  options.height = side(1);
+}
+
+void parse_captures(const std::string& text, Options& options) {
+  const auto refuse = [&](std::string_view item, const std::string& why) {
+    throw UsageError("--capture " + text + ": '" + std::string(item) + "' " + why);
+  };
+  for (const std::string_view item : split(text, ',')) {
+    const auto frame = whole_number(item);
+    if (!frame || *frame < 1) refuse(item, "is no frame number; write e.g. 100,400,600,800");
+    if (*frame > options.frames) refuse(item, "lies beyond --frames " + std::to_string(options.frames));
+    options.captures.push_back(static_cast<int>(*frame));
+  }
+  std::sort(options.captures.begin(), options.captures.end());
+}
+
+softbody::View read_view(const std::string& text) {
+  const auto v = real_numbers(text, ',');
+  const auto within = [&](std::size_t which, double least, double most) {
+    return (*v)[which] >= least && (*v)[which] <= most;
+  };
+  if (!v || v->size() != 6 || !within(0, -1e6, 1e6) || !within(1, -1e6, 1e6) || !within(2, -1e6, 1e6) ||
+      !within(3, 1e-9, 1e6) || !within(4, -360, 360) || !within(5, -89, 89))
+    throw UsageError("--view " + text +
+                     ": must be X,Y,Z,DISTANCE,AZIMUTH,ELEVATION: where to look at and how far from in metres, -360 to "
+                     "360 and -89 to 89 degrees, e.g. 0,0.8,0,8,30,18");
+  return {.target = {(*v)[0], (*v)[1], (*v)[2]}, .distance = (*v)[3], .azimuth = (*v)[4], .elevation = (*v)[5]};
+}
+
+void add_common_options(CLI::App& command, Options& options) {
+  add_detection_options(command, options.detection);
+  command.add_option("--threads", options.threads, "threads (default: all cores)")
+      ->type_name("N")
+      ->transform(whole_number_from(1, 256));
+}
+
+void add_scene_options(CLI::App& command, Options& options) {
+  command.add_option("--scene", options.scene, "scene: a key of `list scenes` or a .toml file")->type_name("S");
+  add_common_options(command, options);
+  command
+      .add_option("--contact-surface", options.contact_surface,
+                  "what keeps bodies apart: a key of `list contact-surfaces`")
+      ->type_name("K");
+  command.add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  command
+      .add_option("--substeps", options.substeps,
+                  "exactly N steps of the integrator a frame (default: as many as stability asks for)")
+      ->type_name("N")
+      ->transform(whole_number_from(1, softbody::World::max_substeps));
+  command.add_flag_function(
+      "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
+      "whether pairs of one body count (default: the scene's)");
+  command
+      .add_option_function<std::string>(
+          "--view", [&options](const std::string& text) { options.view = read_view(text); },
+          "the camera: what it looks at, how far from, degrees round and up (default: the scene's)")
+      ->type_name("X,Y,Z,DISTANCE,AZIMUTH,ELEVATION");
+}
+
+CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::string& captures) {
+  CLI::App* simulate = cli.add_subcommand("simulate", "run a scene without a window");
+  add_scene_options(*simulate, options);
+  simulate->add_option("--frames", options.frames, "frames to run")
+      ->type_name("N")
+      ->transform(whole_number_from(1, 10'000'000));
+  simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
+  simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
+      ->type_name("N,N,...");
+  simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
+  simulate
+      ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
+      ->type_name("N")
+      ->transform(whole_number_from(1, 10'000'000));
+  simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
+      ->type_name("DIR");
+  CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
+  simulate->add_flag("--oracle", options.oracle, "with --json: what overlaps and passes through in each frame; slow")
+      ->needs(json);
+  return simulate;
+}
+
+CLI::App* add_detect(CLI::App& cli, Options& options) {
+  DetectOptions& d = options.detect;
+  CLI::App* detect = cli.add_subcommand("detect", "find the contacts in meshes of your own");
+  detect->add_option("FILE", d.files, "OBJ files: consecutive frames; each object is a body")->required();
+  add_common_options(*detect, options);
+  detect->get_option("--tolerance")->required();
+  detect->add_flag("--self,!--no-self", d.self_collision,
+                   "whether pairs of one body count (default: yes; of both, the last one holds)");
+  detect->add_option("--rest", d.rest, "bodies at rest: no pair of one body counts that is closer than H there")
+      ->type_name("FILE");
+  detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
+      ->type_name("K")
+      ->transform(whole_number_from(1, 100'000));
+  detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
+  detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
+  detect->add_flag("--json", options.json, "print one JSON document instead of a table");
+  return detect;
+}
+
+CLI::App* add_report(CLI::App& cli, Options& options) {
+  ReportOptions& r = options.report;
+  CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
+  report->add_option("what", r.name, "detection, contact, solver or stability");
+  report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
+  report->add_flag("--quick", r.quick, "within a minute: fewer scenes, states and repetitions");
+  report
+      ->add_option(
+          "--threads", r.threads,
+          "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
+          "side (default: all cores)")
+      ->type_name("N")
+      ->transform(whole_number_from(1, 256));
+  report->add_option("--out", r.out, "folder for the report")->type_name("DIR")->required();
+  return report;
+}
+
+/// CLI11 takes an empty value for none at all: `--tolerance ""` would go unnoticed.
+void refuse_empty_values(const CLI::App& command) {
+  for (const CLI::Option* option : command.get_options()) {
+    for (const std::string& value : option->results()) {
+      if (value.empty())
+        throw UsageError(option->get_name() + ": the value is empty; give one or leave the option out");
+    }
+  }
+  for (const CLI::App* below : command.get_subcommands()) refuse_empty_values(*below);
+}
+
+/// Values of flags are added up by CLI11, which throws what is no error of its own at `--self=maybe`.
+void refuse_values_of_flags(CLI::App& command) {
+  for (CLI::Option* option : command.get_options()) option->disable_flag_override();
+  for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
+}
+
+void check(const Options& options) {
+  if (!softbody::find_integrator(options.integrator))
+    throw UsageError("--integrator " + options.integrator + ": unknown; use one of: " + softbody::integrator_keys());
+  if (options.contact_surface && !softbody::find_contact_surface(*options.contact_surface))
+    throw UsageError("--contact-surface " + *options.contact_surface +
+                     ": unknown; use one of: " + softbody::contact_surface_keys());
+  if (!(options.frame_time >= 1e-6 && options.frame_time <= 1))
+    throw UsageError("--dt: must be a number of seconds from 1e-6 to 1, e.g. 0.0166667");
+  if (options.obj_every && *options.obj_every > options.frames)
+    throw UsageError("--obj-every " + std::to_string(*options.obj_every) + ": lies beyond --frames " +
+                     std::to_string(options.frames) + ", so that no file would be written");
+}
+
+/// What scene files take: a scene that is saved is to be read again.
+void check_lengths(const DetectionOptions& options, const collide::Settings& settings) {
+  const auto check = [](const std::string& option, glm::vec3 metres, double most) {
+    if (glm::any(glm::lessThan(metres, glm::vec3(softbody::least_length))) ||
+        glm::any(glm::greaterThan(metres, glm::vec3(most))))
+      throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
+  };
+  if (options.tolerance)
+    check(format("--tolerance %.9g", *options.tolerance), glm::vec3(settings.tolerance), softbody::most_tolerance);
+  if (!automatic_cell_size(options, true))
+    check("--cell-size " + *options.cell_size, settings.cell_size, softbody::most_length);
+}
+
+}  // namespace
+
+std::optional<Options> parse_options(int argc, const char* const* argv) {
+  Options options;
+  options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  options.integrator = softbody::default_integrator;
+  std::string size, captures;
+
+  CLI::App cli{
+      "Soft spheres fall on a solid sphere while a detector finds their collisions and self-collisions.\n"
+      "Without a command it opens the demo window.",
+      "sbcollide"};
+  cli.set_version_flag("--version", SBCOLLIDE_VERSION);
+  cli.require_subcommand(0, 1);
+  add_scene_options(cli, options);
+  cli.add_option("--size", size, "size of the window or the pictures in pixels")->type_name("WxH");
+  cli.add_option("--mesh", options.meshes, "OBJ files whose bodies join the scene in the window")
+      ->type_name("FILE.obj")
+      ->check(CLI::ExistingFile);
+
+  const CLI::App* simulate = add_simulate(cli, options, size, captures);
+  const CLI::App* detect = add_detect(cli, options);
+  const CLI::App* report = add_report(cli, options);
+  CLI::App* list = cli.add_subcommand("list", "print keys and names, a line each");
+  list->add_option("what", options.list_of, "scenes, methods, integrators or contact-surfaces")
+      ->check(CLI::IsMember({"scenes", "methods", "integrators", "contact-surfaces"}));
+  refuse_values_of_flags(cli);
+
+  try {
+    cli.parse(argc, argv);
+  } catch (const CLI::Success& asked) {
+    cli.exit(asked);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    const auto below = cli.get_subcommands();
+    const std::string command = below.empty() ? "" : below.front()->get_name() + " ";
+    throw UsageError(reason(error) + "; see sbcollide " + command + "--help");
+  }
+  if (*report && options.report.name.empty())
+    throw UsageError("report: say which one: detection, contact, solver or stability");
+  if (*list && options.list_of.empty())
+    throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
+  refuse_empty_values(cli);
+  options.command = *simulate ? Command::simulate
+                    : *detect ? Command::detect
+                    : *report ? Command::report
+                    : *list   ? Command::list
+                              : Command::demo;
+  if (!options.meshes.empty() && options.command != Command::demo)
+    throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
+  if (!size.empty()) parse_size(size, options);
+  options.size_given = !size.empty();
+  if (simulate->count("--capture")) parse_captures(captures, options);
+  check(options);
+  options.report.cores = options.threads;
+  return options;
+}
+
+softbody::Scene load_scene(const Options& options) {
+  if (options.scene.ends_with(".obj"))
+    throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
+  softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
+  scene.method = chosen_method(options.detection, scene.method).key;
+  apply(options.detection, scene.collision);
+  check_lengths(options.detection, scene.collision);
+  scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
+  if (options.self_collision) scene.collision.self_collision = *options.self_collision;
+  if (options.view) scene.view = *options.view;
+  if (options.contact_surface) scene.contact_surface = softbody::find_contact_surface(*options.contact_surface)->value;
+  return scene;
+}
+
+}  // namespace app

@@ -1,0 +1,59 @@
+#pragma once
+// The command line as plain values. Everything is checked here, once, before anything runs.
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/base/usage_error.h"
+#include "app/cli/detection_options.h"
+#include "app/report/report.h"
+#include "softbody/scene.h"
+
+namespace app {
+
+enum class Command { demo, simulate, detect, report, list };
+
+/// What only `detect` has.
+struct DetectOptions {
+  std::vector<std::string> files;                 // OBJ, at least one
+  std::optional<std::string> rest;                // OBJ: pairs closer than the tolerance in it are no self-collisions
+  std::optional<std::filesystem::path> contacts;  // CSV to write
+  bool self_collision = true;
+  int repeat = 1;
+  bool reuse = true;  // a detector may use what it learnt from earlier frames
+};
+
+struct Options {
+  Command command = Command::demo;
+  std::string scene = "drop";
+  DetectionOptions detection;
+  std::optional<std::string> contact_surface;  // a key; otherwise the scene's
+  std::optional<bool> self_collision;          // otherwise the scene's
+  std::optional<softbody::View> view;          // otherwise the scene's
+  DetectOptions detect;
+  ReportOptions report;
+  std::string integrator;
+  std::optional<int> substeps;  // a frame, of the integrator's; none: the stability bound's
+  int threads = 1;
+  double frame_time = 1.0 / 60.0;   // s
+  int width = 1280, height = 720;   // pixels
+  bool size_given = false;          // the window opens in this size, whatever it had last
+  std::vector<std::string> meshes;  // OBJ files to open in the window
+  int frames = 800;
+  std::vector<int> captures;     // frames to write a picture of, ascending
+  std::optional<int> obj_every;  // frames between those whose bodies are written as OBJ files
+  std::filesystem::path out = ".";
+  bool json = false;
+  bool oracle = false;  // `simulate --json`: the surface oracle's figures of each frame
+  std::string list_of;  // "scenes", "methods", "integrators" or "contact-surfaces"
+};
+
+/// Throws UsageError. Nothing if help or the version was asked for, which is printed.
+std::optional<Options> parse_options(int argc, const char* const* argv);
+
+/// The scene that the options name, with their settings in it. Throws UsageError or SceneError.
+softbody::Scene load_scene(const Options& options);
+
+}  // namespace app

@@ -1,0 +1,239 @@
+#include "app/cli/simulate.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <iostream>
+#include <set>
+
+#include <nlohmann/json.hpp>
+
+#include "app/compare/world_oracle.h"
+#include "app/files/obj_write.h"
+#include "app/files/output_file.h"
+#include "softbody/measures.h"
+#if SBCOLLIDE_GRAPHICS
+#include "app/render/capture.h"
+#endif
+
+namespace app {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+/// Figures of one frame.
+struct FrameRow {
+  int frame;
+  double time;  // s
+  softbody::Profile profile;
+  std::uint64_t bodies, self, solid;  // contacts
+  softbody::Measures measures;
+  std::optional<collide::oracle::SurfaceFigures> oracle;  // if asked for
+};
+
+FrameRow take_row(const softbody::World& world) {
+  const auto& d = world.detection();
+  return {world.frame(),
+          world.time(),
+          world.profile(),
+          d.contacts.size() - d.self_contacts,
+          d.self_contacts,
+          world.solid_contacts().size(),
+          softbody::measure(world),
+          {}};
+}
+
+Json to_json(const collide::oracle::SurfaceFigures& f) {
+  return {{"penetrating_vertices", f.penetrating_vertices},
+          {"overlapping_pairs", f.overlapping_pairs},
+          {"self_intersecting_bodies", f.self_intersecting_bodies},
+          {"deepest", f.deepest},
+          {"mean_depth", f.mean_depth},
+          {"crossed_vertices", f.crossed_vertices},
+          {"edge_crossings", f.edge_crossings}};
+}
+
+Json to_json(const FrameRow& r) {
+  const softbody::Measures& m = r.measures;
+  const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
+  Json row{{"frame", r.frame},
+           {"time", r.time},
+           {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
+           {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
+           {"energy", m.energy},
+           {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
+           {"deepest_penetration", m.deepest_penetration},
+           {"max_speed", m.max_speed},
+           {"finite", m.finite}};
+  if (r.oracle) row["oracle"] = to_json(*r.oracle);
+  return row;
+}
+
+Json to_json(const softbody::Plan& plan) {
+  Json stages = Json::array(), left_out = Json::array();
+  for (const softbody::Stage s : plan.stages) stages.push_back(softbody::stage_key(s));
+  for (const softbody::LeftOut& l : plan.left_out)
+    left_out.push_back({{"stage", softbody::stage_key(l.stage)}, {"why", l.why}});
+  return {{"stages", stages}, {"left_out", left_out}};
+}
+
+/// Which one was asked for, which one the last frame was integrated with and, if that was chosen automatically, why.
+Json to_json_integrator(const softbody::World& world) {
+  return {{"key", world.integrator().key},
+          {"used", world.dynamics().used_integrator().key},
+          {"why", world.dynamics().why_integrator()}};
+}
+
+std::string hex(std::uint64_t value) {
+  char text[17];
+  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
+  return text;
+}
+
+void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
+  Json frames = Json::array();
+  for (const FrameRow& r : rows) frames.push_back(to_json(r));
+  const Json document{{"scene", world.scene().key},
+                      {"method", world.method().key},
+                      {"integrator", to_json_integrator(world)},
+                      {"plan", to_json(world.plan())},
+                      {"warnings", warnings(world.method(), world.collision())},
+                      {"frames", frames},
+                      {"state_hash", hex(world.state_hash())}};
+  std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+}
+
+std::string ratio_text(const softbody::Measures& measures, double ratio) {
+  char text[32] = "-";
+  if (measures.has_volume) std::snprintf(text, sizeof text, "%.3f", ratio);
+  return text;
+}
+
+/// About twenty lines, however many frames.
+void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
+  std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
+              world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
+              world.bodies().vertex_count());
+  for (const std::string& warning : warnings(world.method(), world.collision()))
+    std::printf("note: %s\n", warning.c_str());
+  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "between",
+              "inside", "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
+  const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
+    const FrameRow& r = rows[i];
+    const softbody::Measures& m = r.measures;
+    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
+                r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
+                static_cast<unsigned long long>(r.solid), m.energy, ratio_text(m, m.volume_ratio_min).c_str(),
+                ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
+                m.finite ? "" : "  NOT FINITE");
+  }
+  std::printf("integrator: %s", std::string(world.dynamics().used_integrator().name).c_str());
+  if (const std::string why(world.dynamics().why_integrator()); !why.empty()) std::printf(", for %s", why.c_str());
+  std::printf("\nstages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
+  for (const softbody::LeftOut& l : world.plan().left_out)
+    std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
+  std::printf("state hash %s\n", hex(world.state_hash()).c_str());
+}
+
+/// As in the names of files: four digits or more.
+std::string frame_number(int frame) {
+  char text[16];
+  std::snprintf(text, sizeof text, "%04d", frame);
+  return text;
+}
+
+/// Writes the pictures that were asked for; without graphics it refuses before anything runs.
+class Pictures {
+ public:
+  explicit Pictures(const Options& options) : options_(options) {
+    if (options.captures.empty()) return;
+#if SBCOLLIDE_GRAPHICS
+    capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
+    prepare_folder(options.out);
+#else
+    throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
+#endif
+  }
+  void take(const softbody::World& world) {
+    if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
+#if SBCOLLIDE_GRAPHICS
+    capture_->write(world, options_.out / ("frame_" + frame_number(world.frame()) + ".png"));
+#endif
+  }
+
+ private:
+  const Options& options_;
+#if SBCOLLIDE_GRAPHICS
+  std::unique_ptr<Capture> capture_;
+#endif
+};
+
+/// Writes the bodies of every Nth frame, and once more at rest whenever there are others than before.
+class Motion {
+ public:
+  explicit Motion(const Options& options) : options_(options) {
+    if (options.obj_every) prepare_folder(options.out);
+  }
+  void take(const softbody::World& world) {
+    if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
+    const std::string number = frame_number(world.frame());
+    if (!bodies_ || !bodies_->are_those_of(world)) {
+      bodies_.emplace(world);
+      write_file(options_.out / ("rest_" + number + ".obj"), bodies_->at_rest());
+    }
+    const collide::Frame at = world.positions();
+    write_file(options_.out / ("frame_" + number + ".obj"), bodies_->frame(at.x, at.y, at.z));
+  }
+
+ private:
+  const Options& options_;
+  std::optional<MovingBodies> bodies_;
+};
+
+/// What was done to the meshes from files, where it may surprise; each once.
+void print_remarks(const softbody::Scene& scene) {
+  std::set<const softbody::ImportedMesh*> told;
+  for (const softbody::BodySource& body : scene.bodies) {
+    const softbody::ImportedMesh* mesh = body.mesh.imported.get();
+    if (!mesh || !told.insert(mesh).second) continue;
+    if (const std::string text = remarks(mesh->findings); !text.empty())
+      std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.string().c_str(), text.c_str());
+  }
+}
+
+}  // namespace
+
+void simulate(const Options& options) {
+  softbody::World world(load_scene(options), {.threads = options.threads,
+                                              .frame_time = options.frame_time,
+                                              .integrator = options.integrator,
+                                              .substeps = options.substeps});
+  Pictures pictures(options);
+  Motion motion(options);
+  print_remarks(world.scene());
+  const bool progress = isatty(STDERR_FILENO) != 0;
+  WorldOracle oracle(options.oracle ? options.threads : 1);
+  if (options.oracle) oracle.crossings(world);  // from where the first frame starts
+  std::vector<FrameRow> rows;
+  rows.reserve(static_cast<std::size_t>(options.frames));
+  while (world.frame() < options.frames) {
+    world.step();
+    rows.push_back(take_row(world));
+    if (options.oracle)
+      rows.back().oracle =
+          collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+    pictures.take(world);
+    motion.take(world);
+    if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
+  }
+  if (progress) std::fprintf(stderr, "\r%40s\r", "");
+  if (options.json)
+    print_json(world, rows);
+  else
+    print_table(world, rows);
+}
+
+}  // namespace app

@@ -1,0 +1,88 @@
+#include "app/render/pick.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/solids.h"
+
+namespace app {
+namespace {
+
+struct Hit {
+  float distance;
+  glm::vec3 weights;
+};
+
+/// Moeller and Trumbore 1997, from both sides.
+std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
+  const glm::vec3 ab = b - a, ac = c - a, across = glm::cross(ray.direction, ac);
+  const float determinant = glm::dot(ab, across);
+  if (determinant == 0) return std::nullopt;
+  const glm::vec3 from = ray.origin - a, turned = glm::cross(from, ab);
+  const float u = glm::dot(from, across) / determinant, v = glm::dot(ray.direction, turned) / determinant;
+  const float distance = glm::dot(ac, turned) / determinant;
+  if (!(u >= 0 && v >= 0 && u + v <= 1 && distance > 0)) return std::nullopt;
+  return Hit{distance, {1 - u - v, u, v}};
+}
+
+/// Whether the ray's line passes the sphere.
+bool passes(const engine::Ray& ray, const Round& round) {
+  return glm::length(glm::cross(round.centre - ray.origin, ray.direction)) <= round.radius;
+}
+
+/// How far the ray goes before it enters a solid, at most `most`: as far as the nearest solid is away it may go on,
+/// again and again. A solid that the ray starts in is looked through, as it is drawn.
+float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float most) {
+  constexpr double hair = 1e-3;  // m
+  constexpr int most_steps = 300;
+  double nearest = static_cast<double>(most);
+  softbody::for_each_solid(scene, [&](const auto& solid) {
+    double along = 0;
+    for (int i = 0; i < most_steps && along < nearest; ++i) {
+      const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
+      const double away = softbody::surface_at(solid, at).distance;
+      if (i == 0 && away <= 0) return;
+      if (away < hair) nearest = along;
+      along += away;
+    }
+  });
+  return static_cast<float>(nearest);
+}
+
+}  // namespace
+
+Round round_body(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions) {
+  const collide::Index first = world.bodies().first[body], end = world.bodies().first[body + 1];
+  glm::vec3 lo = positions[first], hi = lo;
+  for (collide::Index i = first; i < end; ++i) {
+    lo = glm::min(lo, positions[i]);
+    hi = glm::max(hi, positions[i]);
+  }
+  const glm::vec3 centre = 0.5f * (lo + hi);
+  float radius2 = 0;
+  for (collide::Index i = first; i < end; ++i) {
+    const glm::vec3 away = positions[i] - centre;
+    radius2 = std::max(radius2, glm::dot(away, away));
+  }
+  return {centre, std::sqrt(radius2)};
+}
+
+std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions) {
+  std::optional<Pick> nearest;
+  for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
+    if (!passes(ray, round_body(world, body, positions))) continue;
+    const collide::Index first = world.bodies().first[body];
+    for (const softbody::Triangle& t : world.prototype(body).mesh.triangles) {
+      const auto hit = meet(ray, positions[first + t[0]], positions[first + t[1]], positions[first + t[2]]);
+      if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
+      nearest = Pick{body, t, hit->weights, ray.origin + hit->distance * ray.direction, hit->distance};
+    }
+  }
+  if (nearest && clear_of_solids(ray, world.scene(), nearest->distance) < nearest->distance) return std::nullopt;
+  return nearest;
+}
+
+}  // namespace app

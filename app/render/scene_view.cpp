@@ -1,0 +1,203 @@
+#include "app/render/scene_view.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "app/render/overlay_shapes.h"
+#include "app/render/palette.h"
+
+namespace app {
+namespace {
+
+/// The radius in steps of a quarter, so that bodies rolling away do not make the shadows' resolution crawl.
+float reaching(const glm::vec3& centre, float radius, std::span<const glm::vec3> positions) {
+  float most = 0;
+  for (const glm::vec3& p : positions) {
+    const glm::vec3 d = p - centre;
+    const float distance2 = glm::dot(d, d);
+    if (std::isfinite(distance2)) most = std::max(most, distance2);
+  }
+  const float ratio = std::min(std::sqrt(most) / radius, 8.0f);  // whoever is further off casts no shadow
+  return ratio <= 1.0f ? radius : radius * std::pow(1.25f, std::ceil(std::log(ratio) / std::log(1.25f)));
+}
+
+/// Scenes are composed for wide pictures; in narrower ones the camera steps back, so many times as far, until as much
+/// fits in.
+double step_back(glm::ivec2 size) {
+  constexpr double composed_for = 1.5;
+  return std::clamp(composed_for * std::max(size.y, 1) / std::max(size.x, 1), 1.0, 3.0);
+}
+
+}  // namespace
+
+const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
+  const auto known = meshes_.find(mesh.triangles);
+  if (known != meshes_.end()) return known->second;
+  UploadedMesh uploaded;
+  for (const softbody::Triangle& t : mesh.triangles)
+    uploaded.indices.insert(uploaded.indices.end(), t.begin(), t.end());
+  uploaded.handle = renderer_.add_mesh(uploaded.indices, static_cast<std::uint32_t>(mesh.vertices.size()));
+  return meshes_.emplace(mesh.triangles, std::move(uploaded)).first->second;
+}
+
+void SceneView::gather_positions(const DrawnPositions& positions) {
+  for (std::size_t i = 0; i < positions.size(); ++i) positions_.push_back(positions[i]);
+}
+
+std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& world, std::uint32_t first) {
+  normals_.resize(positions_.size());
+  const collide::Bodies& bodies = world.bodies();
+  std::vector<engine::MeshDraw> draws;
+  const UploadedMesh* mesh = nullptr;
+  const softbody::Prototype* last = nullptr;
+  for (collide::Index b = 0; b < bodies.count(); ++b) {
+    const softbody::Prototype& prototype = world.prototype(b);
+    if (&prototype != last) mesh = &upload(prototype.mesh);
+    last = &prototype;
+    const std::uint32_t begin = first + bodies.first[b], count = bodies.size(b);
+    engine::smooth_normals(mesh->indices, std::span(positions_).subspan(begin, count),
+                           std::span(normals_).subspan(begin, count));
+    draws.push_back({mesh->handle, begin, count, {}});
+  }
+  return draws;
+}
+
+void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions& positions) {
+  const auto first = static_cast<std::uint32_t>(positions_.size());
+  gather_positions(positions);
+  // Where the two worlds hardly differ, neither surface may show through the other in patches.
+  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .recess = 0.05f};
+  for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
+  frame_.translucent.push_back(std::move(set));
+}
+
+/// Bodies that the spotlight does not name are but hinted at, the fainter the more there are to look through; those
+/// that it does may be looked into.
+void SceneView::apply(const Spotlight& spotlight) {
+  const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
+  engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
+      others{.meshes = {}, .opacity = hint, .hides = false};
+  std::vector<engine::MeshDraw> solid;
+  for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
+    engine::MeshDraw& draw = frame_.meshes[b];
+    const bool is_named = std::ranges::count(spotlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
+    if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
+    (!is_named ? others.meshes : spotlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+  }
+  frame_.meshes = std::move(solid);
+  frame_.translucent.push_back(std::move(named));
+  frame_.translucent.push_back(std::move(others));
+}
+
+void SceneView::gather_solids(const softbody::Scene& scene) {
+  constexpr glm::vec3 grey(0.62f);
+  for (const softbody::SolidSphere& s : scene.spheres)
+    frame_.spheres.push_back({glm::vec3(s.centre), static_cast<float>(s.radius), grey});
+  for (const softbody::SolidCapsule& c : scene.capsules)
+    frame_.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius), grey});
+  for (const softbody::SolidBox& b : scene.boxes) {
+    const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
+    frame_.blocks.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
+  }
+  if (scene.ground) frame_.ground = static_cast<float>(scene.ground->height);
+  for (const softbody::SolidPlane& p : scene.planes) {
+    if (!frame_.ground && p.normal == glm::dvec3(0, 1, 0))
+      frame_.ground = static_cast<float>(p.point.y);  // a floor
+    else
+      frame_.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
+  }
+}
+
+void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
+                     const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions) {
+  frame_ = {};
+  frame_.pixel_scale = pixel_scale;
+  // Overlays carry meaning in their colours, so the bodies step back.
+  const bool dimmed = overlays.shown.any() || overlays.bucket;
+  positions_.clear();
+  gather_positions(positions);
+  frame_.meshes = gather_bodies(world, 0);
+  for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b) {
+    const glm::vec3 colour = body_colour(world.body(b).number);
+    frame_.meshes[b].colour = dimmed ? glm::mix(colour, glm::vec3(0.86f), 0.6f) : colour;
+  }
+  const auto vertices = positions_.size();
+  if (overlays.ghost) gather_ghost(*overlays.ghost, overlays.ghost_positions);
+  frame_.positions = positions_;
+  frame_.normals = normals_;
+  if (overlays.spotlight) apply(*overlays.spotlight);
+  frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
+
+  const softbody::Scene& scene = world.scene();
+  gather_solids(scene);
+  const Bounds around = bounds(scene);
+  frame_.bounds_centre = around.centre;
+  frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
+
+  const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
+  add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
+  if (overlays.spotlight) {
+    std::ranges::copy(overlays.spotlight->boxes, std::back_inserter(frame_.boxes));
+    std::ranges::copy(overlays.spotlight->lines, std::back_inserter(frame_.lines));
+    std::ranges::copy(overlays.spotlight->points, std::back_inserter(frame_.points));
+  }
+  renderer_.draw(camera, viewport, frame_);
+}
+
+double SceneView::radius(const softbody::MeshSource& source) {
+  const auto known = std::ranges::find(radii_, source, &std::pair<softbody::MeshSource, double>::first);
+  if (known != radii_.end()) return known->second;
+  return radii_.emplace_back(source, softbody::bounding_radius(source.make())).second;
+}
+
+/// A sphere round the scene as it is set up: solids and where bodies start.
+SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
+  glm::dvec3 lo = scene.view.target, hi = scene.view.target;
+  const auto include = [&](const glm::dvec3& centre, double reach) {
+    lo = glm::min(lo, centre - reach);
+    hi = glm::max(hi, centre + reach);
+  };
+  for (const softbody::SolidSphere& s : scene.spheres) include(s.centre, s.radius);
+  for (const softbody::SolidBox& b : scene.boxes) include(b.centre, glm::length(b.half_size));
+  for (const softbody::SolidCapsule& c : scene.capsules) {
+    include(c.from, c.radius);
+    include(c.to, c.radius);
+  }
+  for (const softbody::BodySource& body : scene.bodies) include(body.position, radius(body.mesh));
+  if (scene.dropper) include(scene.dropper->body.position, radius(scene.dropper->body.mesh));
+  return {glm::vec3(0.5 * (lo + hi)), static_cast<float>(0.5 * glm::distance(lo, hi)) + 0.5f};
+}
+
+engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) {
+  const Bounds around = bounds(scene);
+  engine::Camera camera;
+  camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
+  if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));
+  const softbody::View& view = scene.view;
+  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * step_back(size)),
+                    static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});
+  return camera;
+}
+
+void SceneView::refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to) {
+  engine::Orbit orbit = camera.orbit();
+  orbit.distance *= static_cast<float>(step_back(to) / step_back(from));
+  camera.set_orbit(orbit);
+}
+
+softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {
+  const auto rounded = [](double value) { return std::round(value * 1e4) / 1e4; };
+  const engine::Orbit& orbit = camera.orbit();
+  softbody::View view;
+  for (int k = 0; k < 3; ++k) view.target[k] = rounded(double{orbit.target[k]});
+  view.distance = std::max(rounded(double{orbit.distance} / step_back(size)), 1e-4);
+  view.azimuth = rounded(std::remainder(glm::degrees(double{orbit.azimuth}), 360.0));
+  view.elevation = rounded(glm::degrees(double{orbit.elevation}));
+  return view;
+}
+
+}  // namespace app

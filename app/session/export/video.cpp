@@ -1,0 +1,212 @@
+// Video by ffmpeg, a child process that is fed with pictures.
+
+#include <fcntl.h>
+#include <spawn.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <csignal>
+#include <cstring>
+#include <span>
+#include <thread>
+#include <utility>
+
+#include "app/base/usage_error.h"
+#include "app/files/output_file.h"
+#include "app/session/export/frame_writers.h"
+
+extern char** environ;
+
+namespace app {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int patience = 30;  // s, that ffmpeg may take for one picture, and for the end
+
+/// Closes it.
+class Descriptor {
+ public:
+  explicit Descriptor(int number = -1) : number_(number) {}
+  ~Descriptor() {
+    if (number_ >= 0) ::close(number_);
+  }
+  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  Descriptor& operator=(Descriptor&& other) noexcept {
+    std::swap(number_, other.number_);
+    return *this;
+  }
+  int number() const { return number_; }
+
+ private:
+  int number_;
+};
+
+/// A running ffmpeg. A socket in place of a pipe: when ffmpeg dies, sending fails instead of ending this program too.
+class Ffmpeg {
+ public:
+  /// Throws UsageError if there is none.
+  explicit Ffmpeg(const std::vector<std::string>& arguments) {
+    std::array<int, 2> pictures{}, errors{};
+    if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
+    const Descriptor input(pictures[1]);
+    pictures_ = Descriptor(pictures[0]);
+    if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);
+    const Descriptor output(errors[1]);
+    errors_ = Descriptor(errors[0]);
+    const timeval limit{patience, 0};
+    ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
+    if (const int error = spawn(arguments, input.number(), output.number())) refuse(error);
+  }
+  ~Ffmpeg() {
+    if (child_ <= 0) return;
+    ::kill(child_, SIGKILL);
+    ::waitpid(child_, nullptr, 0);
+  }
+  Ffmpeg(const Ffmpeg&) = delete;
+  Ffmpeg& operator=(const Ffmpeg&) = delete;
+
+  /// False if it takes no more.
+  bool send(std::span<const std::uint8_t> bytes) {
+    while (!bytes.empty()) {
+      const auto sent = ::send(pictures_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
+      if (sent < 0 && errno == EINTR) continue;
+      if (sent <= 0) return false;
+      bytes = bytes.subspan(static_cast<std::size_t>(sent));
+    }
+    return true;
+  }
+
+  /// No more pictures: waits for the end; true if ffmpeg says that all went well. To be called once.
+  bool finish() {
+    pictures_ = Descriptor();
+    if (child_ <= 0) return false;
+    int status = 0;
+    for (int tenth = 0; tenth < 10 * patience; ++tenth) {
+      if (::waitpid(child_, &status, WNOHANG) == child_) {
+        child_ = 0;
+        return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+      }
+      std::this_thread::sleep_for(std::chrono::milliseconds(100));
+    }
+    return false;
+  }
+
+  /// The last line that it has said on standard error; call it after finish().
+  std::string last_words() const {
+    std::string text(4096, '\0');
+    ::fcntl(errors_.number(), F_SETFL, O_NONBLOCK);
+    const auto length = ::read(errors_.number(), text.data(), text.size());
+    text.resize(length > 0 ? static_cast<std::size_t>(length) : 0);
+    while (!text.empty() && text.back() == '\n') text.pop_back();
+    text.erase(0, text.rfind('\n') + 1);
+    return text.empty() ? "it does not say why" : text;
+  }
+
+ private:
+  [[noreturn]] static void refuse(int error) {
+    if (error == ENOENT)
+      throw UsageError(
+          "a video needs ffmpeg, which is not there: install it (apt-get install ffmpeg), or record pictures");
+    throw UsageError(std::string("ffmpeg cannot be started: ") + std::strerror(error));
+  }
+
+  int spawn(const std::vector<std::string>& arguments, int input, int errors) {
+    posix_spawn_file_actions_t actions;
+    ::posix_spawn_file_actions_init(&actions);
+    ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
+    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
+    std::vector<std::string> words = arguments;
+    std::vector<char*> argv;
+    for (std::string& word : words) argv.push_back(word.data());
+    argv.push_back(nullptr);
+    const int error = ::posix_spawnp(&child_, argv[0], &actions, nullptr, argv.data(), environ);
+    ::posix_spawn_file_actions_destroy(&actions);
+    return error;
+  }
+
+  Descriptor pictures_, errors_;
+  pid_t child_ = 0;
+};
+
+class VideoWriter : public FrameWriter {
+ public:
+  explicit VideoWriter(const fs::path& folder)
+      : file_(next_free(folder, "video", ".mp4")), part_(file_.string() + ".part") {
+    prepare_folder(folder, "");
+  }
+  ~VideoWriter() override {
+    std::error_code ignored;
+    if (started_) fs::remove(part_, ignored);
+  }
+
+  void write(const RecordedFrame& frame) override {
+    const engine::Image& picture = frame.picture;
+    if (!ffmpeg_) begin(picture);
+    if (picture.width != width_ || picture.height != height_) {
+      finish();
+      throw UsageError("the size of the picture has changed, and a video has but one: it ends there, " + name());
+    }
+    if (!ffmpeg_->send(picture.rgba)) {
+      ffmpeg_->finish();
+      fail();
+    }
+  }
+
+  void finish() override {
+    if (!ffmpeg_) return;  // not a single frame
+    if (!ffmpeg_->finish()) fail();
+    ffmpeg_.reset();
+    fs::rename(part_, file_);
+  }
+
+  std::string name() const override { return file_.string(); }
+
+ private:
+  void begin(const engine::Image& picture) {
+    width_ = picture.width;
+    height_ = picture.height;
+    const std::string size = std::to_string(width_) + "x" + std::to_string(height_);
+    started_ = true;
+    // The codec wants even sides.
+    ffmpeg_ = std::make_unique<Ffmpeg>(std::vector<std::string>{"ffmpeg",
+                                                                "-nostdin",
+                                                                "-y",
+                                                                "-loglevel",
+                                                                "error",
+                                                                "-f",
+                                                                "rawvideo",
+                                                                "-pix_fmt",
+                                                                "rgba",
+                                                                "-s",
+                                                                size,
+                                                                "-r",
+                                                                "60",
+                                                                "-i",
+                                                                "pipe:0",
+                                                                "-vf",
+                                                                "crop=trunc(iw/2)*2:trunc(ih/2)*2",
+                                                                "-pix_fmt",
+                                                                "yuv420p",
+                                                                "-f",
+                                                                "mp4",
+                                                                part_.string()});
+  }
+
+  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words()); }
+
+  fs::path file_, part_;
+  int width_ = 0, height_ = 0;
+  bool started_ = false;
+  std::unique_ptr<Ffmpeg> ffmpeg_;
+};
+
+}  // namespace
+
+std::unique_ptr<FrameWriter> make_video_writer(const fs::path& folder) { return std::make_unique<VideoWriter>(folder); }
+
+}  // namespace app

@@ -1,0 +1,182 @@
+#include "app/session/import.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include <glm/vec3.hpp>
+
+#include "app/base/text.h"
+#include "softbody/measures.h"
+#include "softbody/obj_file.h"
+#include "softbody/prototype_set.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t many_vertices = 10'000;
+// In tolerances. A vertex over the middle of a regular face is 1 / sqrt(3) of its edge away from the corners.
+constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
+
+/// The height at which a ball of this radius is clear of what is below, from `at` upwards.
+double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
+  const double gap = radius + static_cast<double>(world.collision().tolerance);
+  const collide::Frame p = world.positions();
+  for (std::size_t i = 0; i < p.x.size(); ++i)
+    if (std::hypot(double{p.x[i]} - at.x, double{p.z[i]} - at.z) < gap) at.y = std::max(at.y, double{p.y[i]} + gap);
+  constexpr int most_tries = 1000;  // a scene may be solid all the way up
+  for (int i = 0; i < most_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
+  return at.y;
+}
+
+std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::World& world) {
+  const softbody::MeshSource& mesh = read.mesh;
+  const softbody::ImportFindings& f = mesh.imported->findings;
+  std::array<char, 96> scale{};
+  std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
+  std::vector<std::string> lines{mesh.file.path.filename().string() + ": " +
+                                     grouped(mesh.imported->mesh.vertices.size()) + " vertices, " +
+                                     grouped(mesh.imported->mesh.triangles.size()) + " triangles",
+                                 scale.data()};
+  const std::string changed = softbody::remarks(f);
+  if (mesh.imported->mesh.vertices.size() > many_vertices)
+    lines.push_back("so many vertices that the world may run slower than real time");
+  if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
+    const double edge = read.prototype->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
+    if (edge < finest_edge * tolerance)
+      lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
+    if (edge > coarsest_edge * tolerance)
+      lines.push_back("faces wider than the tolerance: vertices may slip in between vertices, F is for surfaces");
+  }
+  lines.push_back(changed.empty() ? "closed, in one piece, taken as it is" : changed);
+  return lines;
+}
+
+}  // namespace
+
+FileReader::Answer FileReader::answer(const Question& question, const std::stop_token&) const {
+  try {
+    if (const auto* file = std::get_if<softbody::MeshFile>(&question)) {
+      Mesh read{softbody::MeshSource::from_file(*file), nullptr};
+      read.prototype = softbody::shared_prototype(read.mesh, imported_material(read.mesh.imported->findings.extent));
+      return read;
+    }
+    const auto& [path, threads] = std::get<SceneToRead>(question);
+    softbody::Scene scene = softbody::load_scene(path);
+    auto world = std::make_unique<softbody::World>(
+        scene, softbody::World::Options{.threads = threads, .max_work = softbody::work_of_a_window});
+    return World{path, std::move(scene), std::move(world)};
+  } catch (const std::exception& error) {
+    return std::string(error.what());
+  }
+}
+
+softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh) {
+  const softbody::Scene& scene = world.scene();
+  softbody::BodySource body;
+  const double radius = softbody::bounding_radius(mesh.imported->mesh);
+  body.mesh = std::move(mesh);
+  const glm::dvec3 at = scene.dropper ? scene.dropper->body.position : scene.view.target + glm::dvec3(0, 1, 0);
+  body.position = {at.x, clear_height(world, at, radius), at.z};
+  return body;
+}
+
+softbody::Material imported_material(double extent) {
+  softbody::Material m;
+  m.name = "imported";
+  m.mass = std::clamp(extent * extent * extent, 0.01, 1000.0);
+  m.structural = {200 * m.mass, 0.1};
+  m.bend = {50 * m.mass, 0.1};
+  m.contact_stiffness = 100 * m.mass;
+  m.internal_damping = 10;
+  m.rebound_speed = 2;
+  m.rolling_resistance = 0.3;
+  return m;
+}
+
+std::string Import::progress() const {
+  if (!reading_) return {};
+  const auto seconds =
+      std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now() - began_).count();
+  return "reading " + std::filesystem::path(path).filename().string() +
+         (seconds > 0 ? ": " + std::to_string(seconds) + " s so far" : "");
+}
+
+void Import::add(Verdict verdict) {
+  report_.push_back(std::move(verdict));
+  if (report_.size() <= most_verdicts) return;
+  const auto newest = report_.end() - 1, oldest = std::ranges::find(report_.begin(), newest, false, &Verdict::refused);
+  if (oldest != newest) report_.erase(oldest);
+}
+
+void Import::refuse(Session& session, const std::string& why) {
+  add({.lines = {why}, .refused = true});
+  session.set_notice("");  // the report says it
+}
+
+void Import::load(Session& session) {
+  if (path.empty() || reading_) return;
+  report_.clear();
+  open(session);
+}
+
+void Import::open(Session& session) {
+  const std::filesystem::path file(path);
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.threads()});
+  std::string ending = file.extension().string();
+  std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
+  softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}};
+  if (z_is_up) mesh.up = {0, 0, 1};
+  read(std::move(mesh));
+}
+
+void Import::read(FileReader::Question question) {
+  reading_ = true;
+  began_ = std::chrono::steady_clock::now();
+  reader_.offer(std::move(question));
+}
+
+void Import::drop(const std::vector<std::string>& files, Session& session) {
+  dropped_.insert(dropped_.end(), files.begin(), files.end());
+  follow(session);
+}
+
+void Import::follow(Session& session) {
+  if (auto answer = reader_.take()) {
+    reading_ = false;
+    take(session, std::move(*answer));
+  }
+  if (reading_ || dropped_.empty()) return;
+  path = dropped_.front();
+  dropped_.erase(dropped_.begin());
+  open(session);
+}
+
+void Import::take(Session& session, FileReader::Answer answer) {
+  if (const auto* why = std::get_if<std::string>(&answer)) return refuse(session, *why);
+  if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(*mesh));
+  enter(session, std::move(std::get<FileReader::World>(answer)));
+}
+
+void Import::enter(Session& session, FileReader::World answer) {
+  try {
+    session.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
+    add({.lines = {"scene " + answer.path.filename().string()}});
+  } catch (const std::exception& error) {
+    refuse(session, error.what());
+  }
+}
+
+void Import::join(Session& session, FileReader::Mesh read) {
+  const std::string name = read.mesh.file.path.filename().string();
+  std::vector<std::string> lines = lines_about(read, session.world());
+  softbody::Material material = imported_material(read.mesh.imported->findings.extent);
+  session.add_body(place_above(session.world(), std::move(read.mesh)), std::move(material));
+  if (!session.notice().empty()) return refuse(session, name + ": " + session.notice());
+  add({.lines = std::move(lines)});
+}
+
+}  // namespace app

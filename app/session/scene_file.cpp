@@ -1,0 +1,103 @@
+#include "app/session/scene_file.h"
+
+#include <algorithm>
+
+#include "app/files/output_file.h"
+#include "softbody/scene_write.h"
+#include "softbody/toml_text.h"
+
+namespace app {
+namespace fs = std::filesystem;
+namespace {
+
+/// The scene without all that the command line has options for.
+softbody::Scene without_options(softbody::Scene scene) {
+  const softbody::Scene plain;
+  scene.key = plain.key;  // of the file's name
+  scene.method = plain.method;
+  scene.contact_surface = plain.contact_surface;
+  scene.collision = plain.collision;
+  scene.default_cell_size = plain.default_cell_size;
+  scene.view = plain.view;
+  return scene;
+}
+
+std::string three(const auto& values) {
+  return softbody::toml_value(values[0]) + "," + softbody::toml_value(values[1]) + "," +
+         softbody::toml_value(values[2]);
+}
+
+/// As --view takes it.
+std::string view_text(const softbody::View& v) {
+  std::string text = three(v.target);
+  for (const double value : {v.distance, v.azimuth, v.elevation}) text.append(",").append(softbody::toml_value(value));
+  return text;
+}
+
+}  // namespace
+
+SceneFile::SceneFile(const std::string& key_or_path, softbody::Scene content)
+    : name_(key_or_path.ends_with(".toml") ? fs::absolute(key_or_path).string() : key_or_path),
+      content_(without_options(std::move(content))) {}
+
+SceneFile SceneFile::save(softbody::Scene scene, const fs::path& file) {
+  if (file.extension() != ".toml") throw softbody::SceneError("a scene's file must end in .toml, e.g. scene.toml");
+  write_file(file, softbody::scene_toml(scene, file.parent_path()));
+  return {file.string(), std::move(scene)};
+}
+
+bool SceneFile::makes(const softbody::Scene& used) const { return without_options(used) == content_; }
+
+std::string shell_word(const std::string& text) {
+  constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
+  if (!text.empty() && text.find_first_not_of(plain) == text.npos) return text;
+  std::string word = "'";
+  for (const char c : text) c == '\'' ? word.append("'\\''") : word.append(1, c);
+  return word + "'";
+}
+
+namespace {
+
+/// A space before each.
+std::string scene_options(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+  const collide::Settings& c = used.collision;
+  std::string text;
+  const auto add = [&text](const char* option, const std::string& value) {
+    text.append(1, ' ').append(option).append(1, ' ').append(shell_word(value));
+  };
+  add("--scene", name);
+  add("--method", used.method);
+  add("--levels", std::to_string(c.levels));
+  add("--buckets", std::to_string(c.buckets));
+  add("--cell-size", used.default_cell_size ? "auto" : three(c.cell_size));
+  if (c.primes != collide::default_primes) add("--primes", three(c.primes));
+  add("--tolerance", softbody::toml_value(c.tolerance));
+  text += c.self_collision ? " --self" : " --no-self";
+  for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
+    if (info.value == used.contact_surface) add("--contact-surface", std::string(info.key));
+  if (integrator.key != softbody::default_integrator) add("--integrator", integrator.key);
+  if (integrator.substeps) add("--substeps", std::to_string(*integrator.substeps));
+  add("--view", view_text(used.view));
+  return text;
+}
+
+std::string this_program() {
+  std::error_code failed;
+  const fs::path program = fs::read_symlink("/proc/self/exe", failed);
+  return shell_word(failed ? "sbcollide" : program.string());
+}
+
+}  // namespace
+
+std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+  return this_program() + scene_options(name, used, integrator);
+}
+
+std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
+                             int frame) {
+  const std::string number = std::to_string(std::max(frame, 1));  // nothing is drawn before the first
+  return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
+         number;
+}
+
+}  // namespace app

@@ -1,0 +1,282 @@
+#include "app/ui/compare_view.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/render/palette.h"
+
+namespace app {
+namespace {
+
+constexpr std::size_t median_of = 15;  // measurements
+
+enum ColumnIndex { run, name, time, tests, hashes, contacts, recall, precision, plot, misses, column_count };
+
+struct Column {
+  const char* label;
+  float width;  // design pixels; 0: what is left
+  bool right;   // numbers end where the column ends
+  const char* tooltip;
+};
+
+constexpr std::array<Column, column_count> columns{{
+    {"", 26, false, nullptr},
+    {"Method", 194, false,
+     "Click a name, and the method drives the bodies. The driver's row is shaded; it is scored by what it really "
+     "found."},
+    {"Time", 112, true,
+     "Median of the last 15 measurements of the detector, in ms: positions to finished contacts, on one core, each "
+     "method with its own detector, in shuffled order. The bar compares it with the slowest (§3)."},
+    {"Pair tests", 96, true, "Distances evaluated between vertices (§2.3)."},
+    {"Hashes", 80, true, "Evaluations of the hash function; eight corners a box for the literal method (§2.2)."},
+    {"Contacts", 72, true,
+     "Pairs of vertices found closer than the tolerance, between and inside bodies (§2.3, §2.4)."},
+    {"Recall", 96, true,
+     "Found true contacts over all true contacts. Green: exact, misses nothing. Amber: literal, every box fits a cell. "
+     "Red: literal, a box exceeds a cell, so its corners skip cells (§2.2)."},
+    {"Precision", 78, true,
+     "Found true contacts over all contacts found: 1 unless a method reports what is none (§2.3)."},
+    {"Latest times", 0, false, "The last measurements, oldest at the left, all on one axis."},
+    {"Misses", 56, true, "Whose missed contacts the overlay shows (key 6); the driver's at first."},
+}};
+constexpr float least_plot = 70, column_gap = 10;                    // design pixels
+constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
+
+/// Design pixels that all columns take.
+float least_inside() {
+  float least = least_plot;
+  for (const Column& column : columns) least += column.width;
+  return least;
+}
+
+/// Where columns begin and end, in screen coordinates, and the line that is being drawn.
+class Grid {
+ public:
+  Grid(const Widgets& w, float left, float width) {
+    float rest = width;
+    for (const Column& column : columns) rest -= w.px(column.width);
+    for (std::size_t i = 0; i < column_count; ++i) {
+      left_[i] = left;
+      left += columns[i].width > 0 ? w.px(columns[i].width) : rest;
+      right_[i] = left - w.px(column_gap);
+    }
+    height_ = ImGui::GetFrameHeight();
+  }
+  void next_line() { top_ = ImGui::GetCursorScreenPos().y; }
+  float left(ColumnIndex i) const { return left_[i]; }
+  float right(ColumnIndex i) const { return right_[i]; }
+  float top() const { return top_; }
+  float text_top() const { return top_ + 0.5f * (height_ - ImGui::GetTextLineHeight()); }
+  float height() const { return height_; }
+
+  /// Text on no item's account: it moves nothing, whatever it says.
+  void text(ColumnIndex i, const std::string& text, bool pale = false) const {
+    const float end = right_[i] - (columns[i].right ? ImGui::CalcTextSize(text.c_str()).x : right_[i] - left_[i]);
+    ImGui::GetWindowDrawList()->AddText({std::floor(end), text_top()},
+                                        ImGui::GetColorU32(pale ? ImGuiCol_TextDisabled : ImGuiCol_Text), text.c_str());
+  }
+  /// An invisible item over the column's cell, for a tooltip.
+  void cell(Widgets& w, ColumnIndex i, const char* label, const char* tooltip) const {
+    ImGui::SetCursorScreenPos({left_[i], top_});
+    ImGui::Dummy({right_[i] - left_[i], height_});
+    w.done(label, tooltip);
+  }
+
+ private:
+  std::array<float, column_count> left_{}, right_{};
+  float top_ = 0, height_;
+};
+
+/// What all rows have in common.
+struct Scale {
+  float slowest = 0;  // ms: the largest median
+  float axis = 1;     // ms: the top of the plots
+};
+
+Scale common_scale(const Session& session) {
+  Scale scale;
+  float most = 0;
+  for (const Ring& times : session.history().method_ms) {
+    scale.slowest = std::max(scale.slowest, times.median(median_of));
+    most = std::max(most, times.largest());
+  }
+  scale.axis = axis_end(most, 0.1f);
+  return scale;
+}
+
+/// One method's row.
+struct Row {
+  std::size_t index;
+  const collide::Method& method;
+  const CompareRow* measured;  // nullptr before the first report
+  bool chosen, drives, is_reference;
+
+  std::string label(const char* what) const { return std::string("###") + what + " " + std::string(method.name); }
+  bool scored() const { return measured && measured->scored; }
+};
+
+void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& grid, const Row& row) {
+  if (row.method.key != collide::reference_method) {
+    ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
+    bool on = row.chosen;
+    if (w.checkbox(row.label("Run").c_str(), on, "Whether the method runs beside the driver.")) {
+      session.compare.methods[row.index] = on;
+    }
+  }
+  ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
+  const bool shown = session.misses_of() == row.index;
+  if (w.radio(row.label("Misses of").c_str(), shown, "Shows what this method misses, in the scene.")) {
+    session.compare.misses_of = row.index;
+    show_misses = true;
+  }
+}
+
+/// True if its name was clicked.
+bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
+  ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
+  w.chip(row.method.colour, grid.height());
+  const float left = ImGui::GetItemRectMax().x + w.px(6);
+  ImGui::SetCursorScreenPos({left, grid.text_top()});
+  const std::string text = std::string(row.method.name) + row.label("Drive"), tooltip(row.method.summary);
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+  const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
+  ImGui::PopStyleColor();
+  w.done(text.c_str(), tooltip.c_str());
+  return clicked;
+}
+
+void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
+  const Ring& times = session.history().method_ms[row.index];
+  if (times.size() == 0) {
+    const bool reference = row.is_reference && row.scored();
+    if (reference)
+      grid.text(time, format("%.2f ms", session.comparison().reference_ms), true);
+    else if (row.scored())
+      grid.text(time, "not timed", true);
+    return;
+  }
+  const float median = times.median(median_of);
+  const float length = (grid.right(time) - grid.left(time)) * (scale.slowest > 0 ? median / scale.slowest : 0.0f);
+  const float inset = w.px(2);
+  ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
+                                            {grid.left(time) + length, grid.top() + grid.height() - inset},
+                                            to_imgui(row.method.colour, 0.45f), w.px(2));
+  grid.text(time, format("%.2f ms", static_cast<double>(median)));
+}
+
+void draw_score(Widgets& w, const Grid& grid, const Row& row) {
+  const CompareRow& found = *row.measured;
+  grid.text(tests, grouped(found.counters.pair_tests));
+  grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
+  grid.text(contacts, grouped(found.contacts));
+  const Light light = light_of(found.coverage);
+  ImGui::SetCursorScreenPos({grid.left(recall) + w.px(4), grid.text_top()});
+  w.dot(light.colour);
+  if (row.is_reference) {
+    grid.text(recall, "reference", true);
+  } else {
+    const bool misses_some = found.recall < 1;
+    if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
+    grid.text(recall, format("%.4f", rounded_down(found.recall)));
+    if (misses_some) ImGui::PopStyleColor();
+    grid.text(precision, format("%.4f", rounded_down(found.precision)));
+  }
+  const std::string tip = std::string(light.name) + ": " + light.sentence +
+                          " Missed now: " + grouped(found.missed.size()) +
+                          (found.missed.size() == 1 ? " contact." : " contacts.");
+  grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
+}
+
+/// Beside its time, if there is one.
+void draw_reason(const Session& session, const Grid& grid, const Row& row) {
+  std::string reason = row.chosen ? "measuring" : "not chosen";
+  if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
+  const bool timed = session.history().method_ms[row.index].size() > 0;
+  ImGui::GetWindowDrawList()->AddText({grid.left(timed ? tests : time), grid.text_top()},
+                                      ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
+}
+
+void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const Row& row, const Scale& scale) {
+  grid.next_line();
+  if (row.drives) {
+    ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
+                                              {grid.right(misses) + w.px(4), grid.top() + grid.height()},
+                                              ImGui::GetColorU32(ImGuiCol_Header, 0.55f), w.px(3));
+  }
+  const bool drive = draw_name(w, grid, row);
+  draw_time(w, session, grid, row, scale);
+  if (row.scored())
+    draw_score(w, grid, row);
+  else
+    draw_reason(session, grid, row);
+  const Ring& times = session.history().method_ms[row.index];
+  if (times.size() > 0) {
+    ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
+    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis}, row.method.colour, "ms",
+                grid.right(plot) - grid.left(plot));
+  }
+  draw_switches(w, session, show_misses, grid, row);
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
+  if (drive) session.set_method(row.method.key);
+}
+
+void draw_head(Widgets& w, Session& session, Grid& grid) {
+  grid.next_line();
+  for (std::size_t i = 0; i < column_count; ++i) {
+    const auto at = static_cast<ColumnIndex>(i);
+    grid.text(at, columns[i].label, true);
+    grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
+  }
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.compare.on = false;
+  ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
+}
+
+std::string footing(const Session& session) {
+  const CompareReport& report = session.comparison();
+  std::string text = reference_sentence(report) + ".";
+  if (report.reference) text.append(" ").append(grouped(report.true_contacts)).append(" true contacts.");
+  const collide::Bodies& bodies = session.world().bodies();
+  return joined(text, "  N = ", grouped(bodies.vertex_count()), " vertices, ",
+                grouped(all_pair_tests(bodies, session.world().collision().self_collision)), " pairs.");
+}
+
+}  // namespace
+
+float compare_height(float width, float scale) {
+  const float line = ImGui::GetFontSize() + (2 * frame_padding + row_gap) * scale;
+  const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < least_inside() * scale;
+  return static_cast<float>(collide::method_table().size() + 1) * line + ImGui::GetFontSize() +
+         2 * window_padding * scale + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
+}
+
+void draw_compare(Widgets& w, Session& session, bool& show_misses, const SceneArea& area) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  const float least = w.px(least_inside()), inside = area.max.x - area.min.x - 2 * style.WindowPadding.x;
+  ImGui::SetNextWindowContentSize({std::max(least, inside), 0});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
+  begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
+  ImGui::PopStyleVar();
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
+  Grid grid(w, ImGui::GetCursorScreenPos().x, std::max(least, inside));
+  draw_head(w, session, grid);
+  const Scale scale = common_scale(session);
+  const CompareReport& report = session.comparison();
+  const std::size_t driver = session.driver();
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    draw_row(w, session, show_misses, grid,
+             {i, collide::method_table()[i], report.rows.empty() ? nullptr : &report.rows[i],
+              session.compare.methods[i], i == driver, report.reference == i},
+             scale);
+  }
+  w.line(footing(session));
+  w.done("Compare footing",
+         "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
+         "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
+  ImGui::PopStyleVar(2);
+  end_dock();
+}
+
+}  // namespace app

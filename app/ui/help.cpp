@@ -1,0 +1,91 @@
+#include "app/ui/help.h"
+
+#include <algorithm>
+#include <string_view>
+#include <vector>
+
+#include "app/ui/shortcuts.h"
+
+namespace app {
+namespace {
+
+constexpr float key_width = 78, between_columns = 24;  // design pixels
+
+struct Entry {
+  std::string_view key, what;
+};
+using Entries = std::vector<Entry>;  // an entry without both is an empty line
+
+Entries keyboard() {
+  Entries entries;
+  for (const Shortcut& shortcut : shortcuts()) entries.push_back({shortcut.label, shortcut.what});
+  return entries;
+}
+
+Entries overlays_and_mouse() {
+  Entries entries;
+  for (const OverlayRow& row : overlay_table) entries.push_back({std::string_view(&row.shortcut, 1), row.label});
+  entries.push_back({"", ""});
+  for (const MouseUse& use : mouse_uses()) entries.push_back({use.label, use.what});
+  return entries;
+}
+
+float width_of(const Widgets& w, const Entries& entries) {
+  float widest = 0;
+  for (const Entry& e : entries)
+    widest = std::max(widest, ImGui::CalcTextSize(e.what.data(), e.what.data() + e.what.size()).x);
+  return w.px(key_width) + widest;
+}
+
+/// `left` is where it begins.
+void draw_entries(Widgets& w, const Entries& entries, float left) {
+  ImGui::BeginGroup();
+  for (const Entry& e : entries) {
+    ImGui::SetCursorPosX(left);
+    ImGui::TextUnformatted(e.key.data(), e.key.data() + e.key.size());
+    ImGui::SameLine();
+    ImGui::SetCursorPosX(left + w.px(key_width));
+    ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
+    ImGui::TextUnformatted(e.what.data(), e.what.data() + e.what.size());
+    ImGui::PopStyleColor();
+    w.done(joined("Help ", e.what).c_str(), nullptr);
+  }
+  ImGui::EndGroup();
+}
+
+}  // namespace
+
+void draw_help(Widgets& w, const SceneArea& area, bool& open) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize;
+  const Entries keys = keyboard(), others = overlays_and_mouse();
+  const float first = width_of(w, keys), both = first + w.px(between_columns) + width_of(w, others);
+  const float room = both + 2 * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
+  const bool narrow = display.x < room;
+  ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * display.y};
+  if (area.max.x - area.min.x < room) middle.x = 0.5f * display.x;
+  ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // it scrolls if it has to
+  ImGui::SetNextWindowBgAlpha(1.0f);  // over the table's squares it would be hard to read otherwise
+  ImGui::Begin("Help", &open,
+               ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
+                   ImGuiWindowFlags_NoSavedSettings);
+  const float left = ImGui::GetCursorPosX();
+  ImGui::PushTextWrapPos(left + (narrow ? first : both));
+  ImGui::TextUnformatted(
+      "Soft spheres fall on a solid sphere. In every frame a detector finds which of their vertices come closer than "
+      "the tolerance. With vertex-vertex contact, the paper's, these push the bodies apart; with surface contact faces "
+      "and edges do. Choose in the panel, and switch on what you want to see.");
+  ImGui::PopTextWrapPos();
+  ImGui::Spacing();
+  draw_entries(w, keys, left);
+  if (narrow)
+    ImGui::Spacing();
+  else
+    ImGui::SameLine();
+  draw_entries(w, others, narrow ? left : left + first + w.px(between_columns));
+  ImGui::Spacing();
+  if (w.button("Close", "F1 or Esc closes it too.", w.px(80))) open = false;
+  ImGui::End();
+}
+
+}  // namespace app

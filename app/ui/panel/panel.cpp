@@ -1,0 +1,157 @@
+#include "app/ui/panel/panel.h"
+
+#include <cstdio>
+#include <filesystem>
+#include <string>
+
+namespace app {
+namespace {
+
+void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
+  ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_CheckMark));
+  ImGui::PushStyleColor(ImGuiCol_ButtonHovered, ImGui::GetStyleColorVec4(ImGuiCol_SliderGrab));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
+  const bool pressed = ImGui::Button("Tour", {width, 0});
+  ImGui::PopStyleColor(3);
+  w.done("Tour", "Five steps show how the method works, on this very frame (G).");
+  if (pressed) ui.tour.toggle(session, ui.overlays);
+}
+
+void draw_scene(Widgets& w, Session& session, UiState& ui) {
+  const softbody::Scene& scene = session.world().scene();
+  const std::filesystem::path from = session.scene_file().name();
+  const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
+  w.row("Scene", w.px(62));
+  const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
+              gap = ImGui::GetStyle().ItemInnerSpacing.x;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
+  if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
+    std::string chosen;
+    for (const SceneChoice& choice : session.scenes()) {
+      if (w.choice(choice.name.c_str(), choice.key == session.scene_file().name(), choice.look_at.c_str()))
+        chosen = choice.key;
+    }
+    ImGui::EndCombo();
+    if (!chosen.empty()) session.choose_scene(chosen);
+  }
+  ImGui::SameLine(0, gap);
+  draw_tour_button(w, session, ui, tour_button_width);
+  ImGui::SameLine(0, gap);
+  if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
+}
+
+void draw_transport(Widgets& w, Session& session) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  const char* pause = session.paused ? "Go on###Pause" : "Pause###Pause";
+  if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
+    session.paused = !session.paused;
+  }
+  ImGui::SameLine();
+  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.single_step();
+  ImGui::SameLine();
+  if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
+    session.reset();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!session.can_undo());
+  if (w.button("Undo",
+               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
+               "deletion "
+               "(Ctrl+Z).",
+               width))
+    session.undo();
+  ImGui::EndDisabled();
+
+  w.checkbox("Slow motion", session.slow_motion, "The world runs slower than real time (S).");
+  ImGui::SameLine(w.px(label_column + 20));
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  ImGui::BeginDisabled(!session.slow_motion);
+  float percent = static_cast<float>(session.slow_factor * 100);
+  if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(Session::slowest),
+               100 * static_cast<float>(Session::fastest), "%.0f %% of real time", "How fast slow motion runs.",
+               true)) {
+    session.slow_factor = static_cast<double>(percent) / 100;
+  }
+  ImGui::EndDisabled();
+}
+
+void draw_progress(Widgets& w, const Session& session) {
+  const softbody::World& world = session.world();
+  ImGui::TextDisabled("Frame %d", world.frame());
+  ImGui::SameLine(w.px(label_column));
+  ImGui::TextDisabled("%.2f s", world.time());
+  ImGui::SameLine(w.px(label_column + 76));
+  std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
+  if (session.paused) {
+    right = "paused";
+  } else if (session.pace() < 0.95) {
+    right = "slowed to " + std::to_string(static_cast<int>(session.pace() * 100)) + " %";
+  } else if (world.all_at_rest()) {
+    right += ", all at rest";
+  }
+  w.value(right);
+  w.done(
+      "Progress",
+      session.pace() < 0.95
+          ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
+            "asked for, and no time is made up for."
+          : "Simulated frames and time; bodies in the world.");
+}
+
+void draw_overlays(Widgets& w, Session& session, UiState& ui) {
+  const auto place = [&](std::size_t i) {
+    if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
+  };
+  std::size_t i = 0;
+  for (const OverlayRow& row : overlay_table) {
+    place(i++);
+    const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
+    w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
+  }
+  place(i++);
+  w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
+  place(i++);
+  w.checkbox("Error vs run time###Error against run time", ui.sweep,
+             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+  place(i++);
+  w.checkbox("Compare methods", session.compare.on,
+             "All methods on the same frozen frame: what each costs, and what it misses (V).");
+}
+
+void draw_plan(Widgets& w, const softbody::World& world) {
+  for (const softbody::Stage stage : world.plan().stages) {
+    const std::string key(softbody::stage_key(stage));
+    ImGui::BulletText("%s", key.c_str());
+  }
+  for (const auto& [stage, why] : world.plan().left_out) {
+    const std::string key(softbody::stage_key(stage));
+    ImGui::TextDisabled("without %s: %s", key.c_str(), why.c_str());
+    w.done(key.c_str(), why.c_str());
+  }
+}
+
+}  // namespace
+
+void draw_panel(Widgets& w, Session& session, UiState& ui, const SceneArea& area, bool opaque) {
+  // The same width with and without a scrollbar, so that folding a section moves nothing sideways.
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
+  begin_dock("Panel", area, opaque);
+  draw_scene(w, session, ui);
+  draw_transport(w, session);
+  draw_progress(w, session);
+  draw_touch(w, session, ui);
+  ImGui::Spacing();
+  if (w.section("Detection", true))
+    draw_detection(w, session, ui.table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
+  if (w.section("Show", true)) draw_overlays(w, session, ui);
+  if (w.section("World", false)) draw_world(w, session, ui);
+  if (w.section("Numbers", true)) draw_numbers(w, session, ui.fineness);
+  if (w.section("Stability", false)) draw_stability(w, session);
+  if (w.section("Files", false)) draw_files(w, session, ui);
+  if (w.section("Take away", false)) draw_take_away(w, session, ui);
+  if (w.section("Stages of a step", false)) draw_plan(w, session.world());
+  end_dock();
+}
+
+}  // namespace app

@@ -1,0 +1,82 @@
+// The panel's part for hands: bodies to drop and to throw, and the selected one.
+
+#include <array>
+#include <cstdio>
+
+#include <glm/geometric.hpp>
+
+#include "app/render/palette.h"
+#include "app/ui/panel/panel.h"
+#include "softbody/measures.h"
+
+namespace app {
+namespace {
+
+void draw_newcomers(Widgets& w, Session& session, UiState& ui) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  ImGui::BeginDisabled(!session.can_drop());
+  if (w.button("Drop", "Drops another body from above (D).", width)) session.drop();
+  ImGui::SameLine();
+  if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width)) session.drop(many_drops);
+  ImGui::SameLine();
+  if (w.button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.", width))
+    ui.throw_body = true;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  auto speed = static_cast<float>(session.throw_speed);
+  if (w.slider("Throw speed", speed, static_cast<float>(Session::least_throw), static_cast<float>(Session::most_throw),
+               "%.0f m/s", "How fast bodies are thrown.", true))
+    session.throw_speed = static_cast<double>(speed);
+  ImGui::EndDisabled();
+}
+
+const char* state_of(const softbody::World& world, softbody::BodyId id) {
+  if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
+  if (world.body(id).held) return "held in place";
+  return world.body(id).asleep ? "asleep" : "awake";
+}
+
+void draw_body(Widgets& w, const softbody::World& world, softbody::BodyId id) {
+  const softbody::BodyMeasures m = softbody::measure(world, id);
+  w.chip(body_colour(world.body(id).number), ImGui::GetTextLineHeight());
+  ImGui::SameLine();
+  ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
+  ImGui::SameLine();
+  w.value(state_of(world, id));
+  w.done("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
+  std::array<char, 64> figures{};
+  const double speed = glm::length(m.momentum) / world.prototype(id).material.mass;
+  if (m.closed)
+    std::snprintf(figures.data(), figures.size(), "%.2f m/s   %.1f %%", speed, 100 * m.volume_ratio);
+  else
+    std::snprintf(figures.data(), figures.size(), "%.2f m/s   open", speed);
+  w.figure("Speed, volume", figures.data(), "Of its centre of mass; of the volume that it started with.");
+}
+
+void draw_nobody(Widgets& w) {
+  ImGui::TextDisabled("No body selected: click one in the scene.");
+  w.done("Selected body", "Drag a body to pull it; double-click it to look at it.");
+  ImGui::TextDisabled("Drag one to pull it.");
+}
+
+}  // namespace
+
+void draw_touch(Widgets& w, Session& session, UiState& ui) {
+  draw_newcomers(w, session, ui);
+  const auto& body = session.selected_body();
+  if (body)
+    draw_body(w, session.world(), *body);
+  else
+    draw_nobody(w);
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::BeginDisabled(!body);
+  if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
+    ui.look_at_body = true;
+  ImGui::SameLine();
+  if (w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
+    session.remove_selected();
+  ImGui::EndDisabled();
+}
+
+}  // namespace app

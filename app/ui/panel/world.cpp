@@ -1,0 +1,184 @@
+// The panel's part for what the world is made of: gravity, materials and solids, while it runs.
+
+#include <array>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/ui/panel/panel.h"
+
+namespace app {
+namespace {
+
+constexpr float column = 108;  // design pixels
+
+struct MaterialRow {
+  const char *text, *label;  // as it is read; as the widget is named
+  const char* tooltip;
+  const char* format;
+  float least, most;
+  bool logarithmic;
+  double unit;  // of the slider in the material's
+  double& (*value)(softbody::Material&);
+};
+
+#define SB_VALUE(member) [](softbody::Material& m) -> double& { return m.member; }
+constexpr std::array material_rows{
+    MaterialRow{"Mass", "Mass", "Of a body, shared equally by its vertices.", "%.2f kg", 0.05f, 20, true, 1,
+                SB_VALUE(mass)},
+    MaterialRow{"Springs", "Spring stiffness", "Structural springs, along the mesh's edges (Hooke's law).", "%.0f N/m",
+                10, 3000, true, 1, SB_VALUE(structural.stiffness)},
+    MaterialRow{"  damping", "Spring damping", "Of the structural springs, as a part of the critical damping.", "%.2f",
+                0, 1, false, 1, SB_VALUE(structural.damping_ratio)},
+    MaterialRow{"Bend springs", "Bend stiffness", "Between the two vertices opposite an edge: they resist folding.",
+                "%.1f N/m", 0, 1000, true, 1, SB_VALUE(bend.stiffness)},
+    MaterialRow{"Shear springs", "Shear stiffness", "Across the quads of grids; other meshes have none.", "%.0f N/m", 0,
+                1000, true, 1, SB_VALUE(shear.stiffness)},
+    MaterialRow{"Gas", "Gas pressure", "Absolute, at the mesh's own volume; the air outside presses against it.",
+                "%.1f kPa", 50, 200, false, 1e3, SB_VALUE(gas_pressure)},
+    MaterialRow{"Damping", "Internal damping", "How quickly a body's motion becomes that of a rigid one.", "%.1f 1/s",
+                0, 50, false, 1, SB_VALUE(internal_damping)},
+    MaterialRow{"Rebound", "Rebound speed", "Solids throw a body back no faster; 0: no such limit.", "%.1f m/s", 0, 10,
+                false, 1, SB_VALUE(rebound_speed)},
+    MaterialRow{"Friction", "Friction", "Coulomb's coefficient against other bodies.", "%.2f", 0, 2, false, 1,
+                SB_VALUE(friction)},
+    MaterialRow{"Rolling", "Rolling resistance", "Torque over radius times normal force, on solids.", "%.2f", 0, 1,
+                false, 1, SB_VALUE(rolling_resistance)},
+    MaterialRow{"Contact", "Contact stiffness", "Of the shield round each vertex, for vertex-vertex contact (§2.3).",
+                "%.0f N/m", 1, 1000, true, 1, SB_VALUE(contact_stiffness)},
+    MaterialRow{"Restitution", "Restitution", "With which bodies bounce off one another, for surface contact.", "%.2f",
+                0, 1, false, 1, SB_VALUE(restitution)},
+};
+#undef SB_VALUE
+
+void draw_gravity(Widgets& w, Session& session) {
+  auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
+  w.row("Gravity", w.px(column));
+  if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2", "Along the scene's own direction. The earth's is 9.81.",
+               false) &&
+      std::isfinite(strength))
+    session.set_gravity(static_cast<double>(strength));
+}
+
+/// The index chosen of `count`; no list for one.
+template <class Name>
+std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size_t chosen, std::size_t count,
+                   const Name& name) {
+  chosen = std::min(chosen, count - 1);
+  w.row(label, w.px(column));
+  if (!w.begin_choices(label, name(chosen).c_str(), tooltip)) return chosen;
+  for (std::size_t i = 0; i < count; ++i)
+    if (w.choice(name(i).c_str(), i == chosen, nullptr)) chosen = i;
+  ImGui::EndCombo();
+  return chosen;
+}
+
+void draw_material(Widgets& w, Session& session, UiState& ui) {
+  const std::vector<softbody::Material>& all = session.world().scene().materials;
+  ui.material = choose(w, "Material", "Whose values stand below.", ui.material, all.size(), [&](std::size_t i) {
+    return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name;
+  });
+  for (const MaterialRow& row : material_rows) {
+    softbody::Material changed = session.world().scene().materials[ui.material];
+    double& value = row.value(changed);
+    auto shown = static_cast<float>(value / row.unit);
+    w.row(row.text, w.px(column));
+    if (!w.slider(row.label, shown, row.least, row.most, row.format, row.tooltip, row.logarithmic)) continue;
+    if (!std::isfinite(shown)) continue;
+    value = static_cast<double>(shown) * row.unit;
+    session.set_material(ui.material, changed);
+  }
+}
+
+constexpr float far = 20, least_size = 0.02f, most_size = 10;  // m
+
+bool drag_place(Widgets& w, glm::dvec3& place) {
+  w.row("Place", w.px(column));
+  return w.drag("Solid place", place, -far, far, "x, y and z in metres.");
+}
+
+bool slide_radius(Widgets& w, double& radius) {
+  auto shown = static_cast<float>(radius);
+  w.row("Radius", w.px(column));
+  if (!w.slider("Solid radius", shown, least_size, most_size, "%.2f m", "Of the solid.", true)) return false;
+  if (!std::isfinite(shown)) return false;
+  radius = static_cast<double>(shown);
+  return true;
+}
+
+// Where a solid is and how large; true if that changed.
+bool draw_shape(Widgets& w, softbody::Ground& ground) {
+  auto height = static_cast<float>(ground.height);
+  w.row("Height", w.px(column));
+  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Of the ground.", false) || !std::isfinite(height))
+    return false;
+  ground.height = static_cast<double>(height);
+  return true;
+}
+bool draw_shape(Widgets& w, softbody::SolidSphere& s) {
+  const bool moved = drag_place(w, s.centre);
+  return slide_radius(w, s.radius) || moved;
+}
+bool draw_shape(Widgets& w, softbody::SolidPlane& p) { return drag_place(w, p.point); }
+bool draw_shape(Widgets& w, softbody::SolidBox& b) {
+  glm::dvec3 size = 2.0 * b.half_size;
+  const bool moved = drag_place(w, b.centre);
+  w.row("Size", w.px(column));
+  const bool resized = w.drag("Solid size", size, least_size, far, "Along its own axes, in metres.");
+  if (resized) b.half_size = 0.5 * size;
+  return moved || resized;
+}
+bool draw_shape(Widgets& w, softbody::SolidCapsule& c) {
+  glm::dvec3 from = c.from;
+  const bool moved = drag_place(w, from);
+  c.to += from - c.from;
+  c.from = from;
+  return slide_radius(w, c.radius) || moved;
+}
+
+template <class Solid>
+bool draw_solid(Widgets& w, Solid& solid) {
+  bool changed = draw_shape(w, solid);
+  const auto share = [&](const char* text, const char* label, double& value, float most, const char* tooltip) {
+    auto shown = static_cast<float>(value);
+    w.row(text, w.px(column));
+    if (!w.slider(label, shown, 0, most, "%.2f", tooltip, false) || !std::isfinite(shown)) return;
+    value = static_cast<double>(shown);
+    changed = true;
+  };
+  share("Friction", "Solid friction", solid.friction, 2, "Coulomb's coefficient.");
+  share("Restitution", "Solid restitution", solid.restitution, 1,
+        "The part of its speed with which what hits the solid leaves it.");
+  return changed;
+}
+
+void draw_solids(Widgets& w, Session& session, UiState& ui) {
+  if (session.solids().empty()) {
+    ImGui::TextDisabled("The scene has no solids.");
+    return;
+  }
+  SolidList list = session.solids();
+  ui.solid = choose(w, "Solid", "Whose values stand below.", ui.solid, list.size(),
+                    [&](std::size_t i) { return solid_name(list, i); });
+  SolidEntry& entry = list[ui.solid];
+  bool changed = w.checkbox("Solid is there", entry.on, "Off: bodies pass where it was.");
+  ImGui::BeginDisabled(!entry.on);
+  changed |= std::visit([&](auto& solid) { return draw_solid(w, solid); }, entry.solid);
+  ImGui::EndDisabled();
+  if (changed) session.set_solids(list);
+}
+
+}  // namespace
+
+void draw_world(Widgets& w, Session& session, UiState& ui) {
+  draw_gravity(w, session);
+  ImGui::Separator();
+  draw_material(w, session, ui);
+  ImGui::Separator();
+  draw_solids(w, session, ui);
+  if (w.button("Scene's world", "Gravity, materials and solids as the scene has them.",
+               ImGui::GetContentRegionAvail().x))
+    session.restore_world_settings();
+}
+
+}  // namespace app

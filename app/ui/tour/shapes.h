@@ -1,0 +1,14 @@
+#pragma once
+// What each step of the guided tour shows in the scene.
+
+#include "app/ui/tour/steps.h"
+
+namespace app {
+
+void show_body(const TourView& view, Spotlight& light);
+void show_boxes(const TourView& view, Spotlight& light);
+void show_corners(const TourView& view, Spotlight& light);
+void show_bucket(const TourView& view, Spotlight& light);
+void show_contact(const TourView& view, Spotlight& light);
+
+}  // namespace app

@@ -1,0 +1,128 @@
+#include "app/window/preferences.h"
+
+#include <cstdlib>
+#include <utility>
+
+#include "app/files/output_file.h"
+#include "softbody/toml_table.h"
+#include "softbody/toml_text.h"
+
+namespace app {
+namespace fs = std::filesystem;
+namespace {
+
+constexpr int least_side = 240, most_side = 16384;  // of the window
+
+struct Flag {
+  const char* key;
+  bool Preferences::*value;
+};
+constexpr std::array flags{Flag{"panel", &Preferences::panel},       //
+                           Flag{"hash_table", &Preferences::table},  //
+                           Flag{"error_time", &Preferences::sweep},  //
+                           Flag{"compare", &Preferences::compare},   //
+                           Flag{"picture_with_panel", &Preferences::picture_with_panel}};
+
+/// Keys of other versions of the program are passed over.
+Preferences read(softbody::Table root) {
+  Preferences p;
+  p.size.x = root.integer("width", p.size.x, least_side, most_side);
+  p.size.y = root.integer("height", p.size.y, least_side, most_side);
+  p.slow_factor = root.number("slow_motion", p.slow_factor, Session::slowest, Session::fastest);
+  for (const auto& [key, value] : flags) p.*value = root.boolean(key, p.*value);
+  softbody::Table shown = root.child("show");
+  for (const OverlayRow& row : overlay_table) {
+    bool& on = p.overlays.*row.shown;
+    on = shown.boolean(std::string(row.key), on);
+  }
+  for (softbody::Table& section : root.children("section"))
+    p.sections[section.text("name", "")] = section.boolean("open", true);
+  return p;
+}
+
+std::string text_of(const Preferences& p) {
+  softbody::TomlLines out;
+  out.add("width", p.size.x).add("height", p.size.y).add("slow_motion", p.slow_factor);
+  for (const auto& [key, value] : flags) out.add(key, p.*value);
+  out.heading("[show]");
+  for (const OverlayRow& row : overlay_table) out.add(row.key, p.overlays.*row.shown);
+  for (const auto& [name, open] : p.sections) out.heading("[[section]]").add("name", name).add("open", open);
+  return out.text();
+}
+
+/// An absolute path from the environment; others are to be ignored, says the XDG specification.
+fs::path folder_in(const char* variable) {
+  const char* value = std::getenv(variable);
+  const fs::path folder = value ? value : "";
+  return folder.is_absolute() ? folder : fs::path();
+}
+
+}  // namespace
+
+Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2 size) {
+  return {.size = size,
+          .overlays = ui.tour.kept_overlays().value_or(ui.overlays),
+          .panel = ui.panel,
+          .table = ui.table,
+          .sweep = ui.sweep,
+          .compare = session.compare.on,
+          .picture_with_panel = ui.take_away.with_panel,
+          .slow_factor = session.slow_factor,
+          .sections = ui.sections};
+}
+
+void apply(const Preferences& p, Session& session, UiState& ui) {
+  ui.overlays = p.overlays;
+  session.compare.on = p.compare;
+  session.slow_factor = p.slow_factor;
+  ui.panel = p.panel;
+  ui.table = p.table;
+  ui.sweep = p.sweep;
+  ui.take_away.with_panel = p.picture_with_panel;
+  ui.sections = p.sections;
+}
+
+fs::path preferences_path() {
+  fs::path folder = folder_in("XDG_CONFIG_HOME");
+  if (folder.empty()) {
+    folder = folder_in("HOME");
+    if (folder.empty()) return {};
+    folder /= ".config";
+  }
+  return folder / "sbcollide" / "preferences.toml";
+}
+
+PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
+  std::error_code error;
+  if (!file_.empty() && fs::exists(file_, error)) {
+    try {
+      const toml::table table = softbody::read_toml(file_);
+      kept_ = read(softbody::Table(table, file_.string(), ""));
+    } catch (const std::exception& broken) {
+      problem_ = std::string(broken.what()) + "; these preferences are ignored";
+    }
+  }
+  next_ = kept_;
+}
+
+void PreferencesFile::keep(const Preferences& now, double seconds, bool last) {
+  if (file_.empty()) return;
+  if (!(now == next_)) {
+    next_ = now;
+    changed_ = seconds;
+  }
+  if (next_ == kept_ || (!last && seconds - changed_ < settled)) return;
+  kept_ = next_;  // also if it fails: a problem is told once a change, not once a frame
+  write();
+}
+
+void PreferencesFile::write() {
+  try {
+    fs::create_directories(file_.parent_path());
+    write_file(file_, text_of(kept_));
+  } catch (const std::exception& error) {
+    problem_ = "preferences cannot be kept: " + std::string(error.what());
+  }
+}
+
+}  // namespace app

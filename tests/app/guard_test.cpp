@@ -1,0 +1,227 @@
+// The guard against figures made up for it and against real explosions.
+
+#include <gtest/gtest.h>
+
+#include <glm/vec2.hpp>
+
+#include "app/session/session.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+softbody::World pair_after(int frames) {
+  softbody::World world(touching_pair(), {});
+  for (int i = 0; i < frames; ++i) world.step();
+  return world;
+}
+
+TEST(Guard, NamesTheBodyThatIsNoLongerFinite) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  Guard guard;
+  EXPECT_FALSE(guard.look(world, bodies));
+  bodies[1].finite = false;
+  const auto alarm = guard.look(world, bodies);
+  ASSERT_TRUE(alarm);
+  EXPECT_EQ(alarm->body, 1u);
+  EXPECT_EQ(alarm->frame, 1);
+  EXPECT_NE(alarm->what.find("Body 1 is no longer finite"), std::string::npos) << alarm->what;
+}
+
+TEST(Guard, NamesTheBodyThatGainsEnergyFromNothing) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  const double weight = 9.81 * world.prototype(0).radius;  // J: m g R of one body of 1 kg
+  Guard guard;
+  EXPECT_FALSE(guard.look(world, bodies));
+  bodies[1].energy.elastic += 0.1 * weight;
+  EXPECT_FALSE(guard.look(world, bodies)) << "contacts give that much back";
+  bodies[1].energy.elastic += 0.3 * weight;
+  const auto alarm = guard.look(world, bodies);
+  ASSERT_TRUE(alarm);
+  EXPECT_EQ(alarm->body, 1u);
+  EXPECT_NE(alarm->what.find("energy"), std::string::npos) << alarm->what;
+}
+
+TEST(Guard, NamesTheBodyThatIsFasterThanAnythingThereCouldBe) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  Guard guard;
+  EXPECT_FALSE(guard.look(world, bodies));
+  bodies[0].max_speed = 13;
+  EXPECT_FALSE(guard.look(world, bodies)) << "a second's fall, and half as much";
+  bodies[0].max_speed = 60;
+  const auto alarm = guard.look(world, bodies);
+  ASSERT_TRUE(alarm);
+  EXPECT_EQ(alarm->body, 0u);
+  EXPECT_NE(alarm->what.find("m/s"), std::string::npos) << alarm->what;
+}
+
+TEST(Guard, CountsAnewAfterAChange) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  Guard guard;
+  EXPECT_FALSE(guard.look(world, bodies));
+  guard.restart();
+  bodies[0].energy.elastic += 1000;
+  EXPECT_FALSE(guard.look(world, bodies));
+  EXPECT_FALSE(guard.look(world, bodies));
+  bodies[0].energy.elastic += 1000;
+  EXPECT_TRUE(guard.look(world, bodies));
+}
+
+/// Where nothing else moves, what parts them is all the energy there is.
+TEST(Guard, IsCalmWhereABodyComesToAnothersPlace) {
+  for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces})
+    for (const double stiffness : {200.0, 3e5})  // N/m
+      for (const glm::dvec2 apart : {glm::dvec2(0.05, 0.02), {0.1, 0.2}, {0.5, 0.2}, {0.9, 0.2}, {1.02, 0}}) {
+        softbody::Scene scene = touching_pair();
+        scene.gravity = glm::dvec3(0.0);
+        scene.materials[0].structural.stiffness = stiffness;
+        scene.contact_surface = surface;
+        scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0);
+        scene.bodies[1].appear = 5;
+        Session session(scene, {}, 1);
+        while (session.world().frame() < 90 && !session.stability().alarm()) session.advance(tick);
+        EXPECT_FALSE(session.stability().alarm())
+            << stiffness << " N/m, " << apart.x << ' ' << apart.y << " apart: " << session.stability().alarm()->what;
+        EXPECT_EQ(session.world().bodies().count(), 2u);
+      }
+}
+
+/// Set to another gas while it is held, it is far from its balance.
+TEST(Guard, IsCalmWhereABodyThatWasHeldSpringsUp) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.resize(1);
+  scene.bodies[0].release = 10;
+  scene.gravity = glm::dvec3(0.0);
+  scene.materials[0].gas_pressure = 171'527;
+  scene.materials[0].ambient_pressure = 101'325;
+  scene.materials[0].start_in_equilibrium = false;
+  softbody::World world(scene, {});
+  Guard guard;
+  double fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    const auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    fastest = std::max(fastest, bodies[0].max_speed);
+    const auto alarm = guard.look(world, bodies);
+    ASSERT_FALSE(alarm) << "frame " << i << ": " << alarm->what;
+  }
+  EXPECT_GT(fastest, 10);
+}
+
+TEST(Guard, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.resize(1);
+  scene.ground.reset();
+  softbody::World world(scene, {});
+  Guard guard;
+  const auto look = [&] {
+    world.step();
+    return guard.look(world, softbody::measure_bodies(world, world.dynamics().last_substep()));
+  };
+  for (int i = 0; i < 5; ++i) ASSERT_FALSE(look());
+  const double start = softbody::measure(world).energy;
+  scene.spheres.push_back({.centre = world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
+  world.set_solids(scene);
+  guard.restart();
+  double most = start;
+  int frame = 0;
+  for (; frame < 5 || softbody::measure(world).deepest_penetration > 0; ++frame) {
+    ASSERT_LT(frame, 600);
+    const auto alarm = look();
+    ASSERT_FALSE(alarm) << "frame " << frame << ": " << alarm->what;
+    most = std::max(most, softbody::measure(world).energy);
+  }
+  EXPECT_GT(most, start + 9.81 * world.prototype(0).radius) << "pushed out with ten times what is an alarm elsewhere";
+  ASSERT_FALSE(look());
+  auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+  bodies[0].energy.elastic += 2 * (most - start);
+  EXPECT_TRUE(guard.look(world, bodies));
+}
+
+/// A row of bodies in each other, each of which is pushed off from the next.
+TEST(Guard, IsCalmWhereSurfacesArePushedOutOfEachOther) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  scene.spheres.clear();
+  scene.ground.reset();
+  scene.bodies.resize(24, scene.bodies[0]);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  Guard guard;
+  const auto look = [&](double joules) {
+    world.step();
+    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    bodies[0].energy.elastic += joules;
+    return guard.look(world, bodies);
+  };
+  ASSERT_FALSE(look(0));
+  const double first = softbody::measure(world).energy;
+  for (int i = 0; i < 100; ++i) {
+    const auto alarm = look(0);
+    ASSERT_FALSE(alarm) << "frame " << i << ": " << alarm->what;
+  }
+  const double last = softbody::measure(world).energy;
+  EXPECT_GT(last, 1.5 * first);
+  EXPECT_TRUE(look(0.2 * last)) << "they are apart";
+}
+
+/// Sheets in one plane, which never come apart.
+TEST(Guard, WaitsASecondForSurfacesToComeApart) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  for (softbody::BodySource& body : scene.bodies) {
+    body.mesh = {.kind = "grid", .columns = 6, .rows = 6, .width = 1, .depth = 1};
+    body.position = {0, 4, 0};
+  }
+  scene.bodies[1].position += glm::dvec3(0.02, 0, 0.01);
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  Guard guard;
+  for (std::size_t i = 0; i < 2 * Guard::memory; ++i) {
+    world.step();
+    ASSERT_TRUE(world.dynamics().surface_contact().gives_energy()) << i;
+    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    bodies[0].energy.elastic = std::pow(2.0, double(i));
+    EXPECT_EQ(guard.look(world, bodies).has_value(), i > Guard::memory) << i;
+  }
+}
+
+/// Gas that is suddenly set to another pressure makes bodies swing as fast as explicit steps can follow.
+TEST(Guard, IsCalmWhereBodiesSwingFast) {
+  for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
+    softbody::Scene scene = touching_pair();
+    softbody::Material& rubber = scene.materials[0];
+    rubber.gas_pressure = 113e3, rubber.ambient_pressure = 101'325;
+    rubber.start_in_equilibrium = true;
+    Session session(scene, {}, 1);
+    while (session.world().frame() < 15) session.advance(tick);
+    rubber.gas_pressure = pressure;
+    session.set_material(0, rubber);
+    while (session.world().frame() < 60 && !session.stability().alarm()) session.advance(tick);
+    EXPECT_FALSE(session.stability().alarm()) << pressure << " Pa: " << session.stability().alarm()->what;
+  }
+}
+
+/// Springs far too stiff for a single substep a frame.
+TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
+  softbody::Scene scene = touching_pair();
+  scene.materials[0].structural.stiffness = 1e5;
+  for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
+    softbody::World world(scene, {.integrator = integrator, .substeps = 1});
+    Guard guard;
+    std::optional<Alarm> alarm;
+    while (!alarm && world.frame() < 60) {
+      world.step();
+      alarm = guard.look(world, softbody::measure_bodies(world));
+    }
+    EXPECT_TRUE(alarm) << integrator;
+  }
+}
+
+}  // namespace
+}  // namespace app

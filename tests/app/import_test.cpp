@@ -1,0 +1,249 @@
+// Meshes and scenes of the user's own: what joins, where, what is reported, what is refused.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <sstream>
+#include <thread>
+
+#include "app/session/import.h"
+#include "softbody/measures.h"
+#include "softbody/prototype_set.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+using tests::TemporaryFolder;
+
+struct Globe {
+  int rows = 16, columns = 24;
+  double scale = 1, bump = 0;  // bump: concave by so much
+  bool seam = false;           // the first meridian's vertices twice, as exporters do for texture coordinates
+  bool open = false;           // without the top
+};
+
+std::string obj_of(const Globe& g) {
+  std::ostringstream text;
+  const int across = g.columns + (g.seam ? 1 : 0);
+  for (int i = 0; i <= g.rows; ++i)
+    for (int j = 0; j < across; ++j) {
+      const double t = std::numbers::pi * (g.open ? 0.3 + 0.7 * i / g.rows : double(i) / g.rows);
+      const double p = 2 * std::numbers::pi * (j % g.columns) / g.columns;
+      const double r = g.scale * (1 + g.bump * std::sin(5 * p) * std::pow(std::sin(t), 2));
+      text << "v " << r * std::sin(t) * std::cos(p) << ' ' << r * std::cos(t) << ' ' << r * std::sin(t) * std::sin(p)
+           << '\n';
+    }
+  for (int i = 0; i < g.rows; ++i)
+    for (int j = 0; j < g.columns; ++j) {
+      const int a = i * across + j + 1, b = i * across + (g.seam ? j + 1 : (j + 1) % g.columns) + 1;
+      text << "f " << a << ' ' << b << ' ' << b + across << ' ' << a + across << '\n';
+    }
+  return text.str();
+}
+
+class Importing : public testing::Test {
+ protected:
+  void load(const std::filesystem::path& file) {
+    import.path = file.string();
+    import.load(session);
+    wait();
+  }
+  void wait() {
+    for (const auto end = std::chrono::steady_clock::now() + 60s;
+         import.busy() && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
+      import.follow(session);
+    ASSERT_FALSE(import.busy());
+  }
+  void drop(const std::vector<std::string>& files) {
+    import.drop(files, session);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      wait();
+      import.follow(session);  // begins the next one
+    }
+  }
+  std::string report() const {
+    std::string text;
+    for (const Import::Verdict& verdict : import.report())
+      for (const std::string& line : verdict.lines) text += line + "\n";
+    return text;
+  }
+  bool refused() const { return !import.report().empty() && import.report().back().refused; }
+  const softbody::Prototype& last() const { return session.world().prototype(session.world().bodies().count() - 1); }
+  void expect_finite_after(int steps) {
+    for (int i = 0; i < steps; ++i) session.advance(tick);
+    EXPECT_TRUE(softbody::measure(session.world()).finite);
+  }
+
+  TemporaryFolder folder;
+  Session session{touching_pair(), {}, 1};
+  Import import;
+};
+
+TEST_F(Importing, AMeshJoinsTheRunningSceneClearOfAll) {
+  for (int i = 0; i < 5; ++i) session.advance(tick);
+  load(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
+  ASSERT_EQ(session.world().bodies().count(), 3u);
+  EXPECT_FALSE(refused());
+  EXPECT_EQ(session.world().frame(), 5) << "the world was not started anew";
+  EXPECT_TRUE(last().mesh.closed);
+  EXPECT_NEAR(last().mesh.vertices.size(), 24 * 15 + 2, 0);
+  EXPECT_NE(report().find("welded"), std::string::npos) << report();
+  EXPECT_NE(report().find("to 1 m"), std::string::npos) << report();
+  const collide::Frame p = session.world().positions();
+  const std::uint32_t first = session.world().bodies().first[2];
+  for (std::size_t i = first; i < p.x.size(); ++i) {
+    const glm::dvec3 here(p.x[i], p.y[i], p.z[i]);
+    EXPECT_LT(softbody::solid_depth(session.world().scene(), here).depth, 0);
+    for (std::size_t j = 0; j < first; ++j)
+      EXPECT_GT(glm::distance(here, glm::dvec3(p.x[j], p.y[j], p.z[j])), session.world().collision().tolerance);
+  }
+  expect_finite_after(30);
+}
+
+TEST_F(Importing, AnOpenMeshIsReportedAsSuch) {
+  load(folder.write("bowl.obj", obj_of({.scale = 500, .open = true})));
+  ASSERT_EQ(session.world().bodies().count(), 3u);
+  EXPECT_FALSE(last().mesh.closed);
+  EXPECT_NE(report().find("open"), std::string::npos) << report();
+  expect_finite_after(30);
+}
+
+TEST_F(Importing, SizeAndUpAreAsAsked) {
+  import.size = 0.25f;
+  import.z_is_up = true;
+  load(folder.write("flat.obj", "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 2\nf 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\n"));
+  ASSERT_EQ(session.world().bodies().count(), 3u);
+  glm::dvec3 lo(1e9), hi(-1e9);
+  for (const glm::dvec3& v : last().mesh.vertices) lo = glm::min(lo, v), hi = glm::max(hi, v);
+  EXPECT_NEAR(hi.x - lo.x, 0.25, 1e-6);
+  EXPECT_NEAR(hi.y - lo.y, 0.125, 1e-6);
+}
+
+TEST_F(Importing, AHundredThousandFacesFall) {
+  load(folder.write("big.obj", obj_of({.rows = 224, .columns = 225, .scale = 37, .bump = 0.2})));
+  ASSERT_EQ(session.world().bodies().count(), 3u) << report();
+  EXPECT_GT(last().mesh.triangles.size(), 100'000u);
+  EXPECT_NE(report().find("slower than real time"), std::string::npos) << report();
+  expect_finite_after(2);
+}
+
+TEST_F(Importing, TwoOfAKindShareTheMaterialAndAreGoneAfterAReset) {
+  const auto file = folder.write("ball.obj", obj_of({}));
+  load(file);
+  for (int i = 0; i < 4; ++i) session.advance(tick);
+  load(file);
+  ASSERT_EQ(session.world().bodies().count(), 4u);
+  EXPECT_EQ(session.world().scene().materials.size(), 2u);
+  session.reset();
+  EXPECT_EQ(session.notice(), "");
+  for (int i = 0; i < 6; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 4u);
+}
+
+TEST_F(Importing, ASavedSceneHasTheMesh) {
+  load(folder.write("ball.obj", obj_of({.bump = 0.1})));
+  session.save_scene(folder.path() / "with mesh.toml", {});
+  ASSERT_EQ(session.notice(), "");
+  Session again(softbody::load_scene(folder.path() / "with mesh.toml"), {}, 1);
+  for (Session* each : {&session, &again})
+    for (int i = 0; i < 20; ++i) each->advance(tick);
+  EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
+}
+
+TEST_F(Importing, ASceneReplacesTheRunningOne) {
+  load(folder.write("lone.toml", "[[body]]\n"));
+  EXPECT_EQ(session.world().scene().key, "lone");
+  EXPECT_EQ(session.world().bodies().count(), 1u);
+  EXPECT_FALSE(refused());
+  EXPECT_EQ(report(), "scene lone.toml\n");
+  session.undo();
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+}
+
+TEST_F(Importing, TheWorldGoesOnWhileASceneIsRead) {
+  import.path = folder.write("lone.toml", "[[body]]\n").string();
+  import.load(session);
+  EXPECT_TRUE(import.busy());
+  session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 1);
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next picture asks for it";
+  EXPECT_TRUE(import.progress().starts_with("reading lone.toml")) << import.progress();
+  wait();
+  EXPECT_EQ(import.progress(), "");
+  EXPECT_EQ(session.world().bodies().count(), 1u);
+}
+
+TEST_F(Importing, ABodyIsMadeBesideTheWindow) {
+  FileReader reader;
+  const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
+  const FileReader::Answer answer = reader.answer(file, {});
+  const auto& mesh = std::get<FileReader::Mesh>(answer);
+  EXPECT_EQ(softbody::shared_prototype(mesh.mesh, imported_material(mesh.mesh.imported->findings.extent)),
+            mesh.prototype);
+  session.add_body(place_above(session.world(), mesh.mesh), imported_material(mesh.mesh.imported->findings.extent));
+  EXPECT_EQ(&last(), mesh.prototype.get());
+}
+
+TEST_F(Importing, FilesDroppedOnTheWindowComeOneAfterAnother) {
+  const std::string ball = folder.write("ball.obj", obj_of({})).string(),
+                    bowl = folder.write("BOWL.OBJ", obj_of({.open = true})).string();
+  import.drop({ball, bowl}, session);
+  for (const auto end = std::chrono::steady_clock::now() + 60s;
+       session.world().bodies().count() < 4 && std::chrono::steady_clock::now() < end;)
+    import.follow(session);
+  EXPECT_EQ(session.world().bodies().count(), 4u);
+  EXPECT_EQ(import.path, bowl);
+}
+
+TEST_F(Importing, EveryFileOfABatchHasItsVerdict) {
+  const std::string ball = folder.write("ball.obj", obj_of({})).string(), none = (folder.path() / "none.obj").string(),
+                    stl = (folder.path() / "model.stl").string();
+  drop({none, ball, stl, ball});
+  EXPECT_EQ(session.world().bodies().count(), 4u);
+  ASSERT_EQ(import.report().size(), 4u) << report();
+  for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(import.report()[i].refused, i % 2 == 0) << report();
+  drop({ball, ball, ball});
+  ASSERT_EQ(import.report().size(), 5u) << "the oldest that were taken are gone: " << report();
+  EXPECT_NE(report().find("none.obj"), std::string::npos) << report();
+  EXPECT_NE(report().find("model.stl"), std::string::npos) << report();
+  drop({none, none, none, none, ball});
+  EXPECT_EQ(std::ranges::count(import.report(), true, &Import::Verdict::refused), 6) << "no refusal is lost";
+  EXPECT_FALSE(refused()) << "nor is the newest verdict";
+  load(ball);
+  EXPECT_EQ(import.report().size(), 1u) << report();
+}
+
+TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
+  const std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
+  struct Case {
+    std::filesystem::path file;
+    const char* says;
+  };
+  const std::vector<Case> cases{
+      {folder.write("fan.obj", fan), "more than two faces"},  {folder.write("points.obj", "v 0 0 0\n"), "no face"},
+      {folder.path() / "none.obj", "cannot be read"},         {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},
+      {folder.write("bad.toml", "name = 1\n"), "bad.toml:1"}, {folder.write("model.stl", "solid\n"), "neither a mesh"}};
+  for (const auto& [file, says] : cases) {
+    load(file);
+    EXPECT_TRUE(refused()) << file;
+    EXPECT_EQ(session.notice(), "") << "it would stand there twice";
+    EXPECT_NE(report().find(says), std::string::npos) << report();
+    EXPECT_EQ(session.world().bodies().count(), 2u);
+    EXPECT_FALSE(session.paused);
+  }
+  load(folder.write("ball.obj", obj_of({})));
+  EXPECT_EQ(session.notice(), "");
+  EXPECT_EQ(session.world().bodies().count(), 3u);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,186 @@
+// Saving the scene that runs, and the commands that reproduce it.
+
+#include <gtest/gtest.h>
+
+#include <cstdio>
+
+#include "app/cli/options.h"
+#include "app/session/session.h"
+#include "tests/app/scenes.h"
+#include "tests/temporary_folder.h"
+
+namespace app {
+namespace {
+
+using tests::TemporaryFolder;
+
+/// What a shell makes of a command: its words.
+std::vector<std::string> words_of(const std::string& command) {
+  const std::string line = "printf '%s\\0' " + command;
+  FILE* shell = ::popen(line.c_str(), "r");
+  std::vector<std::string> words(1);
+  for (int c = std::fgetc(shell); c != EOF; c = std::fgetc(shell))
+    if (c == '\0')
+      words.emplace_back();
+    else
+      words.back() += static_cast<char>(c);
+  ::pclose(shell);
+  words.pop_back();
+  return words;
+}
+
+Options parse(const std::string& command) {
+  const std::vector<std::string> words = words_of(command);
+  std::vector<const char*> argv;
+  for (const std::string& word : words) argv.push_back(word.c_str());
+  return parse_options(static_cast<int>(argv.size()), argv.data()).value();
+}
+
+/// With settings that none of the shipped scenes has.
+softbody::Scene changed(softbody::Scene scene) {
+  scene.method = "grid-hash";
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  scene.collision = {.tolerance = 0.123f,
+                     .self_collision = false,
+                     .levels = 5,
+                     .buckets = 997,
+                     .cell_size = {0.3f, 0.4f, 0.5f},
+                     .primes = {3, 5, 4294967295u}};
+  scene.default_cell_size = false;
+  scene.view = {.target = {-0.5, 1.25, 1e-7}, .distance = 7.5, .azimuth = -179.5, .elevation = -12};
+  return scene;
+}
+
+TEST(Commands, MakeTheSceneAsItRuns) {
+  for (const std::string& key : softbody::scene_keys(scene_folder())) {
+    SCOPED_TRACE(key);
+    const softbody::Scene scene = softbody::find_scene(key, scene_folder());
+    for (const softbody::Scene& used : {scene, changed(scene)}) {
+      const Options demo = parse(demo_command(key, used, {}));
+      EXPECT_EQ(demo.command, Command::demo);
+      softbody::Scene made = load_scene(demo);
+      if (used.default_cell_size) made.collision.cell_size = used.collision.cell_size;  // not in use
+      ASSERT_EQ(made.bodies.size(), used.bodies.size());
+      made.bodies = used.bodies;  // meshes from files are read anew
+      made.dropper = used.dropper;
+      EXPECT_TRUE(made == used);
+      const Options simulate = parse(simulate_command(key, used, {"xpbd", 7}, 17));
+      EXPECT_EQ(simulate.command, Command::simulate);
+      EXPECT_EQ(simulate.frames, 17);
+      EXPECT_EQ(simulate.integrator, "xpbd");
+      EXPECT_EQ(simulate.substeps, 7);
+      EXPECT_EQ(simulate.captures, std::vector{17});
+      EXPECT_TRUE(load_scene(simulate).collision == made.collision);
+    }
+  }
+}
+
+TEST(Commands, AreQuotedForAShell) {
+  for (const std::string name :
+       {"it's a \"scene\" $HOME `id`\\.toml", "a b.toml", "-x.toml", "D", "é\n*?[a].toml", "~"})
+    EXPECT_EQ(parse(demo_command(name, touching_pair(), {})).scene, name);
+  EXPECT_EQ(shell_word("D"), "D");
+  EXPECT_EQ(shell_word(""), "''");
+}
+
+TEST(Commands, OfASavedSceneMakeAllOfIt) {
+  const TemporaryFolder folder;
+  Session session(touching_pair(), {}, 1);
+  const auto file = folder.path() / "it's saved.toml";
+  const softbody::View view = changed({}).view;
+  session.set_method("multi-level-sb");
+  session.save_scene(file, view);
+  ASSERT_EQ(session.notice(), "");
+  EXPECT_EQ(session.scene_file().name(), file.string());
+  softbody::Scene used = session.scene_in_use();
+  used.view = view;
+  EXPECT_TRUE(session.scene_file().makes(used));
+  softbody::Scene made = load_scene(parse(demo_command(session.scene_file().name(), used, {})));
+  made.key = used.key;
+  made.collision.cell_size = used.collision.cell_size;
+  EXPECT_TRUE(made == used);
+}
+
+TEST(SceneFile, KnowsWhatTheCommandLineCannotSay) {
+  const SceneFile file("D", touching_pair());
+  softbody::Scene used = touching_pair();
+  EXPECT_TRUE(file.makes(used));
+  EXPECT_TRUE(file.makes(changed(used)));
+  used.gravity.y = -1;
+  EXPECT_FALSE(file.makes(used));
+  used = touching_pair();
+  used.bodies.pop_back();
+  EXPECT_FALSE(file.makes(used));
+}
+
+TEST(SavedSession, HasTheSettingsInUse) {
+  const TemporaryFolder folder;
+  Session session(touching_pair(), {}, 1);
+  session.set_method("multi-level-sb");
+  session.set_contact_surface(softbody::ContactSurface::surfaces);
+  collide::Settings settings = session.world().collision();
+  settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
+  session.set_collision(settings, false);
+  session.save_scene(folder.path() / "a.toml", {.distance = 3});
+  ASSERT_EQ(session.notice(), "");
+  const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
+  EXPECT_EQ(saved.method, "multi-level-sb");
+  EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
+  EXPECT_TRUE(saved.collision == settings);
+  EXPECT_FALSE(saved.default_cell_size);
+  EXPECT_EQ(saved.view.distance, 3);
+  EXPECT_EQ(saved.bodies.size(), 2u);
+}
+
+TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "a.toml";
+  Session session(softbody::find_scene("drop", scene_folder()), {}, 1);
+  const auto go_on = [](Session& s, int frames) {
+    for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60, true);
+  };
+  const auto begin = session.world().scene().bodies.size();
+  session.drop(2);
+  go_on(session, 40);
+  session.throw_body({6, 2, 0}, {-1, 0, 0});
+  session.drop();
+  go_on(session, 30);
+  ASSERT_EQ(session.world().added().size(), 4u);
+  session.save_scene(file, {});
+  ASSERT_EQ(session.notice(), "");
+  EXPECT_TRUE(session.scene_file().makes(session.scene_as_it_is()));
+  Session again(softbody::load_scene(file), {}, 1);
+  EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
+  go_on(again, 70);
+  EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
+  EXPECT_TRUE(again.world().added().empty());  // they are the scene's now
+  session.select_body(session.world().added()[1].body);
+  session.remove_selected();
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 3);
+  session.undo();
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 4);
+  session.reset();
+  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin);
+}
+
+TEST(Reset, KeepsTheIntegrator) {
+  Session session(touching_pair(), {}, 1);
+  session.set_integrator("xpbd", 7);
+  session.reset();
+  EXPECT_EQ(session.integrator(), (IntegratorChoice{"xpbd", 7}));
+}
+
+TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
+  const TemporaryFolder folder;
+  Session session(touching_pair(), {}, 1);
+  session.save_scene(folder.path() / "a.txt", {});
+  EXPECT_NE(session.notice().find(".toml"), std::string::npos) << session.notice();
+  session.save_scene(folder.path() / "none" / "a.toml", {});
+  EXPECT_NE(session.notice().find("cannot be written"), std::string::npos) << session.notice();
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
+  EXPECT_EQ(session.scene_file().name(), "pair");
+  EXPECT_FALSE(session.paused);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,237 @@
+#include "app/ui/tour/tour.h"
+
+#include <glm/geometric.hpp>
+
+#include "app/ui/shortcuts.h"
+#include "app/ui/tour/excerpt.h"
+#include "app/window/preferences.h"
+#include "engine/resources.h"
+#include "tests/app/hands.h"
+#include "tests/app/panel_rig.h"
+
+#include <GLFW/glfw3.h>
+
+namespace app {
+namespace {
+
+const std::size_t last_step = tour_steps().size() - 1;
+
+bool all_shown(const PanelRig& rig, const std::vector<TourFigure>& figures) {
+  return std::ranges::all_of(figures,
+                             [&](const TourFigure& figure) { return rig.recorder.find(figure.label) != nullptr; });
+}
+
+TEST(Tour, GoesThroughEveryStepByMouse) {
+  PanelRig rig;
+  rig.click("Tour");
+  ASSERT_TRUE(rig.ui.tour.open());
+  for (std::size_t step = 0; step <= last_step; ++step) {
+    ASSERT_EQ(rig.ui.tour.step(), step);
+    const auto view = rig.ui.tour.view(rig.session);
+    ASSERT_TRUE(view);
+    EXPECT_TRUE(all_shown(rig, tour_steps()[step].figures(*view))) << step;
+    EXPECT_TRUE(all_shown(rig, tour_work(*view)));
+    EXPECT_EQ(rig.widget("Back").enabled, step > 0);
+    EXPECT_EQ(rig.widget("Next").enabled, step < last_step);
+    if (step < last_step) rig.click("Next");
+  }
+  rig.click("Back");
+  EXPECT_EQ(rig.ui.tour.step(), last_step - 1);
+  rig.click("Close tour");
+  EXPECT_FALSE(rig.ui.tour.open());
+}
+
+TEST(Tour, GoesThroughEveryStepByKeys) {
+  PanelRig rig;
+  const auto key = [&](int which) { press(which, false, rig.session, rig.ui); };
+  key(GLFW_KEY_RIGHT);
+  EXPECT_FALSE(rig.ui.tour.open());
+  key(GLFW_KEY_G);
+  for (std::size_t step = 0; step < last_step + 2; ++step) key(GLFW_KEY_RIGHT);
+  EXPECT_EQ(rig.ui.tour.step(), last_step);
+  key(GLFW_KEY_LEFT);
+  EXPECT_EQ(rig.ui.tour.step(), last_step - 1);
+  key(GLFW_KEY_ESCAPE);
+  EXPECT_FALSE(rig.ui.tour.open());
+  key(GLFW_KEY_G);
+  EXPECT_EQ(rig.ui.tour.step(), 0u);
+}
+
+TEST(Tour, GivesBackWhatItPutsAside) {
+  for (const bool paused : {false, true}) {
+    PanelRig rig;
+    rig.session.paused = paused;
+    rig.ui.overlays.contacts = true;
+    rig.session.select_bucket(3);
+    rig.ui.tour.start(rig.session, rig.ui.overlays);
+    EXPECT_TRUE(rig.session.paused);
+    EXPECT_FALSE(rig.ui.overlays.any());
+    EXPECT_FALSE(rig.session.selected_bucket());
+    EXPECT_TRUE(preferences_of(rig.session, rig.ui, {}).overlays.contacts);
+    rig.frames(3);
+    rig.ui.tour.close(rig.session, rig.ui.overlays);
+    EXPECT_EQ(rig.session.paused, paused);
+    EXPECT_TRUE(rig.ui.overlays.contacts);
+    EXPECT_EQ(rig.session.selected_bucket(), 3u);
+  }
+}
+
+TEST(Tour, LetsTheWorldGoOnIfAsked) {
+  PanelRig rig;
+  rig.session.paused = true;
+  rig.ui.tour.start(rig.session, rig.ui.overlays);
+  press(GLFW_KEY_SPACE, false, rig.session, rig.ui);
+  const int frame = rig.session.world().frame();
+  rig.frames(5);
+  EXPECT_GT(rig.session.world().frame(), frame);
+  EXPECT_TRUE(rig.ui.tour.view(rig.session));
+  rig.ui.tour.close(rig.session, rig.ui.overlays);
+  EXPECT_FALSE(rig.session.paused);
+}
+
+TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
+  PanelRig rig;
+  rig.ui.tour.start(rig.session, rig.ui.overlays);
+  rig.ui.tour.next();
+  rig.ui.tour.next();
+  rig.frames(3);
+  const collide::methods::CellHash hash(rig.session.world().collision());
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    rig.click("Corner " + std::to_string(corner + 1));
+    const auto view = rig.ui.tour.view(rig.session);
+    ASSERT_EQ(view->corner, corner);
+    const HashedCorner& chosen = view->chosen();
+    EXPECT_EQ(chosen.bucket, hash.bucket(hash.cell(chosen.at.x, chosen.at.y, chosen.at.z)));
+    const std::string result = tour_steps()[2].figures(*view).back().value;
+    EXPECT_TRUE(result.ends_with("->  " + grouped(chosen.bucket))) << result;
+  }
+}
+
+/// The formula as it is written out leads to the bucket that it states, negative cells included.
+TEST(Tour, WritesTheHashOut) {
+  Session session(touching_pair(), {}, 1);
+  Tour tour;
+  Overlays shown;
+  tour.start(session, shown);
+  tour.follow(session);
+  for (std::size_t i = 0; i < 8; ++i) {
+    tour.choose_corner(i);
+    const auto view = tour.view(session);
+    std::int64_t sum = 0;
+    const auto& settings = session.world().collision();
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += view->chosen().cell[axis] * settings.primes[axis];
+    const std::int64_t n = settings.buckets;
+    EXPECT_EQ(((sum % n) + n) % n, view->chosen().bucket);
+  }
+}
+
+TEST(Tour, PicksBodiesThatTouchAndAllTheirContacts) {
+  Session session(touching_pair(), {}, 1);
+  const auto found = Finder().find(session.world(), std::nullopt);
+  ASSERT_TRUE(found);
+  EXPECT_TRUE(found->touching);
+  EXPECT_EQ(found->body, 0u);
+  EXPECT_EQ(found->other, 1u);
+  EXPECT_EQ(found->contacts, session.world().detection().contacts);  // the exact method drives, nothing else touches
+  EXPECT_LT(found->distance, session.world().collision().tolerance);
+  const BucketContents bucket = found->table.bucket(found->corners[found->corner].bucket);
+  EXPECT_GT(bucket.groups.size() + bucket.items, 2u);
+}
+
+TEST(Tour, FindsTheSameWhicheverMethodDrives) {
+  Session session(touching_pair(), {}, 1);
+  const auto before = Finder().find(session.world(), std::nullopt);
+  for (const collide::Method& method : collide::method_table()) {
+    session.set_method(method.key);
+    const auto now = Finder().find(session.world(), std::nullopt);
+    EXPECT_EQ(now->box, before->box) << method.key;
+    EXPECT_EQ(now->contacts, before->contacts) << method.key;
+    EXPECT_EQ(now->missed, before->missed) << method.key;
+    EXPECT_EQ(now->work.hashes, 8 * now->structure.boxes.size()) << method.key;
+  }
+}
+
+TEST(Tour, ShowsWhatSmallCellsMiss) {
+  Session session(touching_pair(), {}, 1);
+  collide::Settings settings = session.world().collision();
+  settings.cell_size = glm::vec3(0.13f);
+  settings.buckets = 1'000'003;
+  session.set_collision(settings, false);
+  const auto found = Finder().find(session.world(), std::nullopt);
+  ASSERT_TRUE(found->missed);
+  EXPECT_FALSE(found->missed->empty());
+  session.set_method("multi-level-sb");
+  EXPECT_EQ(found->contacts.size() - found->missed->size(), session.world().detection().contacts.size());
+}
+
+TEST(Tour, WithoutContactsFindsTheClosestVertices) {
+  Session session(without_solids(), {}, 1);
+  const auto found = Finder().find(session.world(), std::nullopt);
+  ASSERT_TRUE(found && found->closest);
+  EXPECT_FALSE(found->touching);
+  const collide::Frame f = session.world().positions();
+  float least = 1e9f;
+  for (collide::Index a = 0; a < f.bodies->first[1]; ++a)
+    for (collide::Index b = f.bodies->first[1]; b < f.bodies->first[2]; ++b)
+      least = std::min(least, collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]));
+  EXPECT_NEAR(found->distance, std::sqrt(least), 1e-6);
+  PanelRig rig(1, without_solids());
+  rig.session.paused = true;
+  rig.ui.tour.start(rig.session, rig.ui.overlays);
+  for (std::size_t i = 0; i < last_step; ++i) rig.ui.tour.next();
+  rig.frames(3);
+  EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none yet", and what to wait for
+}
+
+TEST(Tour, TakesTheSelectedBodyIfItTouches) {
+  softbody::Scene scene = touching_pair();
+  softbody::BodySource third = scene.bodies[1];
+  third.position.x += 1.02;
+  scene.bodies.push_back(third);
+  Session session(scene, {}, 1);
+  const auto found = Finder().find(session.world(), 2);
+  EXPECT_EQ(found->other, 2u);
+}
+
+TEST(Tour, OfAWorldWithoutBodiesSaysSo) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.clear();
+  PanelRig rig(1, scene);
+  rig.click("Tour");
+  EXPECT_FALSE(rig.ui.tour.view(rig.session));
+  EXPECT_TRUE(rig.recorder.find("Tour problem"));
+  EXPECT_EQ(rig.ui.tour.spotlight(), nullptr);
+}
+
+TEST(Tour, WorksInEveryScene) {
+  const auto folder = engine::find_folder("assets") / "scenes";
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    if (key == "drop-3000") continue;  // a minute under the sanitizers
+    Session session(softbody::find_scene(key, folder), folder, 1);
+    for (int i = 0; i < 5; ++i) session.advance(tick);
+    Tour tour;
+    Overlays shown;
+    tour.start(session, shown);
+    for (std::size_t step = 0; step <= last_step; ++step, tour.next()) {
+      tour.follow(session);
+      const auto view = tour.view(session);
+      ASSERT_EQ(view.has_value(), session.world().bodies().count() > 0) << key;
+      if (!view) break;
+      EXPECT_FALSE(tour_steps()[step].figures(*view).empty()) << key;
+      EXPECT_GT(tour.spotlight()->radius, 0) << key;
+      EXPECT_FALSE(tour.spotlight()->bodies.empty()) << key;
+    }
+  }
+}
+
+TEST(Excerpt, NamesVerticesAsTheWorldDoes) {
+  Session session(touching_pair(), {}, 1);
+  const collide::Frame all = session.world().positions();
+  const Excerpt second(session.world(), 1, 1);
+  ASSERT_EQ(second.frame().x.size(), all.bodies->size(1));
+  EXPECT_EQ(second.frame().x[5], all.x[all.bodies->first[1] + 5]);
+  EXPECT_EQ(second.in_world({3, 4}).b, all.bodies->first[1] + 4);
+}
+
+}  // namespace
+}  // namespace app
