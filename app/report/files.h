@@ -7,6 +7,7 @@
 
 #include "app/report/plot.h"
 #include "app/report/report.h"
+#include "softbody/scene.h"
 
 namespace app {
 

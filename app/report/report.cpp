@@ -1,9 +1,10 @@
 #include "app/report/report.h"
-#include "app/files/scene_folder.h"
 
 #include <algorithm>
 #include <array>
 
+#include "app/base/usage_error.h"
+#include "app/files/scene_folder.h"
 #include "app/report/contact/contact.h"
 #include "app/report/detection/detection.h"
 #include "app/report/solver/solver.h"

@@ -65,7 +65,7 @@ class Plan {
   }
 
   void run() {
-    collide::Workers workers(options_.report.threads.value_or(options_.threads));
+    collide::Workers workers(options_.threads.value_or(options_.cores));
     std::atomic<std::size_t> next{0};
     workers.run([&](int thread) {
       for (std::size_t i = next++; i < jobs_.size(); i = next++) {

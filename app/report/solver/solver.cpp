@@ -5,6 +5,7 @@
 
 #include "app/base/text.h"
 #include "app/base/times.h"
+#include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
 #include "app/report/own_steps.h"
