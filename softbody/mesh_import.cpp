@@ -83,6 +83,7 @@ class Importer {
     const ObjFile obj = read_obj_file(file_.path);
     findings_.file_vertices = obj.x.size();
     findings_.file_faces = obj.faces.size();
+    findings_.weights = obj.weights;
     if (obj.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
     place(obj);
     weld();
@@ -220,6 +221,7 @@ std::string remarks(const ImportFindings& f) {
   add(f.unused_vertices, " unused vertices dropped");
   add(f.degenerate_faces, " degenerate faces dropped");
   add(f.duplicate_faces, " duplicate faces dropped");
+  add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
   if (f.components > 1) add(f.components, " separate pieces, one body");
   if (!f.closed) text.append(text.empty() ? "" : ", ").append("open, so that it holds no gas");

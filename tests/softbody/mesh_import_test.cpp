@@ -162,6 +162,13 @@ TEST(MeshImport, OfDuplicateFacesTheFirstStays) {
   EXPECT_EQ(remarks(both_sides), "2 duplicate faces dropped, open, so that it holds no gas");
 }
 
+TEST(MeshImport, WeightsArePassedOverWithANote) {
+  const auto [mesh, found] = read(
+      "v 2 0 0 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+      "f 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4\n");
+  EXPECT_EQ(remarks(found), "1 unused vertices dropped, 1 weights of vertices passed over");
+}
+
 TEST(MeshImport, SizeAndUpPlaceIt) {
   const auto [mesh, found] = read(cube_vertices + cube_faces, {.size = 0.5});
   EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 0.125, 1e-12);
