@@ -37,6 +37,15 @@ void feed_wheel(ImGuiIO& io, float steps) {
 #endif
 }
 
+void feed_key(GLFWwindow* window, const KeyEvent& event) {
+#if IMGUI_VERSION_NUM >= 18700
+  const int key = event.key;  // the backend asks for the letter on it
+#else
+  const int key = event.meaning.key;  // Ctrl+A is the A on the key
+#endif
+  ImGui_ImplGlfw_KeyCallback(window, key, event.scancode, event.action, event.mods);
+}
+
 }  // namespace
 
 Gui::Gui(Window& window, const std::filesystem::path& settings) : window_(&window) {
@@ -100,11 +109,12 @@ void Gui::take_input() {
 #else
   glm::vec2 mouse(io.MousePos.x, io.MousePos.y);
 #endif
-  for (const InputEvent& event : window_->take_input()) {
+  const std::vector<InputEvent> told = window_->take_input();
+  for (const KeyPress& press : key_reader_.read(told))
+    if (!typing) key_presses_.push_back(press);
+  for (const InputEvent& event : told) {
     if (const auto* key = std::get_if<KeyEvent>(&event)) {
-      ImGui_ImplGlfw_KeyCallback(window_->handle(), key->key, key->scancode, key->action, key->mods);
-      if (!typing && key->action != GLFW_RELEASE)
-        key_presses_.push_back({key->labelled, key->mods, key->action == GLFW_REPEAT});
+      feed_key(window_->handle(), *key);
     } else if (const auto* character = std::get_if<CharacterEvent>(&event)) {
       // Shortcuts before a click would else be the first that the clicked field gets.
       if (typing) ImGui_ImplGlfw_CharCallback(window_->handle(), character->code);

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/input_queue.h"
+#include "engine/key_reader.h"
 
 namespace engine {
 
@@ -21,13 +21,6 @@ struct GuiInput {
   std::array<bool, 3> buttons{};  // left, right, middle
   float wheel = 0.0f;             // steps since the last frame
   float seconds = 1.0f / 60.0f;   // since the last frame, > 0
-};
-
-/// A key that went down (or repeats). Letters follow the keyboard's layout: 'Q' is the key labelled Q, as GLFW_KEY_Q.
-struct KeyPress {
-  int key;   // GLFW_KEY_*
-  int mods;  // GLFW_MOD_*
-  bool repeat;
 };
 
 class Gui {
@@ -63,6 +56,7 @@ class Gui {
 
   Window* window_ = nullptr;
   std::string settings_;  // ImGui keeps a pointer to it
+  KeyReader key_reader_;
   std::vector<KeyPress> key_presses_;
   std::array<bool, 3> buttons_{};
   std::array<double, 3> pressed_{never, never, never};  // s: when each button went down last

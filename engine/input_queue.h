@@ -15,9 +15,14 @@ struct ButtonEvent {
   glm::vec2 at;                     // the cursor, screen coordinates
   double earliest = 0, latest = 0;  // s: when it may have happened
 };
+/// To shortcuts, in the keyboard's layout: see key_reader.h.
+struct KeyMeaning {
+  int key;           // GLFW_KEY_*; 0: none
+  bool typed_first;  // what the key types is meant, and `key` only if that is no shortcut
+};
 struct KeyEvent {
-  int key;       // GLFW_KEY_*, by its place on the keyboard
-  int labelled;  // GLFW_KEY_*, by the letter that is printed on it
+  int key;  // GLFW_KEY_*, by its place on the keyboard
+  KeyMeaning meaning;
   int scancode, action, mods;
 };
 struct CharacterEvent {

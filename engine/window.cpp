@@ -5,12 +5,12 @@
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
-#include <cctype>
 #include <chrono>
 #include <thread>
 #include <utility>
 
 #include "engine/context.h"
+#include "engine/key_reader.h"
 
 namespace engine {
 namespace {
@@ -160,13 +160,8 @@ void Window::on_scroll(GLFWwindow* window, double x, double y) { self(window).in
 void Window::on_character(GLFWwindow* window, unsigned int code) { self(window).input_.push(CharacterEvent{code}); }
 
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  // GLFW names keys by their place on a US keyboard; a shortcut means the letter printed on the key.
-  int labelled = key;
-  const char* label = key >= GLFW_KEY_A && key <= GLFW_KEY_Z ? glfwGetKeyName(key, scancode) : nullptr;
-  if (label != nullptr && label[1] == '\0' && std::isalpha(static_cast<unsigned char>(label[0]))) {
-    labelled = std::toupper(static_cast<unsigned char>(label[0]));
-  }
-  self(window).input_.push(KeyEvent{key, labelled, scancode, action, mods});
+  const KeyMeaning meaning = meaning_of(key, [](int named) { return glfwGetKeyName(named, 0); });
+  self(window).input_.push(KeyEvent{key, meaning, scancode, action, mods});
 }
 
 }  // namespace engine

@@ -9,6 +9,16 @@
 #include <system_error>
 
 namespace softbody {
+namespace {
+
+bool is_blank(char c) { return c == ' ' || c == '\t'; }
+bool ends_line(char c) { return c == '\n' || c == '\r'; }
+/// What CP/M and DOS (Ctrl-Z), and file systems that lose the end of a file, leave there.
+bool is_padding(char c) { return c == '\x1a' || c == '\0'; }
+/// Keywords begin with a letter; numbers and corners of faces do not.
+bool begins_statement(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '#'; }
+
+}  // namespace
 
 LineReader::LineReader(const std::filesystem::path& file)
     : file_(::open(file.c_str(), O_RDONLY | O_CLOEXEC)), buffer_(std::size_t{1} << 16) {
@@ -19,31 +29,43 @@ LineReader::~LineReader() { ::close(file_); }
 
 bool LineReader::next(std::string_view& line) {
   number_ = lines_read_ + 1;
-  std::size_t from = begin_;  // where the last of the joined lines begins
-  std::size_t seen = begin_;  // no newline between `from` and here
-  for (;;) {
-    if (const void* newline = std::memchr(buffer_.data() + seen, '\n', end_ - seen)) {
-      const auto at = static_cast<std::size_t>(static_cast<const char*>(newline) - buffer_.data());
-      ++lines_read_;
-      seen = at + 1;
-      const bool joined = joins_next(from, at);
-      from = seen;
-      if (joined) continue;
-      line = {buffer_.data() + begin_, at - begin_};
-      begin_ = seen;
-      break;
-    }
-    from -= begin_;
-    seen = end_ - begin_;
-    if (read_more()) continue;
-    if (begin_ == end_) return false;
-    line = {buffer_.data() + begin_, end_ - begin_};
-    begin_ = end_;
+  if (!has(0)) return false;
+  std::size_t begin, end, after = 0;  // of the last of the joined lines, and where the next one begins
+  do {
+    begin = after;
+    end = find(ends_line, begin);
+    after = has(end) ? end + 1 : end;
+    if (has(after) && at(end) == '\r' && at(after) == '\n') ++after;
     ++lines_read_;
-    break;
+  } while (joins_next(begin, end, after));
+  if (end > 0 && is_padding(at(end - 1))) {
+    const std::size_t other = find([](char c) { return !is_padding(c) && !is_blank(c) && !ends_line(c); }, after);
+    if (!has(other)) {
+      after = other;
+      while (end > 0 && is_padding(at(end - 1))) --end;
+    }
   }
-  if (line.ends_with('\r')) line.remove_suffix(1);
+  line = {buffer_.data() + begin_, end};
+  begin_ += after;
   return true;
+}
+
+/// Joins the line with the next one, if it goes on there; not if that is a statement, as after a name that ends with a
+/// backslash, such as a folder's.
+bool LineReader::joins_next(std::size_t begin, std::size_t end, std::size_t after) {
+  std::size_t last = end;
+  while (last > begin && is_blank(at(last - 1))) --last;
+  if (last == begin || at(last - 1) != '\\' || after == end) return false;
+  const std::size_t first = find([](char c) { return !is_blank(c); }, after);
+  if (has(first) && begins_statement(at(first))) return false;
+  std::memset(buffer_.data() + begin_ + last - 1, ' ', after - (last - 1));
+  return true;
+}
+
+/// The first such character from an offset on; the end of the file if there is none.
+std::size_t LineReader::find(bool (*is_such)(char), std::size_t offset) {
+  while (has(offset) && !is_such(at(offset))) ++offset;
+  return offset;
 }
 
 /// Moves the rest to the buffer's start and reads on; false at the end of the file.
@@ -61,15 +83,6 @@ bool LineReader::read_more() {
   if (count < 0) throw std::system_error(errno, std::generic_category());
   end_ += static_cast<std::size_t>(count);
   return count > 0;
-}
-
-/// Whether the line that ends before the newline at `end` goes on. Comments do not: they may end with a Windows path.
-bool LineReader::joins_next(std::size_t begin, std::size_t end) {
-  std::string_view line(buffer_.data() + begin, end - begin);
-  if (line.ends_with('\r')) line.remove_suffix(1);
-  if (!line.ends_with('\\') || line.find('#') != line.npos) return false;
-  std::memset(buffer_.data() + begin + line.size() - 1, ' ', end + 1 - (begin + line.size() - 1));
-  return true;
 }
 
 }  // namespace softbody

@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a text file, of any size, read piece by piece.
+// The lines of a text file of statements such as OBJ's, of any size, read piece by piece.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,16 +19,22 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The next line, without its end (LF or CRLF); false if there is none. The text is valid until the next call. A line
-  /// that ends with a backslash goes on in the next one, unless it has a comment (#): the joint becomes spaces.
+  /// The next line, without its end (LF, CRLF or CR); false if there is none. The text is valid until the next call. A
+  /// line that ends with a backslash goes on in the next one, unless that begins with a letter or #: the joint becomes
+  /// spaces. Ctrl-Z and NUL at the end of the file are left out.
   /// Throws std::length_error if the line is longer than longest_line.
   bool next(std::string_view& line);
   /// Of the line that next() gave, or at which it failed: 1 is the first. The first one of lines that were joined.
   std::uint64_t number() const { return number_; }
 
  private:
+  // Offsets count from begin_, so that they outlast read_more().
+  /// Whether the file goes on at an offset, which is at most one beyond what was asked for before.
+  bool has(std::size_t offset) { return begin_ + offset < end_ || read_more(); }
+  char at(std::size_t offset) const { return buffer_[begin_ + offset]; }
+  std::size_t find(bool (*is_such)(char), std::size_t offset);
+  bool joins_next(std::size_t begin, std::size_t end, std::size_t after);
   bool read_more();
-  bool joins_next(std::size_t begin, std::size_t end);
 
   int file_;
   std::vector<char> buffer_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
 #include <unordered_map>
 
 #include <glm/common.hpp>
@@ -64,6 +65,16 @@ glm::dmat3 to_y(const glm::dvec3& up) {
   return glm::dmat3(1.0) + cross + cross * cross / (1 + u.y);
 }
 
+/// Equal for polygons of the same outline, wherever it begins and whichever way round it runs.
+std::vector<Index> outline_key(std::vector<Index> polygon) {
+  const auto from_least = [](std::vector<Index> corners) {
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    return corners;
+  };
+  std::vector<Index> reversed = from_least({polygon.rbegin(), polygon.rend()});
+  return std::min(from_least(std::move(polygon)), std::move(reversed));
+}
+
 class Importer {
  public:
   explicit Importer(const MeshFile& file) : file_(file), name_(file.path.string()) { require_sensible_file(); }
@@ -72,6 +83,7 @@ class Importer {
     const ObjFile obj = read_obj_file(file_.path);
     findings_.file_vertices = obj.x.size();
     findings_.file_faces = obj.faces.size();
+    findings_.weights = obj.weights;
     if (obj.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
     place(obj);
     weld();
@@ -138,6 +150,7 @@ class Importer {
       throw ObjError(name_ + ":" + std::to_string(line) + ": a face of " + std::to_string(polygon_.size()) +
                      " corners; at most " + std::to_string(max_polygon_corners) + " are allowed: export triangles");
     if (polygon_.size() < 3) return void(++findings_.degenerate_faces);
+    if (!outlines_.insert(outline_key(polygon_)).second) return void(++findings_.duplicate_faces);
     outline_.clear();
     for (const Index v : polygon_) outline_.push_back(position_[v]);
     bool any = false;
@@ -188,6 +201,7 @@ class Importer {
   std::vector<glm::dvec3> position_;  // of each vertex of the file
   std::vector<Index> welded_to_;      // vertex of the file; none: unused
   std::vector<Index> polygon_;
+  std::set<std::vector<Index>> outlines_;  // outline_key() of each polygon so far
   std::vector<glm::dvec3> outline_;
   std::vector<Index> in_file_;  // of each vertex of the mesh
   Mesh mesh_;
@@ -206,6 +220,8 @@ std::string remarks(const ImportFindings& f) {
   add(f.welded_vertices, " vertices welded");
   add(f.unused_vertices, " unused vertices dropped");
   add(f.degenerate_faces, " degenerate faces dropped");
+  add(f.duplicate_faces, " duplicate faces dropped");
+  add(f.weights, " weights of vertices passed over");
   add(f.turned_faces, " faces turned");
   if (f.components > 1) add(f.components, " separate pieces, one body");
   if (!f.closed) text.append(text.empty() ? "" : ", ").append("open, so that it holds no gas");

@@ -23,6 +23,8 @@ struct ImportFindings {
   std::size_t welded_vertices = 0;                // gone, since another one is as good as at their place
   std::size_t unused_vertices = 0;                // gone, since no face names them
   std::size_t degenerate_faces = 0;               // gone, since welding left them fewer than three corners
+  std::size_t duplicate_faces = 0;                // gone, since an earlier one has the same outline, either way round
+  std::size_t weights = 0;                        // of vertices, other than 1: passed over
   std::size_t turned_faces = 0;                   // corners put in the other order
   std::size_t components = 0;                     // joined by edges; all are one body
   bool closed = false;                            // it holds a volume

@@ -14,19 +14,20 @@
 namespace softbody {
 namespace {
 
-/// The words of a line; a # ends it.
+/// The words of a line; one that begins with # ends it.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) {}
 
   /// Empty if there is none left.
   std::string_view next() {
-    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f'; };
+    const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; };
     const char *at = rest_.data(), *const end = at + rest_.size();
     while (at != end && is_space(*at)) ++at;
+    if (at != end && *at == '#') at = end;
     const char* const begin = at;
-    while (at != end && !is_space(*at) && *at != '#') ++at;
-    rest_ = at != end && *at == '#' ? std::string_view() : std::string_view(at, static_cast<std::size_t>(end - at));
+    while (at != end && !is_space(*at)) ++at;
+    rest_ = {at, static_cast<std::size_t>(end - at)};
     return {begin, static_cast<std::size_t>(at - begin)};
   }
 
@@ -50,22 +51,20 @@ bool take_integer(std::string_view& text, std::int64_t& number) {
   return error == std::errc();
 }
 
-/// "", "/vt", "//vn" or "/vt/vn".
+/// "", "/vt", "//vn" or "/vt/vn", where the numbers may be missing.
 bool is_texture_and_normal(std::string_view text) {
   std::int64_t ignored = 0;
-  const auto take_slash_and_number = [&] {
-    if (!text.starts_with('/')) return false;
+  for (int part = 0; part < 2 && text.starts_with('/'); ++part) {
     text.remove_prefix(1);
-    return take_integer(text, ignored);
-  };
-  if (text.empty()) return true;
-  if (text.starts_with("//"))
-    text.remove_prefix(1);
-  else if (!take_slash_and_number())
-    return false;
-  else if (text.empty())
-    return true;
-  return take_slash_and_number() && text.empty();
+    take_integer(text, ignored);
+  }
+  return text.empty();
+}
+
+/// As from_chars, but a + may stand before the number.
+std::from_chars_result parse(std::string_view word, float& value) {
+  if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
+  return std::from_chars(word.data(), word.data() + word.size(), value);
 }
 
 class Parser {
@@ -75,11 +74,12 @@ class Parser {
   ObjFile run() {
     std::string_view line;
     while (lines_.next(line)) {
-      if (lines_.number() == 1 && line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
+      if (line.starts_with("\xFF\xFE") || line.starts_with("\xFE\xFF")) fail("is UTF-16; save it as UTF-8");
+      if (line.starts_with("\xEF\xBB\xBF")) line.remove_prefix(3);
       statement(Words(line));
     }
-    if (file_.objects.empty())
-      throw ObjError(name_ + ": no vertex and no object in it; give a Wavefront OBJ file with lines such as v 0 0 0");
+    if (file_.objects.empty() || (file_.x.empty() && passed_over_))
+      throw ObjError(name_ + ": no vertex in it; give a Wavefront OBJ file with lines such as v 0 0 0");
     file_.for_each_face([&](std::span<const Index> corners, std::uint64_t at) { require_vertices(corners, at); });
     return std::move(file_);
   }
@@ -101,43 +101,52 @@ class Parser {
     const std::string_view keyword = words.next();
     if (keyword == "v") return vertex(words);
     if (keyword == "f") return face(words);
-    if (keyword == "o") return begin_object();
+    if (keyword == "o") return begin_object(true);
     if (keyword.empty()) return;
     const char initial = keyword.front();
     if (!((initial >= 'a' && initial <= 'z') || (initial >= 'A' && initial <= 'Z')))
       fail(quoted(keyword) + " begins no OBJ statement; is this a text file in OBJ format?");
+    passed_over_ = true;
   }
 
-  void begin_object() {
+  void begin_object(bool named) {
     if (file_.objects.size() == max_particles) fail(beyond("objects", max_particles));
-    file_.objects.push_back(vertex_count());
+    file_.objects.push_back({vertex_count(), file_.faces.size(), named});
   }
 
   void vertex(Words words) {
-    if (file_.objects.empty()) begin_object();
+    if (file_.objects.empty()) begin_object(false);
     if (vertex_count() == max_particles) fail(beyond("vertices", max_particles));
     std::array<float, 3> position;
     for (float& coordinate : position) coordinate = number(words.next());
     file_.x.push_back(position[0]);
     file_.y.push_back(position[1]);
     file_.z.push_back(position[2]);
-    int further = 0;  // a weight, a colour, or both: not used, but a merged line must not pass
+    pass_over_weight_and_colour(words);
+  }
+
+  /// Any numbers, such as 1.#QNAN, or none; but what else follows, such as a second vertex, must not be lost.
+  void pass_over_weight_and_colour(Words words) {
+    int count = 0;
+    bool is_one = true;
     for (std::string_view word = words.next(); !word.empty(); word = words.next()) {
-      number(word);
-      if (++further > 4) fail("a vertex with more than 7 numbers; write v X Y Z");
+      float value = 0;
+      const char *const stop = parse(word, value).ptr, *const end = word.data() + word.size();
+      if (stop == word.data() || (stop != end && *stop != '#')) fail(quoted(word) + " is no number; write v X Y Z");
+      if (++count > 4) fail("a vertex with more than 7 numbers; write v X Y Z");
+      is_one = stop == end && value == 1;
     }
+    if (count == 1 && !is_one) ++file_.weights;
   }
 
   float number(std::string_view word) const {
     if (word.empty()) fail("a vertex with fewer than 3 coordinates; write v X Y Z");
-    std::string_view digits = word;
-    if (digits.starts_with('+') && !digits.starts_with("+-")) digits.remove_prefix(1);  // from_chars knows no +
     float value = 0;
-    const char* const end = digits.data() + digits.size();
-    const auto [stop, error] = std::from_chars(digits.data(), end, value);
-    if (stop != end || error == std::errc::invalid_argument) fail(quoted(word) + " is no number; write e.g. -0.25");
+    const auto [stop, error] = parse(word, value);
+    if (stop != word.data() + word.size() || error == std::errc::invalid_argument)
+      fail(quoted(word) + " is no number; write e.g. -0.25");
     // from_chars does not tell too large from too small to be a float, and leaves the value alone.
-    if (error == std::errc::result_out_of_range) value = std::strtof(std::string(digits).c_str(), nullptr);
+    if (error == std::errc::result_out_of_range) value = std::strtof(std::string(word).c_str(), nullptr);
     if (!std::isfinite(value)) fail(quoted(word) + " is not finite as a float; coordinates must lie within 3.4e38");
     return value;
   }
@@ -176,6 +185,7 @@ class Parser {
   std::string name_;
   LineReader lines_;
   ObjFile file_;
+  bool passed_over_ = false;  // a statement
 };
 
 }  // namespace

@@ -21,10 +21,16 @@ struct ObjFile {
     std::size_t end;     // of its corners in `corners`
     std::uint64_t line;  // of the file, from 1
   };
-  std::vector<float> x, y, z;  // finite
-  std::vector<Index> objects;  // the first vertex of each object; vertices before the first `o` are one too
-  std::vector<Index> corners;  // of all faces, one after another
-  std::vector<Face> faces;     // of 3 or more corners
+  struct Object {
+    Index first_vertex;
+    std::size_t first_face;
+    bool named;  // by a line `o`; not: what precedes the first one
+  };
+  std::vector<float> x, y, z;   // finite
+  std::vector<Object> objects;  // as their lines `o` stand; vertices before the first one are an object too
+  std::vector<Index> corners;   // of all faces, one after another
+  std::vector<Face> faces;      // of 3 or more corners
+  std::size_t weights = 0;      // lines v X Y Z W with W other than 1, which only curves and surfaces use
 
   /// Calls visit(corners, line) for each face in the order of the file.
   void for_each_face(const auto& visit) const {
@@ -36,9 +42,9 @@ struct ObjFile {
   }
 };
 
-/// Reads `v`, `o` and `f` and passes over all other statements. A face may name vertices further down. There is at
-/// least one object. Takes time in proportion to the file's size and no more memory than the result needs. Throws
-/// ObjError.
+/// Reads `v`, `o` and `f` and passes over all other statements, as over what follows the coordinates of a vertex. A
+/// face may name vertices further down. There is at least one object. Takes time in proportion to the file's size and
+/// no more memory than the result needs. Throws ObjError.
 ObjFile read_obj_file(const std::filesystem::path& file);
 
 }  // namespace softbody

@@ -3,7 +3,7 @@
 
 . "$(dirname "${BASH_SOURCE[0]}")/../app/setup.sh"
 
-test_packages=("${program_packages[@]}" libgtest-dev xvfb xauth xdotool)
+test_packages=("${program_packages[@]}" libgtest-dev xvfb xauth xdotool x11-xkb-utils)
 step_table=""
 failed_steps=0
 

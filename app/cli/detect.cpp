@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdio>
 #include <iostream>
+#include <iterator>
 
 #include <nlohmann/json.hpp>
 
@@ -127,7 +128,7 @@ std::vector<MethodRow> run(const Options& options, const collide::Method& method
   return rows;
 }
 
-void print_json(const Options& options, const collide::Method& method, const collide::Settings& settings,
+void print_json(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
                 const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
@@ -146,16 +147,16 @@ void print_json(const Options& options, const collide::Method& method, const col
   }
   const Json document{
       {"method", method.key},     {"tolerance", *options.detection.tolerance}, {"threads", options.threads},
-      {"bodies", bodies.count()}, {"vertices", bodies.vertex_count()},         {"warnings", warnings(method, settings)},
+      {"bodies", bodies.count()}, {"vertices", bodies.vertex_count()},         {"warnings", notes},
       {"frames", frames}};
   std::cout << document.dump() << '\n';
 }
 
-void print_table(const Options& options, const collide::Method& method, const collide::Settings& settings,
+void print_table(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
                  const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
   std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
               *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
-  for (const std::string& warning : warnings(method, settings)) std::printf("note: %s\n", warning.c_str());
+  for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
   std::printf("%7s %10s %10s %10s %10s %14s %12s %10s\n", "frame", "ms min", "ms median", "contacts", "self",
               "pair tests", "hashes", "boxes");
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
@@ -178,10 +179,12 @@ void detect(const Options& options) {
   if (automatic_cell_size(options.detection, true))
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
   const std::vector<MethodRow> rows = run(options, method, settings, sequence);
+  std::vector<std::string> notes = warnings(method, settings);
+  std::ranges::copy(sequence.frames.front().notes, std::back_inserter(notes));
   if (options.json)
-    print_json(options, method, settings, sequence.bodies, rows);
+    print_json(options, method, notes, sequence.bodies, rows);
   else
-    print_table(options, method, settings, sequence.bodies, rows);
+    print_table(options, method, notes, sequence.bodies, rows);
 }
 
 }  // namespace app

@@ -41,7 +41,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.take_away.picture_asked = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
-    Shortcut{GLFW_KEY_F1, GLFW_KEY_SLASH, "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
+    Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
              [](Session& s, UiState& ui) {
                if (ui.list_open) return;  // closes that, and nothing else
@@ -69,15 +69,16 @@ std::span<const Shortcut> shortcuts() { return shortcut_table; }
 std::span<const MouseUse> mouse_uses() { return mouse_table; }
 
 bool press(int key, bool repeat, Session& session, UiState& ui, int mods) {
+  // Shift alone changes nothing where it means nothing; these do, for their keys are others everywhere.
+  constexpr int others = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
   for (const OverlayRow& row : overlay_table) {
-    if (key != row.shortcut || repeat || mods & GLFW_MOD_CONTROL) continue;  // GLFW's digit keys are their ASCII codes
+    if (key != row.shortcut || repeat || mods & others) continue;
     ui.overlays.*row.shown = !(ui.overlays.*row.shown);
     return true;
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
-    // Shift alone changes nothing where it means nothing; control does, for its keys are others everywhere.
-    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & GLFW_MOD_CONTROL) continue;
+    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & others) continue;
     if (repeat && !shortcut.repeats) return false;
     shortcut.act(session, ui);
     return true;

@@ -9,7 +9,7 @@
 namespace app {
 
 struct Shortcut {
-  int key, other_key;      // GLFW_KEY_*; other_key 0: none
+  int key, other_key;      // GLFW_KEY_* or a sign, as in engine::KeyPress; other_key 0: none
   std::string_view label;  // of the keys, in the help
   std::string_view what;
   void (*act)(Session& session, UiState& ui);

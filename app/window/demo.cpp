@@ -92,7 +92,9 @@ class Demo {
 
   void handle_keys() {
     for (const engine::KeyPress& key : screen_->gui.take_key_presses())
-      if (press(key.key, key.repeat, session_, ui_, key.mods)) seconds_ += key_hint_seconds;
+      if (press(key.key, key.repeat, session_, ui_, key.mods) ||
+          press(key.otherwise, key.repeat, session_, ui_, key.mods))
+        seconds_ += key_hint_seconds;
   }
 
   /// Begins a frame of the Gui, and does what it is told of mouse and keyboard.

@@ -324,11 +324,23 @@ TEST(Shortcuts, DoWhatTheHelpSays) {
   EXPECT_FALSE(ui.panel);
   tap('C');
   EXPECT_TRUE(ui.reset_camera);
-  tap('/');
+  tap('?');
   EXPECT_TRUE(ui.help);
   tap('Q');
   EXPECT_TRUE(ui.quit);
   EXPECT_FALSE(tap('Z'));
+  EXPECT_FALSE(tap('/')) << "of the same key as ? on some keyboards only";
+}
+
+TEST(Shortcuts, AreNoneWithAltOrSuper) {
+  Session session(touching_pair(), {}, 1);
+  UiState ui;
+  for (const int mod : {GLFW_MOD_ALT, GLFW_MOD_SUPER}) {
+    for (const Shortcut& shortcut : shortcuts())
+      EXPECT_FALSE(press(shortcut.key, false, session, ui, shortcut.mods | mod)) << shortcut.label;
+    for (const OverlayRow& row : overlay_table) EXPECT_FALSE(press(row.shortcut, false, session, ui, mod)) << row.label;
+  }
+  EXPECT_FALSE(ui.overlays.any());
 }
 
 TEST(Shortcuts, HeldKeysRepeatOnlyWhereThatHelps) {

@@ -32,7 +32,7 @@ until_true() {
   fail "waited in vain: $what"
 }
 
-for tool in Xvfb xdotool; do
+for tool in Xvfb xdotool setxkbmap; do
   command -v $tool >/dev/null || { echo "window: $tool is missing, skipped"; exit 77; }
 done
 
@@ -148,6 +148,45 @@ sleep 0.5
 press q
 expect_clean_end "the key Q, the second time"
 grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"
+
+# Keyboard layouts, changed while it runs. By keycodes, for xdotool would look for another key of that name.
+press_with() {
+  xdotool keydown "$1"
+  press "$2"
+  xdotool keyup "$1"
+}
+open_only Files
+start
+xdotool windowfocus "$window" 2>/dev/null
+setxkbmap fr
+press 47            # m: the next method
+press 58            # a comma: nothing
+press 10            # & on the digit key 1: body boxes
+press 34; press 26  # a dead key, which makes ê of e: nothing
+setxkbmap de
+press_with 108 17   # AltGr+8 is [: fewer boxes, and no surface contacts
+press_with 64 41    # Alt+F: nothing
+setxkbmap ru
+press 58            # where M is on a US keyboard: one more method
+press 28            # where T is: no hash table
+press_with 50 40    # where D is, with Shift: twenty bodies
+press_with 37 52    # where Z is, with Ctrl: none of them
+setxkbmap fr
+click 150 $((field + 58)) 1  # the field of the scene to save
+press End
+press_with 37 24    # Ctrl+A, where Q is on a US keyboard: what follows replaces all
+setxkbmap us
+xdotool type --delay 20 keys.toml
+press Return
+until_true "the scene of other keyboards" test -s keys.toml
+click 1100 400 1
+press q
+expect_clean_end "the key Q, after other keyboards"
+kept() { grep -qx "$2" "$1" || fail "$2 was not kept: a key of another keyboard was taken for something else"; }
+for line in 'method = "grid-hash"' 'contact_surface = "vertex-vertex"' 'levels = 2'; do kept keys.toml "$line"; done
+for line in 'body-boxes = true' 'touches = false' 'error_time = false' 'hash_table = false'; do
+  kept "$preferences" "$line"
+done
 
 # A recording begins and ends by its button; the video is whatever the program called ffmpeg makes of the pictures.
 mkdir "$work/bin"

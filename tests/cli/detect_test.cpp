@@ -190,6 +190,29 @@ TEST_F(Detect, WarningsNamePrimesThatSpoilTheHashOfMethodsThatHaveOne) {
   EXPECT_EQ(detect(other_count)["warnings"], json::array());
 }
 
+TEST_F(Detect, LinesMayEndAsOnAnySystem) {
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const std::string text = "o a" + end + "v 0 0 0" + end + "v .01 0 0" + end + "o b" + end + "v .02 0 0" + end;
+    for (const std::string padding : {"", "\x1a"}) {
+      const json d = detect({folder.write("a.obj", text + padding), "--tolerance", "0.1"});
+      EXPECT_EQ(d["bodies"], 2);
+      EXPECT_EQ(d["frames"][0]["contacts"], 3);
+      EXPECT_EQ(d["frames"][0]["self_contacts"], 1);
+    }
+  }
+}
+
+TEST_F(Detect, WarningsSayWhatMayNotBeMeant) {
+  const std::string mesh = "v 0 0 0 2\nv 1 0 0\nv 2 0 0\no a\nf 1 2 3\no b\nf 1 2 3\n";
+  const std::string obj = folder.write("a.obj", mesh);
+  const json warnings = detect({obj, "--tolerance", "1"})["warnings"];
+  ASSERT_EQ(warnings.size(), 2u);
+  EXPECT_NE(warnings[0].get<std::string>().find("2 objects have faces"), std::string::npos) << warnings;
+  EXPECT_NE(warnings[1].get<std::string>().find("weight"), std::string::npos) << warnings;
+  const Outcome table = run({"detect", obj, "--tolerance", "1"});
+  EXPECT_NE(table.out.find("note: 2 objects have faces"), std::string::npos) << table.out;
+}
+
 TEST_F(Detect, BruteForceTestsEveryPair) {
   const auto three = folder.write("three.obj", "v 0 0 0\nv 9 0 0\no b\nv 0 9 0\n");
   const json frame = detect({three, "--tolerance", "1", "--method", "brute-force"})["frames"][0];

@@ -4,6 +4,8 @@
 
 #include <cmath>
 #include <random>
+#include <string>
+#include <vector>
 
 #include "app/files/obj.h"
 #include "tests/cli/detect_rig.h"
@@ -55,7 +57,8 @@ TEST(Obj, FacesOfAllFormsGivePolygonEdges) {
   const std::string points = "v 9 9 9\no b\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   const Edges quad{{3, 0}, {0, 1}, {1, 2}, {2, 3}};
   for (const char* face : {"f 2 3 4 5", "f 2/1 3/2 4/3 5/4", "f 2//1 3//1 4//1 5//1", "f 2/1/1 3/1/1 4/1/1 5/-1/-1",
-                           "f -4 -3 -2 -1", "f\t2  3 4\t5 # a comment", "f 2 3 \\\n4 5", "f 2 3 4 5 \\\r\n"}) {
+                           "f 2// 3// 4// 5//", "f 2/ 3/ 4/ 5/", "f 2/1/ 3/1/ 4/-1/ 5", "f -4 -3 -2 -1",
+                           "f\t2  3 4\t5 # a comment", "f 2 3 \\\n4 5", "f 2 3 4 5 \\\r\n"}) {
     const ObjBodies b = read(points + face);
     EXPECT_EQ(b.edges[1], quad) << face;
     EXPECT_TRUE(b.edges[0].empty());
@@ -70,6 +73,58 @@ TEST(Obj, OtherStatementsAndLayoutDoNotMatter) {
       "usemtl m\nmtllib x.mtl\nl 1 2\np 1\nobject 1\nv\t-1\t-2\t-3");
   EXPECT_EQ(b.x, (std::vector<float>{1, 4, 7, -1}));
   EXPECT_EQ(b.first, (std::vector<collide::Index>{0, 4}));
+}
+
+TEST(Obj, ANameThatEndsInABackslashSwallowsNoLine) {
+  for (const std::string name : {"g a\\", "usemtl C:\\textures\\", "mtllib C:\\\\", "s \\ ", "# C:\\"}) {
+    const ObjBodies b =
+        read(name + "\nv 0 0 0\n" + name + "\r\nv 1 0 0\n" + name + "\rv 0 1 0\n" + name + "\nf 1 2 \\\n3\n");
+    EXPECT_EQ(b.x.size(), 3u) << name;
+    EXPECT_EQ(b.edges[0].size(), 3u) << name;
+  }
+  EXPECT_EQ(read("o a\\\nv 0 0 0\no b\\\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1, 2}));
+}
+
+TEST(Obj, WeightsAndColoursArePassedOver) {
+  const ObjBodies b = read(
+      "v 1 2 3 nan nan nan\nv 4 5 6 1.#QNAN -1.#IND 0\nv 7 8 9 .5 .5\nv 1 1 1 1e999 -inf 2 0.5\nv 2 2 2 1.0\n"
+      "v 3 3 3 2\nv 3 3 3 nan\nv 3 3 3 1.#QNAN\n");
+  EXPECT_EQ(b.x, (std::vector<float>{1, 4, 7, 1, 2, 3, 3, 3}));
+  ASSERT_EQ(b.notes.size(), 1u);
+  EXPECT_NE(b.notes[0].find("3 vertices have a weight other than 1"), std::string::npos) << b.notes[0];
+}
+
+constexpr const char* six = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 5 0 0\n";
+
+TEST(Obj, ObjectsAfterAllVerticesHaveThoseThatTheirFacesName) {
+  using First = std::vector<collide::Index>;
+  const auto first_of = [](const std::string& text) {
+    const ObjBodies b = read(text);
+    EXPECT_EQ(b.notes, std::vector<std::string>{}) << text;
+    return b.first;
+  };
+  EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n"), (First{0, 3, 6}));
+  EXPECT_EQ(first_of(std::string(six) + "o a\nf 2 3 4\no b\nf 5 6 5\n"), (First{0, 1, 4, 6})) << "one that none names";
+  EXPECT_EQ(first_of(std::string(six) + "f 1 2 1\no a\nf 4 3 3\no none\no b\nf 5 6 5\n"), (First{0, 2, 4, 4, 6}));
+  EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 1\nf 2 3 2\n"), (First{0, 6}));
+  EXPECT_EQ(first_of(std::string(six) + "o a\no b\n"), (First{0, 6, 6, 6})) << "without faces, empty objects stay so";
+  EXPECT_EQ(read(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n").edges[1], (Edges{{0, 2}, {2, 1}, {1, 0}}));
+}
+
+TEST(Obj, FacesOfObjectsThatHaveNoVerticesOfTheirOwnAreNoted) {
+  const auto noted = [](const std::string& text) {
+    const ObjBodies b = read(text);
+    EXPECT_EQ(b.notes.size(), 1u) << text;
+    return b.first;
+  };
+  using First = std::vector<collide::Index>;
+  const std::string mixed = std::string(six) + "o a\nf 1 3 5\no b\nf 2 4 6\n";
+  EXPECT_EQ(noted(mixed), (First{0, 6, 6, 6}));
+  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nf 3 4 5\n"), (First{0, 6, 6, 6})) << "they share a vertex";
+  EXPECT_EQ(noted(std::string(six) + "o a\nf 4 5 6\no b\nf 1 2 3\n"), (First{0, 6, 6, 6})) << "in another order";
+  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nv 9 9 9\n"), (First{0, 6, 6, 7})) << "not all stand first";
+  EXPECT_EQ(noted(std::string("o a\n") + six + "f 1 2 3\no b\nf 4 5 6\n"), (First{0, 6, 6})) << "a holds all";
+  EXPECT_EQ(noted(std::string("o a\n") + six + "o b\nf 1 2 3\n"), (First{0, 6, 6}));
 }
 
 TEST(Obj, LinesAreWholeWhereverThePiecesEnd) {

@@ -35,7 +35,7 @@ std::string text_of(const std::vector<InputEvent>& events) {
 struct Hands {
   InputQueue queue;
 
-  void key(int code, int action) { queue.push(KeyEvent{code, code, 0, action, 0}); }
+  void key(int code, int action) { queue.push(KeyEvent{code, {code, false}, 0, action, 0}); }
   void type(char capital) {
     key(capital, GLFW_PRESS);
     queue.push(CharacterEvent{static_cast<unsigned int>(capital - 'A' + 'a')});

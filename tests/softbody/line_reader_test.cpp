@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <stdexcept>
+#include <string>
+#include <vector>
 
 #include "tests/temporary_folder.h"
 
@@ -13,38 +15,76 @@ using softbody::LineReader;
 /// Lengths about those at which more is read at once, up to the longest line.
 class LineLengths : public testing::TestWithParam<std::size_t> {};
 
-TEST_P(LineLengths, ComeWholeBetweenOthers) {
-  const std::string long_line(GetParam(), 'x');
+std::vector<std::string> lines_of(const std::string& text) {
   const tests::TemporaryFolder folder;
-  LineReader lines(folder.write("lines", "first\n" + long_line + "\n" + long_line + "\r\nlast"));
-  std::string_view line;
-  ASSERT_TRUE(lines.next(line));
-  EXPECT_EQ(line, "first");
-  for (const std::uint64_t number : {2u, 3u}) {
+  LineReader reader(folder.write("lines", text));
+  std::vector<std::string> lines;
+  for (std::string_view line; reader.next(line);) lines.emplace_back(line);
+  return lines;
+}
+
+TEST_P(LineLengths, ComeWholeBetweenOthersWithAnyEnd) {
+  const std::string long_line(GetParam(), 'x');
+  for (const std::string end : {"\n", "\r\n", "\r"}) {
+    const tests::TemporaryFolder folder;
+    LineReader lines(folder.write("lines", "first" + end + long_line + end + long_line + end + "last"));
+    std::string_view line;
     ASSERT_TRUE(lines.next(line));
-    EXPECT_TRUE(line == long_line) << line.size();
-    EXPECT_EQ(lines.number(), number);
+    EXPECT_EQ(line, "first");
+    for (const std::uint64_t number : {2u, 3u}) {
+      ASSERT_TRUE(lines.next(line));
+      EXPECT_TRUE(line == long_line) << line.size();
+      EXPECT_EQ(lines.number(), number);
+    }
+    ASSERT_TRUE(lines.next(line));
+    EXPECT_EQ(line, "last");
+    EXPECT_FALSE(lines.next(line));
   }
-  ASSERT_TRUE(lines.next(line));
-  EXPECT_EQ(line, "last");
-  EXPECT_FALSE(lines.next(line));
 }
 
 TEST_P(LineLengths, ComeJoined) {
-  const std::string half(GetParam() / 2, 'x');
-  const tests::TemporaryFolder folder;
-  LineReader lines(folder.write("lines", half + "\\\n" + half + "\nlast"));
-  std::string_view line;
-  ASSERT_TRUE(lines.next(line));
-  EXPECT_TRUE(line == half + "  " + half) << line.size();
-  ASSERT_TRUE(lines.next(line));
-  EXPECT_EQ(line, "last");
-  EXPECT_EQ(lines.number(), 3u);
+  const std::string half(GetParam() / 2, '1');
+  for (const std::string end : {"\n", "\r\n", "\r", " \t\n"}) {
+    const tests::TemporaryFolder folder;
+    LineReader lines(folder.write("lines", half + "\\" + end + half + "1\nlast"));
+    std::string_view line;
+    ASSERT_TRUE(lines.next(line));
+    EXPECT_TRUE(line == half + std::string(1 + end.size(), ' ') + half + '1') << line.size();
+    ASSERT_TRUE(lines.next(line));
+    EXPECT_EQ(line, "last");
+    EXPECT_EQ(lines.number(), 3u);
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(LineReader, LineLengths,
                          testing::Values(0, 1, 65'529, 65'530, 65'535, 65'536, 65'537, 131'072, 200'000, 524'288,
                                          LineReader::longest_line - 8));
+
+using Lines = std::vector<std::string>;
+
+TEST(LineReader, EndsOfLinesMayBeMixed) {
+  EXPECT_EQ(lines_of("a\rb\r\nc\n\r\r\n\n\rd"), (Lines{"a", "b", "c", "", "", "", "", "d"}));
+  EXPECT_EQ(lines_of("a\r"), Lines{"a"});
+}
+
+TEST(LineReader, AStatementIsNotJoinedToTheLineBeforeIt) {
+  EXPECT_EQ(lines_of("g C:\\\nf 1 2 3\n"), (Lines{"g C:\\", "f 1 2 3"}));
+  EXPECT_EQ(lines_of("g C:\\\r\tf 1 \\\r2 3\r"), (Lines{"g C:\\", "\tf 1   2 3"}));
+  EXPECT_EQ(lines_of("# C:\\\n# D:\\\n\nv"), (Lines{"# C:\\", "# D:  ", "v"}));
+  EXPECT_EQ(lines_of("v 1 2 \\\n-.5\n\\"), (Lines{"v 1 2   -.5", "\\"}));
+}
+
+TEST(LineReader, LeavesOutPaddingAtTheEndOnly) {
+  const std::string zero(1, '\0'), zeros(100'000, '\0');
+  for (const std::string& padding : Lines{"\x1a", zero, zeros, "\n\x1a\r\n\x1a\x1a\n", "\n" + zeros, "\r" + zero}) {
+    const Lines lines = lines_of("a\nb" + padding);
+    ASSERT_GE(lines.size(), 2u);
+    EXPECT_EQ(lines[0], "a");
+    EXPECT_EQ(lines[1], "b");
+    for (std::size_t i = 2; i < lines.size(); ++i) EXPECT_EQ(lines[i], "");
+  }
+  EXPECT_EQ(lines_of("a\x1a\nb"), (Lines{"a\x1a", "b"}));
+}
 
 TEST(LineReader, RefusesALineThatIsTooLong) {
   const tests::TemporaryFolder folder;

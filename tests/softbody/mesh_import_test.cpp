@@ -146,6 +146,29 @@ TEST(MeshImport, WhatNoFaceUsesIsDroppedAndDoesNotCount) {
   EXPECT_TRUE(mesh.closed);
 }
 
+TEST(MeshImport, OfDuplicateFacesTheFirstStays) {
+  for (const char* again : {"f 4 3 2 1\n", "f 2 1 4 3\n", "f 1 2 3 4\n", "f 3 4 1 2\n"}) {
+    const auto [mesh, found] = read(cube_vertices + cube_faces + again);
+    EXPECT_EQ(mesh.triangles.size(), 12u) << again;
+    EXPECT_TRUE(mesh.closed) << again;
+    EXPECT_EQ(found.turned_faces, 0u) << again;
+    EXPECT_EQ(remarks(found), "1 duplicate faces dropped") << again;
+  }
+  const auto [twice, found_twice] = read(cube_vertices + cube_faces + cube_vertices +
+                                         "f -5 -6 -7 -8\nf -4 -3 -2 -1\nf 9 10 14 13\nf 10 11 15 14\nf 11 12 16 15\n");
+  EXPECT_TRUE(twice.closed) << "the same at the same place, with vertices of its own";
+  EXPECT_EQ(remarks(found_twice), "8 vertices welded, 5 duplicate faces dropped");
+  const auto [sheet, both_sides] = read("v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 3 2 1\nf 4 3 1\n");
+  EXPECT_EQ(remarks(both_sides), "2 duplicate faces dropped, open, so that it holds no gas");
+}
+
+TEST(MeshImport, WeightsArePassedOverWithANote) {
+  const auto [mesh, found] = read(
+      "v 2 0 0 2\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
+      "f 2 4 3\nf 2 3 5\nf 3 4 5\nf 2 5 4\n");
+  EXPECT_EQ(remarks(found), "1 unused vertices dropped, 1 weights of vertices passed over");
+}
+
 TEST(MeshImport, SizeAndUpPlaceIt) {
   const auto [mesh, found] = read(cube_vertices + cube_faces, {.size = 0.5});
   EXPECT_NEAR(volume(mesh.vertices, mesh.triangles), 0.125, 1e-12);
@@ -174,7 +197,9 @@ TEST(MeshImport, RefusesWithTheReason) {
   EXPECT_NE(error_of(tetrahedron.substr(0, 38)).find("a.obj:5: "), std::string::npos) << "cut off";
   EXPECT_NE(error_of("v 1 1 1\nv 1 1 1\nv 1 1 1\nf 1 2 3\n").find("in one point"), std::string::npos);
   EXPECT_NE(error_of("v 0 0 0\nv 1e9 0 0\nv 0 1 0\nf 1 2 3\n").find("set size"), std::string::npos);
-  EXPECT_NE(error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 3 2 1\n").find("holds no volume"), std::string::npos);
+  EXPECT_NE(
+      error_of("v 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nf 2 4 3\nf 2 1 4\nf 4 1 3\n").find("holds no volume"),
+      std::string::npos);
   EXPECT_NE(
       error_of(cube_vertices + cube_faces + "f 1 2 7\n").find("vertices 1 and 2 (counted from 1) has more than two"),
       std::string::npos);
