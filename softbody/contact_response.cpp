@@ -117,7 +117,7 @@ void Dynamics::wake_what_is_hit(double seconds) {
 
 /// Of h seconds, that the candidates at hand may be taken for, if they hold: one at least.
 int Dynamics::foreseen_substeps(double left, double h) const {
-  const double seconds = double(surface_.search().foreseen()) - (found_ - left);
+  const double seconds = double(surface_.search().predicted_until()) - (found_ - left);
   return std::max(1, int(std::min(seconds / h + 1e-3, 1e6)));
 }
 

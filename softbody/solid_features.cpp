@@ -66,7 +66,7 @@ Meeting meet(const SolidFeature& f, std::span<const glm::vec3> x) {
                                            : collide::surface::closest_edges(x[0], x[1], f.from, f.to);
   std::copy_n(face ? c.weight + 1 : c.weight, x.size(), m.weight.begin());
   for (std::size_t k = 0; k < x.size(); ++k) m.point += m.weight[k] * x[k];
-  m.apart = face ? -c.apart : c.apart;
+  m.apart = face ? -c.separation : c.separation;
   m.across = face ? normal_of(x[0], x[1], x[2]) : glm::cross(x[1] - x[0], f.to - f.from);
   m.inner = c.inner;
   return m;

@@ -28,7 +28,7 @@ float slack_after(float stray, const collide::surface::SurfaceBody& before) {
 
 /// The calmer a body is, the fewer candidates it needs.
 void set_slack(collide::surface::SurfaceBody& body, float wanted) {
-  const float slack = std::clamp(wanted, 0.015f * body.edge, 0.1f * body.edge);
+  const float slack = std::clamp(wanted, 0.015f * body.mean_edge, 0.1f * body.mean_edge);
   body.skin += slack - body.slack;
   body.slack = slack;
 }
@@ -45,7 +45,7 @@ bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index ver
     return normal_of(corner(0), corner(1), corner(2));
   };
   glm::vec3 sum(0.0f);
-  for (const Index f : own.around(vertex)) sum += normal(own, own_at, f);
+  for (const Index f : own.triangles_at(vertex)) sum += normal(own, own_at, f);
   return glm::dot(sum, normal(other, other_at, face)) > 0;
 }
 
@@ -70,12 +70,12 @@ void SurfaceContact::find(const collide::surface::Motion& motion, std::vector<co
   for (Index body = 0; body < traits_.size(); ++body) {
     const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
     if (!known) {
-      set_slack(traits_[body], traits_[body].edge);
+      set_slack(traits_[body], traits_[body].mean_edge);
       continue;
     }
-    const SurfaceSearch::Past past = search_.past(body);
-    set_slack(traits_[body], slack_after(past.stray, traits[body]));
-    traits_[body].foresight = std::max(ahead, patience * past.lasted);
+    const SurfaceSearch::History history = search_.history(body);
+    set_slack(traits_[body], slack_after(history.deviation, traits[body]));
+    traits_[body].horizon = std::max(ahead, patience * history.duration);
   }
   threads_.resize(static_cast<std::size_t>(workers.threads()));
   search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
@@ -85,11 +85,11 @@ void SurfaceContact::renew(const collide::surface::Motion& motion, float elapsed
                            collide::Workers& workers) {
   for (Index body = 0; body < traits_.size(); ++body) {
     const collide::surface::SweptBody& swept = search_.body(body);
-    if (!swept.due()) continue;
-    traits_[body].foresight = std::max(ahead, patience * (elapsed - swept.begin()));
-    if (swept.strayed()) set_slack(traits_[body], slack_after(swept.stray(), traits_[body]));
+    if (!swept.expired()) continue;
+    traits_[body].horizon = std::max(ahead, patience * (elapsed - swept.begin()));
+    if (swept.exceeds_slack()) set_slack(traits_[body], slack_after(swept.deviation(), traits_[body]));
   }
-  search(motion.positions, [&] { search_.renew(motion, traits_, elapsed, ahead, workers); });
+  search(motion.positions, [&] { search_.update(motion, traits_, elapsed, ahead, workers); });
 }
 
 /// What is remembered belongs to the features that were found last: to none, if too many are near each other.
@@ -127,7 +127,7 @@ void SurfaceContact::leave_room(const Pair& pair) {
   constexpr float share = 0.9f;
   const Surface& surface = *traits_[pair.range.a].surface;
   const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
-  const auto room = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.apart)); };
+  const auto room = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
   for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
     const FeaturePair& f = search_.features()[i];
     if (i < pair.range.edge_edge) {
@@ -146,13 +146,14 @@ void SurfaceContact::foresee_speeds() {
   std::vector<float> fastest(bodies_.size(), 0);
   rate_ = 0;
   for (const Pair& p : pairs_) {
-    const float speed = search_.speed(p.range), edge = std::min(traits_[p.range.a].edge, traits_[p.range.b].edge);
+    const float speed = search_.max_relative_speed(p.range),
+                edge = std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge);
     for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
     rate_ = std::max(rate_, speed / (step_share * edge));
   }
   for (Pair& p : pairs_) {
     p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
-    p.rate = p.speed / (step_share * std::min(traits_[p.range.a].edge, traits_[p.range.b].edge));
+    p.rate = p.speed / (step_share * std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge));
   }
 }
 
@@ -174,7 +175,7 @@ SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePa
 /// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
 void SurfaceContact::inherit() {
   auto old = pairs_before_.begin();
-  const std::vector<FeaturePair>& old_features = search_.features_before();
+  const std::vector<FeaturePair>& old_features = search_.previous_features();
   const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
     for (; to < to_end; ++to) {
       while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
@@ -223,7 +224,7 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
   // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
   // which no vertex is deep, be pulled both ways for ever.
   pair.parting = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
-                 (deepest > deep_share * std::min(traits_[pair.range.a].edge, traits_[pair.range.b].edge) ||
+                 (deepest > deep_share * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge) ||
                   2 * along > deep_.size() - pair.deep);
   if (pair.parting) deep_.resize(pair.deep);
   pair.deep_end = static_cast<std::uint32_t>(deep_.size());

@@ -88,7 +88,8 @@ class SurfaceContact {
 
   /// The candidates of the coming `seconds`. traits and bodies: one a body; slack, and skin beyond the reach, are set
   /// here. Bodies that are likely to stray are foreseen for less, but for the seconds `ahead` at least, and what is
-  /// strained fast for query.least. Throws std::length_error beyond query.most_features; then nothing is remembered.
+  /// strained fast for query.min_seconds. Throws std::length_error beyond query.max_features; then nothing is
+  /// remembered.
   void find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
             std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
             collide::Workers& workers);
@@ -96,7 +97,7 @@ class SurfaceContact {
   /// foreseen for the seconds `ahead`, anew. Throws as find() does.
   void renew(const collide::surface::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   void clear();
-  bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.holds(now, elapsed, ahead); }
+  bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.check_valid(now, elapsed, ahead); }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
@@ -171,7 +172,7 @@ class SurfaceContact {
   struct alignas(64) Thread {
     std::vector<ContactRow> rows;
     std::vector<Near> near;  // faces near one vertex
-    collide::surface::FeaturePairs meeting;
+    collide::surface::FeatureBatch meeting;
     bool undone = false;  // mend() had something to do
   };
   /// The state of a substep, as one thread sees it.
@@ -231,11 +232,11 @@ class SurfaceContact {
 struct SurfaceContact::State {
   std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> bodies;
-  std::vector<collide::surface::SurfaceSearch::Past> past;  // one a body
-  std::vector<Pair> pairs;                                  // with their ranges in ...
-  std::vector<collide::surface::FeaturePair> features;      // ... those of which something is remembered,
-  std::vector<Memory> memory;                               // namely this,
-  std::vector<ContactRow> rows;                             // and in those that pressed
+  std::vector<collide::surface::SurfaceSearch::History> history;  // one a body
+  std::vector<Pair> pairs;                                        // with their ranges in ...
+  std::vector<collide::surface::FeaturePair> features;            // ... those of which something is remembered,
+  std::vector<Memory> memory;                                     // namely this,
+  std::vector<ContactRow> rows;                                   // and in those that pressed
   float last_h = 0;
 
   std::size_t bytes() const;

@@ -67,7 +67,7 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
   };
   const auto& features = search_.features();
   const float look2 = step.look * step.look;
-  collide::surface::FeaturePairs& meeting = step.own.meeting;
+  collide::surface::FeatureBatch& meeting = step.own.meeting;
   step.own.near.clear();
   const auto flush = [&] {
     if (!step.own.near.empty() && !is_deep(features[step.own.near[0].feature].a))
@@ -77,12 +77,12 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
   for (std::uint32_t i = begin; i < end;) {
     meeting.clear();
     for (; i < end && !meeting.full(); ++i) {
-      if (features[i].from > step.until) continue;
+      if (features[i].earliest > step.until) continue;
       const auto& [a, b, c] = faces.surface->triangles()[features[i].b];
       meeting.add({at(step, vertex_side, features[i].a), at(step, faces, a), at(step, faces, b), at(step, faces, c)},
                   i);
     }
-    meeting.meet_vertices_and_faces();
+    meeting.find_closest_vertex_faces();
     for (Index k = 0; k < meeting.size(); ++k) {
       const std::uint32_t feature = meeting.tag(k);
       if (!step.own.near.empty() && features[step.own.near[0].feature].a != features[feature].a) flush();
@@ -111,7 +111,7 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
   };
   if (!oriented) {
     const auto facing = [](const Near& n) {  // |cos| of the angle between the face's normal and the way to the vertex
-      return std::abs(glm::dot(n.closest.apart, n.face_normal)) / glm::length(n.face_normal);
+      return std::abs(glm::dot(n.closest.separation, n.face_normal)) / glm::length(n.face_normal);
     };
     const Near* nearest = &near[0];
     for (const Near& n : near) {
@@ -119,12 +119,12 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
       const bool tie = std::abs(n.distance2 - nearest->distance2) <= 1e-5f * nearest->distance2;
       if (tie ? facing(n) > facing(*nearest) : n.distance2 < nearest->distance2) nearest = &n;
     }
-    if (glm::dot(nearest->closest.apart, nearest->face_normal) < 0) {
+    if (glm::dot(nearest->closest.separation, nearest->face_normal) < 0) {
       const float depth = std::sqrt(nearest->distance2);
       for (const Near& n : near)
         memory_[n.feature].pressed = n.feature == nearest->feature ? memory_[n.feature].pressed : 0;
       if (depth > step.pair.distance) step.pair.overlap = true;  // to be looked at when candidates are found next
-      add_row(step, corners(*nearest), unit(-nearest->closest.apart, nearest->face_normal), -depth,
+      add_row(step, corners(*nearest), unit(-nearest->closest.separation, nearest->face_normal), -depth,
               memory_[nearest->feature]);
       return;
     }
@@ -134,14 +134,14 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
     Memory& memory = memory_[n.feature];
     const bool twice =
         !n.closest.inner && std::any_of(near.begin(), near.begin() + std::ptrdiff_t(k), [&](const Near& m) {
-          const glm::vec3 d = m.closest.apart - n.closest.apart;
+          const glm::vec3 d = m.closest.separation - n.closest.separation;
           return glm::dot(d, d) <= 1e-6f * n.distance2;
         });
     if (twice) {
       memory = {};
       continue;
     }
-    glm::vec3 normal = unit(n.closest.apart, oriented ? memory.normal : n.face_normal);
+    glm::vec3 normal = unit(n.closest.separation, oriented ? memory.normal : n.face_normal);
     const bool crossed = oriented && orient(memory, n.closest.inner, normal);
     add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), memory);
   }
@@ -203,7 +203,7 @@ void SurfaceContact::edges_on_edges(Step& step) {
     }
     row.feature = i;
     const float distance = std::sqrt(distance2);
-    glm::vec3 normal = unit(c.apart, memory.normal);
+    glm::vec3 normal = unit(c.separation, memory.normal);
     bool crossed = false;
     if (!closed) {
       crossed = orient(memory, true, normal);
@@ -218,16 +218,16 @@ void SurfaceContact::edges_on_edges(Step& step) {
     }
     add_row(step, row, normal, crossed ? -distance : distance, memory);
   };
-  collide::surface::FeaturePairs& meeting = step.own.meeting;
+  collide::surface::FeatureBatch& meeting = step.own.meeting;
   for (std::uint32_t i = range.edge_edge; i < range.end;) {
     meeting.clear();
     for (; i < range.end && !meeting.full(); ++i) {
       const FeaturePair& f = search_.features()[i];
-      if (f.from > step.until) continue;
+      if (f.earliest > step.until) continue;
       const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
       meeting.add({at(step, one, e1[0]), at(step, one, e1[1]), at(step, two, e2[0]), at(step, two, e2[1])}, i);
     }
-    meeting.meet_edges();
+    meeting.find_closest_edges();
     for (Index k = 0; k < meeting.size(); ++k) {
       if (meeting.inner(k) && meeting.distance2(k) <= look2)
         meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));

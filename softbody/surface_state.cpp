@@ -14,7 +14,7 @@ SurfaceContact::State SurfaceContact::save() const {
   state.traits = traits_;
   state.bodies = bodies_;
   state.last_h = last_h_;
-  for (Index body = 0; body < bodies_.size(); ++body) state.past.push_back(search_.past(body));
+  for (Index body = 0; body < bodies_.size(); ++body) state.history.push_back(search_.history(body));
   // By its bits: a zero's sign is handed on too.
   const auto blank = [](const Memory& m) {
     return std::bit_cast<std::array<char, sizeof(Memory)>>(m) ==
@@ -49,7 +49,7 @@ void SurfaceContact::restore(const State& state) {
   clear();
   traits_ = state.traits;
   bodies_ = state.bodies;
-  search_.recall(state.features, state.past);
+  search_.restore(state.features, state.history);
   pairs_ = state.pairs;
   memory_ = state.memory;
   threads_.resize(std::max(threads_.size(), std::size_t{1}));
@@ -59,7 +59,7 @@ void SurfaceContact::restore(const State& state) {
 
 std::size_t SurfaceContact::State::bytes() const {
   const auto of = [](const auto& list) { return list.size() * sizeof(list[0]); };
-  return of(traits) + of(bodies) + of(past) + of(pairs) + of(features) + of(memory) + of(rows);
+  return of(traits) + of(bodies) + of(history) + of(pairs) + of(features) + of(memory) + of(rows);
 }
 
 }  // namespace softbody

@@ -36,7 +36,7 @@ class BodyNeighbours {
   /// Calls take(other) for every body whose box overlaps this one's, the body itself included.
   template <class Take>
   void each(Index body, const Take& take) const {
-    tree_.overlapping(box_[body], take);
+    tree_.for_each_overlapping(box_[body], take);
   }
 
  private:

@@ -99,7 +99,7 @@ class CrossingSearch {
   void find_vertices(Index body, Index other, std::vector<Crossing>& found) const {
     const Moving& against = moving_[other];
     for (Index v = before_.bodies->first[body]; v < before_.bodies->first[body + 1]; ++v) {
-      against.faces.overlapping(box_of(std::array{v}, against.observer), [&](Index t) {
+      against.faces.for_each_overlapping(box_of(std::array{v}, against.observer), [&](Index t) {
         const surface::Triangle face = over_frame(before_, other, surfaces_[other]->triangles()[t]);
         if (std::find(face.begin(), face.end(), v) != face.end()) return;
         const auto passage = vertex_through_face(point(v), point(face[0]), point(face[1]), point(face[2]));
@@ -114,7 +114,7 @@ class CrossingSearch {
     const std::vector<surface::Edge>& others = surfaces_[other]->edges();
     for (Index e = 0; e < surfaces_[body]->edges().size(); ++e) {
       const surface::Edge edge = over_frame(before_, body, surfaces_[body]->edges()[e]);
-      against.edges.overlapping(box_of(edge, against.observer), [&](Index k) {
+      against.edges.for_each_overlapping(box_of(edge, against.observer), [&](Index k) {
         if (body == other && k <= e) return;
         const surface::Edge through = over_frame(before_, other, others[k]);
         if (edge[0] == through[0] || edge[0] == through[1] || edge[1] == through[0] || edge[1] == through[1]) return;

@@ -81,13 +81,13 @@ class OverlapSearch {
     surface::Box ray = point_box(p);
     ray.hi.x = std::numeric_limits<double>::infinity();
     int windings = 0;
-    faces_[body].overlapping(ray, [&](Index t) {
+    faces_[body].for_each_overlapping(ray, [&](Index t) {
       const auto [a, b, c] = corners(body, t);
       windings += ray_crossing(p, a, b, c);
     });
     if (windings == 0) return false;
     bool on_surface = false;
-    faces_[body].overlapping(point_box(p), [&](Index t) {
+    faces_[body].for_each_overlapping(point_box(p), [&](Index t) {
       const auto [a, b, c] = corners(body, t);
       on_surface = on_surface || on_triangle(p, a, b, c);
     });
@@ -125,7 +125,7 @@ class OverlapSearch {
       surface::Box box = point_box(p);
       box.add(glm::dvec3(q));
       if (!overlap(box, bodies_.box(other))) continue;
-      faces_[other].overlapping(box, [&](Index t) {
+      faces_[other].for_each_overlapping(box, [&](Index t) {
         if (body == other && share_vertex(local, surfaces_[body]->triangles()[t])) return;
         if (passes(p, q, other, t)) found.push_back({edge, body, other, t, meeting_point(p, q, corners(other, t))});
       });
@@ -150,7 +150,7 @@ class OverlapSearch {
 
     const std::vector<Index> common = met_vertices(surfaces_[body]->triangles()[triangle], crossing.meets);
     int plus = 0, minus = 0;
-    for (const Index t : surfaces_[body]->around(common[0])) {
+    for (const Index t : surfaces_[body]->triangles_at(common[0])) {
       const surface::Triangle& other = surfaces_[body]->triangles()[t];
       if (std::find(other.begin(), other.end(), common.back()) == other.end()) continue;
       const SegmentCrossing beside = crossing_of(t);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cassert>
 #include <limits>
 #include <stdexcept>
 #include <string>
@@ -21,7 +22,7 @@ namespace collide::surface {
 namespace HWY_NAMESPACE {
 namespace hn = hwy::HWY_NAMESPACE;
 
-/// A bit a box from `begin` (a multiple of 64) on: whether it overlaps `box`.
+/// Writes one bit for each box k >= begin: set if it overlaps `box`. begin: a multiple of 64.
 void Overlapping(const BoxList& list, Index begin, const Aabb& box, std::uint64_t* words) {
   const hn::ScalableTag<float> d;
   constexpr auto lanes = static_cast<Index>(hn::MaxLanes(d));
@@ -53,7 +54,7 @@ namespace {
 
 HWY_EXPORT(Overlapping);
 
-/// Calls visit(k) for each box from `begin` on that overlaps `box`.
+/// Calls visit(k) for each box k >= begin that overlaps `box`.
 template <class Visit>
 void for_overlapping(const BoxList& list, Index begin, const Aabb& box, std::vector<std::uint64_t>& words,
                      const Visit& visit) {
@@ -67,23 +68,24 @@ void for_overlapping(const BoxList& list, Index begin, const Aabb& box, std::vec
       visit(start + 64 * w + static_cast<Index>(std::countr_zero(word)));
 }
 
-/// Those that reach below the cut, or those that reach it from above.
-void take(const BoxList& list, const MidpointCut& cut, bool low, BoxList& taken) {
+/// Copies the boxes of one side of a cut; a box on both sides belongs to both.
+void filter_side(const BoxList& list, const MidpointCut& cut, bool low, BoxList& side) {
   const auto axis = static_cast<std::size_t>(cut.axis);
-  taken.clear();
-  taken.reserve(list.size);
+  side.clear();
+  side.reserve(list.size);
   for (Index k = 0; k < list.size; ++k)
-    if (low ? list.lo[axis][k] < cut.mid : list.hi[axis][k] >= cut.mid) taken.add(list.box(k), list.item[k]);
-  taken.end();
+    if (low ? list.lo[axis][k] < cut.mid : list.hi[axis][k] >= cut.mid) side.add(list.box(k), list.item[k]);
+  side.end();
 }
 
-glm::vec3 above(glm::vec3 from, const MidpointCut& cut) {
-  from[cut.axis] = std::max(from[cut.axis], cut.mid);
-  return from;
+/// Returns the minimum corner of the cell above a cut, given that of the whole cell.
+glm::vec3 above(glm::vec3 cell_lo, const MidpointCut& cut) {
+  cell_lo[cut.axis] = std::max(cell_lo[cut.axis], cut.mid);
+  return cell_lo;
 }
 
-constexpr std::size_t most_cuts = 48;
-const glm::vec3 anywhere(std::numeric_limits<float>::lowest());
+constexpr std::size_t max_depth = 48;
+const glm::vec3 lowest_corner(std::numeric_limits<float>::lowest());
 
 }  // namespace
 
@@ -96,6 +98,7 @@ void BoxList::reserve(Index count) {
 }
 
 void BoxList::add(const Aabb& box, Index i) {
+  assert(size < item.size());
   for (int axis = 0; axis < 3; ++axis) {
     lo[static_cast<std::size_t>(axis)][size] = box.lo[axis];
     hi[static_cast<std::size_t>(axis)][size] = box.hi[axis];
@@ -112,6 +115,7 @@ void BoxList::end() {
 }
 
 Aabb BoxList::bounds() const {
+  assert(size > 0);
   Aabb all = box(0);
   for (Index k = 1; k < size; ++k) {
     all.lo = glm::min(all.lo, box(k).lo);
@@ -127,34 +131,36 @@ void BoxPairs::pick(const BoxList& list, const Aabb& box, BoxList& picked) {
   picked.end();
 }
 
-void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t most) {
+void BoxPairs::between(const BoxList& a, const BoxList& b, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
   pairs_ = &pairs;
-  most_ = most;
+  max_pairs_ = max_pairs;
   const std::size_t before = pairs.size();
-  cut_between(a, b, anywhere, 0);
+  cut_between(a, b, lowest_corner, 0);
   if (std::uint64_t{a.size} * b.size > leaf_tests)
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
 }
 
-void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t most) {
+void BoxPairs::within(const BoxList& list, std::vector<ItemPair>& pairs, std::size_t max_pairs) {
   pairs_ = &pairs;
-  most_ = most;
+  max_pairs_ = max_pairs;
   const std::size_t before = pairs.size();
-  cut_within(list, anywhere, 0);
+  cut_within(list, lowest_corner, 0);
   if (std::uint64_t{list.size} * list.size / 2 > leaf_tests)
     std::sort(pairs.begin() + static_cast<std::ptrdiff_t>(before), pairs.end());
 }
 
-/// Pairs of box i with those of b from `begin` on. A pair belongs to the cell with the lower corner of its overlap, so
-/// that those in two cells come up once: `from` is the lower corner of this one, and no list here reaches beyond it.
-void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, const glm::vec3& from) {
+/// Appends the pairs of box i of a with the boxes k >= begin of b. A pair belongs to the cell that contains the minimum
+/// corner of the overlap, so that a pair that several cells see is appended once. cell_lo: the minimum corner of this
+/// cell. Its maximum corner needs no test, since every box in its lists begins below that.
+void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, const glm::vec3& cell_lo) {
   const Aabb box = a.box(i);
   for_overlapping(b, begin, box, words_, [&](Index k) {
     const glm::vec3 corner = glm::max(box.lo, b.box(k).lo);
-    if (corner.x >= from.x && corner.y >= from.y && corner.z >= from.z) pairs_->push_back({a.item[i], b.item[k]});
+    if (corner.x >= cell_lo.x && corner.y >= cell_lo.y && corner.z >= cell_lo.z)
+      pairs_->push_back({a.item[i], b.item[k]});
   });
-  if (pairs_->size() > most_)
-    throw std::length_error("more than " + std::to_string(most_) +
+  if (pairs_->size() > max_pairs_)
+    throw std::length_error("more than " + std::to_string(max_pairs_) +
                             " boxes of bodies overlap: take them apart, or away");
 }
 
@@ -163,35 +169,35 @@ BoxPairs::Level& BoxPairs::level(std::size_t depth) {
   return *levels_[depth];
 }
 
-void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& from, std::size_t depth) {
+void BoxPairs::cut_between(const BoxList& a, const BoxList& b, const glm::vec3& cell_lo, std::size_t depth) {
   const auto tests = [](const BoxList& one, const BoxList& other) { return std::uint64_t{one.size} * other.size; };
-  if (tests(a, b) > leaf_tests && depth < most_cuts) {
+  if (tests(a, b) > leaf_tests && depth < max_depth) {
     const MidpointCut cut = cut_of(a.bounds());
     Level& own = level(depth);
-    take(a, cut, true, own.low_a), take(b, cut, true, own.low_b);
-    take(a, cut, false, own.up_a), take(b, cut, false, own.up_b);
+    filter_side(a, cut, true, own.low_a), filter_side(b, cut, true, own.low_b);
+    filter_side(a, cut, false, own.up_a), filter_side(b, cut, false, own.up_b);
     if (tests(own.low_a, own.low_b) + tests(own.up_a, own.up_b) < tests(a, b) / 8 * 7) {
-      cut_between(own.low_a, own.low_b, from, depth + 1);
-      cut_between(own.up_a, own.up_b, above(from, cut), depth + 1);
+      cut_between(own.low_a, own.low_b, cell_lo, depth + 1);
+      cut_between(own.up_a, own.up_b, above(cell_lo, cut), depth + 1);
       return;
     }
   }
-  for (Index i = 0; i < a.size; ++i) test(a, i, b, 0, from);
+  for (Index i = 0; i < a.size; ++i) test(a, i, b, 0, cell_lo);
 }
 
-void BoxPairs::cut_within(const BoxList& list, const glm::vec3& from, std::size_t depth) {
+void BoxPairs::cut_within(const BoxList& list, const glm::vec3& cell_lo, std::size_t depth) {
   const auto tests = [](const BoxList& one) { return std::uint64_t{one.size} * one.size / 2; };
-  if (tests(list) > leaf_tests && depth < most_cuts) {
+  if (tests(list) > leaf_tests && depth < max_depth) {
     const MidpointCut cut = cut_of(list.bounds());
     Level& own = level(depth);
-    take(list, cut, true, own.low_a), take(list, cut, false, own.up_a);
+    filter_side(list, cut, true, own.low_a), filter_side(list, cut, false, own.up_a);
     if (tests(own.low_a) + tests(own.up_a) < tests(list) / 8 * 7) {
-      cut_within(own.low_a, from, depth + 1);
-      cut_within(own.up_a, above(from, cut), depth + 1);
+      cut_within(own.low_a, cell_lo, depth + 1);
+      cut_within(own.up_a, above(cell_lo, cut), depth + 1);
       return;
     }
   }
-  for (Index i = 0; i < list.size; ++i) test(list, i, list, i + 1, from);
+  for (Index i = 0; i < list.size; ++i) test(list, i, list, i + 1, cell_lo);
 }
 
 }  // namespace collide::surface

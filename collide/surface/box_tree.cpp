@@ -12,17 +12,17 @@ BoxTree::BoxTree(const std::vector<Box>& boxes) {
   if (!items.empty()) build(boxes, items.begin(), items.end());
 }
 
-void BoxTree::build(const std::vector<Box>& boxes, Place begin, Place end) {
+void BoxTree::build(const std::vector<Box>& boxes, Iterator begin, Iterator end) {
   const std::size_t self = nodes_.size();
   nodes_.push_back({{}, 0, *begin});
   Box all;
-  for (Place place = begin; place != end; ++place) all.add(boxes[*place]);
+  for (Iterator it = begin; it != end; ++it) all.add(boxes[*it]);
   if (end - begin > 1) {
     const glm::dvec3 size = all.hi - all.lo;
     const int axis = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
-    const auto middle = [&](Index item) { return boxes[item].lo[axis] + boxes[item].hi[axis]; };
-    const Place half = begin + (end - begin) / 2;
-    std::nth_element(begin, half, end, [&](Index a, Index b) { return middle(a) < middle(b); });
+    const auto centre2 = [&](Index item) { return boxes[item].lo[axis] + boxes[item].hi[axis]; };
+    const Iterator half = begin + (end - begin) / 2;
+    std::nth_element(begin, half, end, [&](Index a, Index b) { return centre2(a) < centre2(b); });
     build(boxes, begin, half);
     build(boxes, half, end);
   }

@@ -1,5 +1,5 @@
 #pragma once
-// A tree of bounding boxes over whatever has a box: faces, edges, bodies.
+// A bounding volume hierarchy of boxes over items: faces, edges or bodies.
 
 #include <algorithm>
 #include <limits>
@@ -13,7 +13,8 @@
 
 namespace collide::surface {
 
-/// A closed box in doubles, so that float positions and their sums and differences need no care. Empty at first.
+/// A closed box in doubles, which hold float positions, their sums and differences without harmful rounding. Empty at
+/// first.
 struct Box {
   glm::dvec3 lo{std::numeric_limits<double>::infinity()}, hi{-std::numeric_limits<double>::infinity()};
 
@@ -31,20 +32,22 @@ inline bool overlap(const Box& a, const Box& b) {
   return a.lo.x <= b.hi.x && b.lo.x <= a.hi.x && a.lo.y <= b.hi.y && b.lo.y <= a.hi.y && a.lo.z <= b.hi.z &&
          b.lo.z <= a.hi.z;
 }
-/// m^2, from a point to the nearest point of a box; 0 inside.
+/// Returns the squared distance (m^2) of a point from a box; 0 inside.
 inline double squared_distance_to(const Box& box, const glm::dvec3& p) {
   const glm::dvec3 outside = glm::max(glm::max(box.lo - p, p - box.hi), 0.0);
   return glm::dot(outside, outside);
 }
 
-/// Split at medians along the widest axis, one item a leaf, nodes in the order of a walk, so that it needs no stack.
+/// Splits at the median of the widest axis and has one item in each leaf. The nodes are stored in depth-first order, so
+/// that a walk needs no stack.
 class BoxTree {
  public:
   BoxTree() = default;
-  /// The box of item i is boxes[i]; items whose box is empty are left out.
+  /// Builds the tree. boxes[i] is the box of item i; items with an empty box are left out.
   explicit BoxTree(const std::vector<Box>& boxes);
 
-  /// Calls take(item) for every item whose box, and the boxes of all nodes above it, enter(box) says true to.
+  /// Walks the tree depth first. Skips every node for whose box enter(box) is false, and calls take(item) for the items
+  /// that are left.
   template <class Enter, class Take>
   void walk(const Enter& enter, const Take& take) const {
     for (Index i = 0; i < nodes_.size();) {
@@ -57,22 +60,22 @@ class BoxTree {
       }
     }
   }
-  /// Calls take(item) for every item whose box overlaps this one.
+  /// Calls take(item) for every item whose box overlaps `box`.
   template <class Take>
-  void overlapping(const Box& box, const Take& take) const {
+  void for_each_overlapping(const Box& box, const Take& take) const {
     walk([&](const Box& other) { return overlap(box, other); }, take);
   }
-  /// Around all items.
+  /// Returns the box around all items; empty if there are none.
   Box box() const { return nodes_.empty() ? Box{} : nodes_.front().box; }
 
  private:
   struct Node {
     Box box;
-    Index end;   // of the nodes below this one
-    Index item;  // of a leaf
+    Index end;   // one past the last node below this one
+    Index item;  // only of a leaf
   };
-  using Place = std::vector<Index>::iterator;
-  void build(const std::vector<Box>& boxes, Place begin, Place end);
+  using Iterator = std::vector<Index>::iterator;
+  void build(const std::vector<Box>& boxes, Iterator begin, Iterator end);
 
   std::vector<Node> nodes_;
 };

@@ -1,6 +1,6 @@
 #pragma once
-// A closed surface in one pose, asked about many points: what lies inside, and which face it is closest to. In float
-// and double, for contact; the exact judge is surface_oracle.h.
+// Tells of points whether they lie inside a closed surface, and which face is nearest to them. In float and double, for
+// contact; the exact test is surface_oracle.h.
 
 #include "collide/core/vertex_run.h"
 #include "collide/surface/box_tree.h"
@@ -8,19 +8,23 @@
 
 namespace collide::surface {
 
+/// A closed surface at fixed positions.
 class ClosedShell {
  public:
-  /// at: the vertices; they and the surface have to outlive this. Where one is not finite, nothing is inside.
+  /// at: the positions of the vertices, as many as the surface has. They and the surface must outlive this object. If
+  /// one is not finite, no point is inside.
   ClosedShell(const Surface& surface, const VertexRun& at);
 
-  /// By the parity of a ray.
+  /// Returns true if a ray from the point crosses the surface an odd number of times. A point on the surface may count
+  /// either way.
   bool inside(const glm::vec3& point) const;
 
   struct Nearest {
     Index face;
     float distance;  // m
   };
-  /// The face closest to a point inside or near it, of those equally close the first. Needs finite vertices and a face.
+  /// Returns the face that is nearest to a point; the first one if several are equally near. Precondition: the surface
+  /// has a face, and all vertices are finite.
   Nearest nearest_face(const glm::vec3& point) const;
 
  private:

@@ -9,13 +9,13 @@ namespace collide::surface {
 
 namespace {
 
-constexpr Index missing = std::numeric_limits<Index>::max();
+constexpr Index no_triangle = std::numeric_limits<Index>::max();
 
 }  // namespace
 
 Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
     : vertex_count_(vertex_count), triangles_(std::move(triangles)), first_(vertex_count + std::size_t{1}, 0) {
-  std::vector<Edge> up, down;  // sides that run from the smaller vertex to the greater one, and the others turned round
+  std::vector<Edge> up, down;  // sides from the smaller to the greater vertex; the other sides, reversed
   for (const Triangle& triangle : triangles_) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangle[k], b = triangle[(k + 1) % 3];
@@ -31,21 +31,21 @@ Surface::Surface(Index vertex_count, std::vector<Triangle> triangles)
   std::set_union(up.begin(), up.end(), down.begin(), down.end(), std::back_inserter(edges_));
   edges_.erase(std::unique(edges_.begin(), edges_.end()), edges_.end());
 
-  edge_triangles_.assign(edges_.size(), {missing, missing});
+  edge_triangles_.assign(edges_.size(), {no_triangle, no_triangle});
   for (Index t = 0; t < triangles_.size(); ++t) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = triangles_[t][k], b = triangles_[t][(k + 1) % 3];
       const auto edge = std::lower_bound(edges_.begin(), edges_.end(), Edge{std::min(a, b), std::max(a, b)});
       auto& at = edge_triangles_[static_cast<std::size_t>(edge - edges_.begin())];
-      at = {at[0] == missing ? t : at[0], t};
+      at = {at[0] == no_triangle ? t : at[0], t};
     }
   }
 
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
-  around_.resize(3 * triangles_.size());
+  triangles_at_.resize(3 * triangles_.size());
   std::vector<Index> next(first_.begin(), first_.end() - 1);
   for (Index t = 0; t < triangles_.size(); ++t) {
-    for (const Index vertex : triangles_[t]) around_[next[vertex]++] = t;
+    for (const Index vertex : triangles_[t]) triangles_at_[next[vertex]++] = t;
   }
 }
 

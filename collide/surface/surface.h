@@ -1,5 +1,7 @@
 #pragma once
-// Triangle meshes as surfaces, for everything that asks about faces and not only about vertices.
+// Triangle meshes as surfaces, for contact and for the oracle, which need faces and not only vertices.
+
+#include <cassert>
 
 #include "collide/core/frame.h"
 
@@ -8,25 +10,27 @@ namespace collide::surface {
 using Triangle = std::array<Index, 3>;  // local vertices, counter-clockwise seen from outside
 using Edge = std::array<Index, 2>;      // local vertices, the smaller one first
 
-/// The triangles of a mesh. Shared by all bodies that are copies of one mesh. Immutable.
+/// The triangles of a mesh. All bodies that are copies of one mesh share it. Immutable.
 class Surface {
  public:
-  /// Throws std::invalid_argument if a triangle names a missing vertex, or one vertex twice.
+  /// Throws std::invalid_argument if a triangle names a vertex that does not exist, or one vertex twice.
   Surface(Index vertex_count, std::vector<Triangle> triangles);
 
   Index vertex_count() const { return vertex_count_; }
   std::size_t feature_count() const { return vertex_count_ + edges_.size() + triangles_.size(); }
   const std::vector<Triangle>& triangles() const { return triangles_; }
-  /// The sides of all triangles, each once; ascending.
+  /// Returns the sides of all triangles, each once; ascending.
   const std::vector<Edge>& edges() const { return edges_; }
-  /// The triangles at each edge; on a border the same one twice, and two of them where more meet.
+  /// Returns two triangles for each edge: its only triangle twice on a border, the first and the last one if there are
+  /// more than two.
   const std::vector<std::array<Index, 2>>& edge_triangles() const { return edge_triangles_; }
-  /// The triangles around a vertex; ascending.
-  std::span<const Index> around(Index vertex) const {
-    return std::span(around_).subspan(first_[vertex], first_[vertex + std::size_t{1}] - first_[vertex]);
+  /// Returns the triangles that have the vertex as a corner; ascending.
+  std::span<const Index> triangles_at(Index vertex) const {
+    assert(vertex < vertex_count_);
+    return std::span(triangles_at_).subspan(first_[vertex], first_[vertex + std::size_t{1}] - first_[vertex]);
   }
-  /// True if the mesh has triangles and every side is run through as often one way as the other: only then is each
-  /// point of space, however the mesh is deformed, clearly inside or outside.
+  /// Returns true if the mesh has triangles, and they run along every side equally often in both directions. Only then
+  /// is each point of space clearly inside or outside, however the mesh is deformed.
   bool closed() const { return closed_; }
 
  private:
@@ -34,11 +38,11 @@ class Surface {
   std::vector<Triangle> triangles_;
   std::vector<Edge> edges_;
   std::vector<std::array<Index, 2>> edge_triangles_;
-  std::vector<Index> first_, around_;  // vertex_count + 1 offsets into around_
+  std::vector<Index> first_, triangles_at_;  // vertex_count + 1 offsets into triangles_at_
   bool closed_;
 };
 
-/// The surface of each body of a frame; null: the body has none, and only its vertices take part.
+/// The surface of each body of a frame. Null if a body has none: then only its vertices take part.
 using Surfaces = std::vector<std::shared_ptr<const Surface>>;
 
 }  // namespace collide::surface

@@ -1,90 +1,110 @@
 #pragma once
-// Candidates for the contact of surfaces: which vertices and faces, and which edges and edges, can come within reach of
-// each other while bodies move on for a while. The same stages as the exact detector: boxes per body, bodies whose
-// boxes are near, midpoint cuts of the area where two of them overlap (§2.1, §5); what is boxed here is features, swept
-// over their motion, so that nothing fast slips through. A body that strays is foreseen anew, alone with its
-// neighbours; all others' candidates stay.
+// Finds the candidates for the contact of surfaces: the pairs of a vertex and a face, and the pairs of two edges, that
+// can come within their contact distance while the bodies move on for a while. The contact distance of two features is
+// the sum of the contact offsets of their bodies, see SurfaceBody.
 //
-// Why nothing is lost, as long as no vertex strays from its straight path x + v t by more than its body's slack (see
-// holds()): seen from the frame of reference that moves with body b's mean velocity u_b, a vertex of body a stays
-// within the box spanned by 0 and (v - u_a) T, plus that spanned by where a is seen from b first and last, around x,
-// grown by the slack. Boxes are grown by the body's skin instead, so that features that come within the sum of their
-// bodies' (skin - slack) of each other have boxes that overlap: they are candidates.
-//   Within a body, let v_i = u + w x r_i + s_i for any u and w. Then |x_i + v_i t - x_j - v_j t| >= |(1 + t [w]) (r_i -
-// r_j)| - t |s_i| - t |s_j|, and the first is at least |r_i - r_j|, since w x r is normal to r: turning brings nothing
-// closer. Turned back by 1 + t [w], the strain s t is off by t |w| times itself at most: boxes swept over s T and grown
-// by that and the skin overlap if the features come within reach.
+// The stages are those of the exact detector: a box for each body, a broad phase that finds the bodies whose boxes
+// overlap, and midpoint cuts of the area where two boxes overlap (§2.1, §5). But here the boxes enclose features and
+// are swept over their motion (continuous collision detection), so that no fast feature passes through another
+// unnoticed. If a body leaves its predicted path, only this body is predicted again, and only its pairs are searched
+// again. All other pairs keep their candidates.
+//
+// Proof that no candidate is missing, as long as every vertex stays within its body's slack of its predicted path
+// x + v t (see check_valid()). Time t runs from 0 to T.
+//   Two bodies. Let u_a and u_b be the mean velocities of bodies a and b. Consider the frame of reference that moves
+// with u_b. There, the displacement of a vertex of a from x has two parts. The first part, (v - u_a) t, lies in the box
+// spanned by 0 and (v - u_a) T. The second part is the displacement of the frame of a relative to the frame of b; it
+// lies in the box spanned by the first and the last such displacement. So the vertex stays in the sum of these two
+// boxes around x, grown by the slack. The search grows the boxes of each body by the skin instead, which is larger by
+// the contact offset. Therefore, if two features come within their contact distance, their boxes overlap, and they are
+// candidates.
+//   One body. Let r_i be the position of vertex i relative to the centre. For any u and w, let v_i = u + w x r_i + s_i:
+// s_i is the velocity of the deformation. Let [w] be the matrix with [w] r = w x r, and A = 1 + t [w]. Then
+//   (x_i + v_i t) - (x_j + v_j t) = A (r_i - r_j) + t s_i - t s_j,
+// and the length of this is at least |A (r_i - r_j)| - t |s_i| - t |s_j|. Since w x r is normal to r, |A r| >= |r| for
+// all r. So rotation brings no two points closer, and the inverse of A makes no vector longer. Now apply the inverse of
+// A to all positions. Features that were within their contact distance still are, and no deviation from a path grows.
+// The deformation t s becomes a vector that differs from t s by at most t |w| |t s|. Therefore, the boxes around the
+// vertices, swept over s T and grown by T |w| |s T| and by the skin, overlap if the features come within their contact
+// distance.
 
 #include <utility>
 #include <vector>
 
 #include "collide/core/workers.h"
-#include "collide/surface/feature_pairs.h"
+#include "collide/surface/feature_batch.h"
 #include "collide/surface/swept_body.h"
 
 namespace collide::surface {
 
-/// Two features by their local numbers.
+/// Two features, by their local numbers.
 struct FeaturePair {
   Index a, b;
-  float from;  // s after find(): before that they cannot be within reach (and a tenth more) of each other
+  float earliest;  // s after find(): until then they are farther apart than 1.1 times their contact distance
   auto key() const { return std::pair(a, b); }
 };
 
-/// The candidates of two bodies, or of one with itself (a == b), as places in SurfaceSearch::features(). There may be
-/// none, if one of the bodies may be wholly inside the other.
+/// The candidates of two bodies, or of one body with itself (a == b), as ranges in SurfaceSearch::features(). All
+/// ranges are empty if one body may be wholly inside the other and no features are near each other.
 struct SurfacePair {
-  Index a, b;                 // a <= b
-  std::uint32_t vertex_face;  // vertex of a, face of b: from here
-  std::uint32_t face_vertex;  // vertex of b, face of a; none if a == b
-  std::uint32_t edge_edge;    // edge of a, edge of b (the greater second if a == b)
+  Index a, b;                 // bodies, a <= b
+  std::uint32_t vertex_face;  // first pair of a vertex of a and a face of b
+  std::uint32_t face_vertex;  // first pair of a vertex of b and a face of a; no such pairs if a == b
+  std::uint32_t edge_edge;    // first pair of an edge of a and an edge of b; the smaller edge first if a == b
   std::uint32_t end;
   auto bodies() const { return std::pair(a, b); }
 };
 
-/// What is asked of a search.
+/// The arguments of a search.
 struct SurfaceQuery {
-  float seconds = 0;
-  float least = 0;    // s: see SweptBody::foresee()
-  bool self = false;  // also within bodies
-  std::size_t most_features = std::size_t{1} << 24;
+  float seconds = 0;      // s: candidates are found for this long
+  float min_seconds = 0;  // s: no prediction is shorter, see SweptBody::predict()
+  bool self = false;      // also find candidates within a body
+  std::size_t max_features = std::size_t{1} << 24;
 };
 
 class SurfaceSearch {
  public:
-  /// Finds all candidates of the coming seconds, until foreseen(), bodies ascending and features ascending within their
-  /// range. Bodies that are not finite are left out. Throws std::length_error beyond what may be; nothing that was
-  /// found before holds then.
+  /// Finds all candidates from now on until predicted_until(): bodies ascending, and features ascending within each
+  /// range. Leaves out bodies that are not finite. bodies: one for each body of the motion; their surfaces must stay
+  /// alive until the next find(). Throws std::length_error if there are more than query.max_features candidates or too
+  /// many overlapping boxes; then all earlier candidates are invalid, too.
   void find(const Motion& motion, std::span<const SurfaceBody> bodies, const SurfaceQuery& query, Workers& workers);
-  /// `elapsed` seconds later: finds those of bodies that are due anew, for the seconds `least` in any case. bodies:
-  /// theirs may have changed; motion: that of others is not looked at.
-  void renew(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, float least, Workers& workers);
+  /// Predicts the bodies again whose predictions have expired, and finds the candidates of their pairs, `elapsed`
+  /// seconds after find(). Each new prediction lasts at least min_seconds, but not beyond what find() was asked for.
+  /// bodies: as many as in find(); their values may have changed. Reads the motion of expired bodies only. Throws as
+  /// find() does.
+  void update(const Motion& motion, std::span<const SurfaceBody> bodies, float elapsed, float min_seconds,
+              Workers& workers);
   void clear();
 
-  const std::vector<SurfacePair>& pairs() const { return now_.pairs; }
-  const std::vector<FeaturePair>& features() const { return now_.features; }
-  /// What the last find() or renew() took: features that were boxed, pairs of boxes that overlap, and candidates.
+  const std::vector<SurfacePair>& pairs() const { return current_.pairs; }
+  const std::vector<FeaturePair>& features() const { return current_.features; }
+  /// Returns the work of the last find() or update(): the sum of boxes built, overlapping pairs of boxes, and
+  /// candidates.
   std::size_t work() const { return work_; }
-  /// Those before the last find() or renew().
-  const std::vector<FeaturePair>& features_before() const { return before_.features; }
-  /// How a body's motion bore out what was foreseen.
-  struct Past {
-    float stray;   // m
-    float lasted;  // s, until the end of what find() was asked for
+  /// Returns the candidates that features() held before the last find() or update().
+  const std::vector<FeaturePair>& previous_features() const { return previous_.features; }
+  /// How well the last prediction of a body fitted its motion.
+  struct History {
+    float deviation;  // m
+    float duration;   // s, from the start of the prediction to the end of what find() was asked for
   };
-  Past past(Index body) const { return {swept_[body].stray(), end_ - swept_[body].begin()}; }
-  /// Puts features() and past() of an earlier search back, one a body; pairs() are none until the next find().
-  void recall(std::vector<FeaturePair> features, std::span<const Past> past);
+  History history(Index body) const { return {swept_[body].deviation(), end_ - swept_[body].begin()}; }
+  /// Sets features() and history() to those of an earlier search; one history for each body. pairs() is empty until the
+  /// next find().
+  void restore(std::vector<FeaturePair> features, std::span<const History> history);
 
-  /// Whether the candidates are still complete `elapsed` seconds after find(), with the bodies where they are now, and
-  /// will be for the seconds `ahead`.
-  bool holds(const Frame& now, float elapsed, float ahead = 0);
-  float foreseen() const { return foreseen_; }  // s after find(): until then all bodies' motion is
-  /// A body as it was foreseen last, and how far it has strayed from that, at the most in any holds() since.
+  /// Measures the deviations of all bodies, whose positions are `now`, `elapsed` seconds after find(). Returns true if
+  /// the candidates are complete and will be for another `ahead` seconds; else some predictions have expired.
+  bool check_valid(const Frame& now, float elapsed, float ahead = 0);
+  /// Returns until when (s after find()) the motion of all bodies is predicted.
+  float predicted_until() const { return predicted_until_; }
+  /// Returns the last prediction of a body, and its largest deviation in any check_valid() since.
   const SweptBody& body(Index body) const { return swept_[body]; }
 
-  /// m/s: a bound of the relative speed of a pair's vertices during the motion that was foreseen.
-  float speed(const SurfacePair& pair) const;
+  /// Returns an upper bound (m/s) of the relative speed of any vertices of the two bodies, as predicted.
+  float max_relative_speed(const SurfacePair& pair) const;
 
  private:
   struct Candidates {
@@ -94,39 +114,40 @@ class SurfaceSearch {
   struct alignas(64) Thread {
     BoxPairs search;
     BoxList vertices_a, faces_a, edges_a, vertices_b, faces_b, edges_b;
-    BoxList vertices, faces, edges;  // of one body at rest
-    std::vector<ItemPair> found;
-    FeaturePairs meeting;
+    BoxList vertices, faces, edges;  // of one body, without its rigid motion
+    std::vector<ItemPair> found;     // features whose boxes overlap
+    FeatureBatch batch;
     Candidates candidates;
     std::size_t work = 0;
   };
-  void search(const Motion& motion, float least, Workers& workers);
-  void require_few(std::size_t features) const;
-  void find_near();
+  void search(const Motion& motion, float min_seconds, Workers& workers);
+  void check_feature_limit(std::size_t features) const;
+  void find_near_bodies();
   void find_candidates(Thread& own, const ItemPair& bodies);
-  void find_pair(Thread& own, SurfacePair& pair) const;
-  void find_self(Thread& own, SurfacePair& pair) const;
-  void stay(Thread& own, SurfacePair& pair) const;
-  void gather();
-  void keep_vertices_on_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
-  void keep_edges(Thread& own, const SurfacePair& pair) const;
+  void find_between(Thread& own, SurfacePair& pair) const;
+  void find_within(Thread& own, SurfacePair& pair) const;
+  void copy_previous(Thread& own, SurfacePair& pair) const;
+  void merge_threads();
+  void add_vertex_faces(Thread& own, const SurfacePair& pair, Index vertex_body, Index face_body) const;
+  void add_edges(Thread& own, const SurfacePair& pair) const;
   template <std::size_t n, std::size_t m>
-  float fastest(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const;
+  float max_squared_speed(Index a, const std::array<Index, n>& one, Index b, const std::array<Index, m>& two) const;
   template <class Speed>
-  void keep(Thread& own, const SurfacePair& pair, const Speed& speed2) const;
+  void add_reachable(Thread& own, const SurfacePair& pair, const Speed& squared_speed) const;
   glm::vec3 at(Index body, Index v) const { return swept_[body].at(v, time_); }
 
   std::span<const SurfaceBody> bodies_;
   SurfaceQuery query_;
-  float time_ = 0, end_ = 0, foreseen_ = 0;  // s after find()
+  float time_ = 0, end_ = 0, predicted_until_ = 0;  // s after find()
   std::vector<SweptBody> swept_;
-  std::vector<char> anew_;    // bodies that are foreseen anew
-  std::vector<char> needed_;  // of these, and of those near them: whose features' boxes are
-  std::vector<char> boxed_;   // bodies that have them
-  std::vector<Index> order_;
-  std::vector<ItemPair> near_;  // bodies; a == b: with itself
+  // One value for each body:
+  std::vector<char> predicted_anew_;   // it was predicted again in this search
+  std::vector<char> needs_boxes_;      // it is in a near pair of which a body was predicted again
+  std::vector<char> has_boxes_;        // the boxes of its features are those of its last prediction
+  std::vector<Index> order_;           // scratch of the sweep
+  std::vector<ItemPair> near_bodies_;  // a == b: a body with itself
   std::vector<Thread> threads_;
-  Candidates now_, before_;
+  Candidates current_, previous_;
   std::size_t work_ = 0;
 };
 

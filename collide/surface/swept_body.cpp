@@ -1,6 +1,7 @@
 #include "collide/surface/swept_body.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -10,64 +11,66 @@ namespace collide::surface {
 namespace {
 
 template <std::size_t corners>
-void join_any(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& list) {
-  list.clear();
-  list.reserve(static_cast<Index>(features.size()));
+void join_features(const BoxList& vertices, const std::vector<std::array<Index, corners>>& features, BoxList& boxes) {
+  boxes.clear();
+  boxes.reserve(static_cast<Index>(features.size()));
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto &lo = vertices.lo[axis], &hi = vertices.hi[axis];
     for (std::size_t i = 0; i < features.size(); ++i) {
-      float least = lo[features[i][0]], most = hi[features[i][0]];
+      float min = lo[features[i][0]], max = hi[features[i][0]];
       for (std::size_t k = 1; k < corners; ++k) {
-        least = std::min(least, lo[features[i][k]]);
-        most = std::max(most, hi[features[i][k]]);
+        min = std::min(min, lo[features[i][k]]);
+        max = std::max(max, hi[features[i][k]]);
       }
-      list.lo[axis][i] = least;
-      list.hi[axis][i] = most;
+      boxes.lo[axis][i] = min;
+      boxes.hi[axis][i] = max;
     }
   }
-  for (Index i = 0; i < features.size(); ++i) list.item[i] = i;
-  list.size = static_cast<Index>(features.size());
-  list.end();
+  for (Index i = 0; i < features.size(); ++i) boxes.item[i] = i;
+  boxes.size = static_cast<Index>(features.size());
+  boxes.end();
 }
 
-constexpr float strain_share = 0.5f;  // of the mean edge
+constexpr float max_deformation_share = 0.5f;  // of the mean edge, within one prediction
 
-glm::vec3 below(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }
-glm::vec3 above(const glm::vec3& v) { return glm::max(v, glm::vec3(0.0f)); }
+glm::vec3 negative_part(const glm::vec3& v) { return glm::min(v, glm::vec3(0.0f)); }
+glm::vec3 positive_part(const glm::vec3& v) { return glm::max(v, glm::vec3(0.0f)); }
 
 }  // namespace
 
-void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& list) {
-  join_any(vertices, features, list);
+void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes) {
+  join_features(vertices, features, boxes);
 }
-void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& list) {
-  join_any(vertices, features, list);
+void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes) {
+  join_features(vertices, features, boxes);
 }
 
-void SweptBody::foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float least) {
+void SweptBody::predict(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end,
+                        float min_seconds) {
   traits_ = traits;
   begin_ = begin, end_ = end;
-  stray_ = 0;
-  live_ = due_ = false;
+  deviation_ = 0;
+  live_ = expired_ = false;
   count_ = now.positions.bodies->size(body);
   if (count_ == 0 || !traits.surface) return;
+  assert(traits.surface->vertex_count() == count_);
   const Index first = now.positions.bodies->first[body];
-  const auto take = [&](const auto& from, std::vector<float>& to) {
+  const auto copy = [&](const auto& from, std::vector<float>& to) {
     to.assign(from.begin() + first, from.begin() + first + count_);
   };
-  take(now.positions.x, start_[0]), take(now.positions.y, start_[1]), take(now.positions.z, start_[2]);
+  copy(now.positions.x, start_[0]), copy(now.positions.y, start_[1]), copy(now.positions.z, start_[2]);
   if (traits.moves)
-    take(now.vx, velocity_[0]), take(now.vy, velocity_[1]), take(now.vz, velocity_[2]);
+    copy(now.vx, velocity_[0]), copy(now.vy, velocity_[1]), copy(now.vz, velocity_[2]);
   else
     for (auto& v : velocity_) v.assign(count_, 0.0f);
-  find_rigid_motion();
-  find_bounds(least);
+  fit_rigid_motion();
+  compute_bounds(min_seconds);
 }
 
-void SweptBody::find_rigid_motion() {
-  mean_ = centre_ = glm::vec3(0.0f);
-  for (Index v = 0; v < count_; ++v) mean_ += velocity(v), centre_ += at(v);
-  mean_ = mean_ / static_cast<float>(count_);
+void SweptBody::fit_rigid_motion() {
+  mean_velocity_ = centre_ = glm::vec3(0.0f);
+  for (Index v = 0; v < count_; ++v) mean_velocity_ += velocity(v), centre_ += at(v);
+  mean_velocity_ = mean_velocity_ / static_cast<float>(count_);
   centre_ = centre_ / static_cast<float>(count_);
   spin_ = glm::vec3(0.0f);
   if (!moves()) return;
@@ -75,94 +78,102 @@ void SweptBody::find_rigid_motion() {
   float inertia = 0;
   for (Index v = 0; v < count_; ++v) {
     const glm::vec3 arm = at(v) - centre_;
-    momentum += glm::cross(arm, velocity(v) - mean_);
-    inertia += glm::dot(arm, arm) * (2.0f / 3);  // as if it were a ball: any spin will do
+    momentum += glm::cross(arm, velocity(v) - mean_velocity_);
+    inertia += glm::dot(arm, arm) * (2.0f / 3);  // of a ball: the proof in surface_search.h holds for any spin
   }
   if (inertia > 0) spin_ = momentum / inertia;
 }
 
-void SweptBody::find_bounds(float least) {
-  float spread2 = 0, strain2 = 0;
+void SweptBody::compute_bounds(float min_seconds) {
+  float spread2 = 0, deformation2 = 0;
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 own = velocity(v) - mean_, left = own - glm::cross(spin_, at(v) - centre_);
-    spread2 = std::max(spread2, glm::dot(own, own));
-    strain2 = std::max(strain2, glm::dot(left, left));
+    const glm::vec3 relative = velocity(v) - mean_velocity_,
+                    deformation = relative - glm::cross(spin_, at(v) - centre_);
+    spread2 = std::max(spread2, glm::dot(relative, relative));
+    deformation2 = std::max(deformation2, glm::dot(deformation, deformation));
   }
-  spread_ = std::sqrt(spread2);
-  most_strain_ = std::sqrt(strain2);
-  end_ = std::min(end_, begin_ + std::max(least, strain_share * traits_.edge / most_strain_));
+  velocity_spread_ = std::sqrt(spread2);
+  max_deformation_speed_ = std::sqrt(deformation2);
+  end_ = std::min(end_,
+                  begin_ + std::max(min_seconds, max_deformation_share * traits_.mean_edge / max_deformation_speed_));
   const float seconds = end_ - begin_;
   glm::vec3 lo = at(0), hi = lo;
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 x = at(v), own = velocity(v) - mean_;
-    lo = glm::min(lo, glm::min(x, x + seconds * own));
-    hi = glm::max(hi, glm::max(x, x + seconds * own));
+    const glm::vec3 x = at(v), relative = velocity(v) - mean_velocity_;
+    lo = glm::min(lo, glm::min(x, x + seconds * relative));
+    hi = glm::max(hi, glm::max(x, x + seconds * relative));
   }
-  box_ = {lo - traits_.skin, hi + traits_.skin};
-  world_ = {box_.lo + below(drift(end_)), box_.hi + above(drift(end_))};
-  const glm::vec3 all = centre_ + mean_ + (world_.hi - world_.lo);  // boxes alone do not show a NaN
-  live_ = std::isfinite(all.x + all.y + all.z + spread_);
+  local_box_ = {lo - traits_.skin, hi + traits_.skin};
+  world_box_ = {local_box_.lo + negative_part(drift(end_)), local_box_.hi + positive_part(drift(end_))};
+  // The boxes alone do not show a NaN: min and max may drop it.
+  const glm::vec3 all = centre_ + mean_velocity_ + (world_box_.hi - world_box_.lo);
+  live_ = std::isfinite(all.x + all.y + all.z + velocity_spread_);
 }
 
-void SweptBody::box_features() {
+void SweptBody::build_feature_boxes() {
+  assert(live_);
   const float seconds = end_ - begin_;
-  vertices_.clear();
-  vertices_.reserve(count_);
+  vertex_boxes_.clear();
+  vertex_boxes_.reserve(count_);
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 x = at(v), y = x + seconds * (velocity(v) - mean_);
-    vertices_.add({glm::min(x, y) - traits_.skin, glm::max(x, y) + traits_.skin}, v);
+    const glm::vec3 x = at(v), y = x + seconds * (velocity(v) - mean_velocity_);
+    vertex_boxes_.add({glm::min(x, y) - traits_.skin, glm::max(x, y) + traits_.skin}, v);
   }
-  vertices_.end();
-  join(vertices_, surface().triangles(), faces_);
-  join(vertices_, surface().edges(), edges_);
+  vertex_boxes_.end();
+  join(vertex_boxes_, surface().triangles(), face_boxes_);
+  join(vertex_boxes_, surface().edges(), edge_boxes_);
 }
 
-void SweptBody::box_strained(BoxList& vertices) const {
-  const float seconds = end_ - begin_, turn = seconds * glm::length(spin_);
+void SweptBody::build_deformation_boxes(BoxList& vertices) const {
+  assert(live_);
+  const float seconds = end_ - begin_, angle = seconds * glm::length(spin_);
   vertices.clear();
   vertices.reserve(count_);
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 s = seconds * strain(v);
-    const float grown = traits_.skin + turn * glm::length(s);
-    vertices.add({at(v) + below(s) - grown, at(v) + above(s) + grown}, v);
+    const glm::vec3 s = seconds * deformation_velocity(v);
+    const float margin = traits_.skin + angle * glm::length(s);
+    vertices.add({at(v) + negative_part(s) - margin, at(v) + positive_part(s) + margin}, v);
   }
   vertices.end();
 }
 
-/// Every face must turn its outside away from the middle: det(a, b, c) > 0 for its corners. Then the way out from the
-/// middle meets the surface the same number of times in every direction, and once is asked for. A motion of at most m a
-/// corner takes no more than m (|a x b| + |b x c| + |c x a|) + m^2 (|a| + |b| + |c|) + m^3 from a determinant, and that
-/// is no more than `most` of it with the farthest corner for all.
-bool SweptBody::unfolded() const {
+/// Tests that every face turns its outer side away from the centre: det(a, b, c) > 0 for its corners as seen from the
+/// centre. Then a ray from the centre meets the surface the same number of times in every direction, and that number
+/// must be 1; the ray along +y is counted. Apart from the rigid motion, a corner moves by at most m. That reduces the
+/// determinant by at most
+///   m (|a x b| + |b x c| + |c x a|) + m^2 (|a| + |b| + |c|) + m^3.
+/// This is at most max_loss, which takes the farthest vertex for every corner and is the same for all faces.
+bool SweptBody::stays_star_shaped() const {
+  assert(live_);
   if (!surface().closed()) return false;
-  const float m = (end_ - begin_) * most_strain_ + traits_.slack;
+  const float m = (end_ - begin_) * max_deformation_speed_ + traits_.slack;
   float r2 = 0;
   for (Index v = 0; v < count_; ++v) r2 = std::max(r2, glm::dot(at(v) - centre_, at(v) - centre_));
-  const float most = m * (3 * r2 + m * (3 * std::sqrt(r2) + m));
-  int met = 0;
+  const float max_loss = m * (3 * r2 + m * (3 * std::sqrt(r2) + m));
+  int hits = 0;
   for (const auto& [i, j, k] : surface().triangles()) {
     const glm::vec3 a = at(i) - centre_, b = at(j) - centre_, c = at(k) - centre_, bc = glm::cross(b, c);
-    const auto lost = [&] {
+    const auto loss = [&] {
       return m * (glm::length(glm::cross(a, b)) + glm::length(bc) + glm::length(glm::cross(c, a))) +
              m * m * (glm::length(a) + glm::length(b) + glm::length(c)) + m * m * m;
     };
     const float det = glm::dot(a, bc);
-    if (!(det > most) && !(det > lost())) return false;
-    met += bc.y > 0 && glm::cross(a, b).y > 0 && glm::cross(c, a).y > 0;  // by the way up
+    if (!(det > max_loss) && !(det > loss())) return false;
+    hits += bc.y > 0 && glm::cross(a, b).y > 0 && glm::cross(c, a).y > 0;
   }
-  return met == 1;
+  return hits == 1;
 }
 
-void SweptBody::look(const Frame& now, Index body, float time, float until) {
+void SweptBody::update_deviation(const Frame& now, Index body, float time, float until) {
   if (!live_ || !moves()) return;
   const Index first = now.bodies->first[body];
-  float strayed2 = 0;
+  float deviation2 = 0;
   for (Index v = 0; v < count_; ++v) {
-    const glm::vec3 stray = glm::vec3(now.x[first + v], now.y[first + v], now.z[first + v]) - at(v, time);
-    strayed2 = std::max(strayed2, glm::dot(stray, stray));
+    const glm::vec3 deviation = glm::vec3(now.x[first + v], now.y[first + v], now.z[first + v]) - at(v, time);
+    deviation2 = std::max(deviation2, glm::dot(deviation, deviation));
   }
-  stray_ = std::max(stray_, std::sqrt(strayed2));
-  due_ = strayed() || end_ < until;
+  deviation_ = std::max(deviation_, std::sqrt(deviation2));
+  expired_ = exceeds_slack() || end_ < until;
 }
 
 }  // namespace collide::surface

@@ -1,6 +1,6 @@
 #pragma once
-// What a body may sweep while it moves on for a while: boxes around its features, bounds of their speeds, and whether
-// it can touch itself meanwhile.
+// Predicts the motion of one body for a while: swept boxes around its features, bounds of their speeds, and whether the
+// body can touch itself in that time.
 
 #include <array>
 #include <limits>
@@ -15,90 +15,98 @@
 
 namespace collide::surface {
 
-/// What moves, seen at one instant: one value a vertex, over all bodies.
+/// Positions and velocities at one instant: one value for each vertex of all bodies.
 struct Motion {
   Frame positions;                    // m
   std::span<const float> vx, vy, vz;  // m/s
 };
 
+/// What the search knows of a body. The contact offset of a body is skin - slack: two features are within their contact
+/// distance if they are no farther apart than the sum of their bodies' contact offsets.
 struct SurfaceBody {
   const Surface* surface = nullptr;
-  float skin = 0;      // m: reach and slack
-  float slack = 0;     // m
-  float edge = 0;      // m, the mean at rest
-  bool moves = false;  // pairs of which neither does are left out
-  // s: its motion is foreseen for no longer. What will be thrown off its path soon had best be looked at often.
-  float foresight = std::numeric_limits<float>::infinity();
+  float skin = 0;       // m: contact offset + slack; swept boxes are grown by this much
+  float slack = 0;      // m: the largest deviation from the predicted path for which the prediction is valid
+  float mean_edge = 0;  // m, of the rest shape
+  bool moves = false;   // pairs of two bodies that do not move are left out
+  // s: the motion is predicted for at most this long. Predict a body that will soon leave its path for a short time.
+  float horizon = std::numeric_limits<float>::infinity();
 };
 
-/// Vertices go straight on from where they are seen, x + v t, and stray from that by no more than the slack. Times are
-/// in seconds, from any one start.
+/// Predicts that each vertex moves on a straight path, x + v t, from which it deviates by at most the slack. All times
+/// are in seconds since one common instant.
 class SweptBody {
  public:
-  /// Until `end`, or until a vertex has been strained half an edge: what sweeps over more of itself meets all of
-  /// itself, far oftener than it is worth to look again. For the seconds `least` in any case.
-  void foresee(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float least);
-  /// Has something, and nothing that is not finite.
+  /// Predicts the motion from `begin` to `end`. The prediction ends earlier, but not within min_seconds, when
+  /// deformation may have moved a vertex by half an edge: boxes that are swept farther overlap most others of their
+  /// body, and it is cheaper to predict again. Precondition: the surface has as many vertices as the body.
+  void predict(const Motion& now, Index body, const SurfaceBody& traits, float begin, float end, float min_seconds);
+  /// Returns true if the body has vertices and a surface, and all positions and velocities are finite.
   bool live() const { return live_; }
   const Surface& surface() const { return *traits_.surface; }
   bool moves() const { return traits_.moves; }
   float begin() const { return begin_; }
   float end() const { return end_; }
 
-  /// Around all that it sweeps, each grown by the skin: seen from the body, as it flies with its mean velocity from
-  /// where it is at begin(), or from the world.
-  const Aabb& box() const { return box_; }
-  const Aabb& world() const { return world_; }
-  /// Finds the boxes of its features, seen from the body.
-  void box_features();
-  const BoxList& vertices() const { return vertices_; }
-  const BoxList& faces() const { return faces_; }
-  const BoxList& edges() const { return edges_; }
-  /// Boxes of its vertices that overlap if two of them come within reach of each other, however the body flies and
-  /// turns. See the proof in surface_search.h.
-  void box_strained(BoxList& vertices) const;
+  /// Return the box around the swept body, grown by the skin: in the body's frame, which is at rest in the world at
+  /// begin() and moves with the mean velocity; and in the world.
+  const Aabb& local_box() const { return local_box_; }
+  const Aabb& world_box() const { return world_box_; }
+  /// Computes the swept boxes of all features in the body's frame, grown by the skin. Precondition: live().
+  void build_feature_boxes();
+  const BoxList& vertex_boxes() const { return vertex_boxes_; }
+  const BoxList& face_boxes() const { return face_boxes_; }
+  const BoxList& edge_boxes() const { return edge_boxes_; }
+  /// Computes boxes around the vertices, swept over their deformation only. The boxes of two features overlap if the
+  /// features come within their contact distance, whatever the rigid motion: see the proof in surface_search.h.
+  /// Precondition: live().
+  void build_deformation_boxes(BoxList& vertices) const;
 
-  /// m: where the mean velocity has taken it at a time.
-  glm::vec3 drift(float time) const { return (time - begin_) * mean_; }
-  glm::vec3 mean_velocity() const { return mean_; }
-  float spread() const { return spread_; }            // m/s: no vertex differs more from the mean velocity
-  float most_strain() const { return most_strain_; }  // m/s, nor from the rigid motion
+  /// Returns how far (m) the mean velocity has carried the body from begin() to `time`.
+  glm::vec3 drift(float time) const { return (time - begin_) * mean_velocity_; }
+  glm::vec3 mean_velocity() const { return mean_velocity_; }
+  float velocity_spread() const { return velocity_spread_; }              // m/s: largest |v - mean velocity|
+  float max_deformation_speed() const { return max_deformation_speed_; }  // m/s: largest |deformation_velocity()|
   VertexRun run() const { return {start_[0].data(), start_[1].data(), start_[2].data(), count_}; }
   glm::vec3 at(Index v) const { return {start_[0][v], start_[1][v], start_[2][v]}; }
   glm::vec3 velocity(Index v) const { return {velocity_[0][v], velocity_[1][v], velocity_[2][v]}; }
   glm::vec3 at(Index v, float time) const { return at(v) + (time - begin_) * velocity(v); }
-  /// m/s: what is left of a vertex's velocity without the body's rigid motion.
-  glm::vec3 strain(Index v) const { return velocity(v) - mean_ - glm::cross(spin_, at(v) - centre_); }
+  /// Returns the velocity of a vertex (m/s) minus the rigid motion of the body.
+  glm::vec3 deformation_velocity(Index v) const {
+    return velocity(v) - mean_velocity_ - glm::cross(spin_, at(v) - centre_);
+  }
 
-  /// Whether it is closed and star-shaped, seen from its middle, and stays so: then it cannot touch itself.
-  bool unfolded() const;
-  /// Looks how far its vertices are off their paths at a time, and whether that will do until another.
-  void look(const Frame& now, Index body, float time, float until);
-  float stray() const { return stray_; }  // m: the farthest that was seen since begin()
-  bool strayed() const { return !(stray_ <= traits_.slack); }
-  bool due() const { return due_; }  // it has strayed, or has not been foreseen for as long
-  /// Says how far it has strayed, from a motion that was foreseen at `begin`.
-  void recall(float stray, float begin) { stray_ = stray, begin_ = begin; }
+  /// Returns true if the surface is closed and star-shaped around its centre, and stays so until end(): then the body
+  /// cannot touch itself. Precondition: live().
+  bool stays_star_shaped() const;
+  /// Measures how far the vertices are from their predicted paths at `time`, and marks the prediction as expired if
+  /// that exceeds the slack or if the prediction ends before `until`.
+  void update_deviation(const Frame& now, Index body, float time, float until);
+  float deviation() const { return deviation_; }  // m: the largest that was measured since begin()
+  bool exceeds_slack() const { return !(deviation_ <= traits_.slack); }
+  bool expired() const { return expired_; }
+  /// Sets deviation() and begin() to those of an earlier prediction.
+  void restore(float deviation, float begin) { deviation_ = deviation, begin_ = begin; }
 
  private:
-  void find_rigid_motion();
-  void find_bounds(float least);
+  void fit_rigid_motion();
+  void compute_bounds(float min_seconds);
 
   SurfaceBody traits_;
   float begin_ = 0, end_ = 0;
-  bool live_ = false, due_ = false;
+  bool live_ = false, expired_ = false;
   Index count_ = 0;
-  std::array<std::vector<float>, 3> start_, velocity_;  // m and m/s, of each vertex; no velocity if it stands
-  glm::vec3 mean_{0.0f};                                // m/s
-  glm::vec3 centre_{0.0f}, spin_{0.0f};                 // m; 1/s, about the centre
-  float spread_ = 0, most_strain_ = 0;                  // m/s
-  float stray_ = 0;                                     // m
-  Aabb box_{}, world_{};
-  BoxList vertices_, faces_, edges_;
+  std::array<std::vector<float>, 3> start_, velocity_;     // m and m/s, of each vertex; 0 m/s if the body does not move
+  glm::vec3 mean_velocity_{0.0f};                          // m/s
+  glm::vec3 centre_{0.0f}, spin_{0.0f};                    // m; 1/s, about the centre
+  float velocity_spread_ = 0, max_deformation_speed_ = 0;  // m/s
+  float deviation_ = 0;                                    // m
+  Aabb local_box_{}, world_box_{};
+  BoxList vertex_boxes_, face_boxes_, edge_boxes_;
 };
 
-/// The boxes around features, given those of their vertices.
-void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& list);
-void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& list);
+/// Compute the boxes of faces or edges from the boxes of their vertices.
+void join(const BoxList& vertices, const std::vector<Triangle>& features, BoxList& boxes);
+void join(const BoxList& vertices, const std::vector<Edge>& features, BoxList& boxes);
 
 }  // namespace collide::surface

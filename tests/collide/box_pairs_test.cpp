@@ -1,4 +1,4 @@
-// Pairs of overlapping boxes against plain loops, with and without cuts, on every target.
+// Compares the pairs of overlapping boxes with those of plain loops, with and without cuts, on every target.
 
 #include "collide/surface/box_pairs.h"
 
@@ -13,8 +13,8 @@ namespace {
 
 using Boxes = std::vector<Aabb>;
 
-/// Items are numbered in steps of 3 from 5 on, so that an item is never its own place.
-constexpr Index item_of(Index place) { return 5 + 3 * place; }
+/// Items are numbered 5, 8, 11 ..., so that the number of an item is never its index in the list.
+constexpr Index item_of(Index index) { return 5 + 3 * index; }
 
 BoxList list_of(const Boxes& boxes) {
   BoxList list;
@@ -53,7 +53,7 @@ Boxes random_boxes(std::mt19937& random, std::size_t count, float space, float s
   return boxes;
 }
 
-/// Corners on a lattice: many boxes touch, and the cuts go through corners.
+/// Returns boxes with corners on a lattice: many boxes touch, and cuts pass through corners.
 Boxes lattice_boxes(std::mt19937& random, std::size_t count, unsigned space) {
   Boxes boxes;
   const auto step = [&](unsigned n) { return static_cast<float>(random() % n); };
@@ -66,7 +66,7 @@ Boxes lattice_boxes(std::mt19937& random, std::size_t count, unsigned space) {
 
 using BoxPairsTest = OnEveryTarget;
 
-TEST_P(BoxPairsTest, UncutListsGiveThePairsOfPlainLoopsInTheirOrder) {
+TEST_P(BoxPairsTest, FindsThePairsOfPlainLoopsInTheirOrderWithoutCuts) {
   BoxPairs search;
   for (const std::size_t count : {0u, 1u, 2u, 15u, 16u, 17u, 63u, 64u, 65u, 200u}) {
     const Boxes a = random_boxes(random_, count, 1, 0.4f), b = random_boxes(random_, 70, 1, 0.4f);
@@ -79,7 +79,7 @@ TEST_P(BoxPairsTest, UncutListsGiveThePairsOfPlainLoopsInTheirOrder) {
   }
 }
 
-TEST_P(BoxPairsTest, CutListsGiveEachPairOnceAscending) {
+TEST_P(BoxPairsTest, FindsEachPairOnceInAscendingOrderWithCuts) {
   const std::size_t count = 1100;  // four times as many tests as a leaf takes
   static_assert(1100 * 1100 / 2 > 2 * BoxPairs::leaf_tests);
   BoxPairs search;
@@ -101,13 +101,13 @@ TEST_P(BoxPairsTest, CutListsGiveEachPairOnceAscending) {
     }
 }
 
-TEST_P(BoxPairsTest, ListsThatNoCutDividesGiveAllPairs) {
-  const Boxes alike(800, Aabb{glm::vec3(-1), glm::vec3(2)});  // all in one place
+TEST_P(BoxPairsTest, FindsAllPairsOfBoxesThatNoCutSeparates) {
+  const Boxes equal(800, Aabb{glm::vec3(-1), glm::vec3(2)});  // all at one position
   BoxPairs search;
   std::vector<ItemPair> pairs;
-  search.within(list_of(alike), pairs);
-  EXPECT_EQ(pairs, plain_within(alike));
-  Boxes points;  // without extent, half of them in one place
+  search.within(list_of(equal), pairs);
+  EXPECT_EQ(pairs, plain_within(equal));
+  Boxes points;  // without extent, half of them at one position
   for (const glm::vec3& p : random_points(random_, 400, 0, 1)) points.push_back({p, p});
   points.resize(800, points.back());
   pairs.clear();
@@ -116,34 +116,34 @@ TEST_P(BoxPairsTest, ListsThatNoCutDividesGiveAllPairs) {
   EXPECT_EQ(pairs.size(), 401u * 400 / 2);
 }
 
-TEST_P(BoxPairsTest, PairsAreAppendedAndOneListMayMeetAnother) {
+TEST_P(BoxPairsTest, AppendsPairsAndCountsTouchingBoxesAsOverlapping) {
   BoxPairs search;
-  const ItemPair kept{7, 3};
-  std::vector<ItemPair> pairs{kept};
+  const ItemPair earlier{7, 3};
+  std::vector<ItemPair> pairs{earlier};
   const Boxes one{{glm::vec3(0), glm::vec3(1)}}, touching{{glm::vec3(1), glm::vec3(2)}},
       apart{{glm::vec3(1.0001f, 0, 0), glm::vec3(2)}};
   search.between(list_of(one), list_of(apart), pairs);
-  EXPECT_EQ(pairs, std::vector{kept});
+  EXPECT_EQ(pairs, std::vector{earlier});
   search.between(list_of(one), list_of(touching), pairs);
-  EXPECT_EQ(pairs, (std::vector<ItemPair>{kept, {5, 5}})) << "boxes are closed";
+  EXPECT_EQ(pairs, (std::vector<ItemPair>{earlier, {5, 5}})) << "boxes are closed";
 }
 
-TEST_P(BoxPairsTest, WhatIsThereBeforeKeepsItsPlaceBeforeThoseOfCutLists) {
+TEST_P(BoxPairsTest, KeepsEarlierPairsInFrontOfThoseFromCuts) {
   BoxPairs search;
   const Boxes a = random_boxes(random_, 1100, 3, 1), b = random_boxes(random_, 1100, 3, 1);
-  const std::vector<ItemPair> kept{{1u << 30, 3}, {1u << 29, 4}};
+  const std::vector<ItemPair> earlier{{1u << 30, 3}, {1u << 29, 4}};
   for (const bool one : {false, true}) {
-    std::vector<ItemPair> pairs = kept, expected = kept, found = one ? plain_within(a) : plain_between(a, b);
+    std::vector<ItemPair> pairs = earlier, expected = earlier, found = one ? plain_within(a) : plain_between(a, b);
     one ? search.within(list_of(a), pairs) : search.between(list_of(a), list_of(b), pairs);
     expected.insert(expected.end(), found.begin(), found.end());
     EXPECT_EQ(pairs, expected) << one;
   }
 }
 
-TEST_P(BoxPairsTest, PickTakesThoseThatOverlapInOrder) {
+TEST_P(BoxPairsTest, PickSelectsOverlappingBoxesInOrder) {
   BoxPairs search;
   BoxList picked;
-  for (const std::size_t count : {300u, 40u, 0u}) {  // shrinking: what was picked before is gone
+  for (const std::size_t count : {300u, 40u, 0u}) {  // shrinks: earlier boxes must be gone
     const Boxes boxes = lattice_boxes(random_, count, 9);
     const Aabb window{glm::vec3(2), glm::vec3(5)};
     search.pick(list_of(boxes), window, picked);

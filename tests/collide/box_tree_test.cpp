@@ -18,7 +18,7 @@ std::vector<Box> random_boxes(std::mt19937& random, std::size_t count) {
   return boxes;
 }
 
-TEST(BoxTree, FindsWhatOverlapsAndNothingElse) {
+TEST(BoxTree, FindsExactlyTheOverlappingBoxes) {
   std::mt19937 random(21);
   for (const std::size_t count : {0u, 1u, 2u, 3u, 200u}) {
     std::vector<Box> boxes = random_boxes(random, count);
@@ -26,7 +26,7 @@ TEST(BoxTree, FindsWhatOverlapsAndNothingElse) {
     const BoxTree tree(boxes);
     for (const Box& query : random_boxes(random, 50)) {
       std::vector<Index> found, expected;
-      tree.overlapping(query, [&](Index item) { found.push_back(item); });
+      tree.for_each_overlapping(query, [&](Index item) { found.push_back(item); });
       for (Index i = 0; i < count; ++i) {
         if (overlap(boxes[i], query)) expected.push_back(i);
       }
@@ -36,12 +36,12 @@ TEST(BoxTree, FindsWhatOverlapsAndNothingElse) {
   }
 }
 
-TEST(BoxTree, EqualBoxesAndBoxesThatOnlyTouch) {
+TEST(BoxTree, FindsEqualBoxesAndBoxesThatOnlyTouch) {
   const Box unit{glm::dvec3(0), glm::dvec3(1)};
   const BoxTree tree(std::vector<Box>(9, unit));
   const auto found = [&](const Box& query) {
     int count = 0;
-    tree.overlapping(query, [&](Index) { ++count; });
+    tree.for_each_overlapping(query, [&](Index) { ++count; });
     return count;
   };
   EXPECT_EQ(found(unit), 9);

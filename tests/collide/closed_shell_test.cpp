@@ -1,4 +1,4 @@
-// inside() against the exact oracle, nearest_face() against a look at every face.
+// Compares inside() with the exact oracle, and nearest_face() with a loop over all faces.
 
 #include "collide/surface/closed_shell.h"
 
@@ -17,7 +17,7 @@ using namespace collide::oracle;
 using namespace collide::surface;
 namespace {
 
-TEST(ClosedShell, InsideIsWhatTheExactOracleSays) {
+TEST(ClosedShell, InsideAgreesWithTheExactOracle) {
   std::mt19937 random(54);
   SurfaceMesh dented = ball(1);
   for (glm::vec3& v : dented.vertices) v *= uniform(random, 0.5f, 1.0f);
@@ -30,18 +30,18 @@ TEST(ClosedShell, InsideIsWhatTheExactOracleSays) {
     for (const Penetration& p : overlaps_of(scene).penetrations) expected[p.vertex - mesh.vertices.size()] = true;
     const Points3 at(mesh.vertices);
     const ClosedShell shell(*scene.surfaces[0], at.run());
-    int within = 0;
+    int inside = 0;
     for (std::size_t i = 0; i < points.size(); ++i) {
       EXPECT_EQ(shell.inside(points[i]), expected[i]) << i;
-      within += expected[i];
+      inside += expected[i];
     }
-    EXPECT_GT(within, 50);
+    EXPECT_GT(inside, 50);
   }
 }
 
 class NearestFace : public testing::TestWithParam<SurfaceMesh> {};
 
-TEST_P(NearestFace, IsTheFirstOfThoseAtTheLeastDistance) {
+TEST_P(NearestFace, IsTheFirstFaceAtTheSmallestDistance) {
   const SurfaceMesh& mesh = GetParam();
   const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);
   const Points3 at(mesh.vertices);
@@ -52,21 +52,22 @@ TEST_P(NearestFace, IsTheFirstOfThoseAtTheLeastDistance) {
   points.insert(points.end(), mesh.vertices.begin(), mesh.vertices.end());  // several faces are equally close
   for (const glm::vec3& p : points) {
     Index nearest = 0;
-    float least = infinity;
+    float smallest = infinity;
     for (Index t = 0; t < mesh.triangles.size(); ++t) {
       const auto& [a, b, c] = mesh.triangles[t];
-      const glm::vec3 apart = closest_vertex_face(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]).apart;
-      if (const float squared = glm::dot(apart, apart); squared < least) least = squared, nearest = t;
+      const glm::vec3 separation =
+          closest_vertex_face(p, mesh.vertices[a], mesh.vertices[b], mesh.vertices[c]).separation;
+      if (const float squared = glm::dot(separation, separation); squared < smallest) smallest = squared, nearest = t;
     }
     EXPECT_EQ(shell.nearest_face(p).face, nearest);
-    EXPECT_EQ(shell.nearest_face(p).distance, std::sqrt(least));
+    EXPECT_EQ(shell.nearest_face(p).distance, std::sqrt(smallest));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(ClosedShell, NearestFace,
                          testing::Values(moved(valley(), {-2, -2, -0.5f}), ball(3), moved(ball(2), {100, 70, -100})));
 
-TEST(ClosedShell, OfWhatIsNotFiniteNothingIsInside) {
+TEST(ClosedShell, NothingIsInsideIfAVertexIsNotFinite) {
   for (const float bad : {infinity, -infinity, nan}) {
     SurfaceMesh mesh = ball(1);
     const Surface surface(static_cast<Index>(mesh.vertices.size()), mesh.triangles);

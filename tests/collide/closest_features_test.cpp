@@ -1,4 +1,4 @@
-// Closest points against the least over corners, sides and insides worked out in double.
+// Compares closest points with the smallest distance over corners, sides and insides, computed in double.
 
 #include "collide/surface/closest_features.h"
 
@@ -17,22 +17,24 @@ namespace {
 
 using glm::dvec3;
 
-double to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
+double distance_to_segment(const dvec3& p, const dvec3& a, const dvec3& b) {
   const double length2 = glm::dot(b - a, b - a);
   const double t = length2 > 0 ? std::clamp(glm::dot(p - a, b - a) / length2, 0.0, 1.0) : 0;
   return glm::length(p - (a + t * (b - a)));
 }
 
-double to_face(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
-  const double border = std::min({to_segment(p, a, b), to_segment(p, b, c), to_segment(p, c, a)});
+double distance_to_face(const dvec3& p, const dvec3& a, const dvec3& b, const dvec3& c) {
+  const double border =
+      std::min({distance_to_segment(p, a, b), distance_to_segment(p, b, c), distance_to_segment(p, c, a)});
   const dvec3 n = glm::cross(b - a, c - a);
-  const bool above = glm::dot(glm::cross(b - a, p - a), n) > 0 && glm::dot(glm::cross(c - b, p - b), n) > 0 &&
-                     glm::dot(glm::cross(a - c, p - c), n) > 0;
-  return above ? std::min(border, std::abs(glm::dot(p - a, n)) / glm::length(n)) : border;
+  const bool inside = glm::dot(glm::cross(b - a, p - a), n) > 0 && glm::dot(glm::cross(c - b, p - b), n) > 0 &&
+                      glm::dot(glm::cross(a - c, p - c), n) > 0;
+  return inside ? std::min(border, std::abs(glm::dot(p - a, n)) / glm::length(n)) : border;
 }
 
-double between_edges(const dvec3& p, const dvec3& q, const dvec3& r, const dvec3& s) {
-  const double ends = std::min({to_segment(p, r, s), to_segment(q, r, s), to_segment(r, p, q), to_segment(s, p, q)});
+double distance_of_edges(const dvec3& p, const dvec3& q, const dvec3& r, const dvec3& s) {
+  const double ends = std::min({distance_to_segment(p, r, s), distance_to_segment(q, r, s),
+                                distance_to_segment(r, p, q), distance_to_segment(s, p, q)});
   const dvec3 n = glm::cross(q - p, s - r);
   const double n2 = glm::dot(n, n);
   if (n2 == 0) return ends;
@@ -45,10 +47,10 @@ struct Features {
   glm::vec3 p, q, r, s;  // vertex p against face qrs, or edge pq against edge rs
 };
 
-constexpr double close = 2e-5;   // m, of coordinates up to 1 m
-constexpr double slight = 4e-3;  // m: 1e-3 of the length of the longest
+constexpr double close = 2e-5;         // m, of coordinates up to 1 m
+constexpr double sliver_error = 4e-3;  // m: 1e-3 of the length of the longest
 
-/// Weights of a point of each feature, and the way between these two points, which is as short as it can be.
+/// Expects valid weights, a separation that joins the weighted points, and the smallest possible distance.
 void expect_closest_vertex_face(const Features& f, const char* what, double error = close) {
   const Closest c = closest_vertex_face(f.p, f.q, f.r, f.s);
   EXPECT_EQ(c.weight[0], 1);
@@ -56,8 +58,9 @@ void expect_closest_vertex_face(const Features& f, const char* what, double erro
   EXPECT_NEAR(c.weight[1] + c.weight[2] + c.weight[3], 1, 1e-6) << what;
   const dvec3 point =
       double(c.weight[1]) * dvec3(f.q) + double(c.weight[2]) * dvec3(f.r) + double(c.weight[3]) * dvec3(f.s);
-  EXPECT_LT(glm::length(dvec3(f.p) - point - dvec3(c.apart)), 2e-6) << what;
-  EXPECT_NEAR(glm::length(c.apart), to_face(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error) << what;
+  EXPECT_LT(glm::length(dvec3(f.p) - point - dvec3(c.separation)), 2e-6) << what;
+  EXPECT_NEAR(glm::length(c.separation), distance_to_face(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error)
+      << what;
 }
 
 void expect_closest_edges(const Features& f, const char* what, double error = close) {
@@ -67,11 +70,13 @@ void expect_closest_edges(const Features& f, const char* what, double error = cl
   EXPECT_NEAR(c.weight[2] + c.weight[3], 1, 1e-6) << what;
   const dvec3 one = double(c.weight[0]) * dvec3(f.p) + double(c.weight[1]) * dvec3(f.q),
               two = double(c.weight[2]) * dvec3(f.r) + double(c.weight[3]) * dvec3(f.s);
-  EXPECT_LT(glm::length(one - two - dvec3(c.apart)), 2e-6) << what;
-  EXPECT_NEAR(glm::length(c.apart), between_edges(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error) << what;
+  EXPECT_LT(glm::length(one - two - dvec3(c.separation)), 2e-6) << what;
+  EXPECT_NEAR(glm::length(c.separation), distance_of_edges(dvec3(f.p), dvec3(f.q), dvec3(f.r), dvec3(f.s)), error)
+      << what;
 }
 
-/// Features within a cube of 2 m, the last two corners drawn towards the second by `shape`: 1 leaves them in place.
+/// Returns features within a cube of 2 m. The last two corners are moved towards the second: `shape` is the share of
+/// their distance that is left.
 std::vector<Features> random_features(std::mt19937& random, std::size_t count, float shape) {
   std::vector<Features> list;
   for (std::size_t i = 0; i < count; ++i) {
@@ -81,7 +86,7 @@ std::vector<Features> random_features(std::mt19937& random, std::size_t count, f
   return list;
 }
 
-TEST(ClosestFeatures, OfRandomOnesAreAsCloseAsCanBe) {
+TEST(ClosestFeatures, AreClosestForRandomFeatures) {
   std::mt19937 random(51);
   int inner_faces = 0, inner_edges = 0;
   for (const float shape : {1.0f, 0.3f, 0.01f})
@@ -95,7 +100,7 @@ TEST(ClosestFeatures, OfRandomOnesAreAsCloseAsCanBe) {
   EXPECT_GT(inner_edges, 100);
 }
 
-TEST(ClosestFeatures, InnerSaysThatBothPointsLieInside) {
+TEST(ClosestFeatures, InnerIsTrueIfBothPointsLieInside) {
   const glm::vec3 a(0), b(1, 0, 0), c(0, 1, 0);
   EXPECT_TRUE(closest_vertex_face({0.25f, 0.25f, 1}, a, b, c).inner);
   EXPECT_FALSE(closest_vertex_face({0.25f, -0.25f, 1}, a, b, c).inner);
@@ -103,18 +108,19 @@ TEST(ClosestFeatures, InnerSaysThatBothPointsLieInside) {
   for (const glm::vec3& on_side : {0.5f * (a + b), 0.5f * (b + c), 0.5f * (c + a)})
     EXPECT_FALSE(closest_vertex_face(on_side + glm::vec3(0, 0, 1), a, b, c).inner) << on_side.x << ' ' << on_side.y;
   EXPECT_TRUE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, -1, 1}, {0, 1, 1}).inner);
-  EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 2}).inner) << "one ends over the other's middle";
+  EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {0, 0, 1}, {0, 1, 2}).inner)
+      << "one edge ends above the middle of the other";
   EXPECT_FALSE(closest_edges({-1, 0, 0}, {1, 0, 0}, {2, -1, 1}, {2, 1, 1}).inner);
 }
 
-TEST(ClosestFeatures, TheWayRunsFromTheSecondFeatureToTheFirst) {
-  const glm::vec3 up = closest_vertex_face({0, 3, 0}, {-1, 1, -1}, {1, 1, -1}, {0, 1, 2}).apart;
+TEST(ClosestFeatures, SeparationPointsFromTheSecondFeatureToTheFirst) {
+  const glm::vec3 up = closest_vertex_face({0, 3, 0}, {-1, 1, -1}, {1, 1, -1}, {0, 1, 2}).separation;
   EXPECT_LT(glm::length(up - glm::vec3(0, 2, 0)), 1e-6f);
-  EXPECT_EQ(closest_edges({-1, 3, 0}, {1, 3, 0}, {0, 1, -1}, {0, 1, 1}).apart, glm::vec3(0, 2, 0));
+  EXPECT_EQ(closest_edges({-1, 3, 0}, {1, 3, 0}, {0, 1, -1}, {0, 1, 1}).separation, glm::vec3(0, 2, 0));
 }
 
-/// Thin slivers, faces that are a line or a point: on a lattice, so that they are so exactly, and off it.
-TEST(ClosestFeatures, OfDegenerateFacesLieOnWhatIsLeftOfThem) {
+/// Slivers, and faces that are a line or a point: exactly, on a lattice, and but for rounding.
+TEST(ClosestFeatures, AreClosestForDegenerateFaces) {
   std::mt19937 random(52);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<glm::vec3> c = random_points(random, 3, -1, 1);
@@ -128,11 +134,11 @@ TEST(ClosestFeatures, OfDegenerateFacesLieOnWhatIsLeftOfThem) {
     expect_closest_vertex_face({c[0], lattice + step, lattice, lattice + 3.0f * step}, "a line, its middle first");
     expect_closest_vertex_face({c[0], c[1], c[2], glm::mix(c[1], c[2], t)}, "a line but for rounding");
     expect_closest_vertex_face({c[0], c[1], c[1] + 1e-4f * c[0], c[2]}, "a needle");
-    expect_closest_vertex_face({c[0], c[1], c[2], glm::mix(c[1], c[2], t) + 5e-4f * c[0]}, "a sliver", slight);
+    expect_closest_vertex_face({c[0], c[1], c[2], glm::mix(c[1], c[2], t) + 5e-4f * c[0]}, "a sliver", sliver_error);
   }
 }
 
-TEST(ClosestFeatures, OfDegenerateAndParallelEdges) {
+TEST(ClosestFeatures, AreClosestForDegenerateAndParallelEdges) {
   std::mt19937 random(53);
   for (int i = 0; i < 3000; ++i) {
     const std::vector<glm::vec3> c = random_points(random, 4, -1, 1);
@@ -143,7 +149,7 @@ TEST(ClosestFeatures, OfDegenerateAndParallelEdges) {
     expect_closest_edges({c[0], c[1], c[0], c[1]}, "the same");
     expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0])}, "parallel");
     expect_closest_edges({c[0], c[1], c[0] + t * (c[1] - c[0]), c[1] + t * (c[1] - c[0])}, "on one line");
-    expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0]) + 1e-4f * c[3]}, "almost parallel", slight);
+    expect_closest_edges({c[0], c[1], c[2], c[2] + t * (c[1] - c[0]) + 1e-4f * c[3]}, "almost parallel", sliver_error);
   }
 }
 

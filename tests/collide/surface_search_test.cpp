@@ -1,4 +1,4 @@
-// The candidates of surface contact: their order, how many, and of which bodies there are none.
+// The candidates of surface contact: their order, their number, their limits, and how long they are valid.
 
 #include <gtest/gtest.h>
 
@@ -13,39 +13,39 @@ namespace collide::test {
 using namespace collide::surface;
 namespace {
 
-/// Everything that was found, as numbers that can be compared.
+/// Returns all candidates as numbers that can be compared.
 std::vector<std::array<float, 8>> listed(const SurfaceSearch& search) {
   std::vector<std::array<float, 8>> list;
   for (const SurfacePair& p : search.pairs())
     for (std::uint32_t i = p.vertex_face; i < p.end; ++i) {
       const FeaturePair& f = search.features()[i];
       list.push_back({float(p.a), float(p.b), float(p.vertex_face), float(p.face_vertex), float(p.edge_edge),
-                      float(f.a), float(f.b), f.from});
+                      float(f.a), float(f.b), f.earliest});
     }
   return list;
 }
 
-TEST(SurfaceSearch, RefusesMoreThanMayBe) {
+TEST(SurfaceSearch, ThrowsAboveMaxFeatures) {
   std::mt19937 random(72);
-  const Moving m = swarm(random, 5, 0.02f, 0.01f);
-  Found found(m, true);
-  const std::size_t all = found.search.features().size();
-  const auto find = [&](std::size_t most) {
+  const MovingScene m = swarm(random, 5, 0.02f, 0.01f);
+  SearchRun run(m, true);
+  const std::size_t all = run.search.features().size();
+  const auto find = [&](std::size_t max) {
     Workers workers(2);
-    found.search.find({m.scene.frame(), found.vx, found.vy, found.vz}, m.traits, {m.seconds, m.seconds, true, most},
+    run.search.find({m.scene.frame(), run.vx, run.vy, run.vz}, m.traits, {m.seconds, m.seconds, true, max},
                       workers);
-    return found.search.features().size();
+    return run.search.features().size();
   };
   EXPECT_THROW(find(all - 1), std::length_error);
   EXPECT_THROW(find(all / 4), std::length_error);
   EXPECT_EQ(find(all), all);
 }
 
-TEST(SurfaceSearch, AFlightBringsNoCandidatesWithinABody) {
-  const auto candidates = [](const glm::vec3& fly) {
-    Moving m;
-    m.add(sheet(10, 1), glm::vec3(0), 0.05f, 0.005f, [&](const glm::vec3&) { return fly; });
-    return Found(m, true).search.features().size();
+TEST(SurfaceSearch, UniformMotionAddsNoCandidatesWithinABody) {
+  const auto candidates = [](const glm::vec3& velocity) {
+    MovingScene m;
+    m.add(sheet(10, 1), glm::vec3(0), 0.05f, 0.005f, [&](const glm::vec3&) { return velocity; });
+    return SearchRun(m, true).search.features().size();
   };
   const std::size_t at_rest = candidates(glm::vec3(0));
   ASSERT_GT(at_rest, 0u);
@@ -53,60 +53,60 @@ TEST(SurfaceSearch, AFlightBringsNoCandidatesWithinABody) {
 }
 
 TEST(SurfaceSearch, BodiesFarApartHaveNoCandidates) {
-  Moving m;
+  MovingScene m;
   const auto still = [](const glm::vec3&) { return glm::vec3(0); };
   m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.01f, still);
   m.add(ball(0.5f), glm::vec3(1.2f, 0, 0), 0.01f, 0.01f, still);
-  EXPECT_TRUE(Found(m, false).search.features().empty());
+  EXPECT_TRUE(SearchRun(m, false).search.features().empty());
   m.traits[0].moves = m.traits[1].moves = false;
   m.scene = Scene{ball(0.5f), ball(0.5f)};
-  EXPECT_TRUE(Found(m, true).search.pairs().empty()) << "nor have those that stand, wherever they are";
+  EXPECT_TRUE(SearchRun(m, true).search.pairs().empty()) << "nor have bodies at rest, wherever they are";
 }
 
-TEST(SurfaceSearch, ABodyInsideAnotherMakesAPairWithoutCandidatesWhicheverComesFirst) {
+TEST(SurfaceSearch, ListsAPairWithoutCandidatesIfOneBodyIsInsideTheOther) {
   const auto still = [](const glm::vec3&) { return glm::vec3(0); };
   for (const auto& [first, second] : {std::pair(0.5f, 0.1f), std::pair(0.1f, 0.5f)}) {
-    Moving m;
+    MovingScene m;
     for (const float radius : {first, second}) m.add(ball(radius), glm::vec3(0), 0.01f, 0.01f, still);
-    const Found found(m, false);
-    EXPECT_TRUE(found.search.features().empty());
-    ASSERT_EQ(found.search.pairs().size(), 1u) << first;
-    EXPECT_EQ(found.search.pairs()[0].bodies(), (std::pair<Index, Index>(0, 1)));
+    const SearchRun run(m, false);
+    EXPECT_TRUE(run.search.features().empty());
+    ASSERT_EQ(run.search.pairs().size(), 1u) << first;
+    EXPECT_EQ(run.search.pairs()[0].bodies(), (std::pair<Index, Index>(0, 1)));
   }
 }
 
-TEST(SurfaceSearch, CountsWhatItLooksAt) {
+TEST(SurfaceSearch, WorkCountsBoxesOverlapsAndCandidates) {
   const auto still = [](const glm::vec3&) { return glm::vec3(0); };
   const SurfaceMesh triangle{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
   const auto two = [&](float apart) {
-    Moving m;
+    MovingScene m;
     for (const float z : {0.0f, apart}) m.add(triangle, {0, 0, z}, 2, 0.1f, still);
-    return Found(m, false);
+    return SearchRun(m, false);
   };
-  // 14 features; of their boxes 6 pairs of a vertex and a face and 9 of edges, which are all candidates.
+  // 14 features. 6 pairs of a vertex and a face and 9 pairs of edges have overlapping boxes; all are candidates.
   EXPECT_EQ(two(0.5f).search.features().size(), 15u);
   EXPECT_EQ(two(0.5f).search.work(), 14u + 15u + 15u);
   EXPECT_EQ(two(50).search.work(), 0u);
 
-  Moving m;
+  MovingScene m;
   m.add(sheet(10, 1), glm::vec3(0), 0.05f, 0.005f, still);
-  const Found with_itself(m, true);
+  const SearchRun self(m, true);
   const Surface& surface = *m.traits[0].surface;
-  const std::size_t candidates = with_itself.search.features().size(), touching = 3 * surface.triangles().size();
+  const std::size_t candidates = self.search.features().size(), adjacent = 3 * surface.triangles().size();
   ASSERT_GT(candidates, 0u);
-  EXPECT_GE(with_itself.search.work(), surface.feature_count() + touching + 2 * candidates)
-      << "faces and their corners";
+  EXPECT_GE(self.search.work(), surface.feature_count() + adjacent + 2 * candidates)
+      << "the boxes of faces overlap those of their corners";
 }
 
 TEST(SurfaceSearch, LeavesOutBodiesThatAreNotFinite) {
   std::mt19937 random(63);
-  Moving m = swarm(random, 1, 0.02f, 0.01f);
+  MovingScene m = swarm(random, 1, 0.02f, 0.01f);
   for (SurfaceBody& body : m.traits) body.moves = true;
   m.scene.state.y[m.first(1) + 7] = nan;
   m.velocity[m.first(4)].z = infinity;
-  const Found found(m, true);
-  ASSERT_FALSE(found.search.features().empty());
-  for (const SurfacePair& p : found.search.pairs()) {
+  const SearchRun run(m, true);
+  ASSERT_FALSE(run.search.features().empty());
+  for (const SurfacePair& p : run.search.pairs()) {
     EXPECT_TRUE(p.a != 1 && p.b != 1);
     EXPECT_TRUE(p.a != 4 && p.b != 4);
   }
@@ -114,25 +114,25 @@ TEST(SurfaceSearch, LeavesOutBodiesThatAreNotFinite) {
 
 class SurfaceSearchOnTargets : public OnEveryTarget {};
 
-TEST_P(SurfaceSearchOnTargets, TheCandidatesAreTheSameAndThoseOfTwoThreads) {
+TEST_P(SurfaceSearchOnTargets, CandidatesDoNotDependOnTargetOrThreads) {
   for (const float speed : {0.5f, 50.0f}) {
-    const Moving m = swarm(random_, speed, 0.02f, 0.01f);
+    const MovingScene m = swarm(random_, speed, 0.02f, 0.01f);
     hwy::SetSupportedTargetsForTest(HWY_STATIC_TARGET);
-    const auto expected = listed(Found(m, true).search);
+    const auto expected = listed(SearchRun(m, true).search);
     hwy::SetSupportedTargetsForTest(GetParam());
     ASSERT_GT(expected.size(), 100u);
-    EXPECT_EQ(listed(Found(m, true).search), expected);
-    EXPECT_EQ(listed(Found(m, true, 2).search), expected);
+    EXPECT_EQ(listed(SearchRun(m, true).search), expected);
+    EXPECT_EQ(listed(SearchRun(m, true, 2).search), expected);
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Targets, SurfaceSearchOnTargets, testing::ValuesIn(targets()), target_name);
 
-TEST(SurfaceSearch, ComesInAscendingOrderEachPairOnce) {
+TEST(SurfaceSearch, ListsEachPairOnceInAscendingOrder) {
   std::mt19937 random(64);
-  const Moving m = swarm(random, 5, 0.02f, 0.01f);
-  const Found found(m, true);
-  const SurfaceSearch& s = found.search;
+  const MovingScene m = swarm(random, 5, 0.02f, 0.01f);
+  const SearchRun run(m, true);
+  const SurfaceSearch& s = run.search;
   const auto ascends = [&](std::uint32_t begin, std::uint32_t end) {
     for (std::uint32_t i = begin; i + 1 < end; ++i)
       if (!(s.features()[i].key() < s.features()[i + 1].key())) return false;
@@ -152,18 +152,41 @@ TEST(SurfaceSearch, ComesInAscendingOrderEachPairOnce) {
   EXPECT_EQ(next, s.features().size());
 }
 
-TEST(SurfaceSearch, SpeedBoundsTheRelativeSpeedOfAPairsVertices) {
+TEST(SurfaceSearch, IsValidWhileDeviationsStayWithinTheSlack) {
+  std::mt19937 random(66);
+  MovingScene m;
+  const glm::vec3 velocity(3, -20, 1);
+  m.add(ball(0.5f), glm::vec3(0), 0.01f, 0.05f, [&](const glm::vec3&) { return velocity; });
+  m.add(ball(0.5f), glm::vec3(0, 1, 0), 0.01f, 0.05f, [&](const glm::vec3&) { return velocity; });
+  m.traits[1].moves = false;
+  SearchRun run(m, false);
+  EXPECT_TRUE(run.search.check_valid(m.after(0.02f, random).frame(), 0.02f));
+  EXPECT_FALSE(run.search.check_valid(m.scene.frame(), 0.02f)) << "the body did not move";
+  SearchRun again(m, false);
+  Scene off = m.after(0, random);
+  off.state.x = m.scene.state.x, off.state.y = m.scene.state.y, off.state.z = m.scene.state.z;
+  off.state.x[5] += 0.03f;
+  EXPECT_TRUE(again.search.check_valid(off.frame(), 0));
+  EXPECT_NEAR(again.search.body(0).deviation(), 0.03f, 1e-6);
+  off.state.x[5] += 0.03f;
+  EXPECT_FALSE(again.search.check_valid(off.frame(), 0));
+  EXPECT_NEAR(again.search.body(0).deviation(), 0.06f, 1e-6);
+  EXPECT_EQ(again.search.body(1).deviation(), 0);
+  EXPECT_FALSE(again.search.check_valid(m.scene.frame(), 0)) << "once expired, a prediction stays expired";
+}
+
+TEST(SurfaceSearch, MaxRelativeSpeedBoundsAllVerticesOfAPair) {
   std::mt19937 random(67);
-  const Moving m = swarm(random, 5, 0.02f, 0.01f);
-  const Found found(m, false);
-  ASSERT_FALSE(found.search.pairs().empty());
-  for (const SurfacePair& p : found.search.pairs()) {
+  const MovingScene m = swarm(random, 5, 0.02f, 0.01f);
+  const SearchRun run(m, false);
+  ASSERT_FALSE(run.search.pairs().empty());
+  for (const SurfacePair& p : run.search.pairs()) {
     const auto speed = [&](Index body, Index v) { return m.traits[body].moves ? m.velocity[v] : glm::vec3(0); };
-    float most = 0;
+    float largest = 0;
     for (Index v = m.first(p.a); v < m.first(p.a + 1); ++v)
       for (Index w = m.first(p.b); w < m.first(p.b + 1); ++w)
-        most = std::max(most, glm::length(speed(p.a, v) - speed(p.b, w)));
-    EXPECT_LE(most, found.search.speed(p) * 1.00001f);
+        largest = std::max(largest, glm::length(speed(p.a, v) - speed(p.b, w)));
+    EXPECT_LE(largest, run.search.max_relative_speed(p) * 1.00001f);
   }
 }
 

@@ -13,7 +13,7 @@ namespace {
 
 Surface surface_of(const SurfaceMesh& mesh) { return {static_cast<Index>(mesh.vertices.size()), mesh.triangles}; }
 
-TEST(Surface, EdgesAndClosedness) {
+TEST(Surface, ListsItsEdgesAndKnowsWhetherItIsClosed) {
   const Surface sphere = surface_of(ball(1));
   EXPECT_EQ(sphere.edges().size(), 480u);
   EXPECT_TRUE(sphere.closed());
@@ -25,7 +25,7 @@ TEST(Surface, EdgesAndClosedness) {
   EXPECT_FALSE(Surface(3, {}).closed());
 }
 
-TEST(Surface, AMeshWithAHoleOrATurnedFaceIsNotClosed) {
+TEST(Surface, IsNotClosedWithAHoleOrAReversedFace) {
   SurfaceMesh mesh = box(glm::vec3(0), glm::vec3(1));
   std::swap(mesh.triangles[4][0], mesh.triangles[4][1]);
   EXPECT_FALSE(surface_of(mesh).closed());
@@ -33,17 +33,17 @@ TEST(Surface, AMeshWithAHoleOrATurnedFaceIsNotClosed) {
   EXPECT_FALSE(surface_of(mesh).closed());
 }
 
-TEST(Surface, TrianglesAroundAVertex) {
+TEST(Surface, ListsTheTrianglesAtAVertex) {
   const Surface cloth = surface_of(sheet(1, 1));
-  const auto around = [&](Index vertex) {
-    return std::vector<Index>(cloth.around(vertex).begin(), cloth.around(vertex).end());
+  const auto triangles_at = [&](Index vertex) {
+    return std::vector<Index>(cloth.triangles_at(vertex).begin(), cloth.triangles_at(vertex).end());
   };
-  EXPECT_EQ(around(0), (std::vector<Index>{0, 1}));
-  EXPECT_EQ(around(1), (std::vector<Index>{1}));
-  EXPECT_EQ(around(2), (std::vector<Index>{0}));
+  EXPECT_EQ(triangles_at(0), (std::vector<Index>{0, 1}));
+  EXPECT_EQ(triangles_at(1), (std::vector<Index>{1}));
+  EXPECT_EQ(triangles_at(2), (std::vector<Index>{0}));
 }
 
-TEST(Surface, RefusesTrianglesThatAreNone) {
+TEST(Surface, ThrowsForInvalidTriangles) {
   EXPECT_THROW(Surface(3, {{0, 1, 3}}), std::invalid_argument);
   EXPECT_THROW(Surface(3, {{0, 1, 1}}), std::invalid_argument);
 }

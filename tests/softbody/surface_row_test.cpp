@@ -68,7 +68,7 @@ class OneRow {
     SurfaceContact contact;
     contact.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
                  {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
-                 {.seconds = h, .least = h}, h, workers);
+                 {.seconds = h, .min_seconds = h}, h, workers);
     contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
     ASSERT_LE(contact.rows(), 1u);
     contact.solve(0, 1, std::as_const(x).field(), v.field(), h, [] {});
