@@ -1,5 +1,5 @@
 #pragma once
-// Numbers for exact signs: a double that knows its own error, rationals, and polynomials and vectors of either.
+// Numbers for exact signs: a double with a bound of its error, rationals, and polynomials and vectors of either.
 
 #include <array>
 #include <cmath>
@@ -12,14 +12,16 @@ namespace collide::oracle {
 
 using Rational = mpq_class;
 
-/// A real number known to lie within value - error .. value + error. Products of up to seven differences of floats
-/// neither overflow nor underflow, so that rounding is the only error there is.
+/// A real number in the interval value - error .. value + error (midpoint-radius interval arithmetic). Products of up
+/// to seven differences of floats neither overflow nor underflow, so that rounding is the only error.
 struct Bounded {
   double value = 0, error = 0;
 
   Bounded() = default;
-  Bounded(double exact) : value(exact) {}  // NOLINT: converts as a double does, and as it does to Rational
-  Bounded(double rounded, double before) : value(rounded), error((before + std::abs(rounded) * unit) * grow) {}
+  Bounded(double exact) : value(exact) {}  // NOLINT: implicit, as for Rational
+  /// rounded: the result of one operation; propagated: the error that it has from its operands.
+  Bounded(double rounded, double propagated)
+      : value(rounded), error((propagated + std::abs(rounded) * unit_roundoff) * inflation) {}
 
   Bounded& operator+=(const Bounded& b) { return *this = *this + b; }
   Bounded& operator-=(const Bounded& b) { return *this = *this - b; }
@@ -30,11 +32,11 @@ struct Bounded {
   }
 
  private:
-  static constexpr double unit = 0x1p-53;      // half a unit in the last place
-  static constexpr double grow = 1 + 0x1p-48;  // more than the roundings of the bound itself can take away
+  static constexpr double unit_roundoff = 0x1p-53;
+  static constexpr double inflation = 1 + 0x1p-48;  // exceeds the rounding errors of the bound itself
 };
 
-/// -1, 0 or 1, or nothing where the error leaves it open.
+/// Returns -1, 0 or 1, or nothing if the error bound leaves the sign open.
 inline std::optional<int> sign_of(const Bounded& x) {
   if (x.value > x.error) return 1;
   if (x.value < -x.error) return -1;
@@ -43,8 +45,9 @@ inline std::optional<int> sign_of(const Bounded& x) {
 }
 inline std::optional<int> sign_of(const Rational& x) { return sgn(x); }
 
-/// A polynomial of degree N on 0 <= t <= 1 in scaled Bernstein form: sum of c[k] t^k (1 - t)^(N - k). A product is then
-/// a plain convolution; by Descartes' rule the roots within (0, 1) are no more than the changes of sign of c.
+/// A polynomial of degree N on 0 <= t <= 1 in scaled Bernstein form: the sum of c[k] t^k (1 - t)^(N - k). In this form,
+/// a product is a plain convolution, and by Descartes' rule there are at most as many roots in (0, 1) as sign changes
+/// in c.
 template <class T, std::size_t N>
 struct Polynomial {
   std::array<T, N + 1> c{};
@@ -67,7 +70,7 @@ Polynomial<T, N + M> operator*(const Polynomial<T, N>& a, const Polynomial<T, M>
   return product;
 }
 
-/// A vector that moves: its components are polynomials of the time. N = 0: it stands still.
+/// A vector whose components are polynomials of the time; a constant vector if N = 0.
 template <class T, std::size_t N>
 struct Vector {
   Polynomial<T, N> x, y, z;

@@ -1,7 +1,8 @@
 #pragma once
-// Signs of determinants of float coordinates, never wrong: evaluated in double beside a bound of their own rounding
-// error (running error analysis: Higham, Accuracy and Stability of Numerical Algorithms, §3.3), and where that bound
-// leaves the sign open once more in rationals. Coordinates must be finite; any finite floats will do.
+// Exact geometric predicates: signs of determinants of float coordinates, which are never wrong. A determinant is
+// evaluated in double together with a bound of its rounding error (running error analysis: Higham, Accuracy and
+// Stability of Numerical Algorithms, §3.3). Only if that bound leaves the sign open, it is evaluated again in
+// rationals. Coordinates may be any finite floats.
 
 #include <array>
 
@@ -9,29 +10,32 @@
 
 namespace collide::oracle {
 
-/// Sign of (p - a) . ((b - a) x (c - a)): +1 if p is on the side of the plane abc from which the corners are seen
-/// counter-clockwise, -1 on the other, 0 if all four lie in one plane.
+/// Orientation test: returns the sign of (p - a) . ((b - a) x (c - a)). It is +1 on the side of the plane abc from
+/// which the corners appear counter-clockwise, -1 on the other side, and 0 if all four points lie in one plane.
 int side_of_plane(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c, const glm::vec3& p);
 
-/// Sign of the x, y or z component (axis 0, 1, 2) of (b - a) x (c - a).
+/// Returns the sign of the x, y or z component (axis 0, 1, 2) of (b - a) x (c - a).
 int sign_of_normal(int axis, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// True if p is a point of the triangle, its sides and corners included. Never for a triangle without area.
+/// Returns true if p lies on the triangle, sides and corners included; false for every p if the triangle has no area.
 bool on_triangle(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// How often a ray from p along +x leaves (+1) or enters (-1) through a triangle: 0, +1 or -1. Summed over a closed
-/// mesh that p is not on, the number of times that the mesh winds around p. The ray meets no side or corner: it starts
-/// at p + (0, e, e^2) for an e > 0 too small to matter (simulation of simplicity: Edelsbrunner and Mücke 1990).
+/// Returns +1 if a ray from p along +x leaves through the triangle, -1 if it enters through it, else 0. The sum over a
+/// closed mesh is the winding number of the mesh around p, if p is not on the mesh. The ray never meets a side or a
+/// corner: it starts at p + (0, e, e^2) for an infinitely small e > 0 (simulation of simplicity: Edelsbrunner and
+/// Mücke 1990).
 int ray_crossing(const glm::vec3& p, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c);
 
-/// How the segment from p to q meets a triangle.
+/// How a segment pq crosses a triangle: 1 if it passes from the outer to the inner side, -1 if it passes the other way,
+/// 0 if it does not pass.
 struct SegmentCrossing {
-  // 1 if it passes from the outer side of the triangle to the inner one, -1 for the other way, 0 if it does not pass:
-  // with p moved by (e, e^2, e^3), and by as much the other way. Unequal only where a side or a corner is met.
-  int plus = 0, minus = 0;
-  std::array<bool, 3> meets{};  // the lines through ab, bc and ca; if it passes either way
+  int plus = 0, minus = 0;      // with p moved by +(e, e^2, e^3), and by -(e, e^2, e^3), for an infinitely small e > 0;
+                                // they differ only if the segment meets a side or a corner
+  std::array<bool, 3> meets{};  // whether it meets the lines ab, bc and ca; false unless p and q lie strictly on
+                                // different sides of the plane
 };
-/// It passes if p and q lie strictly on both sides of the plane and the point between them in the triangle.
+/// Returns the crossing. The segment passes if p and q lie strictly on different sides of the plane, and it meets the
+/// plane inside the triangle.
 SegmentCrossing segment_crossing(const glm::vec3& p, const glm::vec3& q, const glm::vec3& a, const glm::vec3& b,
                                  const glm::vec3& c);
 

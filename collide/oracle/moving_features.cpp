@@ -1,6 +1,7 @@
 #include "collide/oracle/moving_features.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <type_traits>
 
@@ -10,7 +11,7 @@ namespace collide::oracle {
 
 namespace {
 
-/// Three difference vectors of four points say all about how these lie to each other.
+/// The relative motion of four points: three difference vectors.
 template <class T>
 using FeatureMotion = std::array<Vector<T, 1>, 3>;
 
@@ -25,18 +26,20 @@ Vector<T, 1> difference(const MovingPoint& a, const MovingPoint& b) {
 template <class T>
 using Weight = Polynomial<T, 4>;
 
-/// A vertex p against a face abc, by a - p, b - p, c - p.
+/// A vertex p and a face abc, as the vectors a - p, b - p and c - p.
 struct VertexFace {
-  /// From every point of the one feature to every point that spans the other.
+  /// Returns the vectors from each vertex of the first feature to each vertex of the second.
   template <class T>
   static const FeatureMotion<T>& between(const FeatureMotion<T>& v) {
     return v;
   }
+  /// Returns a polynomial with the sign of the side of p.
   template <class T>
   static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
     return dot(v[0], cross(v[2], v[1]));
   }
-  /// In the plane of the face: the barycentric coordinates of p times the squared length of the normal.
+  /// Returns the barycentric coordinates of the projection of p, times the squared length of the normal. None is
+  /// negative while the projection lies on the face.
   template <class T>
   static std::array<Weight<T>, 3> weights(const FeatureMotion<T>& v) {
     const Vector<T, 2> a = cross(v[1], v[2]), b = cross(v[2], v[0]), c = cross(v[0], v[1]);
@@ -45,7 +48,7 @@ struct VertexFace {
   }
 };
 
-/// An edge pq against an edge uv, by q - p, v - u, u - p.
+/// Two edges pq and uv, as the vectors q - p, v - u and u - p.
 struct EdgeEdge {
   template <class T>
   static std::array<Vector<T, 1>, 4> between(const FeatureMotion<T>& v) {
@@ -55,32 +58,33 @@ struct EdgeEdge {
   static Polynomial<T, 3> side(const FeatureMotion<T>& v) {
     return dot(v[2], cross(v[0], v[1]));
   }
-  /// In one plane: how far along each edge their lines meet, and how far that is from its other end, times the squared
-  /// length of the normal.
+  /// Returns s, 1 - s, r and 1 - r, where s and r are the parameters of the closest points of the two lines, times the
+  /// squared length of the normal. None is negative while these points lie on the edges.
   template <class T>
   static std::array<Weight<T>, 4> weights(const FeatureMotion<T>& v) {
     const Vector<T, 2> normal = cross(v[0], v[1]);
-    const Weight<T> whole = dot(normal, normal);
+    const Weight<T> length2 = dot(normal, normal);
     const Weight<T> along_p = dot(normal, cross(v[2], v[1])), along_u = dot(normal, cross(v[2], v[0]));
-    return {along_p, whole - along_p, along_u, whole - along_u};
+    return {along_p, length2 - along_p, along_u, length2 - along_u};
   }
 };
 
-/// Most signs are clear from plain doubles already: their rounding, in all that is computed here, is less than this
-/// part of the largest coordinate difference to the power of the polynomial's degree. (No coefficient sums more than
-/// 432 products of at most four factors, with no more than 160 roundings in each, 128 of them of halvings: 432 * 160 *
-/// 2^-53 is less than 2^-36.)
-constexpr double largest_rounding = 0x1p-35;
+/// Plain doubles decide most signs. The rounding error of a coefficient, in everything that is computed here, is less
+/// than this number times d^N, where d is the largest coordinate difference and N the degree of the polynomial. Proof:
+/// no coefficient is a sum of more than 432 products of at most four factors. Each product has at most 160 roundings,
+/// 128 of them from halvings. 432 * 160 * 2^-53 is less than 2^-36.
+constexpr double max_relative_error = 0x1p-35;
 
 template <std::size_t N>
 using Signs = std::array<std::optional<int>, N + 1>;
-/// largest: coordinate difference of the motion, in m; for doubles only.
+/// Returns the signs of the coefficients; nothing where a sign is not known. largest: the largest coordinate difference
+/// of the motion (m); only used for doubles.
 template <class T, std::size_t N>
 Signs<N> signs_of(const Polynomial<T, N>& polynomial, double largest) {
   Signs<N> signs;
   for (std::size_t k = 0; k <= N; ++k) {
     if constexpr (std::is_same_v<T, double>) {
-      double bound = largest_rounding;
+      double bound = max_relative_error;
       for (std::size_t degree = 0; degree < N; ++degree) bound *= largest;
       if (std::abs(polynomial.c[k]) > bound) signs[k] = polynomial.c[k] > 0 ? 1 : -1;
     } else {
@@ -89,7 +93,7 @@ Signs<N> signs_of(const Polynomial<T, N>& polynomial, double largest) {
   }
   return signs;
 }
-// Of all coefficients, hence of the polynomial on the whole interval.
+// What holds for all coefficients holds for the polynomial on the whole interval.
 template <class S>
 bool all_negative(const S& signs) {
   return std::all_of(signs.begin(), signs.end(), [](const auto& sign) { return sign && *sign < 0; });
@@ -103,7 +107,7 @@ bool all_known(const S& signs) {
   return std::all_of(signs.begin(), signs.end(), [](const auto& sign) { return sign.has_value(); });
 }
 template <class S>
-int changes(const S& signs) {
+int sign_changes(const S& signs) {
   int count = 0;
   for (std::size_t k = 1; k < signs.size(); ++k) count += (*signs[k] < 0) != (*signs[k - 1] < 0);
   return count;
@@ -113,7 +117,7 @@ double as_double(double x) { return x; }
 double as_double(const Bounded& x) { return x.value; }
 double as_double(const Rational& x) { return x.get_d(); }
 
-/// Where a cubic with a single change of sign changes it. For information: not exact.
+/// Returns the root of a cubic with a single sign change. Rounded; it is only reported and decides nothing.
 template <class T>
 double root_of(const Polynomial<T, 3>& cubic) {
   std::array<double, 4> c;
@@ -128,9 +132,9 @@ double root_of(const Polynomial<T, 3>& cubic) {
   return (lo + hi) / 2;
 }
 
-/// True if the boxes around the two features never meet.
+/// Returns true if the boxes around the two features are separate along an axis throughout the motion.
 template <class Kind, class T>
-bool apart(const FeatureMotion<T>& motion, double largest) {
+bool boxes_are_separate(const FeatureMotion<T>& motion, double largest) {
   const auto& between = Kind::between(motion);
   const auto on_one_side = [&](auto component) {
     const std::optional<int> side = signs_of(between[0].*component, largest)[0];
@@ -141,13 +145,13 @@ bool apart(const FeatureMotion<T>& motion, double largest) {
   return on_one_side(&Vector<T, 1>::x) || on_one_side(&Vector<T, 1>::y) || on_one_side(&Vector<T, 1>::z);
 }
 
-enum class Answer { none, passage, unsure };
-struct Found {
+enum class Answer { none, passage, unknown };
+struct SearchResult {
   Answer answer;
   Passage passage{};
 };
 
-/// The first or the second half of a motion.
+/// Returns the first or the second half of a motion.
 template <class T>
 FeatureMotion<T> half_of(FeatureMotion<T> motion, bool second) {
   for (Vector<T, 1>& v : motion) {
@@ -158,34 +162,35 @@ FeatureMotion<T> half_of(FeatureMotion<T> motion, bool second) {
   return motion;
 }
 
-/// The first passage between the times begin and begin + length.
+/// Finds the first passage between the times begin and begin + length.
 template <class Kind, class T>
-Found search(const FeatureMotion<T>& motion, double largest, double begin, double length, int halvings) {
-  if (apart<Kind>(motion, largest)) return {Answer::none};
+SearchResult search(const FeatureMotion<T>& motion, double largest, double begin, double length, int halvings) {
+  if (boxes_are_separate<Kind>(motion, largest)) return {Answer::none};
   const Polynomial<T, 3> cubic = Kind::side(motion);
   const auto side = signs_of(cubic, largest);
   if (none_negative(side) || all_negative(side)) return {Answer::none};
-  bool meet = true;  // throughout
+  bool within = true;  // no weight is ever negative
   bool known = all_known(side);
   for (const Weight<T>& weight : Kind::weights(motion)) {
     const auto signs = signs_of(weight, largest);
     if (all_negative(signs)) return {Answer::none};
-    meet = meet && none_negative(signs);
+    within = within && none_negative(signs);
     known = known && all_known(signs);
   }
-  if (!all_known(side)) return {Answer::unsure};
-  if (changes(side) == 1 && meet) {
+  if (!all_known(side)) return {Answer::unknown};
+  if (sign_changes(side) == 1 && within) {
     return {Answer::passage, {begin + length * root_of(cubic), *side[0] >= 0}};
   }
   if (halvings == max_halvings) {
-    if (!known) return {Answer::unsure};
+    if (!known) return {Answer::unknown};
     return {Answer::passage, {begin + length / 2, *side[0] >= 0}};
   }
-  const Found first = search<Kind>(half_of(motion, false), largest, begin, length / 2, halvings + 1);
+  const SearchResult first = search<Kind>(half_of(motion, false), largest, begin, length / 2, halvings + 1);
   if (first.answer != Answer::none) return first;
   return search<Kind>(half_of(motion, true), largest, begin + length / 2, length / 2, halvings + 1);
 }
 
+/// Returns the largest coordinate difference.
 double largest_of(const FeatureMotion<double>& motion) {
   double largest = 0;
   for (const Vector<double, 1>& v : motion) {
@@ -196,14 +201,19 @@ double largest_of(const FeatureMotion<double>& motion) {
   return largest;
 }
 
-/// motion: a function of a number's type, called with T{}.
-template <class Kind, class Make>
-std::optional<Passage> first_passage(const Make& motion) {
+[[maybe_unused]] bool is_finite(const MovingPoint& p) {
+  const auto finite = [](const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+  return finite(p.from) && finite(p.to);
+}
+
+/// Tries doubles first, then doubles with error bounds, then rationals. motion(T{}) returns the motion in the type T.
+template <class Kind, class MotionOf>
+std::optional<Passage> first_passage(const MotionOf& motion) {
   const FeatureMotion<double> plain = motion(double{});
   const double largest = largest_of(plain);
-  Found found = search<Kind>(plain, largest, 0, 1, 0);
-  if (found.answer == Answer::unsure) found = search<Kind>(motion(Bounded{}), largest, 0, 1, 0);
-  if (found.answer == Answer::unsure) found = search<Kind>(motion(Rational{}), largest, 0, 1, 0);
+  SearchResult found = search<Kind>(plain, largest, 0, 1, 0);
+  if (found.answer == Answer::unknown) found = search<Kind>(motion(Bounded{}), largest, 0, 1, 0);
+  if (found.answer == Answer::unknown) found = search<Kind>(motion(Rational{}), largest, 0, 1, 0);
   if (found.answer == Answer::none) return std::nullopt;
   return found.passage;
 }
@@ -212,6 +222,7 @@ std::optional<Passage> first_passage(const Make& motion) {
 
 std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                            const MovingPoint& c) {
+  assert(is_finite(p) && is_finite(a) && is_finite(b) && is_finite(c));
   return first_passage<VertexFace>([&]<class T>(const T&) {
     return FeatureMotion<T>{difference<T>(a, p), difference<T>(b, p), difference<T>(c, p)};
   });
@@ -219,6 +230,7 @@ std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoi
 
 std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                          const MovingPoint& v) {
+  assert(is_finite(p) && is_finite(q) && is_finite(u) && is_finite(v));
   return first_passage<EdgeEdge>([&]<class T>(const T&) {
     return FeatureMotion<T>{difference<T>(q, p), difference<T>(v, u), difference<T>(u, p)};
   });

@@ -1,8 +1,9 @@
 #pragma once
-// Passages of moving features through each other while all vertices move along straight lines: the continuous test of
-// Provot (1997), in which the four vertices lie in one plane at the roots of a cubic, with no root ever computed for
-// the decision. Time is halved instead until the boxes around the features are apart or signs of Bernstein
-// coefficients, exact by collide/oracle/exact_arithmetic.h, tell that there is no passage, or just one.
+// Continuous collision detection: passages of moving features through each other while all vertices move along straight
+// lines. The test is that of Provot (1997): the four vertices lie in one plane at the roots of a cubic. But no root is
+// computed for the decision. Instead, time is halved until the boxes around the features are separate, or until the
+// signs of Bernstein coefficients prove that there is no passage, or exactly one. The signs are exact, see
+// exact_arithmetic.h.
 
 #include <optional>
 
@@ -11,7 +12,7 @@
 namespace collide::oracle {
 
 struct MovingPoint {
-  glm::vec3 from, to;  // at the times 0 and 1; finite
+  glm::vec3 from, to;  // m, at the times 0 and 1
 };
 
 struct Passage {
@@ -19,16 +20,18 @@ struct Passage {
   bool inward;  // the side changes from positive to negative
 };
 
-/// After so many halvings of the step what still cannot be told from a passage is called one.
+/// The step is halved at most this often. Where no passage can be excluded then, one is reported.
 inline constexpr int max_halvings = 32;
 
-/// First passage of p through the triangle abc, its rim included. The side of p is positive or 0 where the corners are
-/// seen counter-clockwise or p is in their plane, else negative; only a change of side is a passage.
+/// Returns the first passage of a vertex p through a face abc, sides and corners included. The side of p is positive if
+/// the corners appear counter-clockwise from p or p lies in their plane, else negative. A passage is a change of side.
+/// Precondition: all coordinates are finite.
 std::optional<Passage> vertex_through_face(const MovingPoint& p, const MovingPoint& a, const MovingPoint& b,
                                            const MovingPoint& c);
 
-/// First passage of the edge pq through the edge uv, their ends included. The side is the sign of
-/// (u - p) . ((q - p) x (v - u)), 0 counting as positive; only a change of it is a passage.
+/// Returns the first passage of an edge pq through an edge uv, ends included. The side is the sign of
+/// (u - p) . ((q - p) x (v - u)), where 0 counts as positive. A passage is a change of side. Precondition: all
+/// coordinates are finite.
 std::optional<Passage> edge_through_edge(const MovingPoint& p, const MovingPoint& q, const MovingPoint& u,
                                          const MovingPoint& v);
 

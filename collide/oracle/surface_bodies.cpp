@@ -1,21 +1,24 @@
 #include "collide/oracle/surface_bodies.h"
 
+#include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
 namespace collide::oracle {
 
 Index body_of(const Bodies& bodies, Index vertex) {
+  assert(vertex < bodies.vertex_count());
   return static_cast<Index>(std::upper_bound(bodies.first.begin(), bodies.first.end(), vertex) - bodies.first.begin()) -
          1;
 }
 
 void require_match(const Frame& frame, const surface::Surfaces& surfaces) {
   const Bodies& bodies = *frame.bodies;
-  if (surfaces.size() != bodies.count()) throw std::invalid_argument("surfaces: one a body");
+  if (surfaces.size() != bodies.count()) throw std::invalid_argument("surfaces: there must be one for each body");
   for (Index body = 0; body < bodies.count(); ++body) {
     if (surfaces[body] && surfaces[body]->vertex_count() != bodies.size(body)) {
-      throw std::invalid_argument("surfaces: as many vertices as the body has");
+      throw std::invalid_argument("surfaces: each must have as many vertices as its body");
     }
   }
 }

@@ -1,5 +1,7 @@
 #pragma once
-// What the oracle's two questions (surface_overlaps.cpp, surface_crossings.cpp) share: the bodies that take part.
+// The bodies that take part: shared by both parts of the oracle, surface_overlaps.cpp and surface_crossings.cpp.
+
+#include <utility>
 
 #include "collide/surface/box_tree.h"
 #include "collide/surface/surface.h"
@@ -10,32 +12,32 @@ inline glm::vec3 position(const Frame& frame, Index vertex) {
   return {frame.x[vertex], frame.y[vertex], frame.z[vertex]};
 }
 
-/// The body of a vertex of the frame.
+/// Returns the body of a vertex. Precondition: the frame has that vertex.
 Index body_of(const Bodies& bodies, Index vertex);
 
-/// Throws std::invalid_argument unless the surfaces are those of the frame's bodies.
+/// Throws std::invalid_argument unless there is one surface for each body, null or with as many vertices as the body.
 void require_match(const Frame& frame, const surface::Surfaces& surfaces);
 
-/// The box of a body's vertices; empty if there are none or if one is not finite.
+/// Returns the box of a body's vertices; empty if there are none or one is not finite.
 surface::Box box_of_body(const Frame& frame, Index body);
 
-/// Corners of a body's triangle or ends of its edge: vertices over the frame.
+/// Returns the vertices of a triangle or an edge as numbers in the frame. local: their numbers in the body.
 template <std::size_t N>
-std::array<Index, N> over_frame(const Frame& frame, Index body, std::array<Index, N> local) {
+std::array<Index, N> to_frame(const Frame& frame, Index body, std::array<Index, N> local) {
   for (Index& vertex : local) vertex += frame.bodies->first[body];
   return local;
 }
 
-/// Bodies whose boxes overlap.
+/// The broad phase: finds the bodies whose boxes overlap.
 class BodyNeighbours {
  public:
   BodyNeighbours() = default;
-  /// box: of each body; no neighbours where it is empty.
+  /// box: the box of each body. A body with an empty box has no neighbours.
   explicit BodyNeighbours(std::vector<surface::Box> box) : box_(std::move(box)), tree_(box_) {}
   const surface::Box& box(Index body) const { return box_[body]; }
-  /// Calls take(other) for every body whose box overlaps this one's, the body itself included.
+  /// Calls take(other) for every body whose box overlaps that of `body`, including itself.
   template <class Take>
-  void each(Index body, const Take& take) const {
+  void for_each(Index body, const Take& take) const {
     tree_.for_each_overlapping(box_[body], take);
   }
 

@@ -1,4 +1,4 @@
-// What passed through what between two frames.
+// Finds the vertices and edges that passed through faces and edges between two frames.
 
 #include <algorithm>
 #include <stdexcept>
@@ -12,12 +12,12 @@ namespace collide::oracle {
 
 namespace {
 
-/// Boxes of moving features as seen by an observer who moves with a body, so that two features of a body that flies
-/// fast, or of two that fly together, are not near all the way.
-struct Observer {
-  glm::dvec3 drift{0};  // m a step
+/// Builds swept boxes in a frame of reference that moves with a body. In this frame, the boxes are small even if a body
+/// moves fast, or two bodies move fast together.
+struct MovingReference {
+  glm::dvec3 drift{0};  // m, per step
 
-  /// Around all that a vertex passes. Only the end is rounded, by less than it is widened.
+  /// Extends the box by the path of a vertex. Only its end is rounded, by less than the margin.
   void add(surface::Box& box, const MovingPoint& point) const {
     const glm::dvec3 end = glm::dvec3(point.to) - drift, margin = glm::abs(end) * 0x1p-52;
     box.add(glm::dvec3(point.from));
@@ -32,7 +32,8 @@ class CrossingSearch {
       : before_(before), after_(after), surfaces_(surfaces), moving_(surfaces.size()) {
     require_match(before, surfaces);
     require_match(after, surfaces);
-    if (before.bodies->first != after.bodies->first) throw std::invalid_argument("frames: the same bodies in both");
+    if (before.bodies->first != after.bodies->first)
+      throw std::invalid_argument("frames: both must have the same bodies");
     std::vector<surface::Box> boxes;
     for (Index body = 0; body < surfaces.size(); ++body) {
       const surface::Box from = box_of_body(before, body), to = box_of_body(after, body);
@@ -44,18 +45,18 @@ class CrossingSearch {
     bodies_ = BodyNeighbours(std::move(boxes));
   }
 
-  /// To be called for all bodies before find(); different ones may be prepared at the same time.
+  /// Builds the trees of a body. Call it for all bodies before find(). Threads may prepare different bodies at once.
   void prepare(Index body) {
     if (bodies_.box(body).empty() || !surfaces_[body]) return;
     Moving& own = moving_[body];
-    own.observer.drift = mean_displacement(body);
+    own.reference.drift = mean_displacement(body);
     own.faces = surface::BoxTree(boxes_of(body, surfaces_[body]->triangles()));
     own.edges = surface::BoxTree(boxes_of(body, surfaces_[body]->edges()));
   }
 
-  /// All crossings of the body's vertices, and those of its edges with edges of bodies from it on.
+  /// Appends all crossings of the body's vertices, and those of its edges with edges of itself and of later bodies.
   void find(Index body, std::vector<Crossing>& crossings) const {
-    bodies_.each(body, [&](Index other) {
+    bodies_.for_each(body, [&](Index other) {
       if (!surfaces_[other]) return;
       find_vertices(body, other, crossings);
       if (body <= other && surfaces_[body]) find_edges(body, other, crossings);
@@ -64,7 +65,7 @@ class CrossingSearch {
 
  private:
   struct Moving {
-    Observer observer;
+    MovingReference reference;
     surface::BoxTree faces, edges;
   };
 
@@ -81,9 +82,9 @@ class CrossingSearch {
   }
 
   template <std::size_t N>
-  surface::Box box_of(const std::array<Index, N>& vertices, const Observer& observer) const {
+  surface::Box box_of(const std::array<Index, N>& vertices, const MovingReference& reference) const {
     surface::Box box;
-    for (const Index vertex : vertices) observer.add(box, point(vertex));
+    for (const Index vertex : vertices) reference.add(box, point(vertex));
     return box;
   }
   template <class Feature>
@@ -91,7 +92,7 @@ class CrossingSearch {
     std::vector<surface::Box> boxes;
     boxes.reserve(features.size());
     for (const Feature& feature : features) {
-      boxes.push_back(box_of(over_frame(before_, body, feature), moving_[body].observer));
+      boxes.push_back(box_of(to_frame(before_, body, feature), moving_[body].reference));
     }
     return boxes;
   }
@@ -99,8 +100,8 @@ class CrossingSearch {
   void find_vertices(Index body, Index other, std::vector<Crossing>& found) const {
     const Moving& against = moving_[other];
     for (Index v = before_.bodies->first[body]; v < before_.bodies->first[body + 1]; ++v) {
-      against.faces.for_each_overlapping(box_of(std::array{v}, against.observer), [&](Index t) {
-        const surface::Triangle face = over_frame(before_, other, surfaces_[other]->triangles()[t]);
+      against.faces.for_each_overlapping(box_of(std::array{v}, against.reference), [&](Index t) {
+        const surface::Triangle face = to_frame(before_, other, surfaces_[other]->triangles()[t]);
         if (std::find(face.begin(), face.end(), v) != face.end()) return;
         const auto passage = vertex_through_face(point(v), point(face[0]), point(face[1]), point(face[2]));
         if (!passage) return;
@@ -113,10 +114,10 @@ class CrossingSearch {
     const Moving& against = moving_[other];
     const std::vector<surface::Edge>& others = surfaces_[other]->edges();
     for (Index e = 0; e < surfaces_[body]->edges().size(); ++e) {
-      const surface::Edge edge = over_frame(before_, body, surfaces_[body]->edges()[e]);
-      against.edges.for_each_overlapping(box_of(edge, against.observer), [&](Index k) {
+      const surface::Edge edge = to_frame(before_, body, surfaces_[body]->edges()[e]);
+      against.edges.for_each_overlapping(box_of(edge, against.reference), [&](Index k) {
         if (body == other && k <= e) return;
-        const surface::Edge through = over_frame(before_, other, others[k]);
+        const surface::Edge through = to_frame(before_, other, others[k]);
         if (edge[0] == through[0] || edge[0] == through[1] || edge[1] == through[0] || edge[1] == through[1]) return;
         const auto passage = edge_through_edge(point(edge[0]), point(edge[1]), point(through[0]), point(through[1]));
         if (!passage) return;

@@ -1,6 +1,7 @@
 #include "collide/oracle/surface_oracle.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include "collide/oracle/surface_bodies.h"
 
@@ -16,24 +17,24 @@ void sort_unique(std::vector<T>& values) {
 
 OverlappingPair pair_of(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
-/// The ascending contacts, looked up both ways.
+/// Looks up contacts by their vertices, by vertex and body, and by bodies. contacts: ascending.
 class ContactLookup {
  public:
   ContactLookup(std::span<const Contact> contacts, const Bodies& bodies) : contacts_(contacts) {
     for (const Contact& contact : contacts) {
       const Index a = body_of(bodies, contact.a), b = body_of(bodies, contact.b);
-      bodies_.push_back({a, b});  // a <= b, as the vertices
-      vertex_in_.push_back({contact.a, b});
-      vertex_in_.push_back({contact.b, a});
+      bodies_.push_back({a, b});  // a <= b, since the vertices ascend
+      vertex_and_body_.push_back({contact.a, b});
+      vertex_and_body_.push_back({contact.b, a});
     }
     sort_unique(bodies_);
-    sort_unique(vertex_in_);
+    sort_unique(vertex_and_body_);
   }
   bool joins(Index a, Index b) const {
     return std::binary_search(contacts_.begin(), contacts_.end(), Contact{std::min(a, b), std::max(a, b)});
   }
   bool joins_vertex_to_body(Index vertex, Index body) const {
-    return std::binary_search(vertex_in_.begin(), vertex_in_.end(), std::array{vertex, body});
+    return std::binary_search(vertex_and_body_.begin(), vertex_and_body_.end(), std::array{vertex, body});
   }
   bool joins_bodies(const OverlappingPair& pair) const {
     return std::binary_search(bodies_.begin(), bodies_.end(), pair);
@@ -42,7 +43,7 @@ class ContactLookup {
  private:
   std::span<const Contact> contacts_;
   std::vector<OverlappingPair> bodies_;
-  std::vector<std::array<Index, 2>> vertex_in_;  // a vertex, and a body with a vertex that a contact joins it to
+  std::vector<std::array<Index, 2>> vertex_and_body_;  // a contact joins the vertex to a vertex of the body
 };
 
 }  // namespace
@@ -87,23 +88,24 @@ SurfaceFigures figures_of(const Frame& frame, const Overlaps& overlaps, std::spa
 
 Missed missed_by(std::span<const Contact> contacts, const Frame& frame, const surface::Surfaces& surfaces,
                  const Overlaps& overlaps) {
-  const ContactLookup seen(contacts, *frame.bodies);
+  assert(std::is_sorted(contacts.begin(), contacts.end()));
+  const ContactLookup lookup(contacts, *frame.bodies);
   Missed missed;
   for (std::size_t i = 0; i < overlaps.penetrations.size(); ++i) {
     const Penetration& in = overlaps.penetrations[i];
-    if (!seen.joins_vertex_to_body(in.vertex, in.body)) missed.penetrations.push_back(i);
+    if (!lookup.joins_vertex_to_body(in.vertex, in.body)) missed.penetrations.push_back(i);
   }
   for (std::size_t i = 0; i < overlaps.piercings.size(); ++i) {
     const Piercing& through = overlaps.piercings[i];
     const surface::Triangle face =
-        over_frame(frame, through.triangle_body, surfaces[through.triangle_body]->triangles()[through.triangle]);
+        to_frame(frame, through.triangle_body, surfaces[through.triangle_body]->triangles()[through.triangle]);
     const bool joined = std::any_of(face.begin(), face.end(), [&](Index corner) {
-      return seen.joins(through.edge[0], corner) || seen.joins(through.edge[1], corner);
+      return lookup.joins(through.edge[0], corner) || lookup.joins(through.edge[1], corner);
     });
     if (!joined) missed.piercings.push_back(i);
   }
   for (const OverlappingPair& pair : overlapping_pairs(frame, overlaps)) {
-    if (!seen.joins_bodies(pair)) missed.pairs.push_back(pair);
+    if (!lookup.joins_bodies(pair)) missed.pairs.push_back(pair);
   }
   return missed;
 }

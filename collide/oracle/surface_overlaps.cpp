@@ -1,4 +1,4 @@
-// Vertices inside bodies and edges through faces, at one instant.
+// Finds the vertices inside bodies and the edges through faces, at one instant.
 
 #include <cmath>
 #include <tuple>
@@ -15,8 +15,8 @@ namespace {
 
 using Corners = std::array<glm::vec3, 3>;
 
-/// Point of a triangle nearest to p. Ericson, Real-Time Collision Detection (2005), §5.1.5: p lies in the region of a
-/// corner, of a side or of the face.
+/// Returns the point of a triangle that is nearest to p. Ericson, Real-Time Collision Detection (2005), §5.1.5: p lies
+/// in the Voronoi region of a corner, of a side or of the face.
 glm::dvec3 nearest_point(const glm::dvec3& p, const Corners& corners) {
   const glm::dvec3 a(corners[0]), b(corners[1]), c(corners[2]);
   const glm::dvec3 ab = b - a, ac = c - a;
@@ -43,7 +43,7 @@ class OverlapSearch {
     faces_.resize(surfaces.size());
   }
 
-  /// To be called for all bodies before find(); different ones may be prepared at the same time.
+  /// Builds the tree of a body. Call it for all bodies before find(). Threads may prepare different bodies at once.
   void prepare(Index body) {
     std::vector<surface::Box> boxes(surfaces_[body] ? surfaces_[body]->triangles().size() : 0);
     for (Index t = 0; t < boxes.size(); ++t) {
@@ -52,9 +52,10 @@ class OverlapSearch {
     if (!bodies_.box(body).empty()) faces_[body] = surface::BoxTree(boxes);
   }
 
-  /// What vertices and edges of the body do to the surfaces near it, its own included.
+  /// Appends the penetrations of the body's vertices, and the piercings of its edges, into all surfaces near it. Edges
+  /// may pierce its own surface.
   void find(Index body, Overlaps& overlaps) const {
-    bodies_.each(body, [&](Index other) {
+    bodies_.for_each(body, [&](Index other) {
       if (!surfaces_[other]) return;
       if (other != body && surfaces_[other]->closed()) find_vertices(body, other, overlaps.penetrations);
       if (surfaces_[body]) find_edges(body, other, overlaps.piercings);
@@ -63,7 +64,7 @@ class OverlapSearch {
 
  private:
   Corners corners(Index body, Index triangle) const {
-    const auto [a, b, c] = over_frame(frame_, body, surfaces_[body]->triangles()[triangle]);
+    const auto [a, b, c] = to_frame(frame_, body, surfaces_[body]->triangles()[triangle]);
     return {position(frame_, a), position(frame_, b), position(frame_, c)};
   }
 
@@ -97,18 +98,18 @@ class OverlapSearch {
   Penetration penetration(Index vertex, Index body) const {
     const glm::dvec3 p(position(frame_, vertex));
     Penetration nearest{vertex, body, 0, 0, {}, {}};
-    double least = std::numeric_limits<double>::infinity();
-    faces_[body].walk([&](const surface::Box& box) { return squared_distance_to(box, p) <= least; },
+    double smallest = std::numeric_limits<double>::infinity();
+    faces_[body].walk([&](const surface::Box& box) { return squared_distance_to(box, p) <= smallest; },
                       [&](Index t) {
                         const glm::dvec3 q = nearest_point(p, corners(body, t));
                         const double squared = glm::dot(q - p, q - p);
-                        const bool nearer = squared < least || (squared == least && t < nearest.triangle);
-                        if (!nearer) return;  // nor is NaN, of a triangle without area: others share its sides
-                        least = squared;
+                        const bool nearer = squared < smallest || (squared == smallest && t < nearest.triangle);
+                        if (!nearer) return;  // also for NaN, from a triangle without area: others share its sides
+                        smallest = squared;
                         nearest.triangle = t;
                         nearest.point = q;
                       });
-    nearest.depth = std::sqrt(least);
+    nearest.depth = std::sqrt(smallest);
     nearest.normal = nearest.depth > 0 ? (nearest.point - p) / nearest.depth : normal(body, nearest.triangle);
     return nearest;
   }
@@ -120,7 +121,7 @@ class OverlapSearch {
 
   void find_edges(Index body, Index other, std::vector<Piercing>& found) const {
     for (const surface::Edge& local : surfaces_[body]->edges()) {
-      const surface::Edge edge = over_frame(frame_, body, local);
+      const surface::Edge edge = to_frame(frame_, body, local);
       const glm::vec3 p = position(frame_, edge[0]), q = position(frame_, edge[1]);
       surface::Box box = point_box(p);
       box.add(glm::dvec3(q));
@@ -136,9 +137,10 @@ class OverlapSearch {
     return std::any_of(triangle.begin(), triangle.end(), [&](Index v) { return v == edge[0] || v == edge[1]; });
   }
 
-  /// Where a side or a corner of the face is met, the segment passes through the surface if it passes through the faces
-  /// around that side or corner in sum, whichever way it is moved a little. So it does not where it grazes a ridge
-  /// (both sums 0) or a rim, or leaves within a face's plane (one of them 0).
+  /// Returns true if the segment pq passes through the triangle. If it meets a side or a corner, its crossings of all
+  /// faces around that side or corner are summed, with p moved slightly in two opposite directions. It passes through
+  /// the surface if both sums are equal and not 0. So it does not pass where it grazes a ridge (both sums are 0) or a
+  /// border, or leaves within the plane of a face (one sum is 0).
   bool passes(const glm::vec3& p, const glm::vec3& q, Index body, Index triangle) const {
     const auto crossing_of = [&](Index t) {
       const auto [a, b, c] = corners(body, t);
@@ -146,21 +148,21 @@ class OverlapSearch {
     };
     const SegmentCrossing crossing = crossing_of(triangle);
     if (crossing.plus == crossing.minus) return crossing.plus != 0;
-    if (crossing.plus == 0) return false;  // another face around has the passage, if there is one
+    if (crossing.plus == 0) return false;  // if there is a passage, another face around reports it
 
     const std::vector<Index> common = met_vertices(surfaces_[body]->triangles()[triangle], crossing.meets);
     int plus = 0, minus = 0;
     for (const Index t : surfaces_[body]->triangles_at(common[0])) {
       const surface::Triangle& other = surfaces_[body]->triangles()[t];
       if (std::find(other.begin(), other.end(), common.back()) == other.end()) continue;
-      const SegmentCrossing beside = crossing_of(t);
-      plus += beside.plus;
-      minus += beside.minus;
+      const SegmentCrossing neighbour = crossing_of(t);
+      plus += neighbour.plus;
+      minus += neighbour.minus;
     }
     return plus == minus && plus * crossing.plus > 0;
   }
 
-  /// The two vertices of the side that is met, or the corner that two of them have in common.
+  /// Returns the two ends of the side that is met, or the one corner if two sides are met.
   static std::vector<Index> met_vertices(const surface::Triangle& triangle, const std::array<bool, 3>& meets) {
     if (meets[0] && meets[1]) return {triangle[1]};
     if (meets[1] && meets[2]) return {triangle[2]};

@@ -29,7 +29,7 @@ bool share_vertex(const std::array<Index, n>& a, const std::array<Index, m>& b) 
 
 constexpr std::size_t max_box_pairs = std::size_t{1} << 26;  // of two bodies: 512 MiB for each thread
 
-bool has_all_vertices(const Motion& motion) {
+[[maybe_unused]] bool has_all_vertices(const Motion& motion) {
   const std::size_t count = motion.positions.x.size();
   return is_complete(motion.positions) && motion.vx.size() == count && motion.vy.size() == count &&
          motion.vz.size() == count;

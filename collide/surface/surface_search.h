@@ -15,9 +15,9 @@
 // with u_b. There, the displacement of a vertex of a from x has two parts. The first part, (v - u_a) t, lies in the box
 // spanned by 0 and (v - u_a) T. The second part is the displacement of the frame of a relative to the frame of b; it
 // lies in the box spanned by the first and the last such displacement. So the vertex stays in the sum of these two
-// boxes around x, grown by the slack. The search grows the boxes of each body by the skin instead, which is larger by
-// the contact offset. Therefore, if two features come within their contact distance, their boxes overlap, and they are
-// candidates.
+// boxes around x, grown by the slack. A vertex of b has only the first part, (v - u_b) t. The search grows the boxes of
+// each body by the skin instead, which is larger by the contact offset. Therefore, if two features come within their
+// contact distance, their boxes overlap, and they are candidates.
 //   One body. Let r_i be the position of vertex i relative to the centre. For any u and w, let v_i = u + w x r_i + s_i:
 // s_i is the velocity of the deformation. Let [w] be the matrix with [w] r = w x r, and A = 1 + t [w]. Then
 //   (x_i + v_i t) - (x_j + v_j t) = A (r_i - r_j) + t s_i - t s_j,

@@ -1,5 +1,5 @@
-// Against rationals throughout, with points of few values so that every tie occurs, of many values, far away, and of
-// all exponents.
+// Compares the predicates with rationals. Points have few values, so that every tie occurs, or many values, lie far
+// from the origin, or have all exponents.
 
 #include "collide/oracle/exact_predicates.h"
 
@@ -60,7 +60,7 @@ void for_each_four(int times, const Check& check) {
   }
 }
 
-TEST(ExactPredicates, SignsAreThoseOfRationals) {
+TEST(ExactPredicates, SignsAgreeWithRationals) {
   int zeros = 0;
   for_each_four(3000, [&](const Points& v) {
     const Exact a = exact(v[0]), b = exact(v[1]), c = exact(v[2]), p = exact(v[3]);
@@ -75,13 +75,13 @@ TEST(ExactPredicates, SignsAreThoseOfRationals) {
   EXPECT_GT(zeros, 500);
 }
 
-/// Barycentric coordinates of p's projection, times the squared length of the normal.
+/// Returns the barycentric coordinates of the projection of p, times the squared length of the normal.
 Exact barycentric(const Exact& p, const Exact& a, const Exact& b, const Exact& c) {
   const Exact n = normal_of(a, b, c);
   return {product(n, normal_of(p, b, c)), product(n, normal_of(p, c, a)), product(n, normal_of(p, a, b))};
 }
 
-TEST(ExactPredicates, PointsOnTriangles) {
+TEST(ExactPredicates, OnTriangleAgreesWithRationals) {
   int on = 0;
   for_each_four(3000, [&](const Points& v) {
     const Exact a = exact(v[0]), b = exact(v[1]), c = exact(v[2]), p = exact(v[3]);
@@ -94,7 +94,7 @@ TEST(ExactPredicates, PointsOnTriangles) {
   EXPECT_GT(on, 50);
 }
 
-TEST(ExactPredicates, SegmentsThroughTriangles) {
+TEST(ExactPredicates, SegmentCrossingAgreesWithRationals) {
   int through = 0, ties = 0;
   for_each_four(6000, [&](const Points& v) {
     const Exact a = exact(v[0]), b = exact(v[1]), c = exact(v[2]), p = exact(v[3]), q = exact(v[4]);
@@ -110,39 +110,39 @@ TEST(ExactPredicates, SegmentsThroughTriangles) {
     Exact hit;
     for (std::size_t axis = 0; axis < 3; ++axis) hit[axis] = p[axis] + (q[axis] - p[axis]) * t;
     const Exact weights = barycentric(hit, a, b, c);
-    const mpq_class least = std::min({weights[0], weights[1], weights[2]});
-    if (least == 0) {  // on a side or a corner: which way is told by moving p
+    const mpq_class smallest = std::min({weights[0], weights[1], weights[2]});
+    if (smallest == 0) {  // on a side or a corner: the result depends on how p is moved
       ++ties;
       ASSERT_TRUE(crossing.meets[0] == (weights[2] == 0) && crossing.meets[1] == (weights[0] == 0) &&
                   crossing.meets[2] == (weights[1] == 0));
       ASSERT_TRUE(crossing.plus == 0 || crossing.plus == sgn(from));
       ASSERT_TRUE(crossing.minus == 0 || crossing.minus == sgn(from));
     } else {
-      ASSERT_EQ(crossing.plus, least > 0 ? sgn(from) : 0);
+      ASSERT_EQ(crossing.plus, smallest > 0 ? sgn(from) : 0);
       ASSERT_EQ(crossing.minus, crossing.plus);
-      through += least > 0;
+      through += smallest > 0;
     }
   });
   EXPECT_GT(through, 200);
   EXPECT_GT(ties, 200);
 }
 
-TEST(ExactPredicates, ARayLeavesATetrahedronOnceFromInsideAndNeverFromOutside) {
-  int inside = 0, level = 0;  // level: with a corner or a side on the ray
+TEST(ExactPredicates, RayCrossingsSumToTheWindingNumberOfATetrahedron) {
+  int inside = 0, level = 0;  // level: corners that lie on the line of the ray
   for_each_four(6000, [&](const Points& v) {
     const int orientation = side_of_plane(v[0], v[1], v[2], v[3]);
     if (orientation == 0) return;
     const std::array<std::array<std::size_t, 3>, 4> faces{{{0, 1, 2}, {0, 3, 1}, {1, 3, 2}, {2, 3, 0}}};
-    int windings = 0, behind = 0;
+    int windings = 0, inner_sides = 0;
     bool on = false;
     for (const auto& [i, j, k] : faces) {
       windings += ray_crossing(v[4], v[i], v[j], v[k]);
-      behind += side_of_plane(v[i], v[j], v[k], v[4]) == orientation;
+      inner_sides += side_of_plane(v[i], v[j], v[k], v[4]) == orientation;
       on = on || on_triangle(v[4], v[i], v[j], v[k]);
     }
     if (on) return;
-    ASSERT_EQ(windings, behind == 4 ? -orientation : 0);
-    inside += behind == 4;
+    ASSERT_EQ(windings, inner_sides == 4 ? -orientation : 0);
+    inside += inner_sides == 4;
     for (std::size_t i = 0; i < 4; ++i) level += v[i].y == v[4].y && v[i].z == v[4].z;
   });
   EXPECT_GT(inside, 30);

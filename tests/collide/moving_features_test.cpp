@@ -21,10 +21,10 @@ struct Four {
   auto vertex_face() const { return vertex_through_face(v[0], v[1], v[2], v[3]); }
   auto edge_edge() const { return edge_through_edge(v[0], v[1], v[2], v[3]); }
 };
-const std::array<MovingPoint, 3> floor_face{still({0, 0, 0}), still({0, 0, 4}), still({4, 0, 0})};  // facing up
+const std::array<MovingPoint, 3> floor_face{still({0, 0, 0}), still({0, 0, 4}), still({4, 0, 0})};  // faces up
 Four over_floor(const MovingPoint& p) { return {{p, floor_face[0], floor_face[1], floor_face[2]}}; }
 
-TEST(VertexThroughFace, FallsThroughAtTheExpectedTime) {
+TEST(VertexThroughFace, PassesAtTheExpectedTime) {
   const auto down = over_floor(moving({1, 3, 1}, {0, -4, 0})).vertex_face();
   ASSERT_TRUE(down);
   EXPECT_NEAR(down->time, 0.75, 1e-9);
@@ -36,7 +36,7 @@ TEST(VertexThroughFace, FallsThroughAtTheExpectedTime) {
   EXPECT_FALSE(over_floor(moving({3, 3, 3}, {0, -4, 0})).vertex_face());
 }
 
-TEST(VertexThroughFace, ARimAndACornerAreTheFace) {
+TEST(VertexThroughFace, SidesAndCornersBelongToTheFace) {
   for (const glm::vec3& p : {glm::vec3(0, 1, 0), glm::vec3(2, 1, 2), glm::vec3(0, 1, 1.3f), glm::vec3(4, 1, 0)}) {
     EXPECT_TRUE(over_floor(moving(p, {0, -2, 0})).vertex_face()) << p.x << ' ' << p.z;
   }
@@ -54,8 +54,9 @@ TEST(VertexThroughFace, InThePlaneCountsAsOutside) {
   EXPECT_FALSE(passes(on, on + glm::vec3(0.5f, 0, 0)));
 }
 
-TEST(VertexThroughFace, GoesInAndOutInOneStep) {
-  // The face swings up about one side, which the vertex approaches: the face's height there is t (1 - t).
+TEST(VertexThroughFace, FindsTheFirstOfTwoPassagesInOneStep) {
+  // The face rotates up about one side, and the vertex approaches that side. The height of the face at the vertex is
+  // t (1 - t).
   for (const float height : {0.1875f, 0.2501f}) {
     const Four swing{{moving({1, height, 1}, {-1, 0, 0}), floor_face[0], floor_face[1], moving({4, 0, 0}, {0, 4, 0})}};
     const auto first = swing.vertex_face();
@@ -66,7 +67,7 @@ TEST(VertexThroughFace, GoesInAndOutInOneStep) {
   }
 }
 
-TEST(EdgeThroughEdge, CrossesAtTheExpectedTime) {
+TEST(EdgeThroughEdge, PassesAtTheExpectedTime) {
   const Four cross{
       {moving({-1, 1, 0}, {0, -4, 0}), moving({1, 1, 0}, {0, -4, 0}), still({0, 0, -1}), still({0, 0, 1})}};
   const auto passage = cross.edge_edge();
@@ -77,13 +78,13 @@ TEST(EdgeThroughEdge, CrossesAtTheExpectedTime) {
   EXPECT_FALSE(beside.edge_edge());
 }
 
-TEST(EdgeThroughEdge, ParallelEdgesInOnePlanePassThroughNothing) {
+TEST(EdgeThroughEdge, ParallelEdgesInOnePlaneDoNotPass) {
   const Four parallel{
       {moving({-1, 1, 0}, {0, -4, 0}), moving({1, 1, 0}, {0, -4, 0}), still({-2, 0, 0}), still({2, 0, 0})}};
   EXPECT_FALSE(parallel.edge_edge());
 }
 
-/// A point exactly in the plane y = x + z, as its coordinates have 20 binary places; near x and z.
+/// Returns a point near x and z, exactly in the plane y = x + z: its coordinates have 20 binary places.
 glm::vec3 in_plane(std::mt19937& random, float x, float z) {
   const auto rounded = [&](float middle) {
     return std::round((middle + 0.1f * random_points(random, 1, -1, 1)[0].x) * 0x1p20f) * 0x1p-20f;
@@ -92,8 +93,8 @@ glm::vec3 in_plane(std::mt19937& random, float x, float z) {
   return {exact_x, exact_x + exact_z, exact_z};
 }
 
-/// Products of three such differences do not fit a double.
-TEST(VertexThroughFace, InThePlaneCountsAsOutsideThoughProductsAreRounded) {
+/// Products of three differences of such coordinates do not fit into a double.
+TEST(VertexThroughFace, InThePlaneCountsAsOutsideEvenIfProductsAreRounded) {
   std::mt19937 random(25);
   for (int i = 0; i < 300; ++i) {
     const glm::vec3 a = in_plane(random, 0.2f, 0.2f), b = in_plane(random, 0.5f, 1.2f),
@@ -108,7 +109,7 @@ TEST(VertexThroughFace, InThePlaneCountsAsOutsideThoughProductsAreRounded) {
   }
 }
 
-TEST(EdgeThroughEdge, InOnePlaneCountsAsOneSideThoughProductsAreRounded) {
+TEST(EdgeThroughEdge, InOnePlaneCountsAsPositiveEvenIfProductsAreRounded) {
   std::mt19937 random(26);
   for (int i = 0; i < 300; ++i) {
     const glm::vec3 p = in_plane(random, 0.2f, 0.2f), q = in_plane(random, 0.8f, 0.8f);
@@ -122,7 +123,7 @@ TEST(EdgeThroughEdge, InOnePlaneCountsAsOneSideThoughProductsAreRounded) {
   }
 }
 
-// The slow evaluation: side, and how far within each other the features are, at many times in double.
+// The reference: at many times, in double, the side, and the smallest barycentric coordinate or edge parameter.
 
 double vertex_face_margin(const Four& four, double t, double& side) {
   const glm::dvec3 p = at(four.v[0], t), a = at(four.v[1], t), b = at(four.v[2], t), c = at(four.v[3], t);
@@ -142,11 +143,11 @@ double edge_edge_margin(const Four& four, double t, double& side) {
   return std::min({s, 1 - s, r, 1 - r});
 }
 
-/// Changes of side from one time to the next at which the features are well within each other at both.
+/// Counts the changes of side between two times at both of which the features cross far from their borders.
 template <class Margin>
-int changes_well_within(const Four& four, const Margin& margin) {
+int count_clear_passages(const Four& four, const Margin& margin) {
   constexpr int samples = 1000;
-  constexpr double clear = 1e-5;  // of a side, in m^3: far more than what is rounded
+  constexpr double clear = 1e-5;  // m^3, of a side: far more than rounding errors
   int changes = 0;
   double side_before = 0, within_before = 0;
   for (int i = 0; i <= samples; ++i) {
@@ -169,7 +170,7 @@ Four random_four(std::mt19937& random, float speed, const glm::vec3& origin) {
   return four;
 }
 
-/// A passage that sampling finds is reported; at a reported time the features touch.
+/// Expects that every passage that samples show is reported, and that the features touch at a reported time.
 template <class Find, class Margin>
 void compare_with_samples(const Find& find, const Margin& margin) {
   std::mt19937 random(23);
@@ -179,7 +180,7 @@ void compare_with_samples(const Find& find, const Margin& margin) {
       for (int i = 0; i < 1500; ++i) {
         const Four four = random_four(random, speed, origin);
         const std::optional<Passage> passage = find(four);
-        if (changes_well_within(four, margin) > 0) {
+        if (count_clear_passages(four, margin) > 0) {
           ++sampled;
           ASSERT_TRUE(passage) << speed << ' ' << i;
         }
@@ -202,14 +203,14 @@ TEST(EdgeThroughEdge, AgreesWithSamplesInTime) {
   compare_with_samples([](const Four& four) { return four.edge_edge(); }, edge_edge_margin);
 }
 
-TEST(VertexThroughFace, PointsOfFewValuesMeetEveryTieAndStillChangeSidesThroughFaces) {
+TEST(VertexThroughFace, FindsPassagesOfPointsOnALattice) {
   std::mt19937 random(24);
   const auto whole = [&] { return static_cast<float>(random() % 4); };
   int sampled = 0;
   for (int i = 0; i < 20000; ++i) {
     Four four;
     for (MovingPoint& p : four.v) p = {{whole(), whole(), whole()}, {whole(), whole(), whole()}};
-    if (changes_well_within(four, vertex_face_margin) == 0) continue;
+    if (count_clear_passages(four, vertex_face_margin) == 0) continue;
     ++sampled;
     ASSERT_TRUE(four.vertex_face()) << i;
   }

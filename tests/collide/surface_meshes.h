@@ -1,5 +1,5 @@
 #pragma once
-// Meshes and scenes that the surface oracle is tried on.
+// Meshes and scenes for the tests of surfaces.
 
 #include "collide/oracle/surface_oracle.h"
 #include "states.h"
@@ -14,17 +14,18 @@ struct SurfaceMesh {
   std::vector<Triangle> triangles;
 };
 SurfaceMesh ball(float radius, int subdivisions = 2);
-/// From lo to hi, 8 vertices and 12 faces.
+/// Returns a box from lo to hi with 8 vertices and 12 faces.
 SurfaceMesh box(const glm::vec3& lo, const glm::vec3& hi);
-/// A sheet of quads in the plane y = 0 around the origin, facing up.
+/// Returns a square sheet in the plane y = 0 around the origin that faces up, with `quads` quads along each side.
 SurfaceMesh sheet(int quads, float width);
-/// Prism over the concave pentagon (0,0) (4,0) (4,4) (2,1) (0,4) in x and y, from z = 0 to 1: a valley from above.
+/// Returns a prism from z = 0 to 1 over the concave pentagon (0,0) (4,0) (4,4) (2,1) (0,4) in x and y. Seen along z, it
+/// has a valley.
 SurfaceMesh valley();
 SurfaceMesh moved(SurfaceMesh mesh, const glm::vec3& by);
-/// Turned by an angle about an axis through the origin, in radians.
+/// Returns the mesh rotated by an angle (radians) about an axis through the origin.
 SurfaceMesh turned(SurfaceMesh mesh, const glm::vec3& axis, float angle);
 
-/// Bodies with surfaces; owns what the oracle only points to.
+/// Bodies with surfaces. Owns the positions and surfaces that the oracle only refers to.
 struct Scene {
   State state;
   Surfaces surfaces;

@@ -1,4 +1,5 @@
-// What holds for all questions: figures, missed contacts, order, threads, and input that is refused or left out.
+// What overlaps and crossings have in common: figures, missed contacts, order, threads, and input that is rejected or
+// left out.
 
 #include "collide/oracle/surface_oracle.h"
 
@@ -15,7 +16,7 @@ using namespace collide::oracle;
 using namespace collide::surface;
 namespace {
 
-/// Balls in a heap, each a little inside its neighbours; the second frame has them moved.
+/// Returns a heap of balls, each a little inside its neighbours. motion: m, how far each is displaced at random.
 Scene heap(float motion) {
   std::mt19937 random(27);
   Scene scene;
@@ -27,7 +28,7 @@ Scene heap(float motion) {
   return scene;
 }
 
-TEST(SurfaceOracle, AnswersDoNotDependOnThreads) {
+TEST(SurfaceOracle, ResultsDoNotDependOnThreads) {
   const Scene before = heap(0), after = heap(0.2f);
   const Overlaps one = overlaps_of(after, 1), three = overlaps_of(after, 3);
   const auto same = [](const auto& a, const auto& b, const auto& equal) {
@@ -50,7 +51,7 @@ TEST(SurfaceOracle, AnswersDoNotDependOnThreads) {
   }));
 }
 
-TEST(SurfaceOracle, FiguresCountEachThingOnce) {
+TEST(SurfaceOracle, FiguresCountEachItemOnce) {
   const Bodies bodies = [] {
     Bodies all;
     for (int body = 0; body < 3; ++body) all.add(std::make_shared<const Shape>(10, std::span<const Edge>{}));
@@ -77,7 +78,7 @@ TEST(SurfaceOracle, FiguresCountEachThingOnce) {
   EXPECT_EQ(overlapping_pairs(frame, overlaps), (std::vector<OverlappingPair>{{0, 1}, {0, 2}, {2, 2}}));
 }
 
-TEST(SurfaceOracle, WhatContactsDoNotShowIsMissed) {
+TEST(SurfaceOracle, MissedListsTheOverlapsThatContactsDoNotShow) {
   // The tip of a tetrahedron (vertex 8) in the upper face of a cube.
   const SurfaceMesh tetrahedron{{{2, 3.5f, 2}, {1, 5, 1}, {3, 5, 1.5f}, {2, 5, 3}},
                                 {{1, 3, 2}, {0, 1, 2}, {0, 2, 3}, {0, 3, 1}}};
@@ -107,7 +108,7 @@ TEST(SurfaceOracle, WhatContactsDoNotShowIsMissed) {
   EXPECT_LT(missed(corners).piercings.size(), overlaps.piercings.size());
 }
 
-TEST(SurfaceOracle, APiercingIsSeenByAContactOfEitherEndWithAnyCorner) {
+TEST(SurfaceOracle, AnyContactOfAnEndWithACornerShowsAPiercing) {
   const Scene scene{box(glm::vec3(0), glm::vec3(4)), moved(box(glm::vec3(0), glm::vec3(4)), glm::vec3(1, 2, 1.5f))};
   const Overlaps overlaps = overlaps_of(scene);
   ASSERT_GE(overlaps.piercings.size(), 3u);
@@ -123,7 +124,7 @@ TEST(SurfaceOracle, APiercingIsSeenByAContactOfEitherEndWithAnyCorner) {
   }
 }
 
-TEST(SurfaceOracle, BodiesThatAreNotFiniteAreLeftOut) {
+TEST(SurfaceOracle, LeavesOutBodiesThatAreNotFinite) {
   Scene scene{ball(1), moved(ball(1), glm::vec3(1, 0, 0)), moved(ball(1), glm::vec3(0, 1, 0))};
   const Scene before = scene;
   scene.state.x[5] = std::numeric_limits<float>::quiet_NaN();
@@ -132,18 +133,18 @@ TEST(SurfaceOracle, BodiesThatAreNotFiniteAreLeftOut) {
   EXPECT_EQ(figures_of(before).overlapping_pairs, 3u);
 }
 
-TEST(SurfaceOracle, TheWholeRangeOfFloatsIsNear) {
+TEST(SurfaceOracle, WorksOverTheWholeRangeOfFloats) {
   for (const float scale : {1e-30f, 1e30f, 3e38f}) {
     const Scene scene{box(glm::vec3(-scale), glm::vec3(scale)), box(glm::vec3(0), glm::vec3(scale / 2))};
     const SurfaceFigures figures = figures_of(scene);
     EXPECT_EQ(figures.penetrating_vertices, 8u) << scale;
     EXPECT_NEAR(figures.deepest / double{scale}, 1, 1e-6);
     const Scene out{box(glm::vec3(-scale), glm::vec3(scale)), box(glm::vec3(-scale), glm::vec3(-scale / 2))};
-    EXPECT_EQ(figures_of(out, scene).crossed_vertices, 7u) << scale;  // all that were on the faces, hence outside
+    EXPECT_EQ(figures_of(out, scene).crossed_vertices, 7u) << scale;  // all that were on the faces, and so outside
   }
 }
 
-TEST(SurfaceOracle, RefusesSurfacesOfOtherBodies) {
+TEST(SurfaceOracle, ThrowsIfSurfacesAndBodiesDoNotMatch) {
   const Scene two{ball(1), ball(1)}, one{ball(1)}, coarse{ball(1, 1)};
   Workers workers(1);
   EXPECT_THROW(find_overlaps(two.frame(), one.surfaces, workers), std::invalid_argument);

@@ -18,32 +18,32 @@ bool vertex_is_inside(const Overlaps& overlaps, Index vertex) {
                      [&](const Penetration& in) { return in.vertex == vertex; });
 }
 
-/// A body that is nothing but points.
+/// Adds a body of points without a surface.
 void add_points(Scene& scene, const std::vector<glm::vec3>& points) {
   scene.state.add(points);
   scene.surfaces.push_back(nullptr);
 }
 
-TEST(SurfaceOverlaps, DepthOfTwoSpheresIsThatOfTheSpheresBelowTheirFaces) {
+TEST(FindOverlaps, MeasuresTheDepthOfTwoSpheres) {
   for (const float distance : {1.9f, 1.6f, 1.2f}) {
     const Scene scene{ball(1, 3), moved(ball(1, 3), glm::vec3(distance, 0, 0))};
     const Overlaps overlaps = overlaps_of(scene);
     const SurfaceFigures figures = figures_of(scene.frame(), overlaps);
-    const double faces_within = 0.006;  // the faces lie up to so much below the sphere, at 642 vertices
-    EXPECT_NEAR(figures.deepest, 2 - double{distance}, 2 * faces_within) << distance;
+    const double max_sagitta = 0.006;  // m: with 642 vertices, the faces lie up to this much below the sphere
+    EXPECT_NEAR(figures.deepest, 2 - double{distance}, 2 * max_sagitta) << distance;
     EXPECT_EQ(figures.overlapping_pairs, 1u);
     EXPECT_EQ(figures.self_intersecting_bodies, 0u);
     EXPECT_GT(figures.piercings, 0u);
     for (const Penetration& in : overlaps.penetrations) {
       const glm::dvec3 centre(in.body == 0 ? 0 : double{distance}, 0, 0);
       const double true_depth = 1 - glm::length(glm::dvec3(scene.at(in.vertex)) - centre);
-      EXPECT_NEAR(in.depth, true_depth, faces_within);
+      EXPECT_NEAR(in.depth, true_depth, max_sagitta);
       EXPECT_GT(glm::dot(in.normal, glm::normalize(in.point - centre)), 0.95);
     }
   }
 }
 
-TEST(SurfaceOverlaps, CubeInCube) {
+TEST(FindOverlaps, FindsACubeInsideACube) {
   for (const glm::vec3& origin : {glm::vec3(0), glm::vec3(1e6f, -1e6f, 1e6f)}) {
     const Scene scene{moved(box(glm::vec3(0), glm::vec3(4)), origin), moved(box(glm::vec3(1), glm::vec3(2)), origin)};
     const Overlaps overlaps = overlaps_of(scene);
@@ -58,12 +58,12 @@ TEST(SurfaceOverlaps, CubeInCube) {
   }
 }
 
-TEST(SurfaceOverlaps, SeparateBodiesDoNot) {
+TEST(FindOverlaps, FindsNothingBetweenSeparateBodies) {
   EXPECT_EQ(figures_of(Scene{ball(1), moved(ball(1), glm::vec3(1.5f, 1.5f, 0))}), SurfaceFigures{});
   EXPECT_EQ(figures_of(Scene{}), SurfaceFigures{});
 }
 
-TEST(SurfaceOverlaps, OnAFaceASideOrACornerIsNotInside) {
+TEST(FindOverlaps, AVertexOnAFaceSideOrCornerIsNotInside) {
   for (const float scale : {1.0f, 0.37f}) {
     SurfaceMesh cube = box(glm::vec3(0), glm::vec3(4 * scale));
     Scene scene{cube};
@@ -74,7 +74,7 @@ TEST(SurfaceOverlaps, OnAFaceASideOrACornerIsNotInside) {
     }
     add_points(scene, points);
     EXPECT_TRUE(overlaps_of(scene).penetrations.empty());
-    // One unit in the last place further in they are.
+    // One unit in the last place farther in, they are inside.
     std::vector<glm::vec3> deeper;
     for (const glm::vec3& p : points) {
       glm::vec3 q;
@@ -87,14 +87,14 @@ TEST(SurfaceOverlaps, OnAFaceASideOrACornerIsNotInside) {
   }
 }
 
-TEST(SurfaceOverlaps, APointInTheMouthOfAValleyIsOutside) {
+TEST(FindOverlaps, AVertexInAConcavityIsOutside) {
   Scene scene{valley()};
   add_points(scene, {{2, 2, 0.5f}, {2, 0.5f, 0.5f}, {0.5f, 3, 0.5f}, {3.5f, 3, 0.5f}, {2, 1, 0.5f}, {1, 4, 0.5f}});
   const Overlaps overlaps = overlaps_of(scene);
   for (Index k = 0; k < 6; ++k) EXPECT_EQ(vertex_is_inside(overlaps, 10 + k), k >= 1 && k <= 3) << k;
 }
 
-/// Solid angle of the mesh from p over 4 pi. Van Oosterom and Strackee 1983.
+/// Returns the solid angle of the mesh as seen from p, divided by 4 pi. Van Oosterom and Strackee 1983.
 long double winding_number(const SurfaceMesh& mesh, const glm::vec3& p) {
   long double sum = 0;
   for (const Triangle& triangle : mesh.triangles) {
@@ -117,7 +117,7 @@ SurfaceMesh crumpled(std::mt19937& random, float origin) {
   return mesh;
 }
 
-TEST(SurfaceOverlaps, InsideIsWhereTheWindingNumberIsNotZero) {
+TEST(FindOverlaps, InsideMeansThatTheWindingNumberIsNotZero) {
   std::mt19937 random(25);
   int inside = 0;
   for (const float origin : {0.0f, 1e4f}) {
@@ -142,7 +142,7 @@ TEST(SurfaceOverlaps, InsideIsWhereTheWindingNumberIsNotZero) {
   EXPECT_GT(inside, 300);
 }
 
-TEST(SurfaceOverlaps, WhatWindsTwiceIsInside) {
+TEST(FindOverlaps, AVertexWithWindingNumberTwoIsInside) {
   SurfaceMesh twice = ball(1, 1);
   SurfaceMesh again = ball(0.5f, 1);
   for (Triangle t : again.triangles) twice.triangles.push_back({t[0] + 42, t[1] + 42, t[2] + 42});
@@ -154,7 +154,7 @@ TEST(SurfaceOverlaps, WhatWindsTwiceIsInside) {
   EXPECT_LT(overlaps.penetrations[0].depth, 0.5);  // to the inner sheet
 }
 
-TEST(SurfaceOverlaps, DepthIsTheLeastOverAllFaces) {
+TEST(FindOverlaps, DepthIsTheSmallestOverAllFaces) {
   std::mt19937 random(26);
   const SurfaceMesh mesh = crumpled(random, 0);
   Scene scene{mesh};
@@ -182,9 +182,9 @@ TEST(SurfaceOverlaps, DepthIsTheLeastOverAllFaces) {
   }
 }
 
-TEST(SurfaceOverlaps, OfFacesThatAreEquallyNearTheFirstIsNamed) {
+TEST(FindOverlaps, NamesTheFirstOfEquallyNearFaces) {
   Scene scene{box(glm::vec3(0), glm::vec3(4))};
-  add_points(scene, {glm::vec3(2), {2, 3, 2}});  // in the middle, and below the diagonal of a side
+  add_points(scene, {glm::vec3(2), {2, 3, 2}});  // in the centre, and below the diagonal of a side
   const Overlaps overlaps = overlaps_of(scene);
   ASSERT_EQ(overlaps.penetrations.size(), 2u);
   EXPECT_EQ(overlaps.penetrations[0].triangle, 0u);
@@ -195,18 +195,18 @@ TEST(SurfaceOverlaps, OfFacesThatAreEquallyNearTheFirstIsNamed) {
   EXPECT_EQ(overlaps.penetrations[1].triangle, static_cast<Index>(first_above - faces.begin()));
 }
 
-TEST(SurfaceOverlaps, SheetThroughASphere) {
+TEST(FindOverlaps, FindsASheetThroughASphere) {
   const SurfaceFigures figures = figures_of(Scene{ball(1), moved(sheet(1, 10), glm::vec3(0, 0.3f, 0))});
   EXPECT_EQ(figures.penetrating_vertices, 0u);  // the sheet's corners are far outside, and it has no inside
   EXPECT_GT(figures.piercings, 8u);
   EXPECT_EQ(figures.overlapping_pairs, 1u);
 }
 
-TEST(SurfaceOverlaps, ASheetFoldedThroughItself) {
+TEST(FindOverlaps, FindsASheetFoldedThroughItself) {
   SurfaceMesh cloth = sheet(4, 4);
   EXPECT_EQ(figures_of(Scene{cloth}), SurfaceFigures{});
   for (Index k = 20; k < 25; ++k) cloth.vertices[k] = {cloth.vertices[k].x + 0.1f, -0.5f, -1.3f};
-  const Overlaps overlaps = overlaps_of(Scene{cloth});  // the last row is pulled under and through the second
+  const Overlaps overlaps = overlaps_of(Scene{cloth});  // the last row is pulled below the second row
   const Overlaps above = overlaps_of([&] {
     SurfaceMesh other = cloth;
     for (Index k = 20; k < 25; ++k) other.vertices[k].y = 0.5f;
@@ -223,11 +223,11 @@ TEST(SurfaceOverlaps, ASheetFoldedThroughItself) {
 
 // Touching is not penetrating.
 
-TEST(SurfaceOverlaps, StackedBoxesOnlyTouch) {
+TEST(FindOverlaps, StackedBoxesDoNotOverlap) {
   const SurfaceMesh below = box(glm::vec3(0), glm::vec3(4));
   const std::vector<SurfaceMesh> above{
       box(glm::vec3(0, 4, 0), glm::vec3(4, 8, 4)), box(glm::vec3(1, 4, 1), glm::vec3(3, 8, 3)),
-      box(glm::vec3(2, 4, 2), glm::vec3(6, 8, 6)),  // its lower sides cross those of the face
+      box(glm::vec3(2, 4, 2), glm::vec3(6, 8, 6)),  // its lower sides cross the sides of the upper face
       box(glm::vec3(4, 4, 0), glm::vec3(8, 8, 4))};
   for (const SurfaceMesh& mesh : above) {
     EXPECT_EQ(figures_of(Scene{below, mesh}), SurfaceFigures{});
@@ -236,7 +236,7 @@ TEST(SurfaceOverlaps, StackedBoxesOnlyTouch) {
   EXPECT_EQ(figures_of(Scene{below, moved(above[2], glm::vec3(0, -0x1p-21f, 0))}).overlapping_pairs, 1u);
 }
 
-/// One edge, as the first side of a face without area.
+/// Returns a mesh with one edge: the first side of a face without area.
 SurfaceMesh needle(const glm::vec3& p, const glm::vec3& q) { return {{p, q, q}, {{0, 1, 2}}}; }
 
 struct Needle {
@@ -244,7 +244,7 @@ struct Needle {
   bool passes;
 };
 
-TEST(SurfaceOverlaps, AnEdgeThroughASideOrACornerOfFacesPassesAndOneThatGrazesDoesNot) {
+TEST(FindOverlaps, AnEdgeThroughASideOrCornerPassesButAGrazingEdgeDoesNot) {
   const SurfaceMesh cube = box(glm::vec3(0), glm::vec3(4));
   const std::vector<Needle> needles{{{2, 6, 2}, {2, 2, 2}, true},      // through the diagonal of the upper face
                                     {{2, 6, 1}, {2, 4, 1}, false},     // ends on a face
@@ -257,44 +257,45 @@ TEST(SurfaceOverlaps, AnEdgeThroughASideOrACornerOfFacesPassesAndOneThatGrazesDo
                                     {{-1, 2, -1}, {5, 2, 5}, true},    // through two ridges
                                     {{-1, -1, -1}, {5, 5, 5}, true}};  // through two corners
   for (const Needle& n : needles) {
-    for (const bool turned_round : {false, true}) {
-      const SurfaceMesh edge = turned_round ? needle(n.to, n.from) : needle(n.from, n.to);
+    for (const bool reversed : {false, true}) {
+      const SurfaceMesh edge = reversed ? needle(n.to, n.from) : needle(n.from, n.to);
       EXPECT_EQ(!overlaps_of(Scene{edge, cube}).piercings.empty(), n.passes) << n.from.x << n.from.y << n.from.z;
     }
   }
 }
 
-TEST(SurfaceOverlaps, TheRimOfASheetIsNotPassedThrough) {
+TEST(FindOverlaps, NoEdgePassesThroughTheBorderOfASheet) {
   const SurfaceMesh cloth = sheet(2, 4);
   const auto passes = [&](float x, float z) {
     return !overlaps_of(Scene{cloth, needle({x, 1, z}, {x, -1, z})}).piercings.empty();
   };
-  EXPECT_TRUE(passes(0, 0));     // the vertex in the middle
+  EXPECT_TRUE(passes(0, 0));     // the vertex in the centre
   EXPECT_TRUE(passes(0, 1));     // a side of two faces
-  EXPECT_FALSE(passes(2, 1));    // the rim
+  EXPECT_FALSE(passes(2, 1));    // the border
   EXPECT_FALSE(passes(-2, -2));  // its corner
   EXPECT_TRUE(passes(1.999f, 1));
 }
 
-TEST(SurfaceOverlaps, CoincidentBodiesTouchAllOver) {
+TEST(FindOverlaps, CoincidentBodiesDoNotOverlap) {
   EXPECT_EQ(figures_of(Scene{ball(1), ball(1)}), SurfaceFigures{});
   Scene scene{ball(1)};
   add_points(scene, std::vector<glm::vec3>(3, glm::vec3(0.1f)));  // coincident vertices
   EXPECT_EQ(overlaps_of(scene).penetrations.size(), 3u);
 }
 
-TEST(SurfaceOverlaps, FacesWithoutAreaChangeNothing) {
-  // Each face of a cube cut at the middle of one side, at which a face without area is left over on the other side.
+TEST(FindOverlaps, FacesWithoutAreaChangeNothing) {
+  // One face of a cube is cut at the midpoint of a side. A face without area closes the gap to the face on the other
+  // side.
   SurfaceMesh cube = box(glm::vec3(0), glm::vec3(4));
   const auto [a, b, c] = cube.triangles[0];
-  const auto middle = static_cast<Index>(cube.vertices.size());
+  const auto midpoint = static_cast<Index>(cube.vertices.size());
   cube.vertices.push_back((cube.vertices[a] + cube.vertices[b]) * 0.5f);
-  cube.triangles[0] = {a, middle, c};
-  cube.triangles.push_back({middle, b, c});
-  cube.triangles.push_back({a, b, middle});
+  cube.triangles[0] = {a, midpoint, c};
+  cube.triangles.push_back({midpoint, b, c});
+  cube.triangles.push_back({a, b, midpoint});
   Scene scene{cube};
   EXPECT_TRUE(scene.surfaces[0]->closed());
-  add_points(scene, {cube.vertices[middle], glm::vec3(0.1f, 1, 1), glm::vec3(-0.1f, 1, 1)});
+  add_points(scene, {cube.vertices[midpoint], glm::vec3(0.1f, 1, 1), glm::vec3(-0.1f, 1, 1)});
   const Overlaps overlaps = overlaps_of(scene);
   ASSERT_EQ(overlaps.penetrations.size(), 1u);
   EXPECT_EQ(overlaps.penetrations[0].vertex, 10u);
