@@ -139,8 +139,8 @@ class OverlapSearch {
 
   /// Returns true if the segment pq passes through the triangle. If it meets a side or a corner, its crossings of all
   /// faces around that side or corner are summed, with p moved slightly in two opposite directions. It passes through
-  /// the surface if both sums are equal and not 0. So it does not pass where it grazes a ridge (both sums are 0) or a
-  /// border, or leaves within the plane of a face (one sum is 0).
+  /// the surface if both sums are equal and have the sign of its crossing of this triangle. So it does not pass where
+  /// it grazes a ridge (both sums are 0) or a border, or leaves within the plane of a face (one sum is 0).
   bool passes(const glm::vec3& p, const glm::vec3& q, Index body, Index triangle) const {
     const auto crossing_of = [&](Index t) {
       const auto [a, b, c] = corners(body, t);

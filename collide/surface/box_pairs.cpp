@@ -161,7 +161,7 @@ void BoxPairs::test(const BoxList& a, Index i, const BoxList& b, Index begin, co
   });
   if (pairs_->size() > max_pairs_)
     throw std::length_error("more than " + std::to_string(max_pairs_) +
-                            " boxes of bodies overlap: take them apart, or away");
+                            " boxes of surface features overlap: move bodies apart or remove some");
 }
 
 BoxPairs::Level& BoxPairs::level(std::size_t depth) {

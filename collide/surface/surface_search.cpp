@@ -73,7 +73,7 @@ bool SurfaceSearch::check_valid(const Frame& now, float elapsed, float ahead) {
 void SurfaceSearch::check_feature_limit(std::size_t features) const {
   if (features > query_.max_features)
     throw std::length_error("more than " + std::to_string(query_.max_features) +
-                            " pairs of surface features are near each other: take bodies apart, or away");
+                            " pairs of surface features are near each other: move bodies apart or remove some");
 }
 
 void SurfaceSearch::find(const Motion& motion, std::span<const SurfaceBody> bodies, const SurfaceQuery& query,
@@ -150,9 +150,8 @@ void SurfaceSearch::find_near_bodies() {
 }
 
 void SurfaceSearch::find_candidates(Thread& own, const ItemPair& bodies) {
-  const std::size_t before = own.candidates.features.size();
-  const auto place = static_cast<std::uint32_t>(before);
-  SurfacePair pair{bodies.a, bodies.b, place, place, place, place};
+  const auto begin = static_cast<std::uint32_t>(own.candidates.features.size());
+  SurfacePair pair{bodies.a, bodies.b, begin, begin, begin, begin};
   if (!predicted_anew_[pair.a] && !predicted_anew_[pair.b])
     copy_previous(own, pair);
   else if (pair.a == pair.b)
@@ -161,7 +160,7 @@ void SurfaceSearch::find_candidates(Thread& own, const ItemPair& bodies) {
     find_between(own, pair);
   pair.end = static_cast<std::uint32_t>(own.candidates.features.size());
   const SweptBody &a = swept_[pair.a], &b = swept_[pair.b];
-  if (pair.end > place || may_contain(a, b) || may_contain(b, a)) own.candidates.pairs.push_back(pair);
+  if (pair.end > begin || may_contain(a, b) || may_contain(b, a)) own.candidates.pairs.push_back(pair);
   check_feature_limit(own.candidates.features.size());
 }
 
@@ -180,12 +179,12 @@ void SurfaceSearch::copy_previous(Thread& own, SurfacePair& pair) const {
 void SurfaceSearch::merge_threads() {
   current_.pairs.clear(), current_.features.clear();
   for (const Thread& t : threads_) {
-    const auto before = static_cast<std::uint32_t>(current_.features.size());
+    const auto base = static_cast<std::uint32_t>(current_.features.size());
     check_feature_limit(current_.features.size() + t.candidates.features.size());
     for (SurfacePair p : t.candidates.pairs) {
-      for (std::uint32_t SurfacePair::*place :
+      for (std::uint32_t SurfacePair::*offset :
            {&SurfacePair::vertex_face, &SurfacePair::face_vertex, &SurfacePair::edge_edge, &SurfacePair::end})
-        p.*place += before;
+        p.*offset += base;
       current_.pairs.push_back(p);
     }
     current_.features.insert(current_.features.end(), t.candidates.features.begin(), t.candidates.features.end());
@@ -197,7 +196,7 @@ void SurfaceSearch::find_between(Thread& own, SurfacePair& pair) const {
   const float end = std::min(a.end(), b.end());
   const glm::vec3 first = a.drift(time_) - b.drift(time_), last = a.drift(end) - b.drift(end);
   const glm::vec3 lo = glm::min(first, last), hi = glm::max(first, last);
-  const auto range = [&] { return static_cast<std::uint32_t>(own.candidates.features.size()); };
+  const auto next = [&] { return static_cast<std::uint32_t>(own.candidates.features.size()); };
   // In the frame of b, the boxes of a grow by the relative drift. To select the boxes of a before they are grown, the
   // box that they are compared with grows the opposite way.
   own.search.pick(a.face_boxes(), {b.local_box().lo - hi, b.local_box().hi - lo}, own.faces_a);
@@ -216,11 +215,11 @@ void SurfaceSearch::find_between(Thread& own, SurfacePair& pair) const {
   own.search.between(own.vertices_a, own.faces_b, own.found, max_box_pairs);
   own.work += own.found.size();
   add_vertex_faces(own, pair, pair.a, pair.b);
-  pair.face_vertex = range();
+  pair.face_vertex = next();
   own.search.between(own.vertices_b, own.faces_a, own.found, max_box_pairs);
   own.work += own.found.size();
   add_vertex_faces(own, pair, pair.b, pair.a);
-  pair.edge_edge = range();
+  pair.edge_edge = next();
   own.search.between(own.edges_a, own.edges_b, own.found, max_box_pairs);
   own.work += own.found.size();
   add_edges(own, pair);

@@ -44,8 +44,8 @@ struct FeaturePair {
   auto key() const { return std::pair(a, b); }
 };
 
-/// The candidates of two bodies, or of one body with itself (a == b), as ranges in SurfaceSearch::features(). All
-/// ranges are empty if one body may be wholly inside the other and no features are near each other.
+/// The candidates of two bodies, or of one body with itself (a == b), as ranges in SurfaceSearch::features(). A pair
+/// without candidates is listed only if one body may be wholly inside the other.
 struct SurfacePair {
   Index a, b;                 // bodies, a <= b
   std::uint32_t vertex_face;  // first pair of a vertex of a and a face of b

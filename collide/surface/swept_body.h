@@ -29,7 +29,7 @@ struct SurfaceBody {
   float slack = 0;      // m: the largest deviation from the predicted path for which the prediction is valid
   float mean_edge = 0;  // m, of the rest shape
   bool moves = false;   // pairs of two bodies that do not move are left out
-  // s: the motion is predicted for at most this long. Predict a body that will soon leave its path for a short time.
+  // s: the motion is predicted for at most this long. Choose a short one for a body that will soon leave its path.
   float horizon = std::numeric_limits<float>::infinity();
 };
 
@@ -48,8 +48,8 @@ class SweptBody {
   float begin() const { return begin_; }
   float end() const { return end_; }
 
-  /// Return the box around the swept body, grown by the skin: in the body's frame, which is at rest in the world at
-  /// begin() and moves with the mean velocity; and in the world.
+  /// Return the box around the swept body, grown by the skin: in the body's frame, which coincides with the
+  /// world's at begin() and moves with the mean velocity; and in the world.
   const Aabb& local_box() const { return local_box_; }
   const Aabb& world_box() const { return world_box_; }
   /// Computes the swept boxes of all features in the body's frame, grown by the skin. Precondition: live().
