@@ -153,6 +153,8 @@ TEST_F(DetectErrors, OptionsAreNamed) {
   refuse({}, {"--tolerance"});
   for (const char* value : {"0", "-1", "-0.5", "nan", "inf", "1e300", "1e-60", "one", "0.1m", ""})
     refuse({"--tolerance", value}, {"--tolerance"});
+  for (const char* value : {"5e+29", "2e+18", "9e-19", "1e-40"})
+    refuse({"--tolerance", value}, {"--tolerance " + std::string(value), "1e-18 to 1e18 m"});
   const auto with = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"--tolerance", "1"});
     return more;
