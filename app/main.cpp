@@ -1,5 +1,6 @@
 // The program: reads the command line and hands over. Errors end here, as one line and exit status 2.
 
+#include <csignal>
 #include <cstdio>
 #include <exception>
 #include <iostream>
@@ -10,6 +11,7 @@
 #include "app/cli/options.h"
 #include "app/cli/simulate.h"
 #include "app/files/scene_folder.h"
+#include "app/files/temporary_file.h"
 #include "app/report/report.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/window/demo.h"
@@ -55,6 +57,8 @@ int run(const app::Options& options) {
 
 int main(int argc, char** argv) {
   try {
+    app::remove_temporary_files_on_signals();
+    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, as on a full disk
     const auto options = app::parse_options(argc, argv);
     const int status = options ? run(*options) : 0;
     if (!std::cout.flush() || std::fflush(stdout) != 0)

@@ -43,13 +43,17 @@ std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
   return keys;
 }
 
-Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
-  if (name.ends_with(".toml")) return load_scene(name);
+std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder) {
+  if (name.ends_with(".toml")) return name;
   const auto keys = scene_keys(folder);
-  if (std::find(keys.begin(), keys.end(), name) != keys.end()) return load_scene(folder / (name + ".toml"));
+  if (std::find(keys.begin(), keys.end(), name) != keys.end()) return folder / (name + ".toml");
   std::string known;
   for (const auto& key : keys) known.append(known.empty() ? "" : ", ").append(key);
   throw SceneError("unknown scene '" + name + "'; use one of: " + known + "; or the path of a .toml file");
+}
+
+Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
+  return load_scene(scene_path(name, folder));
 }
 
 const ContactSurfaceInfo* find_contact_surface(std::string_view key) {

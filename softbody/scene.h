@@ -201,8 +201,11 @@ Scene load_scene(const std::filesystem::path& file);
 /// The keys of a folder's scenes (stems of its .toml files), in order.
 std::vector<std::string> scene_keys(const std::filesystem::path& folder);
 
-/// A scene by key in `folder`, or by path if `name` ends in .toml. Throws SceneError; for an unknown key the message
-/// lists the known ones.
+/// The file of a scene that is named by key in `folder`, or by path if `name` ends in .toml. Throws SceneError for an
+/// unknown key; the message lists the known ones.
+std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder);
+
+/// Loads the scene of that name. Throws SceneError.
 Scene find_scene(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace softbody

@@ -5,6 +5,7 @@
 #include <CLI/CLI.hpp>
 
 #include "app/base/number_text.h"
+#include "app/base/text.h"
 #include "app/cli/options.h"
 #include "app/cli/whole_number_option.h"
 
@@ -66,14 +67,15 @@ bool automatic_cell_size(const DetectionOptions& options, bool otherwise) {
 }
 
 void apply(const DetectionOptions& options, collide::Settings& settings) {
-  const auto check = [&](const char* option) {
-    if (const std::string wrong = collide::problem(settings); !wrong.empty())
-      throw UsageError(std::string(option) + ": " + wrong);
+  const auto check = [&](const std::string& option) {
+    if (const std::string wrong = collide::problem(settings); !wrong.empty()) throw UsageError(option + ": " + wrong);
   };
   if (options.levels) settings.levels = *options.levels;
   if (options.buckets) settings.buckets = *options.buckets;
-  if (options.tolerance) settings.tolerance = static_cast<float>(*options.tolerance);
-  check("--tolerance");
+  if (options.tolerance) {
+    settings.tolerance = static_cast<float>(*options.tolerance);
+    check(format("--tolerance %.9g", *options.tolerance));
+  }
   if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
   check("--cell-size");
   if (options.primes) settings.primes = read_primes(*options.primes);

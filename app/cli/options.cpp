@@ -4,7 +4,6 @@
 #include <thread>
 
 #include <CLI/CLI.hpp>
-#include <glm/vector_relational.hpp>
 
 #include "app/base/number_text.h"
 #include "app/base/text.h"
@@ -187,17 +186,10 @@ void check(const Options& options) {
                      std::to_string(options.frames) + ", so that no file would be written");
 }
 
-/// What scene files take: a scene that is saved is to be read again.
-void check_lengths(const DetectionOptions& options, const collide::Settings& settings) {
-  const auto check = [](const std::string& option, glm::vec3 metres, double most) {
-    if (glm::any(glm::lessThan(metres, glm::vec3(softbody::least_length))) ||
-        glm::any(glm::greaterThan(metres, glm::vec3(most))))
-      throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
-  };
-  if (options.tolerance)
-    check(format("--tolerance %.9g", *options.tolerance), glm::vec3(settings.tolerance), softbody::most_tolerance);
-  if (!automatic_cell_size(options, true))
-    check("--cell-size " + *options.cell_size, settings.cell_size, softbody::most_length);
+/// Of what scene files take: a scene that is saved is to be read again.
+void require_length(const std::string& option, float metres, double most) {
+  if (!(metres >= static_cast<float>(softbody::least_length) && metres <= static_cast<float>(most)))
+    throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
 }
 
 }  // namespace
@@ -263,8 +255,13 @@ softbody::Scene load_scene(const Options& options) {
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
+  if (const auto tolerance = options.detection.tolerance)
+    require_length(format("--tolerance %.9g", *tolerance), static_cast<float>(*tolerance), softbody::most_tolerance);
   apply(options.detection, scene.collision);
-  check_lengths(options.detection, scene.collision);
+  if (!automatic_cell_size(options.detection, true))
+    for (int axis = 0; axis < 3; ++axis)
+      require_length("--cell-size " + *options.detection.cell_size, scene.collision.cell_size[axis],
+                     softbody::most_length);
   scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;

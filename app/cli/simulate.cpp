@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/compare/world_oracle.h"
+#include "app/files/inputs.h"
 #include "app/files/obj_write.h"
 #include "app/files/output_file.h"
 #include "softbody/measures.h"
@@ -138,11 +139,11 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
   std::printf("state hash %s\n", hex(world.state_hash()).c_str());
 }
 
-/// As in the names of files: four digits or more.
-std::string frame_number(int frame) {
-  char text[16];
-  std::snprintf(text, sizeof text, "%04d", frame);
-  return text;
+/// A result of one frame: PREFIX_0012ENDING in the folder for results, four digits or more.
+std::filesystem::path result_file(const Options& options, const char* prefix, int frame, const char* ending) {
+  char number[16];
+  std::snprintf(number, sizeof number, "_%04d", frame);
+  return options.out / std::string(prefix).append(number).append(ending);
 }
 
 /// Writes the pictures that were asked for; without graphics it refuses before anything runs.
@@ -153,6 +154,7 @@ class Pictures {
 #if SBCOLLIDE_GRAPHICS
     capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
     prepare_folder(options.out);
+    for (const int frame : options.captures) require_no_input(picture(frame));
 #else
     throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
 #endif
@@ -160,13 +162,15 @@ class Pictures {
   void take(const softbody::World& world) {
     if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
 #if SBCOLLIDE_GRAPHICS
-    capture_->write(world, options_.out / ("frame_" + frame_number(world.frame()) + ".png"));
+    capture_->write(world, picture(world.frame()));
 #endif
   }
 
  private:
   const Options& options_;
 #if SBCOLLIDE_GRAPHICS
+  std::filesystem::path picture(int frame) const { return result_file(options_, "frame", frame, ".png"); }
+
   std::unique_ptr<Capture> capture_;
 #endif
 };
@@ -175,20 +179,26 @@ class Pictures {
 class Motion {
  public:
   explicit Motion(const Options& options) : options_(options) {
-    if (options.obj_every) prepare_folder(options.out);
+    if (!options.obj_every) return;
+    prepare_folder(options.out);
+    for (int frame = *options.obj_every; frame <= options.frames; frame += *options.obj_every)
+      for (const char* prefix : {"rest", "frame"}) require_no_input(file(prefix, frame));
   }
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
-    const std::string number = frame_number(world.frame());
     if (!bodies_ || !bodies_->are_those_of(world)) {
       bodies_.emplace(world);
-      write_file(options_.out / ("rest_" + number + ".obj"), bodies_->at_rest());
+      write_file(file("rest", world.frame()), bodies_->at_rest());
     }
     const collide::Frame at = world.positions();
-    write_file(options_.out / ("frame_" + number + ".obj"), bodies_->frame(at.x, at.y, at.z));
+    write_file(file("frame", world.frame()), bodies_->frame(at.x, at.y, at.z));
   }
 
  private:
+  std::filesystem::path file(const char* prefix, int frame) const {
+    return result_file(options_, prefix, frame, ".obj");
+  }
+
   const Options& options_;
   std::optional<MovingBodies> bodies_;
 };
@@ -207,10 +217,13 @@ void print_remarks(const softbody::Scene& scene) {
 }  // namespace
 
 void simulate(const Options& options) {
-  softbody::World world(load_scene(options), {.threads = options.threads,
-                                              .frame_time = options.frame_time,
-                                              .integrator = options.integrator,
-                                              .substeps = options.substeps});
+  softbody::Scene scene = load_scene(options);
+  protect_input(softbody::scene_path(options.scene, scene_folder()));
+  protect_inputs(scene);
+  softbody::World world(std::move(scene), {.threads = options.threads,
+                                           .frame_time = options.frame_time,
+                                           .integrator = options.integrator,
+                                           .substeps = options.substeps});
   Pictures pictures(options);
   Motion motion(options);
   print_remarks(world.scene());

@@ -37,9 +37,8 @@ class Line {
 
 }  // namespace
 
-ContactsCsv::ContactsCsv(const std::filesystem::path& path) : file_(path) {
-  file_.write("frame,vertex_a,vertex_b,body_a,body_b,distance\n");
-}
+ContactsCsv::ContactsCsv(const std::filesystem::path& path)
+    : file_(path, "frame,vertex_a,vertex_b,body_a,body_b,distance\n") {}
 
 void ContactsCsv::add(std::size_t number, const collide::Frame& frame, const std::vector<collide::Contact>& contacts) {
   const auto& [x, y, z, bodies] = frame;

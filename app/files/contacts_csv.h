@@ -8,7 +8,8 @@ namespace app {
 
 class ContactsCsv {
  public:
-  /// Throws UsageError, as all of this class does, if the file cannot be written.
+  /// Throws UsageError, as all of this class does, if the file cannot be written. It replaces only an empty file and
+  /// another table of contacts, since a name that was left out after --contacts makes a mesh the file to write.
   explicit ContactsCsv(const std::filesystem::path& path);
 
   /// Adds the contacts of a frame, a line each, in their order.

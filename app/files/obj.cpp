@@ -4,6 +4,8 @@
 #include <optional>
 #include <string>
 
+#include "app/files/inputs.h"
+
 namespace app {
 namespace {
 
@@ -74,6 +76,7 @@ void divide(ObjBodies& bodies, const softbody::ObjFile& obj) {
 }  // namespace
 
 ObjBodies read_obj(const std::filesystem::path& file) {
+  protect_input(file);
   softbody::ObjFile obj = softbody::read_obj_file(file);
   ObjBodies bodies{std::move(obj.x), std::move(obj.y), std::move(obj.z), {}, {}, {}};
   divide(bodies, obj);

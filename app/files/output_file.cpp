@@ -1,17 +1,29 @@
 #include "app/files/output_file.h"
 
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
+#include <fstream>
+#include <system_error>
 #include <utility>
 
 #include "app/base/usage_error.h"
+#include "app/files/inputs.h"
 
 namespace app {
 namespace fs = std::filesystem;
+namespace {
+
+/// True if nothing is lost when a file with this heading takes the place of `file`.
+bool may_replace(const fs::path& file, std::string_view heading) {
+  std::string beginning(heading.size(), '\0');
+  std::ifstream in(file, std::ios::binary);
+  in.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
+  return beginning == heading || (in.eof() && in.gcount() == 0);
+}
+
+}  // namespace
 
 void prepare_folder(const std::filesystem::path& folder, std::string_view option) {
   std::error_code error;
@@ -36,45 +48,36 @@ fs::path next_free(const fs::path& folder, const std::string& prefix, const std:
   }
 }
 
-OutputFile::OutputFile(fs::path path) : path_(std::move(path)) {
+OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::move(path)) {
+  require_no_input(path_);
   std::error_code ignored;
-  const fs::file_status status = fs::status(path_, ignored);
-  if (fs::exists(status) && !fs::is_regular_file(status)) fail("it is not a regular file");
-  std::string name = path_.string() + ".XXXXXX";
-  const int descriptor = ::mkstemp(name.data());
-  if (descriptor < 0) fail(std::strerror(errno));
-  // mkstemp makes it private; the result gets the rights of any other new file.
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  ::fchmod(descriptor, 0666 & ~mask);
-  file_.reset(::fdopen(descriptor, "wb"));
-  if (!file_) {
-    const std::string why = std::strerror(errno);
-    ::close(descriptor);
-    std::remove(name.c_str());
-    fail(why);
+  if (const fs::file_status status = fs::status(path_, ignored); fs::exists(status)) {
+    if (!fs::is_regular_file(status)) fail("it is not a regular file");
+    if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind");
   }
-  temporary_ = std::move(name);
-}
-
-OutputFile::~OutputFile() {
-  if (!temporary_.empty()) std::remove(temporary_.c_str());
+  attempt([&] { file_.emplace(path_); });
+  write(heading);
 }
 
 void OutputFile::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail(std::strerror(errno));
+  if (std::fwrite(bytes.data(), 1, bytes.size(), file_->stream()) != bytes.size()) fail(std::strerror(errno));
 }
 
 void OutputFile::commit() {
-  // A full disk may show only when the file is closed.
-  if (std::fclose(file_.release()) != 0) fail(std::strerror(errno));
-  if (std::rename(temporary_.c_str(), path_.c_str()) != 0) fail(std::strerror(errno));
-  temporary_.clear();
+  attempt([&] { file_->keep_as(path_); });
+}
+
+void OutputFile::attempt(const auto& action) const {
+  try {
+    action();
+  } catch (const std::system_error& error) {
+    fail(error.code().message());
+  }
 }
 
 void OutputFile::fail(const std::string& why) const {
   throw UsageError(path_.string() + ": cannot be written: " + why +
-                   "; name a file where you may write and there is room");
+                   "; name another one, where you may write and there is room");
 }
 
 }  // namespace app

@@ -3,9 +3,11 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "app/files/temporary_file.h"
 
 namespace app {
 
@@ -22,24 +24,24 @@ std::filesystem::path next_free(const std::filesystem::path& folder, const std::
 
 class OutputFile {
  public:
-  /// Opens a temporary file beside `path`. Throws UsageError, as all of this class does, if the file could not be put
-  /// there, or if there is something else than a regular file: a device must not be replaced.
-  explicit OutputFile(std::filesystem::path path);
-  /// Without commit() nothing is left, and what was there before stays.
-  ~OutputFile();
-  OutputFile(const OutputFile&) = delete;
-  OutputFile& operator=(const OutputFile&) = delete;
+  /// Opens a temporary file beside `path` and writes `heading` to it. Throws UsageError, as all of this class does, if
+  /// no file could be put there, or none may: there is an input of the run, something else than a regular file, or a
+  /// file that does not begin with `heading`. An empty file may be replaced.
+  explicit OutputFile(std::filesystem::path path, std::string_view heading = {});
 
   void write(std::string_view bytes);
-  /// Puts the file into its place; the last thing to be done with it.
+  /// For another process that is to write the file.
+  int descriptor() const { return ::fileno(file_->stream()); }
+  /// Puts the file into its place; the last thing to be done with it. Without it nothing is left, and what was there
+  /// before stays.
   void commit();
 
  private:
+  void attempt(const auto& action) const;
   [[noreturn]] void fail(const std::string& why) const;
 
   std::filesystem::path path_;
-  std::string temporary_;  // its name; empty once it is gone
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_{nullptr, &std::fclose};
+  std::optional<TemporaryFile> file_;
 };
 
 }  // namespace app

@@ -5,6 +5,7 @@
 
 #include <cstdio>
 
+#include "app/files/inputs.h"
 #include "app/files/output_file.h"
 #include "app/report/gnuplot.h"
 
@@ -33,7 +34,12 @@ void say(const std::string& what, double progress) {
 }
 
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
-  const auto scene_named = [](const std::string& name) { return softbody::find_scene(name, scene_folder()); };
+  const auto scene_named = [](const std::string& name) {
+    softbody::Scene scene = softbody::find_scene(name, scene_folder());
+    protect_input(softbody::scene_path(name, scene_folder()));
+    protect_inputs(scene);
+    return scene;
+  };
   if (options.scene) return {scene_named(*options.scene)};
   std::vector<softbody::Scene> scenes;
   for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));

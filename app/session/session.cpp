@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "app/files/inputs.h"
+
 namespace app {
 namespace {
 
@@ -33,6 +35,7 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
 }
 
 void Session::adopt(softbody::Scene scene) {
+  protect_inputs(scene);
   scene_ = std::move(scene);
   solids_ = list_solids(scene_);
 }
@@ -235,6 +238,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
     for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
       world_->add_material(scene_.materials[i]);
     world_->add(body);
+    protect_input(body.mesh);
     remember(std::move(present));
     intervened();
   } catch (const std::exception& error) {

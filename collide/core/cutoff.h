@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include <algorithm>
-
 namespace collide {
 
 /// Returns the smallest float that is not below the value, or the largest float if there is none.
@@ -24,9 +22,9 @@ inline float round_up(double value) {
 /// 1 - u or by e. So what squared_distance() returns is at least
 ///     (1-u)^2 [ (1-u)^3 D^2 - 3e ],   hence   D^2 < (tolerance2 + 3e) / (1-u)^5,   D < sqrt(tolerance2 + 3e) (1 + 3u).
 /// The factor below leaves another u for the arithmetic in double. This holds at any coordinates, since nothing in it
-/// depends on their size; where tolerance2 overflows, an accepted distance still has a finite square.
+/// depends on their size. tolerance: as Settings allow it.
 inline float contact_cutoff(float tolerance) {
-  const float tolerance2 = std::min(tolerance * tolerance, std::numeric_limits<float>::max());
+  const float tolerance2 = tolerance * tolerance;
   return round_up(std::sqrt(double{tolerance2} + 3 * 0x1p-150) * (1 + 4 * 0x1p-24));
 }
 

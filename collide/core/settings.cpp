@@ -24,7 +24,8 @@ std::string complaint(const char* setting, const Value& value, const char* allow
 }  // namespace
 
 std::string problem(const Settings& settings) {
-  if (!positive(settings.tolerance)) return complaint("tolerance", settings.tolerance, "finite and above 0 m");
+  if (!(settings.tolerance >= min_tolerance && settings.tolerance <= max_tolerance))
+    return complaint("tolerance", settings.tolerance, "1e-18 to 1e18 m");
   if (settings.levels < 0 || settings.levels > max_levels) return complaint("levels", settings.levels, "0 to 15");
   if (settings.buckets < 1 || settings.buckets > max_buckets) {
     return complaint("buckets", settings.buckets, "1 to 16777216");

@@ -9,12 +9,14 @@ namespace collide {
 
 inline constexpr int max_levels = 15;
 inline constexpr std::uint32_t max_buckets = 1u << 24;
+/// m. The squares of all tolerances between these are normal floats. Beyond them contacts would be lost.
+inline constexpr float min_tolerance = 1e-18f, max_tolerance = 1e18f;
 /// Teschner et al. 2003 with their composite 19349663 replaced by a prime.
 inline constexpr std::array<std::uint32_t, 3> default_primes{73856093, 19349669, 83492791};
 
 /// The settings of a detection. A method ignores those that it does not use.
 struct Settings {
-  float tolerance = 0.1f;        // m, finite and > 0: closer vertices are in contact (§2.3)
+  float tolerance = 0.1f;        // m, min_tolerance .. max_tolerance: closer vertices are in contact (§2.3)
   bool self_collision = true;    // also pairs of one body (§2.4)
   int levels = 3;                // 0 .. max_levels; a body's box is cut into 2^levels boxes (§2.1)
   std::uint32_t buckets = 1001;  // 1 .. max_buckets: the paper's "bucket size" (§2.2)

@@ -182,5 +182,26 @@ TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
   EXPECT_FALSE(session.paused);
 }
 
+TEST(SavedSession, ReplacesItsSceneButNoMesh) {
+  const TemporaryFolder folder;
+  const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  const auto mesh = folder.write("mesh.obj", tetrahedron), added = folder.write("added.obj", tetrahedron);
+  const auto file = folder.write("a.toml", "[[body]]\nmesh = {kind = \"file\", path = \"mesh.obj\", size = 1}\n");
+  Session session(softbody::load_scene(file), {}, 1, file);
+  session.add_body({.mesh = softbody::MeshSource::from_file({.path = added, .size = 1}), .position = {0, 9, 0}},
+                   session.world().scene().materials[0]);
+  ASSERT_EQ(session.notice(), "");
+  for (const auto& each : {mesh, added}) {
+    const auto link = each.string() + ".toml";
+    std::filesystem::create_hard_link(each, link);
+    session.save_scene(link, {});
+    EXPECT_NE(session.notice().find("is the input " + each.string()), std::string::npos) << session.notice();
+    EXPECT_TRUE(std::filesystem::equivalent(each, link));
+  }
+  session.save_scene(file, {.distance = 3});
+  EXPECT_EQ(session.notice(), "");
+  EXPECT_EQ(softbody::load_scene(file).view.distance, 3);
+}
+
 }  // namespace
 }  // namespace app

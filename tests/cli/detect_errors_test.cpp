@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
+
 #include "tests/cli/detect_rig.h"
 
 namespace cli::test {
@@ -151,6 +153,8 @@ TEST_F(DetectErrors, OptionsAreNamed) {
   refuse({}, {"--tolerance"});
   for (const char* value : {"0", "-1", "-0.5", "nan", "inf", "1e300", "1e-60", "one", "0.1m", ""})
     refuse({"--tolerance", value}, {"--tolerance"});
+  for (const char* value : {"5e+29", "2e+18", "9e-19", "1e-40"})
+    refuse({"--tolerance", value}, {"--tolerance " + std::string(value), "1e-18 to 1e18 m"});
   const auto with = [](std::vector<std::string> more) {
     more.insert(more.begin(), {"--tolerance", "1"});
     return more;
@@ -177,6 +181,24 @@ TEST_F(DetectErrors, AContactsFileThatCannotBeWrittenIsNamedAndWhatIsThereStays)
     refuse({"--tolerance", "1", "--json", "--contacts", out}, {out, "cannot be written"});
   if (std::filesystem::exists("/dev/full"))
     refuse({"--tolerance", "1", "--contacts", "/dev/full"}, {"/dev/full", "not a regular file"});
+}
+
+TEST_F(DetectErrors, ContactsNeverReplaceAMesh) {
+  const std::string text = read_file(good);
+  const std::string lone_text = read_file(lone);
+  refuse({"--tolerance", "1", "--contacts", good}, {good, "is the input"});
+  refuse({"--rest", good, "--tolerance", "1", "--contacts", folder.path() / "." / "good.obj"},
+         {"is the input " + good});
+  refuse({"--tolerance", "1", "--contacts", lone}, {lone, "not a file of this kind"});  // after a name left out
+  EXPECT_EQ(read_file(good), text);
+  EXPECT_EQ(read_file(lone), lone_text);
+}
+
+TEST_F(DetectErrors, StandardOutputIsNotAppendedToAMesh) {
+  const std::string text = read_file(good);
+  const std::string command = SBCOLLIDE_PROGRAM " detect " + good + " --tolerance 1 >> " + good + " 2>/dev/null";
+  EXPECT_NE(std::system(command.c_str()), 0);
+  EXPECT_EQ(read_file(good), text);
 }
 
 TEST_F(DetectErrors, FailingLateLeavesTheOldContacts) {

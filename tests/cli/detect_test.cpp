@@ -244,8 +244,8 @@ TEST_F(Detect, WithoutJsonPrintsAShortTable) {
 TEST_F(Detect, ContactsAreWrittenBesideNothingElseAndReplaceWhatWasThere) {
   const State state = random_state(13);
   const std::string obj = file("state.obj", state);
-  folder.write("contacts.csv", "old");
-  EXPECT_EQ(contacts({obj, "--tolerance", "0.05"}), oracle(0, state, {.tolerance = 0.05f}));
+  for (const char* tolerance : {"0.08", "0.05"}) contacts({obj, "--tolerance", tolerance});
+  EXPECT_EQ(read_contacts(csv()), oracle(0, state, {.tolerance = 0.05f}));
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contacts.csv", "state.obj"}));
 }
 

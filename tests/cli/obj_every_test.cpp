@@ -44,5 +44,25 @@ TEST(ObjEvery, WritesTheBodiesAtRestAgainWhenThereAreOthers) {
             (std::set<std::string>{"frame_0002.obj", "frame_0004.obj", "rest_0002.obj", "rest_0004.obj", "two.toml"}));
 }
 
+TEST(ObjEvery, NeverReplacesTheSceneOrItsMeshes) {
+  const TemporaryFolder folder;
+  const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
+  for (const char* mesh : {"frame_0004.obj", "rest_0002.obj"}) {
+    folder.write(mesh, tetrahedron);
+    const auto scene = folder.write(
+        "scene.toml", "[[body]]\nmesh = {kind = \"file\", path = \"" + std::string(mesh) + "\", size = 1}\n");
+    const auto before = file_names(folder.path());
+    expect_refused({"simulate", "--scene", scene, "--frames", "4", "--obj-every", "2", "--out", folder.path()},
+                   {mesh, "is the input"});
+    EXPECT_EQ(file_names(folder.path()), before) << "refused before anything was written";
+    EXPECT_EQ(read_file(folder.path() / mesh), tetrahedron);
+    std::filesystem::remove(folder.path() / mesh);
+  }
+  const auto scene = folder.write("scene.toml", "[[body]]\n");
+  std::filesystem::create_symlink("scene.toml", folder.path() / "frame_0002.obj");
+  expect_refused({"simulate", "--scene", scene, "--frames", "2", "--obj-every", "2", "--out", folder.path()},
+                 {"frame_0002.obj", "is the input " + scene.string()});
+}
+
 }  // namespace
 }  // namespace cli::test

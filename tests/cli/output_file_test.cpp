@@ -6,7 +6,8 @@
 
 #include <fstream>
 
-#include "app/cli/options.h"
+#include "app/base/usage_error.h"
+#include "app/files/inputs.h"
 #include "tests/cli/process.h"
 
 namespace cli::test {
@@ -47,6 +48,38 @@ TEST(OutputFile, LeavesNothingAndChangesNothingWithoutACommit) {
   for (const fs::path& each : {path, folder.path() / "other"}) app::OutputFile(each).write("new");
   EXPECT_EQ(read_file(path), "old");
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
+}
+
+TEST(OutputFile, NeverReplacesAnInputByWhateverNameOrLink) {
+  const TemporaryFolder folder;
+  const fs::path mesh = folder.write("mesh.obj", "v 0 0 0\n"), linked = folder.write("linked.obj", "v 1 0 0\n"),
+                 link = folder.path() / "link", hard = folder.path() / "hard", to_linked = folder.path() / "to linked";
+  fs::create_directory(folder.path() / "sub");
+  fs::create_symlink("mesh.obj", link);
+  fs::create_hard_link(mesh, hard);
+  fs::create_symlink("linked.obj", to_linked);
+  app::protect_input(mesh);
+  app::protect_input(to_linked);
+  const auto before = file_names(folder.path());
+  for (const fs::path& path :
+       {mesh, folder.path() / "sub/../mesh.obj", fs::relative(mesh), link, hard, linked, to_linked})
+    EXPECT_NE(refusal(path).find(path.string() + ": cannot be written: it is the input "), std::string::npos) << path;
+  EXPECT_EQ(file_names(folder.path()), before);
+  EXPECT_EQ(read_file(mesh) + read_file(linked), "v 0 0 0\nv 1 0 0\n");
+  app::OutputFile(folder.path() / "sub/../new").commit();
+  EXPECT_TRUE(file_names(folder.path()).contains("new"));
+}
+
+TEST(OutputFile, WithAHeadingReplacesOnlyWhatHasIt) {
+  const TemporaryFolder folder;
+  for (const char* text : {"", "a,b\n", "a,b\n1,2\n"}) {
+    app::OutputFile(folder.write("file", text), "a,b\n").commit();
+    EXPECT_EQ(read_file(folder.path() / "file"), "a,b\n");
+  }
+  for (const std::string text : {"a,b", "a,c\n1,2\n", "x"}) {
+    EXPECT_THROW(app::OutputFile(folder.write("file", text), "a,b\n"), app::UsageError) << text;
+    EXPECT_EQ(read_file(folder.path() / "file"), text);
+  }
 }
 
 TEST(OutputFile, HasTheRightsOfAnOrdinaryFile) {

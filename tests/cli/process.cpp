@@ -8,8 +8,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <csignal>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 namespace cli::test {
 namespace {
@@ -35,27 +37,47 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 
 }  // namespace
 
-Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where,
-            const std::vector<std::string>& environment) {
-  const TemporaryFolder folder;
-  const std::string out = folder.path() / "out", err = folder.path() / "err";
+Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& where,
+                 const std::vector<std::string>& environment) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, out.c_str(), O_WRONLY | O_CREAT, 0600);
-  posix_spawn_file_actions_addopen(&actions, STDERR_FILENO, err.c_str(), O_WRONLY | O_CREAT, 0600);
+  for (const auto& [name, descriptor] : {std::pair("out", STDOUT_FILENO), std::pair("err", STDERR_FILENO)})
+    posix_spawn_file_actions_addopen(&actions, descriptor, (folder_.path() / name).c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, where.c_str());
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t all;
+  sigfillset(&all);
+  posix_spawnattr_setsigdefault(&attributes, &all);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   std::vector<std::string> words{SBCOLLIDE_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<std::string> variables = environment_with(environment);
-  pid_t process = 0;
   const int error =
-      posix_spawn(&process, SBCOLLIDE_PROGRAM, &actions, nullptr, pointers(words).data(), pointers(variables).data());
+      posix_spawn(&id_, SBCOLLIDE_PROGRAM, &actions, &attributes, pointers(words).data(), pointers(variables).data());
+  posix_spawnattr_destroy(&attributes);
   posix_spawn_file_actions_destroy(&actions);
   if (error != 0) throw std::runtime_error("cannot start " SBCOLLIDE_PROGRAM);
+}
+
+bool Process::running() {
+  siginfo_t info{};
+  return waitid(P_PID, static_cast<id_t>(id_), &info, WEXITED | WNOHANG | WNOWAIT) == 0 && info.si_pid == 0;
+}
+
+void Process::send(int signal) const { kill(id_, signal); }
+
+Outcome Process::wait() {
   int status = 0;
-  waitpid(process, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(out), read_file(err)};
+  waitpid(id_, &status, 0);
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder_.path() / "out"),
+          read_file(folder_.path() / "err"), WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+}
+
+Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where,
+            const std::vector<std::string>& environment) {
+  return Process(arguments, where, environment).wait();
 }
 
 nlohmann::json document(const std::string& command, std::vector<std::string> arguments) {

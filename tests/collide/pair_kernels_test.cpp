@@ -2,6 +2,8 @@
 
 #include "collide/exact/pair_kernels.h"
 
+#include <algorithm>
+
 #include "collide/core/cutoff.h"
 #include "every_target.h"
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
 
 #include "states.h"
@@ -15,9 +16,12 @@ TEST(Settings, HaveNoProblemByDefaultAndAtTheirLimits) {
   EXPECT_EQ(problem(settings), "");
   settings.levels = 0;
   settings.buckets = 1;
-  settings.tolerance = 1e-45f;
   settings.cell_size = glm::vec3(1e-45f, 1, 3e38f);
-  EXPECT_EQ(problem(settings), "");
+  for (const float tolerance : {min_tolerance, max_tolerance}) {
+    settings.tolerance = tolerance;
+    EXPECT_EQ(problem(settings), "");
+    EXPECT_TRUE(std::isnormal(tolerance * tolerance));
+  }
 }
 
 template <class Change>
@@ -38,6 +42,10 @@ TEST(Settings, NameTheProblemAndItsValue) {
     EXPECT_NE(problem_after([&](Settings& s) { s.tolerance = bad; }).find("tolerance"), std::string::npos);
     EXPECT_NE(problem_after([&](Settings& s) { s.cell_size.y = bad; }).find("cell size"), std::string::npos);
   }
+  EXPECT_EQ(problem_after([](Settings& s) { s.tolerance = 5e29f; }), "tolerance is 5e+29; it must be 1e-18 to 1e18 m");
+  for (const float beyond :
+       {std::nextafter(min_tolerance, 0.0f), 1e-40f, std::nextafter(max_tolerance, INFINITY), 2e19f})
+    EXPECT_NE(problem_after([&](Settings& s) { s.tolerance = beyond; }), "") << beyond;
 }
 
 TEST(HashWarning, NamesPrimesThatLoseOrMixAxes) {

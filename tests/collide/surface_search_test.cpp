@@ -32,8 +32,7 @@ TEST(SurfaceSearch, ThrowsAboveMaxFeatures) {
   const std::size_t all = run.search.features().size();
   const auto find = [&](std::size_t max) {
     Workers workers(2);
-    run.search.find({m.scene.frame(), run.vx, run.vy, run.vz}, m.traits, {m.seconds, m.seconds, true, max},
-                      workers);
+    run.search.find({m.scene.frame(), run.vx, run.vy, run.vz}, m.traits, {m.seconds, m.seconds, true, max}, workers);
     return run.search.features().size();
   };
   EXPECT_THROW(find(all - 1), std::length_error);

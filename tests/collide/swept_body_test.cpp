@@ -17,8 +17,8 @@ TEST(SweptBody, BodiesThatStayStarShapedDoNotPierceThemselves) {
   std::mt19937 random(65);
   int star_shaped = 0, pierced = 0;
   for (int trial = 0; trial < 200; ++trial) {
-    const float dent = uniform(random, 0, 0.5f), share = uniform(random, 0, 1), deformation = 20 * share * share * share,
-                slack = uniform(random, 0, 0.002f);
+    const float dent = uniform(random, 0, 0.5f), share = uniform(random, 0, 1),
+                deformation = 20 * share * share * share, slack = uniform(random, 0, 0.002f);
     SurfaceMesh mesh = ball(0.5f, 1);
     for (glm::vec3& v : mesh.vertices) v *= uniform(random, 1 - dent, 1);
     const std::vector<glm::vec3> r = random_points(random, 3, -100, 100);

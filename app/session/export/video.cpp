@@ -11,6 +11,7 @@
 #include <chrono>
 #include <csignal>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <thread>
 #include <utility>
@@ -48,8 +49,8 @@ class Descriptor {
 /// A running ffmpeg. A socket in place of a pipe: when ffmpeg dies, sending fails instead of ending this program too.
 class Ffmpeg {
  public:
-  /// Throws UsageError if there is none.
-  explicit Ffmpeg(const std::vector<std::string>& arguments) {
+  /// video: the file to write, its standard output. Throws UsageError if there is no ffmpeg.
+  Ffmpeg(const std::vector<std::string>& arguments, int video) {
     std::array<int, 2> pictures{}, errors{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
     const Descriptor input(pictures[1]);
@@ -59,7 +60,7 @@ class Ffmpeg {
     errors_ = Descriptor(errors[0]);
     const timeval limit{patience, 0};
     ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
-    if (const int error = spawn(arguments, input.number(), output.number())) refuse(error);
+    if (const int error = spawn(arguments, input.number(), video, output.number())) refuse(error);
   }
   ~Ffmpeg() {
     if (child_ <= 0) return;
@@ -114,11 +115,11 @@ class Ffmpeg {
     throw UsageError(std::string("ffmpeg cannot be started: ") + std::strerror(error));
   }
 
-  int spawn(const std::vector<std::string>& arguments, int input, int errors) {
+  int spawn(const std::vector<std::string>& arguments, int input, int output, int errors) {
     posix_spawn_file_actions_t actions;
     ::posix_spawn_file_actions_init(&actions);
     ::posix_spawn_file_actions_adddup2(&actions, input, STDIN_FILENO);
-    ::posix_spawn_file_actions_addopen(&actions, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    ::posix_spawn_file_actions_adddup2(&actions, output, STDOUT_FILENO);
     ::posix_spawn_file_actions_adddup2(&actions, errors, STDERR_FILENO);
     std::vector<std::string> words = arguments;
     std::vector<char*> argv;
@@ -135,13 +136,8 @@ class Ffmpeg {
 
 class VideoWriter : public FrameWriter {
  public:
-  explicit VideoWriter(const fs::path& folder)
-      : file_(next_free(folder, "video", ".mp4")), part_(file_.string() + ".part") {
+  explicit VideoWriter(const fs::path& folder) : file_(next_free(folder, "video", ".mp4")) {
     prepare_folder(folder, "");
-  }
-  ~VideoWriter() override {
-    std::error_code ignored;
-    if (started_) fs::remove(part_, ignored);
   }
 
   void write(const RecordedFrame& frame) override {
@@ -161,7 +157,7 @@ class VideoWriter : public FrameWriter {
     if (!ffmpeg_) return;  // not a single frame
     if (!ffmpeg_->finish()) fail();
     ffmpeg_.reset();
-    fs::rename(part_, file_);
+    output_->commit();
   }
 
   std::string name() const override { return file_.string(); }
@@ -171,8 +167,8 @@ class VideoWriter : public FrameWriter {
     width_ = picture.width;
     height_ = picture.height;
     const std::string size = std::to_string(width_) + "x" + std::to_string(height_);
-    started_ = true;
-    // The codec wants even sides.
+    output_.emplace(file_);
+    // The codec wants even sides. The output has no name that ffmpeg could make anew after a signal has removed it.
     ffmpeg_ = std::make_unique<Ffmpeg>(std::vector<std::string>{"ffmpeg",
                                                                 "-nostdin",
                                                                 "-y",
@@ -194,15 +190,16 @@ class VideoWriter : public FrameWriter {
                                                                 "yuv420p",
                                                                 "-f",
                                                                 "mp4",
-                                                                part_.string()});
+                                                                "/dev/stdout"},
+                                       output_->descriptor());
   }
 
   [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words()); }
 
-  fs::path file_, part_;
+  fs::path file_;
   int width_ = 0, height_ = 0;
-  bool started_ = false;
-  std::unique_ptr<Ffmpeg> ffmpeg_;
+  std::optional<OutputFile> output_;
+  std::unique_ptr<Ffmpeg> ffmpeg_;  // ends before its output does
 };
 
 }  // namespace
