@@ -165,6 +165,17 @@ TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
               1e-5);
 }
 
+TEST(Strain, IsTheLargestOfAllBodiesStretchedOrCompressed) {
+  Scene scene = lone_body(spring_ball());
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  for (const double scale : {0.5, 1.25}) {
+    place(world, glm::dvec3(scale));
+    EXPECT_NEAR(measure(world).largest_strain, std::abs(scale - 1), 1e-5);
+    EXPECT_NEAR(measure(world, 1).largest_strain, 0, 1e-5);
+  }
+}
+
 TEST(Spin, OfABodyInFreeFlightIsConserved) {
   for (const double damping : {0.0, 10.0}) {
     World world(grazing(damping), {});
