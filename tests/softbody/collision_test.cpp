@@ -64,6 +64,37 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     EXPECT_NEAR(stretch(integrator), expected, 0.15 * expected) << integrator;
 }
 
+/// The softer of two bodies tells how stiff their contacts are; who has several at a particle shares it among them.
+TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
+  for (const bool softer_first : {false, true}) {
+    Scene scene = lone_body(gas_ball());
+    scene.materials.push_back(scene.materials[0]);
+    Material &soft = scene.materials[softer_first ? 0 : 1], &hard = scene.materials[softer_first ? 1 : 0];
+    soft.contact_stiffness = 40, hard.contact_stiffness = 90;
+    soft.friction = 0.2, hard.friction = 0.8;
+    add_body(scene, {0, 0.8, 0.1}, glm::dvec3(0.0));
+    scene.bodies[1].material = 1;
+    scene.bodies[1].mesh = {.subdivisions = 3, .radius = 0.35};
+    World world(scene, {});
+    const std::vector<collide::Contact> contacts = world.detection().contacts;
+    world.step();
+    const std::vector<ShieldPair> pairs = world.snapshot().dynamics.shield_pairs;
+    ASSERT_EQ(pairs.size(), contacts.size());
+    std::vector<int> count(world.bodies().vertex_count(), 0);
+    for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
+    int more_at_a = 0, more_at_b = 0;
+    for (const ShieldPair& pair : pairs) {
+      const int a = count[pair.contact.a], b = count[pair.contact.b];
+      more_at_a += a > b, more_at_b += b > a;
+      EXPECT_FLOAT_EQ(pair.stiffness, 40.0f / float(std::max(a, b)));
+      EXPECT_FLOAT_EQ(pair.friction, 0.4f);
+      EXPECT_LT(pair.normal.y, -0.5f) << "from the second to the first";
+    }
+    EXPECT_GT(more_at_a, 0);
+    EXPECT_GT(more_at_b, 0);
+  }
+}
+
 TEST(Collision, BodiesDoNotPassThroughEachOther) {
   for (const double speed : {1.0, 6.0}) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(speed, 0, 0));

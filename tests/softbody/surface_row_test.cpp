@@ -62,7 +62,8 @@ class OneRow {
     const collide::Surface triangle(3, {{0, 1, 2}});
     const collide::SurfaceBody traits{&triangle, reach, 0, 1, true};
     const auto body = [&](std::size_t lane, float inverse_mass, float restitution) {
-      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, restitution};
+      const float friction = impact_.friction * (lane == 0 ? 0.5f : 2.0f);  // their geometric mean acts
+      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, friction, restitution};
     };
     collide::Workers workers(1);
     SurfaceContact contact;
