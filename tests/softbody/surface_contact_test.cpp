@@ -153,6 +153,17 @@ TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
   }
 }
 
+TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
+  Material thick = spring_ball();
+  thick.thickness = 0.05;
+  Scene scene = ball_in_space(thick);
+  scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
+  World world(scene, {});
+  run(world, 3);
+  EXPECT_FALSE(world.dynamics().surface_contact().search().features().empty());
+  EXPECT_LT(measure(world).max_speed, 1e-4);
+}
+
 TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.8, 0.05, 0.02}, glm::dvec3(0.0));  // 0.4 R deep
