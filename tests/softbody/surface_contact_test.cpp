@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "tests/softbody/surface_rig.h"
 
@@ -180,6 +181,46 @@ TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   judge.expect_clean("after half a second");
   EXPECT_LT(glm::length(motion(world, 0).velocity - motion(world, 1).velocity), 2 * double(SurfaceContact::push_speed));
   EXPECT_LT(measure(world).energy - energy, 0.5 * 2 * 1.0) << "no more than both at the push's speed have";
+}
+
+/// What is shown of a contact: its bodies, and the two closest points by the vertices' weights.
+TEST(SurfaceContact, TellsWhereBodiesTouch) {
+  Scene scene = ball_in_space(rubber());
+  add_body(scene, {0, 0, 1.02}, {0, 0, -1});
+  add_body(scene, {1.02, 0.2, 0}, {-1, 0, 0});
+  scene.bodies[2].mesh.subdivisions = 3;  // in a batch of its own
+  World world(scene, {});
+  run(world, 4);
+  std::set<std::pair<Index, Index>> met;
+  for (const SurfaceTouch& touch : world.dynamics().surface_contact().touches(world.bodies())) {
+    met.insert({std::min(touch.a, touch.b), std::max(touch.a, touch.b)});
+    glm::dvec3 apart(0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const BodyId body = world.vertex_body()[touch.vertex[k]];
+      if (std::abs(touch.weight[k]) > 1e-6f) {
+        EXPECT_EQ(body, touch.weight[k] > 0 ? touch.a : touch.b);
+      }
+      apart += double(touch.weight[k]) *
+               world.dynamics().particle(body, touch.vertex[k] - world.bodies().first[body]).position;
+    }
+    EXPECT_LT(glm::distance(apart, 0.005 * glm::dvec3(touch.normal)), 0.004);
+  }
+  EXPECT_EQ(met, (std::set<std::pair<Index, Index>>{{0, 1}, {0, 2}}));
+}
+
+TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
+  Scene scene = ball_in_space(rubber(), {0, -30, 0});
+  add_body(scene, {0.03, -1.3, 0.02}, glm::dvec3(0.0));
+  const auto rate = [&] {
+    World world(scene, {});
+    world.step();
+    return world.dynamics().surface_contact().rate();
+  };
+  const float alone = rate();
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  add_body(scene, {5, 1.003, 0}, {0, -0.1, 0});
+  EXPECT_GT(alone, 100);
+  EXPECT_FLOAT_EQ(rate(), alone);
 }
 
 /// Nearly all of each surface lies on the other one, so that hardly a vertex is deep.
