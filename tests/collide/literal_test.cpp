@@ -149,6 +149,20 @@ TEST(Literal, MissesLittleWhereNoBoxExceedsACell) {
 
 TEST(Literal, HidesMissesBehindAliasingInASmallTable) { EXPECT_GT(recall(0.25f, 101), 0.15); }
 
+TEST(Literal, TellsAlongEachAxisWhetherABoxExceedsACell) {
+  State state;
+  state.add({glm::vec3(0), glm::vec3(1, 2, 3)});
+  Settings settings;
+  settings.levels = 0;
+  settings.cell_size = {1, 2, 3};
+  EXPECT_EQ(detect("multi-level-sb", state, settings).coverage, Coverage::covered);
+  for (int axis = 0; axis < 3; ++axis) {
+    Settings smaller = settings;
+    smaller.cell_size[axis] -= 0.001f;
+    EXPECT_EQ(detect("multi-level-sb", state, smaller).coverage, Coverage::exceeded) << axis;
+  }
+}
+
 /// Boxes are not padded: of two vertices on the two sides of a cell face, each alone in its box, none sees the other.
 TEST(Literal, MissesAContactAcrossACellFace) {
   State state;

@@ -149,6 +149,35 @@ State huge_tolerance(float tolerance) {
   return state;
 }
 
+/// Bodies of unlike sides and numbers of vertices deep inside each other: their overlap is cut many times.
+State large() {
+  State state;
+  const auto ellipsoid = [&](int subdivisions, const glm::vec3& sides, const glm::vec3& at) {
+    Ball ball = icosphere(subdivisions, 0.5f);
+    for (glm::vec3& v : ball.vertices) v *= sides;
+    const auto count = static_cast<Index>(ball.vertices.size());
+    state.add(std::make_shared<const Shape>(count, ball.edges, ball.vertices), moved(ball.vertices, at));
+  };
+  ellipsoid(3, glm::vec3(1, 0.7f, 0.5f), glm::vec3(0));
+  ellipsoid(4, glm::vec3(0.6f, 1.1f, 0.8f), glm::vec3(0.35f, 0.1f, -0.15f));
+  state.tolerance = 0.05f;
+  return state;
+}
+
+/// Pairs of unlike balls that only just touch, each along the line of its centres, where floats are coarse.
+State touching_far_away() {
+  State state;
+  std::mt19937 random(9);
+  const Ball small = icosphere(0, 0.5f), large = icosphere(1, 0.8f);
+  state.tolerance = 0.01f;
+  for (std::size_t k = 0; k < small.vertices.size(); ++k) {
+    const glm::vec3 at = random_points(random, 1, -1e5f, 1e5f)[0], way = small.vertices[k] / 0.5f;
+    state.add(moved(small.vertices, at));
+    state.add(moved(large.vertices, at + 1.305f * way));
+  }
+  return state;
+}
+
 /// A large sheet with fine vertices under small balls: boxes of very different sizes.
 State uneven() {
   State state = settled(1, 2, true, glm::vec3(-0.5f, 0.4f, -0.5f), 0.3f);
@@ -249,6 +278,8 @@ const std::vector<NamedState>& named_states() {
       {"huge_tolerance", [] { return huge_tolerance(1e10f); }},
       {"max_tolerance", [] { return huge_tolerance(max_tolerance); }},
       {"uneven", uneven},
+      {"large", large},
+      {"touching_far_away", touching_far_away},
   };
   return states;
 }

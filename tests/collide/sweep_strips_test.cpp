@@ -3,6 +3,7 @@
 #include "collide/exact/sweep_strips.h"
 
 #include "collide/core/aabb.h"
+#include "collide/core/cutoff.h"
 #include "every_target.h"
 
 namespace collide::test {
@@ -48,6 +49,28 @@ TEST_P(StripKernel, BoxesAreThoseOfPlainLoops) {
         EXPECT_EQ(found, expected);
       }
     }
+  }
+}
+
+TEST_P(StripKernel, LosesNoSpheresThatJustTouchToRounding) {
+  constexpr float reach = 0.2f;
+  for (int trial = 0; trial < 100; ++trial) {
+    StripBoxes boxes;
+    boxes.resize(2);
+    const std::vector<glm::vec3> centre = random_points(random_, 2, -3, 3);
+    const glm::dvec3 d = glm::dvec3(centre[1]) - glm::dvec3(centre[0]);
+    const double apart = std::sqrt(d.x * d.x + d.y * d.y + d.z * d.z);
+    if (apart < 1) continue;
+    for (Index i = 0; i < 2; ++i) {
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        const float at = centre[i][static_cast<int>(axis)];
+        boxes.lo[axis][i] = at - 3, boxes.centre[axis][i] = at, boxes.hi[axis][i] = at + 3;
+      }
+      boxes.radius[i] = round_up((apart - double{reach}) / 2);
+    }
+    std::vector<Index> found;
+    sweep_strip(boxes, 0, 1, 2, reach, found);
+    ASSERT_EQ(found, std::vector<Index>{1}) << trial;
   }
 }
 

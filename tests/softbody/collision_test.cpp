@@ -64,6 +64,104 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     EXPECT_NEAR(stretch(integrator), expected, 0.15 * expected) << integrator;
 }
 
+/// The softer of two bodies tells how stiff their contacts are; who has several at a particle shares it among them.
+TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
+  for (const bool softer_first : {false, true}) {
+    Scene scene = lone_body(gas_ball());
+    scene.materials.push_back(scene.materials[0]);
+    Material &soft = scene.materials[softer_first ? 0 : 1], &hard = scene.materials[softer_first ? 1 : 0];
+    soft.contact_stiffness = 40, hard.contact_stiffness = 90;
+    soft.friction = 0.2, hard.friction = 0.8;
+    add_body(scene, {0, 0.8, 0.1}, glm::dvec3(0.0));
+    scene.bodies[1].material = 1;
+    scene.bodies[1].mesh = {.subdivisions = 3, .radius = 0.35};
+    scene.bodies[0].release = 1000;
+    scene.bodies.push_back(scene.bodies[0]);  // two that are held have no contact
+    scene.bodies[2].position = {0.6, 0.75, 0};
+    World world(scene, {});
+    std::vector<collide::Contact> contacts = world.detection().contacts;
+    const auto both_held = [&](const collide::Contact& c) {
+      return world.vertex_body()[c.a] != 1 && world.vertex_body()[c.b] != 1;
+    };
+    EXPECT_GT(std::erase_if(contacts, both_held), 0u);
+    world.step();
+    const std::vector<ShieldPair> pairs = world.snapshot().dynamics.shield_pairs;
+    ASSERT_EQ(pairs.size(), contacts.size());
+    std::vector<int> count(world.bodies().vertex_count(), 0);
+    for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
+    int more_at_a = 0, more_at_b = 0;
+    for (const ShieldPair& pair : pairs) {
+      const int a = count[pair.contact.a], b = count[pair.contact.b];
+      more_at_a += a > b, more_at_b += b > a;
+      EXPECT_FLOAT_EQ(pair.stiffness, 40.0f / float(std::max(a, b)));
+      EXPECT_FLOAT_EQ(pair.friction, 0.4f);
+    }
+    EXPECT_GT(more_at_a, 0);
+    EXPECT_GT(more_at_b, 0);
+  }
+}
+
+/// Of the faces at a vertex, by their areas.
+glm::dvec3 vertex_normal(const World& world, Index vertex) {
+  const BodyId body = world.vertex_body()[vertex];
+  const std::vector<Particle> x = particles_of(world, body);
+  const Index own = vertex - world.bodies().first[body];
+  glm::dvec3 sum(0.0);
+  for (const auto& [a, b, c] : world.prototype(body).mesh.triangles)
+    if (a == own || b == own || c == own)
+      sum += glm::cross(x[b].position - x[a].position, x[c].position - x[a].position);
+  return glm::normalize(sum);
+}
+
+/// Apart, one inside the other, and a sheet on a ball.
+TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
+  int by_surfaces = 0, by_line = 0;
+  for (const bool sheet : {false, true})
+    for (const double height : {sheet ? 0.52 : 0.8, 0.1}) {
+      Scene scene = lone_body(gas_ball());
+      add_body(scene, {0.02, height, 0.05}, glm::dvec3(0.0));
+      scene.bodies[1].mesh = {.subdivisions = 3, .radius = 0.35};
+      if (sheet) scene.bodies[1].mesh = {.kind = "grid", .columns = 7, .rows = 5, .width = 1, .depth = 0.8};
+      World world(scene, {});
+      const auto place = [&](Index v) {
+        const BodyId body = world.vertex_body()[v];
+        return particles_of(world, body)[v - world.bodies().first[body]].position;
+      };
+      std::vector<glm::dvec3> expected;
+      for (const auto& [a, b] : world.detection().contacts) {
+        const glm::dvec3 apart = vertex_normal(world, b) - vertex_normal(world, a);
+        const bool facing = !sheet && glm::length(apart) > 0.5;
+        expected.push_back(glm::normalize(facing ? apart : place(a) - place(b)));
+        ++(facing ? by_surfaces : by_line);
+      }
+      world.step();
+      const std::vector<ShieldPair> pairs = world.snapshot().dynamics.shield_pairs;
+      ASSERT_EQ(pairs.size(), expected.size());
+      for (std::size_t i = 0; i < pairs.size(); ++i)
+        EXPECT_LT(glm::distance(glm::dvec3(pairs[i].normal), expected[i]), 1e-3) << i;
+    }
+  EXPECT_GT(by_surfaces, 10);
+  EXPECT_GT(by_line, 10);
+}
+
+TEST(Collision, HoldsTheSameEnergyInFlight) {
+  const auto energies = [](double speed) {
+    Scene scene = lone_body(gas_ball(), {speed, 0, 0});
+    add_body(scene, {0, 0.83, 0}, {speed, 0, 0});
+    scene.bodies[1].mesh.radius = 0.35;
+    World world(scene, {.integrator = "semi-implicit-euler", .substeps = 30});
+    std::vector<double> list;
+    for (int i = 0; i < 6; ++i) {
+      world.step();
+      list.push_back(total(world.last_shield_energies()));
+    }
+    return list;
+  };
+  const std::vector<double> expected = energies(0), flying = energies(32);
+  EXPECT_GT(expected.front(), 1e-3);
+  for (std::size_t i = 0; i < expected.size(); ++i) EXPECT_NEAR(flying[i], expected[i], 0.01 * expected[0]) << i;
+}
+
 TEST(Collision, BodiesDoNotPassThroughEachOther) {
   for (const double speed : {1.0, 6.0}) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(speed, 0, 0));

@@ -207,6 +207,21 @@ TEST(Integrator, XpbdGoesWithShearSprings) {
   EXPECT_LT(rms(positions("xpbd", 3), expected), 0.02 * moved);
 }
 
+TEST(Integrator, XpbdIsStableHoweverStiffTheGas) {
+  for (const double pressure : {1e5, 1e6, 1e7}) {
+    Material m = gas_ball();
+    m.gas_pressure = m.ambient_pressure = pressure;
+    World world(lone_body(m), {.integrator = "xpbd", .substeps = 10});
+    place(world, glm::dvec3(0.95));
+    for (int frame = 0; frame < 30; ++frame) {
+      world.step();
+      const Measures now = measure(world);
+      ASSERT_TRUE(now.finite) << pressure << " Pa, frame " << frame;
+      ASSERT_NEAR(now.volume_ratio_min, 1, 0.05) << pressure << " Pa, frame " << frame;
+    }
+  }
+}
+
 TEST(Integrator, XpbdKeepsTheVolumeOfABallInBalance) {
   World world(lone_body(gas_ball()), {.integrator = "xpbd"});
   run(world, 60);

@@ -128,11 +128,16 @@ TEST(MeshImport, SeveralPiecesAreOneBody) {
   EXPECT_EQ(remarks(found), "4 faces turned, 2 separate pieces, one body");
 }
 
-TEST(MeshImport, OpenMeshesStayOpen) {
-  const auto [mesh, found] = read(cube_vertices + "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n");
-  EXPECT_FALSE(mesh.closed || found.closed);
-  EXPECT_EQ(mesh.triangles.size(), 10u);
-  EXPECT_EQ(remarks(found), "open, so that it holds no gas");
+TEST(MeshImport, OpenMeshesStayOpenAndKeepTheirSide) {
+  const std::string outwards = "f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\n",
+                    inwards = "f 1 2 3 4\nf 5 6 2 1\nf 6 7 3 2\nf 7 8 4 3\nf 8 5 1 4\n";
+  for (const std::string& faces : {outwards, inwards}) {
+    const auto [mesh, found] = read(cube_vertices + faces);
+    EXPECT_FALSE(mesh.closed || found.closed);
+    EXPECT_EQ(mesh.triangles.size(), 10u);
+    EXPECT_EQ(volume(mesh.vertices, mesh.triangles) < 0, faces == inwards);
+    EXPECT_EQ(remarks(found), "open, so that it holds no gas");
+  }
 }
 
 TEST(MeshImport, WhatNoFaceUsesIsDroppedAndDoesNotCount) {

@@ -62,6 +62,17 @@ TEST(ExplicitEuler, ShowsWhatItDoesToTheSpin) {
 constexpr double stiffness = 1e5;
 const World::Options explicit_steps{.integrator = "semi-implicit-euler", .substeps = 200};
 
+TEST(StiffBody, ThatIsHeldGetsNoMomentumBesideOneThatFalls) {
+  Scene scene = lone_body(gas_ball(stiffness));
+  scene.gravity = {0, -9.81, 0};
+  add_body(scene, {3, 0, 0}, glm::dvec3(0.0));
+  scene.bodies[1].release = 1000;
+  World world(scene, explicit_steps);
+  run(world, 3);
+  EXPECT_LT(motion(world, 0).velocity.y, -0.4);
+  EXPECT_EQ(motion(world, 1).velocity, glm::dvec3(0.0));
+}
+
 TEST(StiffBody, IsThrownBackByASolid) {
   Scene scene = lone_body(gas_ball(stiffness), {0, -1, 0});
   scene.bodies[0].position = {0, 0.6, 0};

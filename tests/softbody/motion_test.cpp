@@ -165,6 +165,21 @@ TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
               1e-5);
 }
 
+TEST(Measures, OfAllBodiesAreTheirExtremes) {
+  Scene scene = lone_body(spring_ball());
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  World world(scene, {});
+  for (const double scale : {0.5, 1.25}) {  // compressed and stretched, the first body alone
+    place(world, glm::dvec3(scale), 3);
+    const Measures all = measure(world);
+    EXPECT_NEAR(all.largest_strain, std::abs(scale - 1), 1e-5);
+    EXPECT_NEAR(all.max_speed, 3 * 0.5, 1e-5);
+    EXPECT_NEAR(all.volume_ratio_min, std::min(1.0, scale * scale * scale), 1e-5);
+    EXPECT_NEAR(all.volume_ratio_max, std::max(1.0, scale * scale * scale), 1e-5);
+    EXPECT_NEAR(measure(world, 1).largest_strain, 0, 1e-5);
+  }
+}
+
 TEST(Spin, OfABodyInFreeFlightIsConserved) {
   for (const double damping : {0.0, 10.0}) {
     World world(grazing(damping), {});

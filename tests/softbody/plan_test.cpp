@@ -68,6 +68,11 @@ TEST(Plan, OfABallAloneInEmptySpace) {
   EXPECT_TRUE(plan.has(Stage::structural_springs) && plan.has(Stage::bend_springs) && plan.has(Stage::integrate));
 }
 
+TEST(Plan, HasArrivalsWhereABodyComesOrIsReleasedLate) {
+  EXPECT_TRUE(world_of("[[body]]\nappear = 3\n").plan().has(Stage::arrive));
+  EXPECT_TRUE(world_of("[[body]]\nrelease = 3\n").plan().has(Stage::arrive));
+}
+
 TEST(Plan, ADropperCanAlwaysAddAnother) {
   const World world = world_of("[collision]\nself_collision = false\n[[body]]\n[dropper]\n");
   EXPECT_TRUE(world.plan().has(Stage::detect) && world.plan().has(Stage::contact_response));

@@ -5,12 +5,14 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numbers>
 #include <numeric>
 #include <utility>
 
 #include "softbody/prototype_set.h"
 #include "softbody/spring_bound.h"
 #include "tests/softbody/helpers.h"
+#include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
 namespace {
@@ -65,6 +67,26 @@ TEST(Prototype, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
     EXPECT_EQ(s.stiffness, 75);
     EXPECT_NEAR(s.damping, 0.4 * 2 * std::sqrt(75 * reduced), 1e-12);
   }
+}
+
+/// Of a fan the spokes share at the hub; its rim is as stiff as the material says.
+TEST(Prototype, SpringsOfAHubShareWhatSixWouldHave) {
+  constexpr int spokes = 18;
+  std::string fan = vertex({0, 1, 0});
+  for (int i = 0; i < spokes; ++i)
+    fan += vertex({std::cos(2 * std::numbers::pi * i / spokes), 0, std::sin(2 * std::numbers::pi * i / spokes)});
+  for (int i = 0; i < spokes; ++i) fan += face({1, 2 + i, 2 + (i + 1) % spokes});
+  const TemporaryFolder folder;
+  Material m = spring_ball();
+  m.structural = {300, 0.2};
+  const auto p = make_prototype(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), m);
+  int shared = 0;
+  for (const Spring& s : p->structural) {
+    shared += s.stiffness < 300;
+    EXPECT_NEAR(s.stiffness, s.i == 0 ? 300 * 6.0 / spokes : 300, 1e-9);
+    EXPECT_NEAR(s.damping, 0.2 * 2 * std::sqrt(s.stiffness * p->particle_mass / 2), 1e-12);
+  }
+  EXPECT_EQ(shared, spokes);
 }
 
 TEST(Prototype, AStiffnessOfZeroMeansNoSprings) {

@@ -77,7 +77,7 @@ TEST(InternalDamping, HasTheRateOfItsMaterial) {
 }
 
 /// A ball that rolls over the ground, after `frames`.
-double rolling_speed(double resistance, int frames) {
+Motion rolling(double resistance, int frames) {
   Material m = gas_ball();
   m.structural.stiffness = 2000;  // hardly flattened, so that the closed form holds
   m.bend.stiffness = 500;
@@ -89,8 +89,10 @@ double rolling_speed(double resistance, int frames) {
   scene.ground = Ground{0, 1};
   World world(scene, {});
   run(world, frames);
-  return motion(world, 0).velocity.x;
+  return motion(world, 0);
 }
+
+double rolling_speed(double resistance, int frames) { return rolling(resistance, frames).velocity.x; }
 
 TEST(RollingResistance, SlowsByItsClosedForm) {
   const double c = 0.05, free = rolling_speed(0, 120), slowed = rolling_speed(c, 120);
@@ -104,6 +106,7 @@ TEST(RollingResistance, SlowsByItsClosedForm) {
 TEST(RollingResistance, StopsABallAndNeverTurnsItBack) {
   for (const int frames : {60, 120, 180, 240, 300}) EXPECT_GT(rolling_speed(0.3, frames), -0.05);
   EXPECT_LT(rolling_speed(0.3, 240), 0.1);
+  EXPECT_LT(glm::length(rolling(0.3, 300).spin_momentum), 1e-3) << "nor to and fro";
   EXPECT_GT(rolling_speed(0.0, 240), 0.8);
 }
 

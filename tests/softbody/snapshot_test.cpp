@@ -99,6 +99,7 @@ TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   settings.tolerance *= 1.5f;
   settings.buckets = 17;
   world.set_collision(settings, false);
+  world.set_integrator("velocity-verlet", 40);
   run(world, 50);
   const Snapshot snapshot = world.snapshot();
   world.drop();
@@ -106,6 +107,9 @@ TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   World fresh(scene, {});
   fresh.restore(snapshot);
   EXPECT_EQ(fresh.method().key, collide::paper_method);
+  EXPECT_EQ(fresh.integrator().key, "velocity-verlet");
+  EXPECT_EQ(fresh.substeps(), 40);
+  EXPECT_EQ(fresh.time(), snapshot.time);
   EXPECT_EQ(fresh.collision(), world.collision());
   EXPECT_FALSE(fresh.uses_default_cell_size());
   fresh.drop();

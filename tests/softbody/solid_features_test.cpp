@@ -3,8 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
+#include "softbody/solid_features.h"
 #include "softbody/solids.h"
 #include "tests/softbody/helpers.h"
 
@@ -84,8 +87,8 @@ const Case cases[]{
      }},
     {"Edge",
      [](Scene& s) {
-       s.boxes = {box({0.4, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})};
-       s.boxes[0].centre = {0, -0.6, 0};
+       s.boxes = {box({0.6, 0.4, 2}, {1, 1, 0}, {-1, 1, 0})};
+       s.boxes[0].centre = {-0.1414, -0.7414, 0};
      }},
     {"Corner",
      [](Scene& s) {
@@ -100,6 +103,32 @@ const Case cases[]{
 };
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
+
+TEST(SolidBones, OfABoxAreItsCornersAndEdges) {
+  SolidBox b = box({0.7, 0.2, 0.4}, {1, 1.4, 0}, {-1, 1, 1});
+  b.centre = {0.5, 0.25, -0.5};
+  std::vector<glm::dvec3> corners;
+  int edges = 0;
+  for (const SolidBone& bone : bones_of(b)) {
+    int across = 0;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto along = [&](const glm::dvec3& v) { return glm::dot(v, b.axes[axis]); };
+      const double from = along(bone.from - b.centre), to = along(bone.to - b.centre);
+      EXPECT_NEAR(std::abs(from), b.half_size[axis], 1e-12);
+      EXPECT_NEAR(std::abs(to), b.half_size[axis], 1e-12);
+      EXPECT_NEAR(along(bone.out), (from > 0) - (to < 0), 1e-12) << "0 along an edge";
+      across += (from > 0) != (to > 0);
+    }
+    EXPECT_EQ(across, bone.point() ? 0 : 1);
+    if (bone.point()) {
+      for (const glm::dvec3& other : corners) EXPECT_GT(glm::distance(bone.from, other), 0.3);
+      corners.push_back(bone.from);
+    }
+    edges += !bone.point();
+  }
+  EXPECT_EQ(corners.size(), 8u);
+  EXPECT_EQ(edges, 12);
+}
 
 /// Between two vertices' places, on a sphere so small that no vertex meets it.
 double rebound(double restitution) {
@@ -128,6 +157,27 @@ TEST(SolidFeature, ThrowsBackByTheSolidsRestitution) {
     EXPECT_GT(speed, before + 1);
     EXPECT_LT(speed, soft + e * 8 * 1.05);
     before = speed;
+  }
+}
+
+/// By a sphere under its middle, with springs that are too weak to have a part in it.
+TEST(SolidFeature, ThrowsAFaceBackByTheSolidsRestitution) {
+  Material loose = spring_ball();
+  loose.structural = loose.bend = {1e-9, 0};
+  for (const double e : {0.0, 0.4, 0.8}) {
+    Scene scene = lone_body(loose, {0, -8, 0});
+    scene.bodies[0].position = {0, 0.3, 0};
+    scene.bodies[0].mesh = {.kind = "grid", .columns = 1, .rows = 1, .width = 1, .depth = 1.5};
+    scene.contact_surface = ContactSurface::surfaces;
+    const Mesh mesh = scene.bodies[0].mesh.make();
+    const Triangle& face = mesh.triangles[0];
+    const glm::dvec3 middle = (mesh.vertices[face[0]] + mesh.vertices[face[1]] + mesh.vertices[face[2]]) / 3.0;
+    scene.spheres = {{.centre = middle - glm::dvec3(0, 0.1, 0), .radius = 0.1, .friction = 0, .restitution = e}};
+    World world(scene, {});
+    run(world, 4);
+    double up = 0;
+    for (const Index corner : face) up += particles_of(world)[corner].velocity.y / 3;
+    EXPECT_NEAR(up, 8 * e, 0.01);
   }
 }
 

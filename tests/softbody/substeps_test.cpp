@@ -74,6 +74,22 @@ TEST(Substeps, CountTheStiffnessOfContacts) {
                                                                own + shield, p.spring_damping_bound / p.particle_mass));
 }
 
+/// A tenth of its radius in a substep, at most.
+TEST(Substeps, KeepUpWithABodyNearASolidHoweverSoftItIs) {
+  Material soft = spring_ball();
+  soft.structural.stiffness = soft.bend.stiffness = 0.1;
+  const auto substeps = [&](double height) {
+    Scene scene = lone_body(soft, {60, 0, 0});
+    scene.bodies[0].position = {0, height, 0};
+    scene.ground.emplace();
+    World world(scene, {.integrator = "semi-implicit-euler"});
+    world.step();
+    return world.profile().substeps;
+  };
+  EXPECT_EQ(substeps(0.6), 20);
+  EXPECT_LT(substeps(60), 5);
+}
+
 TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
   for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});

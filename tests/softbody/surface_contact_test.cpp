@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <set>
 
 #include "tests/softbody/surface_rig.h"
 
@@ -153,6 +154,17 @@ TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
   }
 }
 
+TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
+  Material thick = spring_ball();
+  thick.thickness = 0.05;
+  Scene scene = ball_in_space(thick);
+  scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
+  World world(scene, {});
+  run(world, 3);
+  EXPECT_FALSE(world.dynamics().surface_contact().search().features().empty());
+  EXPECT_LT(measure(world).max_speed, 1e-4);
+}
+
 TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   Scene scene = ball_in_space(rubber(0));
   add_body(scene, {0.8, 0.05, 0.02}, glm::dvec3(0.0));  // 0.4 R deep
@@ -171,6 +183,46 @@ TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   EXPECT_LT(measure(world).energy - energy, 0.5 * 2 * 1.0) << "no more than both at the push's speed have";
 }
 
+/// What is shown of a contact: its bodies, and the two closest points by the vertices' weights.
+TEST(SurfaceContact, TellsWhereBodiesTouch) {
+  Scene scene = ball_in_space(rubber());
+  add_body(scene, {0, 0, 1.02}, {0, 0, -1});
+  add_body(scene, {1.02, 0.2, 0}, {-1, 0, 0});
+  scene.bodies[2].mesh.subdivisions = 3;  // in a batch of its own
+  World world(scene, {});
+  run(world, 4);
+  std::set<std::pair<Index, Index>> met;
+  for (const SurfaceTouch& touch : world.dynamics().surface_contact().touches(world.bodies())) {
+    met.insert({std::min(touch.a, touch.b), std::max(touch.a, touch.b)});
+    glm::dvec3 apart(0.0);
+    for (std::size_t k = 0; k < 4; ++k) {
+      const BodyId body = world.vertex_body()[touch.vertex[k]];
+      if (std::abs(touch.weight[k]) > 1e-6f) {
+        EXPECT_EQ(body, touch.weight[k] > 0 ? touch.a : touch.b);
+      }
+      apart += double(touch.weight[k]) *
+               world.dynamics().particle(body, touch.vertex[k] - world.bodies().first[body]).position;
+    }
+    EXPECT_LT(glm::distance(apart, 0.005 * glm::dvec3(touch.normal)), 0.004);
+  }
+  EXPECT_EQ(met, (std::set<std::pair<Index, Index>>{{0, 1}, {0, 2}}));
+}
+
+TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
+  Scene scene = ball_in_space(rubber(), {0, -30, 0});
+  add_body(scene, {0.03, -1.3, 0.02}, glm::dvec3(0.0));
+  const auto rate = [&] {
+    World world(scene, {});
+    world.step();
+    return world.dynamics().surface_contact().rate();
+  };
+  const float alone = rate();
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
+  add_body(scene, {5, 1.003, 0}, {0, -0.1, 0});
+  EXPECT_GT(alone, 100);
+  EXPECT_FLOAT_EQ(rate(), alone);
+}
+
 /// Nearly all of each surface lies on the other one, so that hardly a vertex is deep.
 TEST(SurfaceContact, BodiesInOnePlaceComeApart) {
   for (const double offset : {0.0, 1e-5, 1e-3, 0.02}) {
@@ -183,16 +235,19 @@ TEST(SurfaceContact, BodiesInOnePlaceComeApart) {
   }
 }
 
-TEST(SurfaceContact, BodiesOfUnlikeMassThatStartFarInEachOtherPartWithoutMomentum) {
-  Scene scene = ball_in_space(rubber());
-  scene.materials.push_back(scene.materials[0]);
-  scene.materials[1].mass = 8;
-  add_body(scene, {0.2, 0.05, 0}, glm::dvec3(0.0));
-  scene.bodies[1].material = 1;
-  World world(scene, {});
-  run(world, 10);
-  EXPECT_GT(glm::length(motion(world, 0).velocity), 0.1) << "they part";
-  EXPECT_LT(glm::length(measure(world).momentum), 1e-4);
+TEST(SurfaceContact, BodiesOfUnlikeMassAndMeshThatStartFarInEachOtherPartWithoutMomentum) {
+  for (const int subdivisions : {1, 2, 3}) {  // of the heavy one
+    Scene scene = ball_in_space(rubber());
+    scene.materials.push_back(scene.materials[0]);
+    scene.materials[1].mass = 8;
+    add_body(scene, {0.2, 0.05, 0}, glm::dvec3(0.0));
+    scene.bodies[1].material = 1;
+    scene.bodies[1].mesh.subdivisions = subdivisions;
+    World world(scene, {});
+    run(world, 10);
+    EXPECT_GT(glm::length(motion(world, 0).velocity), 0.1) << "they part";
+    EXPECT_LT(glm::length(measure(world).momentum), 1e-4) << subdivisions;
+  }
 }
 
 TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {

@@ -28,7 +28,10 @@ class OneRow {
     place(0, {{0, y, 0}, {0.3, y + 1, 0.1}, {-0.2, y + 1, 0.2}}, impact.velocity);
     place(1, {{-1, 0, -1}, {1, 0, -1}, {0, 0, 2}}, glm::vec3(0));
     before_ = v;
-    solve();
+    find();
+    contact_.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
+    EXPECT_LE(contact_.rows(), 1u);
+    solve(h);
   }
   /// Of the vertex towards the point of the face below it.
   glm::dvec3 relative() const { return v.at(0, 0) - (v.at(0, 1) + v.at(1, 1) + v.at(2, 1)) / 3.0; }
@@ -44,6 +47,16 @@ class OneRow {
       }
     return {linear, angular};
   }
+  /// The row with the impulses that it starts another substep of `seconds` from.
+  ContactRow prepare(float seconds) {
+    contact_.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, seconds);
+    EXPECT_EQ(contact_.rows(), 1u);
+    return contact_.save().rows.at(0);
+  }
+  void solve(float seconds) {
+    contact_.solve(0, 1, std::as_const(x).field(), v.field(), seconds, [] {});
+  }
+  ContactRow row() const { return contact_.save().rows.at(0); }
   LaneField x{3}, v{3};
 
  private:
@@ -58,22 +71,20 @@ class OneRow {
     const std::vector<collide::surface::Edge> none;
     bodies_.add(std::make_shared<const collide::Shape>(3, none));
   }
-  void solve() {
-    const collide::surface::Surface triangle(3, {{0, 1, 2}});
-    const collide::surface::SurfaceBody traits{&triangle, reach, 0, 1, true};
+  void find() {
+    const collide::surface::SurfaceBody traits{&triangle_, reach, 0, 1, true};
     const auto body = [&](std::size_t lane, float inverse_mass, float restitution) {
-      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, impact_.friction, restitution};
+      const float friction = impact_.friction * (lane == 0 ? 0.5f : 2.0f);  // their geometric mean acts
+      return ContactBody{glm::dvec3(0.0), lane, lanes, inverse_mass, friction, restitution};
     };
     collide::Workers workers(1);
-    SurfaceContact contact;
-    contact.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
-                 {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
-                 {.seconds = h, .min_seconds = h}, h, workers);
-    contact.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
-    ASSERT_LE(contact.rows(), 1u);
-    contact.solve(0, 1, std::as_const(x).field(), v.field(), h, [] {});
+    contact_.find({{seen_[0], seen_[1], seen_[2], &bodies_}, speed_[0], speed_[1], speed_[2]}, {traits, traits},
+                  {body(0, impact_.inverse_a, impact_.restitution), body(1, impact_.inverse_b, impact_.restitution_b)},
+                  {.seconds = h, .min_seconds = h}, h, workers);
   }
 
+  const collide::surface::Surface triangle_{3, {{0, 1, 2}}};
+  SurfaceContact contact_;
   Impact impact_;
   LaneField before_{3};
   collide::Bodies bodies_;
@@ -138,6 +149,32 @@ TEST(SurfaceContactRow, PushesOverlapsOutAtATenthASubstep) {
   const double spring = OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y;
   EXPECT_GE(spring, 0.1 * double(beyond / OneRow::h) - 1e-3);
   EXPECT_LT(spring, double(SurfaceContact::push_speed));
+  const OneRow thrown_back({.gap = -depth, .velocity = {0, -1, 0}, .restitution = 0.01f});
+  EXPECT_GE(thrown_back.relative().y, 0.1 * double(beyond / OneRow::h) - 1e-3) << "no slower for its restitution";
+}
+
+/// Of a substep half as long, after which the face leans.
+TEST(SurfaceContactRow, StartsFromTheLastImpulses) {
+  for (const bool overlaps : {false, true}) {
+    OneRow row({.gap = overlaps ? -0.003f : 0.0001f, .velocity = {3, -5, 4}, .friction = 0.5f});
+    const ContactRow last = row.row();
+    ASSERT_GT(glm::length(last.drag), 0);
+    for (std::size_t i = 0; i < 3; ++i) row.x.set(i, 1, row.x.at(i, 1) + glm::dvec3(0, 0.2 * row.x.at(i, 1).x, 0));
+    const ContactRow next = row.prepare(OneRow::h / 2);
+    ASSERT_LT(next.normal.x, -0.1f);
+    const float share = 0.5f * (overlaps ? 0.8f : 1.0f);  // what pushes out is handed on in part
+    EXPECT_NEAR(next.pressed, share * last.pressed, 1e-6);
+    const glm::vec3 across = last.drag - glm::dot(last.drag, next.normal) * next.normal;
+    EXPECT_LT(glm::length(next.drag - share * across), 1e-6);
+  }
+}
+
+TEST(SurfaceContactRow, ThrowsBackOnceOnly) {
+  OneRow row({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution = 0.5f});
+  row.v.set(0, 0, row.v.at(0, 0) - glm::dvec3(0, 6, 0));  // what presses on it from above
+  row.prepare(OneRow::h);
+  row.solve(OneRow::h);
+  EXPECT_LT(row.relative().y, 0);
 }
 
 TEST(SurfaceContactRow, GivesNoMomentumInAll) {

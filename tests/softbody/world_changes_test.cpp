@@ -212,10 +212,7 @@ TEST(Drop, WorksInEverySceneAndTwentyComeSideBySideWithoutTouching) {
 
 TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
   Scene scene = test::lone_body(test::spring_ball());
-  scene.sleep = {0.05, 2};
   World world(scene, {});
-  test::run(world, 5);
-  ASSERT_TRUE(world.body(0).asleep);
   world.set_gravity({0, 0, 6});
   EXPECT_TRUE(world.plan().has(Stage::gravity));
   test::run(world, 30);
@@ -224,6 +221,30 @@ TEST(Changes, GravityActsFromTheNextFrameOnAndThePlanFollows) {
   EXPECT_FALSE(world.plan().has(Stage::gravity));
   test::run(world, 30);
   EXPECT_NEAR(test::motion(world, 0).velocity.z, 6 * 0.5, 1e-4);
+}
+
+TEST(Changes, WakeAllWhoSleep) {
+  Scene scene = test::lone_body(test::spring_ball());
+  scene.sleep = {0.05, 2};
+  const std::pair<const char*, void (*)(World&)> changes[]{
+      {"method", [](World& w) { w.set_method("brute-force"); }},
+      {"integrator", [](World& w) { w.set_integrator("rk4", std::nullopt); }},
+      {"collision", [](World& w) { w.set_collision(w.collision(), true); }},
+      {"contact surface", [](World& w) { w.set_contact_surface(ContactSurface::surfaces); }},
+      {"gravity",
+       [](World& w) {
+         w.set_gravity({0, 0, 6});
+       }},
+      {"material", [](World& w) { w.set_material(0, test::gas_ball()); }},
+      {"solids", [](World& w) { w.set_solids(Scene()); }},
+  };
+  for (const auto& [what, change] : changes) {
+    World world(scene, {});
+    test::run(world, 5);
+    ASSERT_TRUE(world.body(0).asleep);
+    change(world);
+    EXPECT_FALSE(world.body(0).asleep) << what;
+  }
 }
 
 TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
