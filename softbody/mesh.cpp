@@ -9,8 +9,6 @@
 namespace softbody {
 namespace {
 
-Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
-
 void sort_unique(std::vector<Edge>& edges) {
   std::sort(edges.begin(), edges.end());
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());

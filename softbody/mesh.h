@@ -1,6 +1,7 @@
 #pragma once
 // Surface meshes: where a soft body's particles and springs come from.
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <vector>
@@ -12,6 +13,8 @@ namespace softbody {
 using Index = std::uint32_t;
 using Edge = std::array<Index, 2>;      // i < j
 using Triangle = std::array<Index, 3>;  // counter-clockwise seen from outside
+
+inline Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 struct Mesh {
   std::vector<glm::dvec3> vertices;  // m, around the mesh's own origin

@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
-#include <unordered_map>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -14,46 +17,18 @@
 #include "softbody/polygon.h"
 #include "softbody/surface.h"
 #include "softbody/toml_text.h"
+#include "softbody/weld.h"
 
 namespace softbody {
 namespace {
 
 constexpr Index no_vertex = ~Index{0};
+constexpr const char* where_weld_is = "(in the window under Files, in a scene beside the mesh's path)";
 
 struct Box {
   glm::dvec3 lo{INFINITY}, hi{-INFINITY};
   void add(const glm::dvec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
   double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
-};
-
-/// Finds for each point the first one before it that is no further away than `distance`, by a grid of such cells.
-class Welder {
- public:
-  Welder(double distance, double extent) : distance_(distance), cell_(std::max(distance, 1e-9 * extent)) {}
-
-  /// The number of the point that this one is welded to: its own if there is none.
-  Index add(const glm::dvec3& point, Index number) {
-    const glm::dvec3 cell = glm::floor(point / cell_);
-    for (int n = 0; n < 27; ++n) {
-      const auto there = cells_.find(key(cell + glm::dvec3(n % 3 - 1, n / 3 % 3 - 1, n / 9 - 1)));
-      if (there == cells_.end()) continue;
-      for (const auto& [other, position] : there->second)
-        if (glm::distance(position, point) <= distance_) return other;
-    }
-    cells_[key(cell)].emplace_back(number, point);
-    return number;
-  }
-
- private:
-  /// Cells that share a key cost time only.
-  static std::uint64_t key(const glm::dvec3& cell) {
-    std::uint64_t h = 0;
-    for (int k = 0; k < 3; ++k) h = (h ^ static_cast<std::uint64_t>(std::int64_t(cell[k]))) * 0x9e3779b97f4a7c15u;
-    return h ^ (h >> 32);
-  }
-
-  double distance_, cell_;
-  std::unordered_map<std::uint64_t, std::vector<std::pair<Index, glm::dvec3>>> cells_;
 };
 
 /// The rotation by the shortest way that brings `up` to the y axis.
@@ -65,30 +40,21 @@ glm::dmat3 to_y(const glm::dvec3& up) {
   return glm::dmat3(1.0) + cross + cross * cross / (1 + u.y);
 }
 
-/// Equal for polygons of the same outline, wherever it begins and whichever way round it runs.
-std::vector<Index> outline_key(std::vector<Index> polygon) {
-  const auto from_least = [](std::vector<Index> corners) {
-    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
-    return corners;
-  };
-  std::vector<Index> reversed = from_least({polygon.rbegin(), polygon.rend()});
-  return std::min(from_least(std::move(polygon)), std::move(reversed));
-}
-
 class Importer {
  public:
   explicit Importer(const MeshFile& file) : file_(file), name_(file.path.string()) { require_sensible_file(); }
 
   ImportedMesh run() {
-    const ObjFile obj = read_obj_file(file_.path);
-    findings_.file_vertices = obj.x.size();
-    findings_.file_faces = obj.faces.size();
-    findings_.weights = obj.weights;
-    if (obj.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
-    place(obj);
-    weld();
-    obj.for_each_face([&](std::span<const Index> corners, std::uint64_t line) { add_polygon(corners, line); });
-    if (mesh_.triangles.empty()) fail("has no face with three different corners; lower weld, or check the export");
+    obj_ = read_obj_file(file_.path);
+    findings_.file_vertices = obj_.x.size();
+    findings_.file_faces = obj_.faces.size();
+    findings_.weights = obj_.weights;
+    if (obj_.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
+    place();
+    welded_to_ = weld(obj_, position_, file_.weld * findings_.extent);
+    for (Index v = 0; v < welded_to_.size(); ++v) findings_.welded_vertices += welded_to_[v] != v;
+    take_outlines();
+    cut_polygons();
     compact();
     orient_faces();
     connect_triangles(mesh_);
@@ -97,6 +63,9 @@ class Importer {
 
  private:
   [[noreturn]] void fail(const std::string& what) const { throw ObjError(name_ + ": " + what); }
+  [[noreturn]] void fail(std::uint64_t line, const std::string& what) const {
+    throw ObjError(name_ + ":" + std::to_string(line) + ": " + what);
+  }
 
   void require_sensible_file() const {
     std::error_code error;
@@ -107,15 +76,15 @@ class Importer {
   }
 
   /// Positions in metres around the middle of what the faces use.
-  void place(const ObjFile& obj) {
-    const std::size_t count = obj.x.size();
+  void place() {
+    const std::size_t count = obj_.x.size();
     std::vector<char> used(count, false);
-    for (const Index corner : obj.corners) used[corner] = true;
+    for (const Index corner : obj_.corners) used[corner] = true;
     findings_.unused_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), char(false)));
     const glm::dmat3 turn = to_y(file_.up);
     Box box;
     for (std::size_t i = 0; i < count; ++i) {
-      position_.push_back(turn * glm::dvec3(obj.x[i], obj.y[i], obj.z[i]));
+      position_.push_back(turn * glm::dvec3(obj_.x[i], obj_.y[i], obj_.z[i]));
       if (used[i]) box.add(position_.back());
     }
     findings_.file_extent = box.extent();
@@ -128,39 +97,39 @@ class Importer {
     findings_.extent = size;
     const glm::dvec3 middle = 0.5 * (box.lo + box.hi);
     for (glm::dvec3& p : position_) p = scale * (p - middle);
-    welded_to_.assign(count, no_vertex);
-    for (const Index corner : obj.corners) welded_to_[corner] = corner;
   }
 
-  void weld() {
-    Welder welder(file_.weld * findings_.extent, findings_.extent);
-    for (Index i = 0; i < welded_to_.size(); ++i) {
-      if (welded_to_[i] == no_vertex) continue;
-      welded_to_[i] = welder.add(position_[i], i);
-      if (welded_to_[i] != i) ++findings_.welded_vertices;
-    }
+  void take_outlines() {
+    outlines_ = outlines(obj_, welded_to_);
+    findings_.degenerate_faces = outlines_.degenerate_faces;
+    findings_.duplicate_faces = outlines_.duplicate_faces;
+    std::vector<char> used(position_.size(), false);
+    for (const Index v : outlines_.polygons.corners) used[v] = true;
+    const auto vertices = std::count(used.begin(), used.end(), char(true));
+    if (vertices > std::ptrdiff_t(max_imported_vertices))
+      fail("has " + std::to_string(vertices) + " vertices; at most " + std::to_string(max_imported_vertices) +
+           " are allowed: simplify the mesh first");
+    for (std::size_t p = 0; p < outlines_.face.size(); ++p)
+      if (const std::size_t corners = outlines_.polygons[p].size(); corners > max_polygon_corners)
+        fail(line_of(p), "a face of " + std::to_string(corners) + " corners; at most " +
+                             std::to_string(max_polygon_corners) + " are allowed: export triangles");
   }
 
-  void add_polygon(std::span<const Index> corners, std::uint64_t line) {
-    polygon_.clear();
-    for (const Index corner : corners)
-      if (const Index v = welded_to_[corner]; polygon_.empty() || polygon_.back() != v) polygon_.push_back(v);
-    while (polygon_.size() > 1 && polygon_.front() == polygon_.back()) polygon_.pop_back();
-    if (polygon_.size() > max_polygon_corners)
-      throw ObjError(name_ + ":" + std::to_string(line) + ": a face of " + std::to_string(polygon_.size()) +
-                     " corners; at most " + std::to_string(max_polygon_corners) + " are allowed: export triangles");
-    if (polygon_.size() < 3) return void(++findings_.degenerate_faces);
-    if (!outlines_.insert(outline_key(polygon_)).second) return void(++findings_.duplicate_faces);
-    outline_.clear();
-    for (const Index v : polygon_) outline_.push_back(position_[v]);
-    bool any = false;
-    for (const auto& [a, b, c] : triangulate(outline_)) {
-      const Triangle t{polygon_[a], polygon_[b], polygon_[c]};
-      if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) continue;  // of an outline that comes back to a vertex
-      mesh_.triangles.push_back(t);
-      any = true;
+  std::uint64_t line_of(std::size_t polygon) const { return obj_.faces[outlines_.face[polygon]].line; }
+
+  void cut_polygons() {
+    try {
+      Triangulation cut = triangulate(outlines_.polygons, position_);
+      mesh_.triangles = std::move(cut.triangles);
+      polygon_of_ = std::move(cut.polygon);
+    } catch (const PolygonError& error) {
+      fail(
+          line_of(error.polygon),
+          "a face that cannot be cut into triangles: each cut runs along an edge or a cut of other faces with the same "
+          "vertices; repair the mesh, or export triangles");
     }
-    if (!any) ++findings_.degenerate_faces;
+    if (mesh_.triangles.empty())
+      fail("has no face with three different corners; check the export, or lower weld " + std::string(where_weld_is));
   }
 
   /// Leaves out the vertices that no triangle has.
@@ -175,9 +144,6 @@ class Importer {
         }
         corner = number[corner];
       }
-    if (in_file_.size() > max_imported_vertices)
-      fail("has " + std::to_string(in_file_.size()) + " vertices; at most " + std::to_string(max_imported_vertices) +
-           " are allowed: simplify the mesh first");
   }
 
   void orient_faces() {
@@ -187,23 +153,49 @@ class Importer {
       findings_.turned_faces = found.turned_faces;
       findings_.closed = found.border_edges == 0;
     } catch (const SurfaceError& error) {
-      fail("the edge between vertices " + std::to_string(in_file_[error.edge[0]] + std::uint64_t{1}) + " and " +
-           std::to_string(in_file_[error.edge[1]] + std::uint64_t{1}) + " (counted from 1) " + error.what() +
-           "; repair the mesh, or change weld");
+      fail(reason(error));
     }
     const double cube = findings_.extent * findings_.extent * findings_.extent;
     if (findings_.closed && volume(mesh_.vertices, mesh_.triangles) < 1e-9 * cube)
       fail("is closed but holds no volume; leave out one of its sides, or give it thickness");
   }
 
+  /// What is wrong with the surface, by the file's lines and vertices.
+  std::string reason(const SurfaceError& error) const {
+    std::vector<std::size_t> faces;
+    for (const Index triangle : error.triangles) faces.push_back(outlines_.face[polygon_of_[triangle]]);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    const std::size_t first = faces.front(), listed = std::min(faces.size(), std::size_t{4});
+    std::string lines = (listed > 1 ? "lines " : "line ") + std::to_string(obj_.faces[first].line);
+    for (std::size_t i = 1; i < listed; ++i)
+      lines.append(i + 1 < listed ? ", " : " and ").append(std::to_string(obj_.faces[faces[i]].line));
+    const std::string what = error.triangles.size() == 2
+                                 ? "the surface "
+                                 : "the edge between vertices " + edge_in(first, error.edge) + " (counted from 1) ";
+    return what + error.what() + ": see " + lines + "; repair the mesh, or change weld " + where_weld_is;
+  }
+
+  /// The numbers, from 1, by which a face of the file names the ends of its side that became an edge of the mesh.
+  std::string edge_in(std::size_t face, const Edge& edge) const {
+    const std::size_t begin = face > 0 ? obj_.faces[face - 1].end : 0, end = obj_.faces[face].end;
+    const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
+    Edge ends = welded;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index a = obj_.corners[i], b = obj_.corners[i + 1 < end ? i + 1 : begin];
+      if (ordered(welded_to_[a], welded_to_[b]) == welded) ends = ordered(a, b);
+    }
+    return std::to_string(ends[0] + std::uint64_t{1}) + " and " + std::to_string(ends[1] + std::uint64_t{1});
+  }
+
   const MeshFile& file_;
   std::string name_;
+  ObjFile obj_;
   std::vector<glm::dvec3> position_;  // of each vertex of the file
-  std::vector<Index> welded_to_;      // vertex of the file; none: unused
-  std::vector<Index> polygon_;
-  std::set<std::vector<Index>> outlines_;  // outline_key() of each polygon so far
-  std::vector<glm::dvec3> outline_;
-  std::vector<Index> in_file_;  // of each vertex of the mesh
+  std::vector<Index> welded_to_;      // vertex of the file
+  Outlines outlines_;
+  std::vector<Index> polygon_of_;  // of each triangle
+  std::vector<Index> in_file_;     // of each vertex of the mesh
   Mesh mesh_;
   ImportFindings findings_;
 };

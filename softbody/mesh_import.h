@@ -12,7 +12,7 @@ namespace softbody {
 struct MeshFile {
   std::filesystem::path path{};
   double size = 0;         // m, largest extent that the mesh is brought to; 0: as large as the file has it, in metres
-  double weld = 1e-6;      // vertices no further apart than this times the largest extent become one
+  double weld = 1e-6;      // seams no wider than this times the largest extent are closed (weld.h)
   glm::dvec3 up{0, 1, 0};  // the file's direction that becomes y, of any length but 0
   bool operator==(const MeshFile&) const = default;
 };

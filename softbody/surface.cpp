@@ -1,6 +1,7 @@
 #include "softbody/surface.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace softbody {
 namespace {
@@ -58,7 +59,11 @@ class Orientation {
     for (std::size_t i = 0; i < sides.size();) {
       std::size_t end = i + 1;
       while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-      if (end - i > 2) throw SurfaceError("has more than two faces", sides[i].edge);
+      if (end - i > 2) {
+        std::vector<Index> there;
+        for (; i < end; ++i) there.push_back(sides[i].face);
+        throw SurfaceError("has more than two faces", sides[end - 1].edge, std::move(there));
+      }
       const Side &a = sides[i], &b = sides[end - 1];
       if (end - i == 1) {
         add(a.face, {});
@@ -84,7 +89,7 @@ class Orientation {
           turned_[n.face] = wanted;
           component.push_back(n.face);
         } else if (turned_[n.face] != wanted) {
-          throw SurfaceError("closes a surface that has only one side", n.edge);
+          throw SurfaceError("has only one side", n.edge, {face, n.face});
         }
       }
     }

@@ -2,6 +2,8 @@
 // Whether triangles form a surface, and which side of it is out.
 
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "softbody/mesh.h"
 
@@ -9,8 +11,10 @@ namespace softbody {
 
 /// The triangles are no surface that a body can have; what() says why.
 struct SurfaceError : std::runtime_error {
-  SurfaceError(const char* why, Edge where) : std::runtime_error(why), edge(where) {}
-  Edge edge;  // where it shows
+  SurfaceError(const char* why, Edge where, std::vector<Index> there)
+      : std::runtime_error(why), edge(where), triangles(std::move(there)) {}
+  Edge edge;                     // where it shows
+  std::vector<Index> triangles;  // that have it: two if the surface has one side, else more
 };
 
 struct SurfaceFindings {

@@ -128,7 +128,7 @@ void Import::open(Session& session) {
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
-  softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}};
+  softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   read(std::move(mesh));
 }

@@ -47,11 +47,13 @@ class Import {
     std::vector<std::string> lines;
     bool refused = false;
   };
-  static constexpr float least_size = 0.05f, most_size = 20;  // m
+  static constexpr float least_size = 0.05f, most_size = 20;   // m
+  static constexpr double least_weld = 1e-7, most_weld = 0.1;  // times a mesh's size
 
-  std::string path;      // OBJ or TOML
-  float size = 1;        // m, the largest extent that a mesh is scaled to
-  bool z_is_up = false;  // in the file; else y is
+  std::string path;                         // OBJ or TOML
+  float size = 1;                           // m, the largest extent that a mesh is scaled to
+  double weld = softbody::MeshFile{}.weld;  // times the size: see there
+  bool z_is_up = false;                     // in the file; else y is
 
   /// A scene of this path replaces the present one as soon as it is read, a mesh joins it.
   void load(Session& session);

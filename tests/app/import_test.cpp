@@ -150,10 +150,13 @@ TEST_F(Importing, TwoOfAKindShareTheMaterialAndAreGoneAfterAReset) {
 }
 
 TEST_F(Importing, ASavedSceneHasTheMesh) {
+  import.weld = 0.001;
   load(folder.write("ball.obj", obj_of({.bump = 0.1})));
   session.save_scene(folder.path() / "with mesh.toml", {});
   ASSERT_EQ(session.notice(), "");
-  Session again(softbody::load_scene(folder.path() / "with mesh.toml"), {}, 1);
+  const softbody::Scene saved = softbody::load_scene(folder.path() / "with mesh.toml");
+  EXPECT_EQ(saved.bodies.back().mesh.file.weld, 0.001);
+  Session again(saved, {}, 1);
   for (Session* each : {&session, &again})
     for (int i = 0; i < 20; ++i) each->advance(tick);
   EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
@@ -228,10 +231,12 @@ TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
     std::filesystem::path file;
     const char* says;
   };
-  const std::vector<Case> cases{
-      {folder.write("fan.obj", fan), "more than two faces"},  {folder.write("points.obj", "v 0 0 0\n"), "no face"},
-      {folder.path() / "none.obj", "cannot be read"},         {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},
-      {folder.write("bad.toml", "name = 1\n"), "bad.toml:1"}, {folder.write("model.stl", "solid\n"), "neither a mesh"}};
+  const std::vector<Case> cases{{folder.write("fan.obj", fan), "change weld (in the window under Files"},
+                                {folder.write("points.obj", "v 0 0 0\n"), "no face"},
+                                {folder.path() / "none.obj", "cannot be read"},
+                                {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},
+                                {folder.write("bad.toml", "name = 1\n"), "bad.toml:1"},
+                                {folder.write("model.stl", "solid\n"), "neither a mesh"}};
   for (const auto& [file, says] : cases) {
     load(file);
     EXPECT_TRUE(refused()) << file;

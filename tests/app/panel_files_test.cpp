@@ -36,6 +36,31 @@ TEST(FilesPanel, LoadsWhatIsNamed) {
   EXPECT_NE(rig.ui.import.report().front().lines.front().find("/none.obj"), std::string::npos);
 }
 
+TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
+  const TemporaryFolder folder;
+  const auto mesh = folder.write("slit.obj",
+                                 "v 0 0 0\nv 1 0 0\nv 0 0 1\nv 0 1 0\nv 0.01 0 0\nv 1.01 0 0\n"
+                                 "f 1 2 3\nf 1 3 4\nf 3 2 4\nf 5 4 6\n");
+  PanelRig rig;
+  open_only(rig, "Files");
+  const auto drop_and_see_if_closed = [&] {
+    const std::size_t before = rig.session.world().bodies().count();
+    rig.ui.import.drop({mesh.string()}, rig.session);
+    for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
+    return rig.session.world().prototype(rig.session.world().bodies().count() - 1).mesh.closed;
+  };
+  EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
+  EXPECT_FALSE(drop_and_see_if_closed());
+  rig.drag("Weld distance", -2000);
+  EXPECT_EQ(rig.ui.import.weld, Import::least_weld);
+  rig.drag("Weld distance", 2000);
+  EXPECT_EQ(rig.ui.import.weld, Import::most_weld);
+  rig.double_click("Weld distance");
+  rig.type("2");
+  EXPECT_EQ(rig.ui.import.weld, 0.02) << "a hundredth of what is typed, no more digits";
+  EXPECT_TRUE(drop_and_see_if_closed());
+}
+
 TEST(FilesPanel, ShowsTheVerdictOnEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);

@@ -2,7 +2,17 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
 #include <glm/geometric.hpp>
+#include <initializer_list>
+#include <map>
+#include <random>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "softbody/polygon.h"
 #include "tests/softbody/helpers.h"
@@ -75,6 +85,156 @@ TEST(Polygon, WhatCrossesItselfOrHasNoAreaIsCutAllTheSame) {
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 1, 0}, {1, 0, 0}, {0, 1, 0}}).size(), 2u);
   EXPECT_EQ(triangulate(Polygon{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {1.5, 0, 0}}).size(), 3u);
   EXPECT_EQ(triangulate(Polygon(7, glm::dvec3(1.0))).size(), 5u);
+}
+
+Polygons polygons(const std::vector<std::vector<Index>>& each) {
+  Polygons all;
+  for (const auto& corners : each) {
+    all.corners.insert(all.corners.end(), corners.begin(), corners.end());
+    all.ends.push_back(all.corners.size());
+  }
+  return all;
+}
+
+std::size_t most_faces_at_an_edge(const std::vector<Triangle>& triangles) {
+  std::map<Edge, std::size_t> faces;
+  std::size_t most = 0;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) most = std::max(most, ++faces[ordered(t[k], t[(k + 1) % 3])]);
+  return most;
+}
+
+/// That the triangles of each polygon are as many as they have to be, and have its sides.
+void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vertices, std::size_t most_faces = 2) {
+  const auto [triangles, polygon] = triangulate(polygons(each), vertices);
+  ASSERT_EQ(triangles.size(), polygon.size());
+  EXPECT_EQ(most_faces_at_an_edge(triangles), most_faces);
+  for (std::size_t p = 0; p < each.size(); ++p) {
+    EXPECT_EQ(std::count(polygon.begin(), polygon.end(), p), std::ptrdiff_t(each[p].size() - 2));
+    for (std::size_t i = 0; i < each[p].size(); ++i) {
+      const Index a = each[p][i], b = each[p][(i + 1) % each[p].size()];
+      int found = 0;
+      for (std::size_t t = 0; t < triangles.size(); ++t)
+        for (std::size_t k = 0; k < 3 && polygon[t] == p; ++k)
+          found += triangles[t][k] == a && triangles[t][(k + 1) % 3] == b;
+      EXPECT_EQ(found, 1) << "of polygon " << p << " from " << a << " to " << b;
+    }
+  }
+}
+
+TEST(Polygons, ThatShareThreeCornersAreCutApart) {
+  const Polygon tent{{0, 0, 0}, {1, -.2, .5}, {0, 0, 1}, {0, 1.5, .5}, {-1, -.2, .5}};
+  expect_cut({{0, 3, 2, 1}, {0, 4, 2, 3}}, tent);
+  expect_cut({{0, 4, 2, 3}, {0, 3, 2, 1}}, tent);
+}
+
+TEST(Polygons, AreNotCutAlongASideOfAnother) {
+  const Polygon roof{{0, 0, 0}, {1, 0, 1}, {0, 0, 1}, {-1, 0, 1}, {0, 3, 0}};
+  expect_cut({{0, 1, 2, 3}, {0, 2, 4}}, roof);
+  expect_cut({{4, 0, 2}, {0, 1, 2, 3}}, roof);
+}
+
+TEST(Polygons, WithTheSameCornersAreCutApart) {
+  for (const Index corners : {4u, 5u, 12u, 60u}) {
+    Polygon vertices;
+    std::vector<Index> there, back;
+    for (Index i = 0; i < corners; ++i) {
+      const double angle = 6.28 * i / corners;
+      vertices.emplace_back(std::cos(angle), std::sin(angle), 0.1 * (i % 2));
+      there.push_back(i);
+      back.insert(back.begin(), i);
+    }
+    expect_cut({there, back}, vertices);
+  }
+}
+
+TEST(Polygons, AConcaveOneKeepsTheOnlyRightCut) {
+  const Polygon vertices{{0, 0, 0}, {2, 0, 0}, {0.5, 0, -0.5}, {0, 0, -2}, {1, 1, 0}, {-1, 1, -1}};
+  const std::vector<Index> arrowhead{0, 1, 2, 3}, kite{0, 4, 2, 5};
+  for (const auto& both : {std::vector{arrowhead, kite}, {kite, arrowhead}}) {
+    expect_cut(both, vertices);
+    const auto [triangles, polygon] = triangulate(polygons(both), vertices);
+    for (std::size_t t = 0; t < triangles.size(); ++t) {
+      const auto& [a, b, c] = triangles[t];
+      if (both[polygon[t]] == kite) continue;
+      EXPECT_GT(area_vector({vertices[a], vertices[b], vertices[c]}).y, 0) << "none is turned over";
+    }
+  }
+}
+
+TEST(Polygons, ThatDoNotMeetAreCutAsEachByItself) {
+  std::mt19937 random(11);
+  std::vector<std::vector<Index>> each;
+  Polygon vertices;
+  for (int i = 0; i < 200; ++i) {
+    each.emplace_back();
+    for (int k = 0; k < 3 + i % 6; ++k) {
+      each.back().push_back(static_cast<Index>(vertices.size()));
+      vertices.push_back(random_vector(random, 1));
+    }
+  }
+  const auto [triangles, polygon] = triangulate(polygons(each), vertices);
+  std::size_t t = 0;
+  for (std::size_t p = 0; p < each.size(); ++p) {
+    Polygon corners;
+    for (const Index v : each[p]) corners.push_back(vertices[v]);
+    for (const auto& [a, b, c] : triangulate(corners)) {
+      EXPECT_EQ(polygon[t], p);
+      EXPECT_EQ(triangles[t++], (Triangle{each[p][a], each[p][b], each[p][c]}));
+    }
+  }
+}
+
+/// Whether cuts of quads can all differ and run along no side: both cuts of each are tried.
+bool can_be_cut(const std::vector<std::vector<Index>>& quads, const std::set<Edge>& used, std::size_t first = 0) {
+  if (first == quads.size()) return true;
+  for (const std::size_t from : {0u, 1u}) {
+    std::set<Edge> now = used;
+    if (now.insert(ordered(quads[first][from], quads[first][from + 2])).second && can_be_cut(quads, now, first + 1))
+      return true;
+  }
+  return false;
+}
+
+TEST(Polygons, QuadsAreCutIfTheyCanBe) {
+  std::mt19937 random(3);
+  int cut = 0, not_cut = 0;
+  for (int round = 0; round < 2000; ++round) {
+    Polygon vertices;
+    for (int v = 0; v < 9; ++v) vertices.push_back(random_vector(random, 1));
+    std::vector<std::vector<Index>> quads;
+    std::set<Edge> sides;
+    for (int q = 0; q < 9; ++q) {
+      std::vector<Index> corners{0, 1, 2, 3, 4, 5, 6, 7, 8};
+      std::shuffle(corners.begin(), corners.end(), random);
+      corners.resize(4);
+      if (std::ranges::any_of(std::array{0, 1, 2, 3}, [&](int i) {
+            return sides.contains(ordered(corners[std::size_t(i)], corners[std::size_t(i + 1) % 4]));
+          }))
+        continue;  // each side has one face, so that any edge with more is a cut's
+      quads.push_back(corners);
+      for (std::size_t i = 0; i < 4; ++i) sides.insert(ordered(corners[i], corners[(i + 1) % 4]));
+    }
+    if (can_be_cut(quads, sides)) {
+      expect_cut(quads, vertices);
+      ++cut;
+    } else {
+      EXPECT_THROW(triangulate(polygons(quads), vertices), PolygonError);
+      ++not_cut;
+    }
+  }
+  EXPECT_GT(cut, 100);
+  EXPECT_GT(not_cut, 100);
+}
+
+TEST(Polygons, OneThatCannotBeCutIsNamed) {
+  const Polygon vertices(4, glm::dvec3(0.0));
+  try {
+    triangulate(polygons({{0, 1, 2}, {1, 3, 2}, {0, 1, 3, 2}, {0, 2, 3, 1}, {0, 3, 1}}), vertices);
+    FAIL() << "was cut";
+  } catch (const PolygonError& error) {
+    EXPECT_TRUE(error.polygon == 2 || error.polygon == 3) << error.polygon;
+  }
 }
 
 }  // namespace

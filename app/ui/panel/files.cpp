@@ -2,6 +2,7 @@
 // curves.
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "app/render/palette.h"
@@ -39,6 +40,15 @@ void draw_import(Widgets& w, Session& session, Import& import) {
            true);
   ImGui::SameLine();
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
+  w.row("Weld", w.px(narrow_column));
+  auto percent = static_cast<float>(100 * import.weld);
+  if (w.slider(
+          "Weld distance", percent, static_cast<float>(100 * Import::least_weld),
+          static_cast<float>(100 * Import::most_weld), "%.5f %% of the size",
+          "Vertices of the next mesh that are no further apart become one, so that seams close. Raise it if a mesh "
+          "that should be closed is open; lower it if what should be apart is joined.",
+          true))
+    import.weld = std::round(1e5 * double{percent}) / 1e7;  // as it shows
 }
 
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
