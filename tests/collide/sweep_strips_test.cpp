@@ -32,20 +32,20 @@ TEST_P(StripKernel, BoxesAreThoseOfPlainLoops) {
         }
         boxes.radius[i] = radius(i);
       }
-      const float reach = 0.2f;
+      const float cutoff = 0.2f;
       for (Index i = 0; i < size; ++i) {
         const Index begin = random_() % (size + 1), end = begin + random_() % (size + 1 - begin);
         std::vector<Index> expected, found{77};
         Index near_box_pairs = 0;
         for (Index j = begin; j < end; ++j) {
-          if (!near(all[i], all[j], reach)) continue;
+          if (!near(all[i], all[j], cutoff)) continue;
           ++near_box_pairs;
           const glm::vec3 d = centre(j) - centre(i);
-          const float reached = radius(i) + radius(j) + reach;
+          const float reached = radius(i) + radius(j) + cutoff;
           if (d.x * d.x + d.y * d.y + d.z * d.z <= reached * reached * 1.000003f) expected.push_back(j);
         }
         expected.insert(expected.begin(), 77);
-        EXPECT_EQ(sweep_strip(boxes, i, begin, end, reach, found), near_box_pairs);
+        EXPECT_EQ(sweep_strip(boxes, i, begin, end, cutoff, found), near_box_pairs);
         EXPECT_EQ(found, expected);
       }
     }
@@ -53,9 +53,9 @@ TEST_P(StripKernel, BoxesAreThoseOfPlainLoops) {
 }
 
 TEST_P(StripKernel, LosesNoSpheresThatJustTouchToRounding) {
-  constexpr float reach = 0.2f;
+  constexpr float cutoff = 0.2f;
   for (int trial = 0; trial < 100; ++trial) {
-    StripBoxes boxes;
+    SweepStrips boxes;
     boxes.resize(2);
     const std::vector<glm::vec3> centre = random_points(random_, 2, -3, 3);
     const glm::dvec3 d = glm::dvec3(centre[1]) - glm::dvec3(centre[0]);
@@ -66,10 +66,10 @@ TEST_P(StripKernel, LosesNoSpheresThatJustTouchToRounding) {
         const float at = centre[i][static_cast<int>(axis)];
         boxes.lo[axis][i] = at - 3, boxes.centre[axis][i] = at, boxes.hi[axis][i] = at + 3;
       }
-      boxes.radius[i] = round_up((apart - double{reach}) / 2);
+      boxes.radius[i] = round_up((apart - double{cutoff}) / 2);
     }
     std::vector<Index> found;
-    sweep_strip(boxes, 0, 1, 2, reach, found);
+    sweep_strip(boxes, 0, 1, 2, cutoff, found);
     ASSERT_EQ(found, std::vector<Index>{1}) << trial;
   }
 }
