@@ -1,6 +1,6 @@
 #pragma once
-// A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; the README documents the
-// format.
+// A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; assets/scenes/README.md
+// documents the format.
 
 #include <array>
 #include <filesystem>
