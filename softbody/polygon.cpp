@@ -1,6 +1,7 @@
 #include "softbody/polygon.h"
 
 #include <algorithm>
+#include <cassert>
 #include <compare>
 #include <cstdint>
 #include <iterator>
@@ -136,8 +137,10 @@ class Auction {
  public:
   Auction(const Polygons& polygons, std::span<const glm::dvec3> vertices)
       : polygons_(polygons), vertices_(vertices), triangles_(polygons.corners.size() - 2 * polygons.size()) {
-    for (std::size_t p = 0; p < polygons.size(); ++p)
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+      assert(polygons[p].size() >= 3);
       for (const Edge& side : sides_of(p)) sides_.push_back(side);
+    }
     std::sort(sides_.begin(), sides_.end());
   }
 

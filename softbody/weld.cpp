@@ -1,6 +1,7 @@
 #include "softbody/weld.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <compare>
 #include <cstdint>
@@ -282,6 +283,7 @@ Outlines outlines(const ObjFile& file, std::span<const Index> welded_to) {
 }
 
 std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> positions, double distance) {
+  assert(distance >= 0 && positions.size() == file.x.size());
   std::vector<char> used(positions.size(), false);
   double reach = 0;
   for (const Index corner : file.corners) {
