@@ -2,6 +2,8 @@
 
 #include "collide/pair_kernels.h"
 
+#include <stdexcept>
+
 #include "collide/reach.h"
 #include "every_target.h"
 

@@ -2,6 +2,7 @@
 
 #include "collide/surface_oracle.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 
