@@ -2,10 +2,10 @@
 
 root=$(CDPATH='' cd -- "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)
 
-# What the program is built from and runs on (Debian 12, Ubuntu 24.04).
-program_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libglew-dev libglm-dev libimgui-dev libgl-dev libegl-dev
-  libgl1-mesa-dri libpng-dev libhwy-dev libgmp-dev libeigen3-dev libtomlplusplus-dev libcli11-dev nlohmann-json3-dev fonts-inter
-  gnuplot-nox)
+# What the program is built from and runs on (Debian 12 and 13, Ubuntu 24.04).
+program_packages=(g++ cmake ninja-build pkg-config libglfw3-dev libglew-dev libglm-dev libimgui-dev libgl-dev
+  libegl-dev libgl1-mesa-dri libdecor-0-plugin-1-cairo libpng-dev libhwy-dev libgmp-dev libeigen3-dev
+  libtomlplusplus-dev libcli11-dev nlohmann-json3-dev fonts-inter gnuplot-nox)
 
 say() { printf '%s\n' "$*" >&2; }
 fail() { say "$*"; exit 2; }
@@ -35,8 +35,11 @@ install_missing() {
 build() {
   local preset=$1 target=$2
   shift 2
-  mkdir -p "$root/build/$preset"
-  local log=$root/build/$preset/build.log
+  local folder=$root/build/$preset
+  mkdir -p "$folder"
+  local log=$folder/build.log cache=$folder/CMakeCache.txt
+  # CMake refuses a folder that it set up for other sources: those from before a checkout was moved or copied with it.
+  [ ! -e "$cache" ] || [ "$(sed -n 's/^CMAKE_HOME_DIRECTORY:INTERNAL=//p' "$cache")" -ef "$root" ] || set -- --fresh "$@"
   say "Building into build/$preset (the first time takes some minutes) ..."
   if ! (cd "$root" && cmake --preset "$preset" "$@" && cmake --build "build/$preset" --target "$target") >"$log" 2>&1; then
     tail -n 60 "$log" >&2

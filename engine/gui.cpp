@@ -39,11 +39,24 @@ void feed_wheel(ImGuiIO& io, float steps) {
 
 void feed_key(GLFWwindow* window, const KeyEvent& event) {
 #if IMGUI_VERSION_NUM >= 18700
-  const int key = event.key;  // the backend asks for the letter on it
+  // The backend asks for the letter on the key, and for the modifiers of now; GLFW tells those of the event, less what
+  // it changes itself.
+  ImGui_ImplGlfw_KeyCallback(window, event.key, event.scancode, event.action, event.mods);
+  struct Modifier {
+    ImGuiKey of_imgui;
+    int bit, left, right;
+  };
+  for (const Modifier& m : {Modifier{ImGuiMod_Ctrl, GLFW_MOD_CONTROL, GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL},
+                            Modifier{ImGuiMod_Shift, GLFW_MOD_SHIFT, GLFW_KEY_LEFT_SHIFT, GLFW_KEY_RIGHT_SHIFT},
+                            Modifier{ImGuiMod_Alt, GLFW_MOD_ALT, GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT},
+                            Modifier{ImGuiMod_Super, GLFW_MOD_SUPER, GLFW_KEY_LEFT_SUPER, GLFW_KEY_RIGHT_SUPER}}) {
+    const bool itself = event.key == m.left || event.key == m.right;
+    ImGui::GetIO().AddKeyEvent(m.of_imgui, itself ? event.action != GLFW_RELEASE : (event.mods & m.bit) != 0);
+  }
 #else
   const int key = event.meaning.key;  // Ctrl+A is the A on the key
-#endif
   ImGui_ImplGlfw_KeyCallback(window, key, event.scancode, event.action, event.mods);
+#endif
 }
 
 }  // namespace
@@ -79,6 +92,11 @@ void Gui::create(const std::filesystem::path& settings) {
   ImGui::CreateContext();
   settings_ = settings.string();
   ImGui::GetIO().IniFilename = settings_.empty() ? nullptr : settings_.c_str();
+#if IMGUI_VERSION_NUM >= 18700
+  // InputQueue spreads input over frames, for older versions too; after a queue of ImGui's own nobody would know who
+  // gets what is typed.
+  ImGui::GetIO().ConfigInputTrickleEventQueue = false;
+#endif
 }
 
 // ImGui's units are screen coordinates; the font is made of framebuffer pixels, so that it stays sharp.
@@ -104,11 +122,9 @@ void Gui::begin_frame() {
 void Gui::take_input() {
   ImGuiIO& io = ImGui::GetIO();
   const bool typing = wants_keyboard();
-#if IMGUI_VERSION_NUM >= 18700
-  glm::vec2 mouse = window_->cursor() / window_->pixel_ratio();  // its backend wants to be told
-#else
-  glm::vec2 mouse(io.MousePos.x, io.MousePos.y);
-#endif
+  glm::vec2 mouse(-FLT_MAX);  // over another window
+  if (glfwGetWindowAttrib(window_->handle(), GLFW_FOCUSED) || glfwGetWindowAttrib(window_->handle(), GLFW_HOVERED))
+    mouse = window_->cursor() / window_->pixel_ratio();
   const std::vector<InputEvent> told = window_->take_input();
   for (const KeyPress& press : key_reader_.read(told))
     if (!typing) key_presses_.push_back(press);

@@ -31,7 +31,8 @@ fs::path find_folder(std::string_view name) {
   }
   const fs::path here = executable_folder();
   std::string tried;
-  for (const fs::path& base : {here, here / "../share/sbcollide", fs::path(SBCOLLIDE_SOURCE_DIR)}) {
+  // A checkout that was moved or copied has its own build/PRESET/bin, where the name of another is compiled in.
+  for (const fs::path& base : {here, here / "../share/sbcollide", here / "../../..", fs::path(SBCOLLIDE_SOURCE_DIR)}) {
     fs::path folder = (base / name).lexically_normal();
     if (is_folder(folder)) return folder;
     tried += (tried.empty() ? "" : ", ") + folder.string();

@@ -14,8 +14,8 @@ class ResourceError : public std::runtime_error {
 };
 
 /// The folder `name` ("shaders", "assets"), whatever the working directory: inside $SBCOLLIDE_DATA if that is set, else
-/// beside the executable, else in ../share/sbcollide of it, else in the source folder of the build. Throws
-/// ResourceError.
+/// beside the executable, else in ../share/sbcollide of it, else in the checkout whose build/PRESET/bin it lies in,
+/// else in the source folder that it was built from. Throws ResourceError.
 std::filesystem::path find_folder(std::string_view name);
 
 }  // namespace engine

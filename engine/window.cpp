@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cstdlib>
 #include <thread>
 #include <utility>
 
@@ -20,6 +21,13 @@ std::string last_glfw_error() {
   glfwGetError(&text);
   return text != nullptr ? text : "unknown reason";
 }
+
+#ifdef GLFW_PLATFORM
+bool is_absolute_path(const char* variable) {
+  const char* value = std::getenv(variable);
+  return value != nullptr && *value == '/';
+}
+#endif
 
 glm::ivec2 fitting_size(glm::ivec2 wanted) {
   glm::ivec2 origin(0), area(0);
@@ -49,6 +57,11 @@ void set_hints(const WindowOptions& options) {
 }  // namespace
 
 Window::Window(const WindowOptions& options) {
+#ifdef GLFW_PLATFORM
+  // Where no socket of Wayland's can be, its library would say so on standard error before GLFW turned to X11.
+  if (!is_absolute_path("XDG_RUNTIME_DIR") && !is_absolute_path("WAYLAND_DISPLAY"))
+    glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
+#endif
   if (!glfwInit()) {
     throw Unavailable("cannot open a window: " + last_glfw_error() +
                       "; start it in a desktop session (DISPLAY or WAYLAND_DISPLAY set), or use 'simulate'");

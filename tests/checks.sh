@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # What takes longer than a commit should wait: other compilers and builds, sanitizers, coverage, long soaks and fuzzing.
 # Usage: tests/checks.sh NAME...     with names of the list below, or all
-#   ci-clang   clang++, each file on its own (what one lacks shows only here), warnings are errors, all tests
+#   ci-clang   clang++, each file and header on its own (what one lacks shows only here), warnings are errors, all tests
 #   headless   without any graphics package, all tests
 #   asan       address and undefined-behaviour sanitizers, all tests
 #   tsan       thread sanitizer, all tests
@@ -9,9 +9,11 @@
 #   soak       ten minutes of every scene, changed at random every simulated second; a bounded one is among the tests of
 #              every preset with graphics, those with sanitizers included
 #   fuzz       five minutes of every fuzz target
+#   debian-12  README's two commands in a new root of that Debian below build/, without a display; needs to be root
+#   debian-13  the same
 set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
-all=(ci-clang headless asan tsan coverage soak fuzz)
+all=(ci-clang headless asan tsan coverage soak fuzz debian-12 debian-13)
 
 usage() { fail "Usage: tests/checks.sh NAME...   with names of: ${all[*]}, or all"; }
 
@@ -68,11 +70,45 @@ fuzz() {
   done
 }
 
+# make_root SUITE FOLDER: a system of that Debian with nothing but these sources, from where apt gets this one's packages.
+make_root() {
+  [ "$(id -u)" -eq 0 ] || fail "Only root can make a root folder: run this as root"
+  install_missing debootstrap
+  command -v debootstrap >/dev/null || fail "debootstrap is missing: install it"
+  rm -rf --one-file-system "$2"
+  mkdir -p "$2/sbcollide"
+  local mirror
+  mirror=$(apt-get indextargets --format '$(REPO_URI)' 'Origin: Debian' 'Created-By: Packages' | head -n 1)
+  # Apart, so that nothing that it mounts stays if it is stopped.
+  unshare --mount debootstrap --variant=minbase "$1" "$2" ${mirror:+"$mirror"} >"$2.log" ||
+    fail "debootstrap failed; the whole log is $2.log"
+  apt-config dump | grep '^Acquire::' >"$2/etc/apt/apt.conf.d/90host"
+  tar -C "$root" --exclude=./build --exclude=./out --exclude=./.git -c . | tar -C "$2/sbcollide" -x
+}
+
+# in_root FOLDER COMMAND...: with its own processes, which end with it, and of the environment only the way to packages:
+# so without a display.
+in_root() {
+  local folder=$1
+  shift
+  env -i HOME=/root PATH=/usr/sbin:/usr/bin:/sbin:/bin $(env | grep -i '^https\?_proxy=') \
+    unshare --mount --pid --fork --kill-child --root="$folder" --mount-proc "$@"
+}
+
+# debian NAME SUITE
+debian() {
+  local folder=$root/build/$1
+  step "$1: root" make_root "$2" "$folder" && step "$1: app" in_root "$folder" /sbcollide/app/run.sh &&
+    step "$1: tests" in_root "$folder" /sbcollide/tests/run.sh
+}
+
 check() {
   case $1 in
     ci-clang) install_missing clang && build_and_test ci-clang ;;
     headless | asan | tsan) build_and_test "$1" ;;
     coverage | soak | fuzz) "$1" ;;
+    debian-12) debian "$1" bookworm ;;
+    debian-13) debian "$1" trixie ;;
     *) usage ;;
   esac
 }

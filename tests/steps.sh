@@ -20,6 +20,12 @@ step() {
   return $status
 }
 
+# leave_out NAME WHY: notes that a part cannot run here.
+leave_out() {
+  say "== $1: left out: $2"
+  step_table+=$(printf '%-18s %7s  left out: %s' "$1" "" "$2")$'\n'
+}
+
 # The table, and the script's exit status.
 finish() {
   printf '\n%s%-18s %5d s\n' "$step_table" "all" $SECONDS

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <barrier>
 #include <condition_variable>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <optional>

@@ -153,7 +153,7 @@ TEST(Errors, PicturesWithoutOpenGLAreRefusedBeforeAnythingIsWritten) {
 }
 
 TEST(Errors, TheDemoWithoutADisplaySaysWhatToDo) {
-  expect_refused({}, {"window", "DISPLAY", "simulate"}, {"DISPLAY=", "WAYLAND_DISPLAY=none"});
+  expect_refused({}, {"window", "DISPLAY", "simulate"}, {"DISPLAY=", "WAYLAND_DISPLAY=none", "XDG_RUNTIME_DIR="});
 }
 
 TEST(Errors, TheWindowTakesNoLengthThatASceneFileRefuses) {

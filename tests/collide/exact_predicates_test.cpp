@@ -6,6 +6,9 @@
 #include <gmpxx.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+
 #include "states.h"
 
 namespace collide::test {

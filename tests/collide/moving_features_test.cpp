@@ -1,5 +1,6 @@
 #include "collide/oracle/moving_features.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <gtest/gtest.h>

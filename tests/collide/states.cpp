@@ -1,5 +1,6 @@
 #include "states.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>

@@ -3,6 +3,7 @@
 
 #include "collide/oracle/surface_oracle.h"
 
+#include <algorithm>
 #include <limits>
 #include <stdexcept>
 

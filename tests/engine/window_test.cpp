@@ -134,6 +134,21 @@ TEST_F(InputTest, KeysAfterAClickOfOnePollAreForWhatItChose) {
   EXPECT_STREQ(text.data(), "34");
 }
 
+TEST_F(InputTest, AKeyGoesWithTheModifiersOfItsTime) {
+  frames();
+  move(30, 30);
+  click();
+  type("12");
+  on_key(window.handle(), GLFW_KEY_LEFT_CONTROL, 0, GLFW_PRESS, 0);
+  on_key(window.handle(), GLFW_KEY_A, 0, GLFW_PRESS, GLFW_MOD_CONTROL);
+  on_key(window.handle(), GLFW_KEY_A, 0, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  on_key(window.handle(), GLFW_KEY_LEFT_CONTROL, 0, GLFW_RELEASE, GLFW_MOD_CONTROL);
+  type("3");  // in place of all
+  frames();
+  EXPECT_STREQ(text.data(), "3");
+  EXPECT_EQ(shortcuts, "");
+}
+
 TEST_F(InputTest, AClickIsWhereTheButtonWentDown) {
   frames();
   move(321, 234);

@@ -3,6 +3,7 @@
 // threads, which take most of their time to wait for one another.
 
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 

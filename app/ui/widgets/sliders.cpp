@@ -11,6 +11,12 @@
 namespace app {
 
 void Widgets::done_with_number(const char* label, const char* tooltip) {
+  // By a double-click, an open field selects a word, which of a number is all or, in newer versions, ends at its point.
+  if (ImGuiInputTextState* field = ImGui::GetInputTextState(ImGui::GetActiveID());
+      field && ImGui::IsItemActive() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
+    field->SelectAll();
+    field->SelectedAllMouseLock = true;  // until the button is up
+  }
   constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
   done(label, tooltip ? joined(tooltip, "\n", how).c_str() : how);
 }

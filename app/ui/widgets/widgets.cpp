@@ -6,6 +6,17 @@
 #include <cstring>
 
 namespace app {
+namespace {
+
+bool is_pressed(ImGuiKey key) {
+#if IMGUI_VERSION_NUM >= 18700
+  return ImGui::IsKeyPressed(key);
+#else
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key));
+#endif
+}
+
+}  // namespace
 
 const Recorder::Widget* Recorder::find(std::string_view label) const {
   const auto found = std::ranges::find(widgets, label, &Widget::label);
@@ -115,7 +126,7 @@ bool Widgets::text(const char* label, std::string& value, const char* hint, cons
   if (ImGui::InputTextWithHint(joined("##", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
     value = typed.data();
-  const bool entered = ImGui::IsItemDeactivated() && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Enter));
+  const bool entered = ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter);
   done(label, tooltip);
   return entered;
 }
@@ -124,7 +135,7 @@ bool Widgets::begin_choices(const char* label, const char* preview, const char* 
   const bool open = ImGui::BeginCombo(joined("##", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
   // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
   if (!open) done(label, tooltip);
-  if (open && ImGui::IsKeyPressed(ImGui::GetKeyIndex(ImGuiKey_Escape))) ImGui::CloseCurrentPopup();
+  if (open && is_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   return open;
 }
 
