@@ -41,6 +41,7 @@ for tool in clang-format-14 clang-tidy-14; do
 done
 step "build" build "$preset" all -DBUILD_TESTING=ON || finish
 step "tests" run_tests "$preset" || true
+step "rooms" "$root/tests/rooms.sh" || true
 lint clang-format check_format clang-format-14 --version
 lint clang-tidy check_tidy clang-tidy-14 /dev/null -- -x c++ -std=c++20 -include bits/stdc++.h
 finish

@@ -3,6 +3,7 @@
 #include "collide/exact/pair_kernels.h"
 
 #include <algorithm>
+#include <stdexcept>
 
 #include "collide/core/cutoff.h"
 #include "every_target.h"
