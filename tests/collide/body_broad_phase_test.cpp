@@ -32,11 +32,11 @@ std::vector<BodyBounds> boxes(std::mt19937& random, Index count, const glm::vec3
 }
 
 struct Expected {
-  std::vector<std::vector<Index>> behind;
+  std::vector<std::vector<Index>> neighbours;
   std::uint64_t near_box_pairs = 0, pairs = 0, alone = 0;
 
   Expected(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live, float reach)
-      : later_neighbours(bounds.size()) {
+      : neighbours(bounds.size()) {
     std::set<Index> paired;
     for (const Index a : live) {
       for (const Index b : live) {
@@ -45,7 +45,7 @@ struct Expected {
         const glm::dvec3 d = glm::dvec3(bounds[b].centre) - glm::dvec3(bounds[a].centre);
         const double reached = double{bounds[a].radius} + bounds[b].radius + reach;
         if (d.x * d.x + d.y * d.y + d.z * d.z > reached * reached * 1.000004) continue;  // with the kernel's margin
-        behind[a].push_back(b);
+        neighbours[a].push_back(b);
         paired.insert({a, b});
         ++pairs;
       }
@@ -65,10 +65,11 @@ void check(const std::vector<BodyBounds>& bounds, const std::vector<Index>& live
     EXPECT_EQ(near.isolated_bodies(), expected.alone) << what;
     std::uint64_t before = 0;
     for (Index body = 0; body < bounds.size(); ++body) {
-      const auto behind = near.later_neighbours(body);
-      ASSERT_EQ(std::vector<Index>(behind.begin(), behind.end()), expected.behind[body]) << what << ' ' << body;
+      const auto neighbours = near.later_neighbours(body);
+      ASSERT_EQ(std::vector<Index>(neighbours.begin(), neighbours.end()), expected.neighbours[body])
+          << what << ' ' << body;
       EXPECT_EQ(near.pairs_before(body), before);
-      before += behind.size();
+      before += neighbours.size();
     }
   }
 }

@@ -84,7 +84,7 @@ TEST(Limits, ContactsAreThoseOfTrueDistances) {
     Settings settings;
     settings.tolerance = tolerance;
     ASSERT_EQ(problem(settings), "");
-    for (const Method& method : methods()) {
+    for (const Method& method : method_table()) {
       if (!method.exact) continue;
       EXPECT_EQ(detect(method.key, state, settings).contacts, expected) << method.key << ", tolerance " << tolerance;
     }

@@ -113,10 +113,10 @@ TEST_P(PairKernels, FaceFindsAllContactsOfTheVerticesThatItPicks) {
     for (Index v = 0; v < size_b; ++v) back = std::min(back, along(b, v));
     std::vector<Index> facing_a, facing_b;
     for (Index v = 0; v < size_a; ++v) {
-      if (along(a, v) >= back - slab.reach) facing_a.push_back(70 + v);
+      if (along(a, v) >= back - slab.cutoff) facing_a.push_back(70 + v);
     }
     for (Index v = 0; v < size_b; ++v) {
-      if (along(b, v) <= front + slab.reach) facing_b.push_back(900 + v);
+      if (along(b, v) <= front + slab.cutoff) facing_b.push_back(900 + v);
     }
     const std::vector<Contact> expected = all_between(a, 70, b, 900, tolerance * tolerance);
     contacts_.clear();
