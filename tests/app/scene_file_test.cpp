@@ -4,6 +4,7 @@
 
 #include <cstdio>
 
+#include "app/cli/options.h"
 #include "app/files/scene_folder.h"
 #include "app/session/session.h"
 #include "tests/app/scenes.h"
