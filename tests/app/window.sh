@@ -116,7 +116,7 @@ printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n
 preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
 grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
 # All sections of the panel folded but one, so that its fields stand below the headings before it, 29 pixels each.
-mapfile -t sections < <(grep -o 'w.section("[^"]*"' "$sources/app/panel/panel.cpp" | cut -d '"' -f 2)
+mapfile -t sections < <(grep -o 'w.section("[^"]*"' "$sources/app/ui/panel/panel.cpp" | cut -d '"' -f 2)
 open_only() {
   local i open
   for i in "${!sections[@]}"; do

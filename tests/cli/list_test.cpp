@@ -36,6 +36,7 @@ TEST(List, ScenesNamesEachFileOfTheFolder) {
   EXPECT_EQ(scenes.at("drop"), "Drop");
   std::size_t files = 0;
   for (const auto& entry : std::filesystem::directory_iterator(SBCOLLIDE_SCENES)) {
+    if (entry.path().extension() != ".toml") continue;
     EXPECT_TRUE(scenes.contains(entry.path().stem().string())) << entry.path();
     ++files;
   }
