@@ -141,9 +141,9 @@ collide::test::State Bodies::state(float tolerance) const {
 collide::Settings read_settings(Bytes& bytes) {
   collide::Settings settings;
   const bool usual = bytes.below(8) != 0;
-  settings.tolerance =
-      usual ? bytes.one_of({0.1f, 0.1f, 0.05f, 0.2f, 0.02f})
-            : bytes.one_of({0.5f, 1.0f, collide::min_tolerance, 1e-12f, 1e10f, collide::max_tolerance});
+  settings.tolerance = usual
+                           ? bytes.one_of({0.1f, 0.1f, 0.05f, 0.2f, 0.02f})
+                           : bytes.one_of({0.5f, 1.0f, collide::min_tolerance, 1e-12f, 1e10f, collide::max_tolerance});
   settings.self_collision = bytes.below(4) != 0;
   settings.levels = bytes.below(collide::max_levels + 1);
   settings.buckets = bytes.one_of({1001u, 101u, 1u, 2u, 65536u, 1 + bytes.word() % 5000});
