@@ -133,7 +133,7 @@ xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
-click 150 $((field + 58)) 1  # and that of the scene to save
+click 150 $((field + 87)) 1  # and that of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return
@@ -172,7 +172,7 @@ press 28            # where T is: no hash table
 press_with 50 40    # where D is, with Shift: twenty bodies
 press_with 37 52    # where Z is, with Ctrl: none of them
 setxkbmap fr
-click 150 $((field + 58)) 1  # the field of the scene to save
+click 150 $((field + 87)) 1  # the field of the scene to save
 press End
 press_with 37 24    # Ctrl+A, where Q is on a US keyboard: what follows replaces all
 setxkbmap us
@@ -214,7 +214,7 @@ press d
 until_true "another context after a reset of the driver" has_another_context
 xdotool windowfocus "$window" 2>/dev/null
 sleep 1
-click 290 $((field + 58)) 1  # Save
+click 290 $((field + 87)) 1  # Save
 until_true "the scene after a reset of the driver" test -s scene.toml
 [ "$(grep -c '^\[\[body\]\]' scene.toml)" -gt "$(grep -c '^\[\[body\]\]' "$sources/assets/scenes/drop.toml")" ] ||
   fail "the dropped body was lost with the context"
