@@ -52,8 +52,8 @@ OutputFile::OutputFile(fs::path path, std::string_view heading) : path_(std::mov
   require_no_input(path_);
   std::error_code ignored;
   if (const fs::file_status status = fs::status(path_, ignored); fs::exists(status)) {
-    if (!fs::is_regular_file(status)) fail("it is not a regular file");
-    if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind");
+    if (!fs::is_regular_file(status)) fail("it is not a regular file", "name another file");
+    if (!may_replace(path_, heading)) fail("it exists and is not a file of this kind", "name another file");
   }
   attempt([&] { file_.emplace(path_); });
   write(heading);
@@ -75,9 +75,8 @@ void OutputFile::attempt(const auto& action) const {
   }
 }
 
-void OutputFile::fail(const std::string& why) const {
-  throw UsageError(path_.string() + ": cannot be written: " + why +
-                   "; name another one, where you may write and there is room");
+void OutputFile::fail(const std::string& why, const char* advice) const {
+  throw UsageError(path_.string() + ": cannot be written: " + why + "; " + advice);
 }
 
 }  // namespace app

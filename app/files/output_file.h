@@ -38,7 +38,8 @@ class OutputFile {
 
  private:
   void attempt(const auto& action) const;
-  [[noreturn]] void fail(const std::string& why) const;
+  [[noreturn]] void fail(const std::string& why,
+                         const char* advice = "name another one, where you may write and there is room") const;
 
   std::filesystem::path path_;
   std::optional<TemporaryFile> file_;
