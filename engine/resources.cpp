@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <string>
 #include <system_error>
+#include <vector>
 
 namespace engine {
 namespace fs = std::filesystem;
@@ -32,7 +33,10 @@ fs::path find_folder(std::string_view name) {
   const fs::path here = executable_folder();
   std::string tried;
   // A checkout that was moved or copied has its own build/PRESET/bin, where the name of another is compiled in.
-  for (const fs::path& base : {here, here / "../share/sbcollide", here / "../../..", fs::path(SBCOLLIDE_SOURCE_DIR)}) {
+  const fs::path checkout = here / "../../..";
+  std::vector<fs::path> bases{here, here / "../share/sbcollide", fs::path(SBCOLLIDE_SOURCE_DIR)};
+  if (fs::exists(checkout / "CMakePresets.json")) bases.insert(bases.end() - 1, checkout);
+  for (const fs::path& base : bases) {
     fs::path folder = (base / name).lexically_normal();
     if (is_folder(folder)) return folder;
     tried += (tried.empty() ? "" : ", ") + folder.string();

@@ -20,12 +20,16 @@ struct Outlines {
 };
 Outlines outlines(const ObjFile& file, std::span<const Index> welded_to);
 
-/// For each vertex the one that it becomes. Vertices no further apart than `distance` are at
-/// the same place. They are welded if a side of a face joins them, or if they end open sides, which one face has. Where
-/// this would give an edge more than two faces, as where closed parts touch, only vertices of the same piece
-/// are welded; if that leaves more than two open sides at the same place, those of the same object, else those of faces
-/// that follow one another in the file. If nothing helps, all are welded. A piece that lies on others with all its
-/// faces is welded to them. distance: in the units of `positions`, at least 0.
+/// Returns for each vertex the vertex that it becomes. Vertices that are no further apart than `distance` are at the
+/// same place. Two of them are welded if a side of a face joins them, or if both end an open side, which only one face
+/// has. Where this would give an edge more than two faces, as where closed parts touch, fewer are welded. The rules are
+/// tried in this order:
+///   1. only vertices of the same connected piece;
+///   2. only those of the same object, if rule 1 leaves more than two open sides at one place;
+///   3. only those of faces that follow one another in the file;
+///   4. all of them: then the mesh has an edge with more than two faces, and is refused.
+/// A piece whose faces all lie on faces of other pieces is welded to these. distance: in the units of `positions`, >=
+/// 0.
 std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> positions, double distance);
 
 }  // namespace softbody

@@ -21,6 +21,15 @@ using collide::Index;
 struct Sequence {
   std::vector<ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
   collide::Bodies bodies;
+  std::vector<std::string> notes;  // the first file's as they are; those that only another file has with its name
+
+  /// Adds the notes of a file.
+  void note(const std::string& file, const ObjBodies& read) {
+    for (const std::string& text : read.notes) {
+      if (std::ranges::find(notes, text) == notes.end())
+        notes.push_back(frames.size() == 1 && &read == &frames[0] ? text : file + ": " + text);
+    }
+  }
 
   collide::Frame frame(std::size_t number) const {
     const ObjBodies& f = frames[number];
@@ -63,6 +72,7 @@ Sequence read_sequence(const DetectOptions& options) {
   const std::string& first_file = options.files.front();
   for (const std::string& file : options.files) {
     sequence.frames.push_back(read_obj(file));
+    sequence.note(file, sequence.frames.back());
     require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
     if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
     const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
@@ -73,6 +83,7 @@ Sequence read_sequence(const DetectOptions& options) {
   ObjBodies& first = sequence.frames.front();
   if (options.rest) {
     const ObjBodies rest = read_obj(*options.rest);
+    sequence.note(*options.rest, rest);
     require_match(rest, *options.rest, first, first_file);
     sequence.bodies = make_bodies(first, &rest);
   } else {
@@ -180,7 +191,7 @@ void detect(const Options& options) {
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
   const std::vector<MethodRow> rows = run(options, method, settings, sequence);
   std::vector<std::string> notes = warnings(method, settings);
-  std::ranges::copy(sequence.frames.front().notes, std::back_inserter(notes));
+  std::ranges::copy(sequence.notes, std::back_inserter(notes));
   if (options.json)
     print_json(options, method, notes, sequence.bodies, rows);
   else

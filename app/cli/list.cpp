@@ -1,6 +1,7 @@
 #include "app/cli/list.h"
 
 #include <iostream>
+#include <optional>
 
 #include "app/files/scene_folder.h"
 #include "softbody/integrators.h"

@@ -156,15 +156,19 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
   return report;
 }
 
-/// CLI11 takes an empty value for none at all: `--tolerance ""` would go unnoticed.
-void refuse_empty_values(const CLI::App& command) {
+/// CLI11 takes an empty value for none at all, so that `--tolerance ""` would go unnoticed, and the option after a
+/// forgotten value for that value.
+void refuse_missing_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& value : option->results()) {
       if (value.empty())
         throw UsageError(option->get_name() + ": the value is empty; give one or leave the option out");
+      if (value.starts_with("--"))
+        throw UsageError(option->get_name() + " " + value + ": its value is missing; a file of this name is ./" +
+                         value);
     }
   }
-  for (const CLI::App* below : command.get_subcommands()) refuse_empty_values(*below);
+  for (const CLI::App* below : command.get_subcommands()) refuse_missing_values(*below);
 }
 
 /// Values of flags are added up by CLI11, which throws what is no error of its own at `--self=maybe`.
@@ -234,7 +238,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     throw UsageError("report: say which one: detection, contact, solver or stability");
   if (*list && options.list_of.empty())
     throw UsageError("list: say of what: scenes, methods, integrators or contact-surfaces");
-  refuse_empty_values(cli);
+  refuse_missing_values(cli);
   options.command = *simulate ? Command::simulate
                     : *detect ? Command::detect
                     : *report ? Command::report

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <iostream>
 #include <set>
 
@@ -13,6 +14,7 @@
 #include "app/files/inputs.h"
 #include "app/files/obj_write.h"
 #include "app/files/output_file.h"
+#include "app/files/scene_folder.h"
 #include "softbody/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/render/capture.h"
@@ -181,11 +183,12 @@ class Motion {
   explicit Motion(const Options& options) : options_(options) {
     if (!options.obj_every) return;
     prepare_folder(options.out);
-    for (int frame = *options.obj_every; frame <= options.frames; frame += *options.obj_every)
-      for (const char* prefix : {"rest", "frame"}) require_no_input(file(prefix, frame));
+    for (const auto& entry : std::filesystem::directory_iterator(options.out))
+      if (will_write(entry.path().filename().string())) require_no_input(entry.path());
   }
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
+    if (world.bodies().count() == 0) return;  // `detect` takes no file without vertices
     if (!bodies_ || !bodies_->are_those_of(world)) {
       bodies_.emplace(world);
       write_file(file("rest", world.frame()), bodies_->at_rest());
@@ -197,6 +200,16 @@ class Motion {
  private:
   std::filesystem::path file(const char* prefix, int frame) const {
     return result_file(options_, prefix, frame, ".obj");
+  }
+  bool will_write(const std::string& name) const {
+    for (const std::string prefix : {"rest", "frame"}) {
+      if (!name.starts_with(prefix + "_")) continue;
+      const int frame = std::atoi(name.c_str() + prefix.size() + 1);
+      if (frame > 0 && frame <= options_.frames && frame % *options_.obj_every == 0 &&
+          file(prefix.c_str(), frame).filename() == name)
+        return true;
+    }
+    return false;
   }
 
   const Options& options_;

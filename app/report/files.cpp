@@ -1,5 +1,4 @@
 #include "app/report/files.h"
-#include "app/files/scene_folder.h"
 
 #include <unistd.h>
 
@@ -7,6 +6,7 @@
 
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
+#include "app/files/scene_folder.h"
 #include "app/report/gnuplot.h"
 
 namespace app {
@@ -58,6 +58,8 @@ void write_report(const std::filesystem::path& folder, const ReportFiles& files)
   const bool watched = isatty(STDERR_FILENO) != 0;
   if (watched) std::fprintf(stderr, "\r%60s\r", "");
   const auto pictures = draw_all(files.plots);
+  for (const auto& [name, bytes] : pictures) require_no_input(folder / name);
+  for (const std::string& name : {files.csv_name, files.markdown_name}) require_no_input(folder / name);
   write_file(folder / files.csv_name, files.csv);
   for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
   write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));

@@ -29,13 +29,13 @@ Session::Session(softbody::Scene scene, std::filesystem::path scene_folder, int 
       scenes_(list_scenes(scene_folder_)),
       threads_(threads),
       exact_(collide::find_method(collide::default_method)->make()) {
+  protect_inputs(scene);
   start(scene, {});
   scene_file_ = SceneFile(scene_name.empty() ? scene.key : std::move(scene_name), scene);
   adopt(std::move(scene));
 }
 
 void Session::adopt(softbody::Scene scene) {
-  protect_inputs(scene);
   scene_ = std::move(scene);
   solids_ = list_solids(scene_);
 }
@@ -114,6 +114,7 @@ void Session::choose_scene(const std::string& key_or_path) {
 }
 
 void Session::enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path) {
+  protect_inputs(scene);
   SceneFile file(key_or_path, scene);
   leave_for(std::move(world));
   scene_file_ = std::move(file);
@@ -227,6 +228,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
   notice_.clear();
   as_scripted_ = false;
   try {
+    protect_input(body.mesh);
     Past present = as_it_is();
     const std::size_t known = find_material(scene_.materials, material);
     body.material = static_cast<int>(known);
@@ -238,7 +240,6 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
     for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
       world_->add_material(scene_.materials[i]);
     world_->add(body);
-    protect_input(body.mesh);
     remember(std::move(present));
     intervened();
   } catch (const std::exception& error) {

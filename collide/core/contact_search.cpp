@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cassert>
-#include <stdexcept>
 
 namespace collide {
 
@@ -57,9 +56,8 @@ void ContactSearch::keep_contacts(Thread& own) {
   }
   own.hits.clear();
   const std::size_t added = own.contacts.size() - before;
-  if (found_.fetch_add(added, std::memory_order_relaxed) + added > max_contacts) {
-    throw std::length_error("more than 134217728 contacts in one frame: lower the tolerance");
-  }
+  if (found_.fetch_add(added, std::memory_order_relaxed) + added > contact_limit)
+    throw_too_many_contacts(contact_limit);
 }
 
 void ContactSearch::finish(Result& result) {

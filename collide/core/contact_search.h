@@ -1,6 +1,6 @@
 #pragma once
 // The last stage of every method but the exact one: tests runs of vertices against each other, leaves out pairs that
-// can never be contacts, and sorts the contacts. Keeps its memory from frame to frame: at most max_contacts contacts
+// can never be contacts, and sorts the contacts. Keeps its memory from frame to frame: at most contact_limit contacts
 // and, for each thread, 2^20 hits or as many as a run has vertices.
 
 #include <atomic>
@@ -16,7 +16,7 @@ class ContactSearch {
   void begin(const Frame& frame, const Settings& settings, const Points& points, int threads);
 
   /// Finds the contacts among all pairs of slots i < j with i in a and j in b. Precondition: b begins with all of a, or
-  /// lies behind a. No pair may be tested twice in one frame. Throws std::length_error at more than max_contacts
+  /// lies behind a. No pair may be tested twice in one frame. Throws std::length_error at more than contact_limit
   /// contacts.
   void test(int thread, Range a, Range b);
 
@@ -26,8 +26,6 @@ class ContactSearch {
   /// Adds the sorted contacts, the number of self contacts and the pair tests to a result that BodyBoxes::build()
   /// cleared.
   void finish(Result& result);
-
-  static constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
 
  private:
   struct alignas(64) Thread {

@@ -2,6 +2,8 @@
 // What a detection returns: contacts, counters, and the work that it left out.
 
 #include <compare>
+#include <stdexcept>
+#include <string>
 #include <string_view>
 
 #include "collide/core/frame.h"
@@ -13,6 +15,14 @@ struct Contact {
   Index a, b;
   auto operator<=>(const Contact&) const = default;
 };
+
+/// The most contacts of one frame: 1 GiB of them.
+inline constexpr std::size_t contact_limit = std::size_t{1} << 27;
+
+/// Throws the std::length_error of a frame with more contacts than `limit`.
+[[noreturn]] inline void throw_too_many_contacts(std::size_t limit) {
+  throw std::length_error("more than " + std::to_string(limit) + " contacts in one frame: lower the tolerance");
+}
 
 struct Counters {
   std::uint64_t hashes = 0;          // evaluations of the hash function

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <sstream>
 
 #include "collide/core/body_boxes.h"
@@ -17,6 +18,7 @@ bool positive(float value) { return std::isfinite(value) && value > 0; }
 template <class Value>
 std::string complaint(const char* setting, const Value& value, const char* allowed) {
   std::ostringstream text;
+  text.precision(std::numeric_limits<float>::max_digits10);
   text << setting << " is " << value << "; it must be " << allowed;
   return text.str();
 }

@@ -11,6 +11,12 @@ struct VertexRun {
   Index size;  // > 0
 };
 
+/// Returns the vertices of a body, which must have some.
+inline VertexRun vertices_of(const Frame& frame, Index body) {
+  const Index first = frame.bodies->first[body];
+  return {frame.x.data() + first, frame.y.data() + first, frame.z.data() + first, frame.bodies->size(body)};
+}
+
 /// The most values that one vector instruction takes. Arrays that vectorised loops read are padded by this many.
 inline constexpr Index max_lanes = 16;
 

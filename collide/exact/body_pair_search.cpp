@@ -28,11 +28,6 @@ std::optional<Slab> slab_between(const BodyBounds& a, const BodyBounds& b, float
 
 }  // namespace
 
-VertexRun BodyPairSearch::run(Index body) const {
-  const Index first = frame_->bodies->first[body];
-  return {frame_->x.data() + first, frame_->y.data() + first, frame_->z.data() + first, frame_->bodies->size(body)};
-}
-
 void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vector<Index>& non_finite_bodies) {
   assert(is_complete(frame));
   frame_ = &frame;
@@ -41,7 +36,7 @@ void BodyPairSearch::find_bounds(const Frame& frame, Workers& workers, std::vect
   workers.run([&](int thread) {
     const Part part = part_of(bodies, thread, workers.threads());
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
-      if (frame.bodies->size(body) > 0) bounds_[body] = measure_bounds(run(body));
+      if (frame.bodies->size(body) > 0) bounds_[body] = measure_bounds(vertices_of(*frame_, body));
     }
   });
   live_.clear();
@@ -131,7 +126,7 @@ void BodyPairSearch::check_contact_limit(Thread& own) {
 }
 
 void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
-  const VertexRun run_a = run(a), run_b = run(b);
+  const VertexRun run_a = vertices_of(*frame_, a), run_b = vertices_of(*frame_, b);
   const Index first_a = frame_->bodies->first[a], first_b = frame_->bodies->first[b];
   if (const std::optional<Slab> slab = slab_between(bounds_[a], bounds_[b], cutoff_)) {
     const FacingResult facing = find_facing_contacts(run_a, first_a, run_b, first_b, *slab, tolerance2_,
@@ -150,7 +145,7 @@ void BodyPairSearch::find_between(Thread& own, Index a, Index b) {
 
 void BodyPairSearch::find_self(Thread& own, Index body) {
   const Index first = frame_->bodies->first[body];
-  const VertexRun vertices = run(body);
+  const VertexRun vertices = vertices_of(*frame_, body);
   const CullingReference* reference = references_.of(body);
   const SelfCollisionCandidates risk =
       reference ? reference->candidates_of(vertices, bounds_[body], own.self) : SelfCollisionCandidates{};

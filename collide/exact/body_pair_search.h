@@ -68,7 +68,6 @@ class BodyPairSearch {
   void sort_self_contacts(Thread& own, Index body);
   void sort_group(Thread& own, Index a, bool runs_ordered);
   void check_contact_limit(Thread& own);
-  VertexRun run(Index body) const;
 
   const Frame* frame_ = nullptr;
   Query query_{};

@@ -11,8 +11,6 @@ namespace collide::exact {
 
 namespace {
 
-constexpr std::size_t max_contacts = std::size_t{1} << 27;  // 1 GiB of them
-
 class MultiLevelSbExact final : public Detector {
  public:
   void detect(const Frame& frame, const Settings& settings, Workers& workers, Result& result) override {
@@ -23,7 +21,7 @@ class MultiLevelSbExact final : public Detector {
                  {.tolerance = settings.tolerance,
                   .self = settings.self_collision,
                   .levels = settings.levels,
-                  .max_contacts = max_contacts},
+                  .max_contacts = contact_limit},
                  resting_, workers);
     search_.concatenate(workers, result.contacts);
     search_.count(result);

@@ -4,8 +4,6 @@
 #include <bit>
 #include <cstring>
 #include <limits>
-#include <stdexcept>
-#include <string>
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "collide/exact/pair_kernels.cpp"
@@ -223,10 +221,6 @@ void FacingScratch::reserve(Index size_a, Index size_b) {
   list.resize(size + 2 * VertexSet::padding);
   near_a.reserve(static_cast<Index>(list.size()));
   near_b.reserve(static_cast<Index>(list.size()));
-}
-
-void throw_too_many_contacts(std::size_t max_contacts) {
-  throw std::length_error("more than " + std::to_string(max_contacts) + " contacts in one frame: lower the tolerance");
 }
 
 void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,

@@ -62,9 +62,6 @@ FacingResult find_facing_contacts(const VertexRun& a, Index first_a, const Verte
                                   const Slab& slab, float tolerance2, std::uint64_t max_tests, FacingScratch& scratch,
                                   std::vector<Contact>& contacts);
 
-/// Throws the std::length_error of a frame with more than `max_contacts` contacts.
-[[noreturn]] void throw_too_many_contacts(std::size_t max_contacts);
-
 /// Says which pairs of one body's vertices can never be contacts. Without a shape, it excludes no pair.
 struct Exclusion {
   const Shape* shape = nullptr;

@@ -9,11 +9,6 @@ namespace collide::exact {
 
 namespace {
 
-VertexRun run_of(const Frame& frame, Index body) {
-  const Index first = frame.bodies->first[body];
-  return {frame.x.data() + first, frame.y.data() + first, frame.z.data() + first, frame.bodies->size(body)};
-}
-
 bool same_box(const Aabb& a, const Aabb& b) { return a.lo == b.lo && a.hi == b.hi; }
 
 }  // namespace
@@ -40,7 +35,7 @@ void RestingContacts::observe(const Frame& frame, const Settings& settings, std:
   workers.run([&](int thread) {
     const Part part = part_of(bounds.size(), thread, workers.threads());
     for (auto body = static_cast<Index>(part.begin); body < part.end; ++body) {
-      motion_[body] = observe(run_of(frame, body), bounds[body], body);
+      motion_[body] = observe(vertices_of(frame, body), bounds[body], body);
       if (!stored) motion_[body] = std::min(motion_[body], Motion::copied);
     }
   });

@@ -135,7 +135,7 @@ TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
 
 TEST(Comparison, CountsTheDriverFromScratchAsItTimesIt) {
   Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
-  snapshot.found.counters = {};  // of a frame for which all was remembered
+  snapshot.found.counters = {};  // of a frame in which all bodies rested
   const CompareReport report = Comparison(seed).run(snapshot);
   EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
 }

@@ -29,7 +29,7 @@ TEST_P(Signals, EndTheProgramAsEverAndLeaveNoTemporaryFile) {
   EXPECT_EQ(file_names(folder.path()), before);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Signals, testing::Values(SIGHUP, SIGINT, SIGQUIT, SIGTERM));
+INSTANTIATE_TEST_SUITE_P(All, Signals, testing::Values(SIGHUP, SIGINT, SIGQUIT, SIGTERM, SIGALRM, SIGXCPU));
 
 }  // namespace
 }  // namespace cli::test
