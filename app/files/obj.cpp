@@ -63,12 +63,8 @@ void divide(ObjBodies& bodies, const softbody::ObjFile& obj) {
   std::size_t without_vertices = 0;
   for (std::size_t object = 0; object < faces.size(); ++object)
     if (bodies.size(object) == 0 && !faces[object].empty()) ++without_vertices;
+  if (without_vertices == 0) return;
   const bool vertices_first = !obj.objects[0].named && bodies.first[1] == bodies.first.back();
-  if (without_vertices == 0) {
-    if (vertices_first && obj.objects.size() > 1)
-      bodies.notes.push_back("no object has vertices or faces of its own, so all vertices are one body");
-    return;
-  }
   if (auto first = vertices_first ? divide_by_faces(bodies.first, faces) : std::nullopt)
     bodies.first = *std::move(first);
   else

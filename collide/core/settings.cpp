@@ -1,8 +1,9 @@
 #include "collide/core/settings.h"
 
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cmath>
-#include <limits>
 #include <sstream>
 
 #include "collide/core/body_boxes.h"
@@ -17,10 +18,10 @@ bool positive(float value) { return std::isfinite(value) && value > 0; }
 
 template <class Value>
 std::string complaint(const char* setting, const Value& value, const char* allowed) {
-  std::ostringstream text;
-  text.precision(std::numeric_limits<float>::max_digits10);
-  text << setting << " is " << value << "; it must be " << allowed;
-  return text.str();
+  std::array<char, 32> digits;  // as few as tell the value from its neighbours
+  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
+  return std::string(setting) + " is " + std::string(static_cast<const char*>(digits.data()), end) + "; it must be " +
+         allowed;
 }
 
 }  // namespace
