@@ -4,7 +4,9 @@
 #include <optional>
 
 #include "app/files/scene_folder.h"
+#include "collide/methods.h"
 #include "softbody/integrators.h"
+#include "softbody/scene.h"
 
 namespace app {
 namespace {

@@ -183,6 +183,11 @@ TEST_F(DetectErrors, AContactsFileThatCannotBeWrittenIsNamedAndWhatIsThereStays)
     refuse({"--tolerance", "1", "--contacts", "/dev/full"}, {"/dev/full", "not a regular file"});
 }
 
+TEST_F(DetectErrors, AForgottenFileNameIsNotTheOptionAfterIt) {
+  refuse({"--tolerance", "1", "--contacts", "--json"}, {"--contacts", "its value is missing"});
+  refuse({"--tolerance", "1", "--rest", "--json"}, {"--rest", "its value is missing"});
+}
+
 TEST_F(DetectErrors, ContactsNeverReplaceAMesh) {
   const std::string text = read_file(good);
   const std::string lone_text = read_file(lone);

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <functional>
 
+#include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
 #include "app/report/stability/cell.h"
