@@ -176,7 +176,8 @@ click 150 $((field + 87)) 1  # the field of the scene to save
 press End
 press_with 37 24    # Ctrl+A, where Q is on a US keyboard: what follows replaces all
 setxkbmap us
-xdotool type --delay 20 keys.toml
+sleep 0.5  # until a slow machine knows of it
+xdotool type --delay 100 keys.toml
 press Return
 until_true "the scene of other keyboards" test -s keys.toml
 click 1100 400 1
