@@ -8,7 +8,10 @@ set -euo pipefail
 . "$(dirname "${BASH_SOURCE[0]}")/steps.sh"
 preset=${1:-release}
 
-check_format() { sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Werror; }
+check_format() {
+  cd "$root"
+  sources "*.cpp" "*.h" | xargs -0 clang-format-14 --dry-run -Werror
+}
 # As the preset compiles them: most of them many at a time, which reads the headers that they share only once.
 check_tidy() {
   cd "$root/build/$preset"
@@ -16,9 +19,8 @@ check_tidy() {
     xargs -0 -n 1 -P "$(nproc)" clang-tidy-14 -p . --quiet 2>clang-tidy.log
 }
 
-# sources PATTERN...: files below the folders of code, each ended by a zero byte.
+# sources PATTERN...: files below the folders of code, from the root of the checkout, each ended by a zero byte.
 sources() {
-  cd "$root"
   local pattern names=()
   for pattern in "$@"; do names+=(-o -name "$pattern"); done
   find collide softbody engine app tests -type f \( "${names[@]:1}" \) -print0
