@@ -19,7 +19,7 @@ long double distance(const glm::vec3& a, const glm::vec3& b) {
   return std::sqrt(sum);
 }
 
-TEST(Reach, BoundsEveryPairThatThePredicateAccepts) {
+TEST(ContactCutoff, BoundsEveryPairThatThePredicateAccepts) {
   std::mt19937 random(11);
   int accepted = 0;
   for (const float tolerance : {0.1f, 1e6f, min_tolerance, 1e-9f, 1e9f, max_tolerance}) {
@@ -40,7 +40,7 @@ TEST(Reach, BoundsEveryPairThatThePredicateAccepts) {
 }
 
 /// Found by search: rounding brings them within the tolerance from more than (1 + u) times it, u = 2^-24.
-TEST(Reach, BoundsPairsThatRoundingBringsNearest) {
+TEST(ContactCutoff, BoundsPairsThatRoundingBringsNearest) {
   struct Case {
     float tolerance;
     glm::vec3 a, b;
@@ -54,7 +54,7 @@ TEST(Reach, BoundsPairsThatRoundingBringsNearest) {
   }
 }
 
-TEST(Reach, IsHardlyMoreThanTheTolerance) {
+TEST(ContactCutoff, IsHardlyMoreThanTheTolerance) {
   for (const float tolerance : {1e-15f, 0.1f, 1e6f}) {
     EXPECT_GE(contact_cutoff(tolerance), tolerance);
     EXPECT_LE(contact_cutoff(tolerance), tolerance * 1.000001f);

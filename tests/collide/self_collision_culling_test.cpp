@@ -95,7 +95,7 @@ int culled(const CullingReference& reference, const Topology& topology, const st
   return 1;
 }
 
-TEST(SelfProof, LeavesOutNoContact) {
+TEST(SelfCollisionCulling, LeavesOutNoContact) {
   for (const int subdivisions : {1, 2}) {
     const Ball ball = icosphere(subdivisions, 1);
     const Topology topology(static_cast<Index>(ball.vertices.size()), ball.edges);
@@ -125,7 +125,7 @@ TEST(SelfProof, LeavesOutNoContact) {
 }
 
 /// Exactly as near as the proof allows: two vertices of an affine image, moved together by what may be left.
-TEST(SelfProof, HoldsAtItsLimit) {
+TEST(SelfCollisionCulling, HoldsAtItsLimit) {
   const Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
   const Body rest(ball.vertices);
@@ -148,7 +148,7 @@ TEST(SelfProof, HoldsAtItsLimit) {
   EXPECT_GT(proofs, 1000);
 }
 
-TEST(SelfProof, HoldsWhereSquaresUnderflowOrOverflow) {
+TEST(SelfCollisionCulling, HoldsWhereSquaresUnderflowOrOverflow) {
   const Ball ball = icosphere(1, 1);
   const Topology topology(42, ball.edges);
   std::mt19937 random(63);
@@ -170,7 +170,7 @@ TEST(SelfProof, HoldsWhereSquaresUnderflowOrOverflow) {
 }
 
 /// One vertex of it is torn off, and squares are near the end of the range.
-TEST(SelfProof, HoldsForABodyFarLargerThanItsReference) {
+TEST(SelfCollisionCulling, HoldsForABodyFarLargerThanItsReference) {
   const Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
   const Body rest(ball.vertices);
@@ -189,7 +189,7 @@ TEST(SelfProof, HoldsForABodyFarLargerThanItsReference) {
   culled(reference, topology, points, 0.1f);
 }
 
-TEST(SelfProof, RefusesReferencesOfNoUse) {
+TEST(SelfCollisionCulling, RefusesReferencesOfNoUse) {
   Ball ball = icosphere(2, 1);
   const Topology topology(162, ball.edges);
   const auto usable = [&](const std::vector<glm::vec3>& points) {
@@ -211,7 +211,7 @@ TEST(SelfProof, RefusesReferencesOfNoUse) {
 }
 
 /// Bodies without rest positions are compared with the first one of their topology, if there are enough.
-TEST(SelfProof, TakesItsReferenceFromAFrame) {
+TEST(SelfCollisionCulling, TakesItsReferenceFromAFrame) {
   const Ball ball = icosphere(2, 0.5f);
   const auto shape = std::make_shared<const Shape>(Index{162}, ball.edges);
   for (const int bodies : {3, 4}) {
