@@ -42,7 +42,6 @@ int run(const app::Options& options) {
                         .scene_folder = app::scene_folder(),
                         .meshes = options.meshes,
                         .integrator = options.integrator,
-                        .substeps = options.substeps,
                         .threads = options.threads,
                         .width = options.width,
                         .height = options.height,

@@ -82,12 +82,12 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--contact-surface", options.contact_surface,
                   "what keeps bodies apart: a key of `list contact-surfaces`")
       ->type_name("K");
-  command.add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  command.add_option("--integrator", options.integrator.key, "a key of `list integrators`")->type_name("I");
   command
-      .add_option("--substeps", options.substeps,
+      .add_option("--substeps", options.integrator.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->transform(whole_number_from(1, softbody::World::max_substeps));
+      ->transform(whole_number_from(1, softbody::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -178,8 +178,9 @@ void refuse_values_of_flags(CLI::App& command) {
 }
 
 void check(const Options& options) {
-  if (!softbody::find_integrator(options.integrator))
-    throw UsageError("--integrator " + options.integrator + ": unknown; use one of: " + softbody::integrator_keys());
+  if (!softbody::find_integrator(options.integrator.key))
+    throw UsageError("--integrator " + options.integrator.key +
+                     ": unknown; use one of: " + softbody::integrator_keys());
   if (options.contact_surface && !softbody::find_contact_surface(*options.contact_surface))
     throw UsageError("--contact-surface " + *options.contact_surface +
                      ": unknown; use one of: " + softbody::contact_surface_keys());
@@ -192,8 +193,8 @@ void check(const Options& options) {
 
 /// Of what scene files take: a scene that is saved is to be read again.
 void require_length(const std::string& option, float metres, double most) {
-  if (!(metres >= static_cast<float>(softbody::least_length) && metres <= static_cast<float>(most)))
-    throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
+  if (!(metres >= static_cast<float>(softbody::min_length) && metres <= static_cast<float>(most)))
+    throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::min_length, most));
 }
 
 }  // namespace
@@ -201,7 +202,6 @@ void require_length(const std::string& option, float metres, double most) {
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  options.integrator = softbody::default_integrator;
   std::string size, captures;
 
   CLI::App cli{
@@ -260,12 +260,12 @@ softbody::Scene load_scene(const Options& options) {
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance)
-    require_length(format("--tolerance %.9g", *tolerance), static_cast<float>(*tolerance), softbody::most_tolerance);
+    require_length(format("--tolerance %.9g", *tolerance), static_cast<float>(*tolerance), softbody::max_tolerance);
   apply(options.detection, scene.collision);
   if (!automatic_cell_size(options.detection, true))
     for (int axis = 0; axis < 3; ++axis)
       require_length("--cell-size " + *options.detection.cell_size, scene.collision.cell_size[axis],
-                     softbody::most_length);
+                     softbody::max_length);
   scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;

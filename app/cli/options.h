@@ -9,6 +9,7 @@
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
 #include "app/report/report.h"
+#include "softbody/integrators.h"
 #include "softbody/scene.h"
 
 namespace app {
@@ -34,8 +35,7 @@ struct Options {
   std::optional<softbody::View> view;          // otherwise the scene's
   DetectOptions detect;
   ReportOptions report;
-  std::string integrator;
-  std::optional<int> substeps;  // a frame, of the integrator's; none: the stability bound's
+  softbody::IntegratorChoice integrator;
   int threads = 1;
   double frame_time = 1.0 / 60.0;   // s
   int width = 1280, height = 720;   // pixels

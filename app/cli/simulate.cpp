@@ -28,8 +28,7 @@ using Json = nlohmann::ordered_json;
 /// Figures of one frame.
 struct FrameRow {
   int frame;
-  double time;  // s
-  softbody::Profile profile;
+  softbody::StepReport step;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
   std::optional<collide::oracle::SurfaceFigures> oracle;  // if asked for
@@ -38,11 +37,10 @@ struct FrameRow {
 FrameRow take_row(const softbody::World& world) {
   const auto& d = world.detection();
   return {world.frame(),
-          world.time(),
-          world.profile(),
+          world.last_step(),
           d.contacts.size() - d.self_contacts,
           d.self_contacts,
-          world.solid_contacts().size(),
+          softbody::solid_contacts(world).size(),
           softbody::measure(world),
           {}};
 }
@@ -61,8 +59,8 @@ Json to_json(const FrameRow& r) {
   const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
   Json row{{"frame", r.frame},
-           {"time", r.time},
-           {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
+           {"time", r.step.time},
+           {"ms", {{"detect", r.step.detect_ms}, {"solve", r.step.solve_ms}, {"total", r.step.total_ms}}},
            {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
            {"energy", m.energy},
            {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
@@ -83,9 +81,9 @@ Json to_json(const softbody::Plan& plan) {
 
 /// Which one was asked for, which one the last frame was integrated with and, if that was chosen automatically, why.
 Json to_json_integrator(const softbody::World& world) {
-  return {{"key", world.integrator().key},
-          {"used", world.dynamics().used_integrator().key},
-          {"why", world.dynamics().why_integrator()}};
+  return {{"key", world.integrator_choice().key},
+          {"used", world.last_step().integrator->key},
+          {"why", world.last_step().why}};
 }
 
 std::string hex(std::uint64_t value) {
@@ -127,14 +125,14 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
     const FrameRow& r = rows[i];
     const softbody::Measures& m = r.measures;
-    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
-                r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
+    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.step.detect_ms,
+                r.step.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
                 static_cast<unsigned long long>(r.solid), m.energy, ratio_text(m, m.volume_ratio_min).c_str(),
                 ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
                 m.finite ? "" : "  NOT FINITE");
   }
-  std::printf("integrator: %s", std::string(world.dynamics().used_integrator().name).c_str());
-  if (const std::string why(world.dynamics().why_integrator()); !why.empty()) std::printf(", for %s", why.c_str());
+  std::printf("integrator: %s", std::string(world.last_step().integrator->name).c_str());
+  if (const std::string why(world.last_step().why); !why.empty()) std::printf(", for %s", why.c_str());
   std::printf("\nstages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
   for (const softbody::LeftOut& l : world.plan().left_out)
     std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
@@ -233,10 +231,9 @@ void simulate(const Options& options) {
   softbody::Scene scene = load_scene(options);
   protect_input(softbody::scene_path(options.scene, scene_folder()));
   protect_inputs(scene);
-  softbody::World world(std::move(scene), {.threads = options.threads,
-                                           .frame_time = options.frame_time,
-                                           .integrator = options.integrator,
-                                           .substeps = options.substeps});
+  softbody::World world(
+      std::move(scene),
+      {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
   Pictures pictures(options);
   Motion motion(options);
   print_remarks(world.scene());

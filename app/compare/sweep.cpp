@@ -7,6 +7,7 @@
 
 #include "app/compare/heap.h"
 #include "app/compare/score.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {

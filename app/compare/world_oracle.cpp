@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "collide/surface/closed_shell.h"
+#include "softbody/prototype.h"
 
 namespace app {
 

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdio>
 
+#include "softbody/prototype.h"
+
 namespace app {
 namespace {
 

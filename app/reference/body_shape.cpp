@@ -5,7 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/shape_matching.h"
+#include "softbody/best_rotation.h"
 
 namespace app {
 namespace {

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
 namespace app {
@@ -55,7 +56,7 @@ std::vector<dvec3> ahead(const std::vector<dvec3>& a, double s, const std::vecto
 BodyState state_of(const softbody::World& world, softbody::BodyId body) {
   BodyState state;
   for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) {
-    const softbody::Particle p = world.dynamics().particle(body, i);
+    const softbody::Particle p = world.particle(body, i);
     state.x.push_back(p.position);
     state.v.push_back(p.velocity);
   }

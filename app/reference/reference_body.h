@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "softbody/prototype.h"
 #include "softbody/world.h"
 
 namespace app {

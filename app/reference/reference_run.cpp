@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {

@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "softbody/shield.h"
+#include "softbody/contacts.h"
 
 namespace app {
 

@@ -8,6 +8,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
+#include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -110,7 +112,7 @@ void add_contacts(const softbody::World& world, Points positions, engine::FrameD
     const bool inside = body[contact.a] == body[contact.b];
     add_contact(positions, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
-  for (const softbody::SolidContact& contact : world.solid_contacts()) {
+  for (const softbody::SolidContact& contact : softbody::solid_contacts(world)) {
     points.points.push_back({positions[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));
@@ -128,11 +130,11 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 }
 
 /// Both closest points, and the normal from the second one, half a mean edge long.
-void add_touches(const softbody::World& world, std::span<const softbody::SurfaceTouch> touches, Points positions,
+void add_touches(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> touches, Points positions,
                  engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
-  for (const softbody::SurfaceTouch& touch : touches) {
+  for (const softbody::SurfaceContactPoint& touch : touches) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < touch.vertex.size(); ++k)
       (touch.weight[k] > 0 ? first : second) += std::abs(touch.weight[k]) * positions[touch.vertex[k]];

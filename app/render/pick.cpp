@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
 namespace app {

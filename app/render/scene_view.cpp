@@ -9,6 +9,7 @@
 
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {

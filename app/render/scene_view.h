@@ -23,11 +23,11 @@ struct OverlayRequest {
   std::optional<Cell> bucket_cell;                // ... those of this cell apart from others
   std::optional<softbody::BodyId> selected_body;  // its outline shows
   std::vector<collide::DebugGeometry::Box> areas;
-  const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
-  std::span<const softbody::SurfaceTouch> touches;        // the same
-  std::span<const SurfaceMark> marks;                     // the same
-  const Spotlight* spotlight = nullptr;                   // shows, and all else steps back
-  const softbody::World* ghost = nullptr;                 // another world with the same bodies, to look through
+  const std::vector<collide::Contact>* missed = nullptr;   // vertices of the world as it is
+  std::span<const softbody::SurfaceContactPoint> touches;  // the same
+  std::span<const SurfaceMark> marks;                      // the same
+  const Spotlight* spotlight = nullptr;                    // shows, and all else steps back
+  const softbody::World* ghost = nullptr;                  // another world with the same bodies, to look through
   DrawnPositions ghost_positions;
 };
 

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/frame_data.h"
-#include "softbody/dynamics.h"
+#include "softbody/body.h"
 
 namespace app {
 

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <string_view>
 
 #include "softbody/world.h"
 
@@ -9,14 +11,22 @@ namespace app {
 /// The one that chooses its steps itself: no report prescribes them.
 inline bool chooses_steps(const softbody::Integrator& integrator) { return integrator.automatic; }
 
-/// What a world is told: so many steps a frame, or none for one that chooses them.
-inline std::optional<int> steps_for(const softbody::Integrator& integrator, int steps) {
-  return chooses_steps(integrator) ? std::nullopt : std::optional(steps);
+/// The integrator with so many steps a frame, unless it chooses them itself.
+inline softbody::IntegratorChoice with_steps(const softbody::Integrator& integrator, int steps) {
+  return {std::string(integrator.key), chooses_steps(integrator) ? std::nullopt : std::optional(steps)};
 }
 
-/// Figures are of whole frames: throws SceneError where the last one was simulated in part, see Dynamics::advance().
+/// The integrator with one step a frame, whatever becomes of it: no scene is refused.
+inline softbody::IntegratorChoice one_step(std::string_view key = softbody::default_integrator) {
+  softbody::IntegratorChoice choice;
+  choice.key = key;
+  choice.substeps = 1;
+  return choice;
+}
+
+/// Figures are of whole frames: throws SceneError where the last one was simulated in part, see StepReport.
 inline void require_whole_frame(const softbody::World& world) {
-  if (world.profile().seconds < world.frame_time())
+  if (world.last_step().seconds < world.frame_time())
     throw softbody::SceneError("a frame would take more substeps than there may be");
 }
 

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/prototype.h"
 #include "softbody/snapshot.h"
 
 namespace app {
 
-Ghost::Ghost(const softbody::World& of, const IntegratorChoice& choice, int threads)
+Ghost::Ghost(const softbody::World& of, const softbody::IntegratorChoice& choice, int threads)
     : choice_(choice), world_(softbody::Scene(), {.threads = threads, .frame_time = of.frame_time()}) {
   restart(of);
 }
 
 void Ghost::restart(const softbody::World& of) {
   world_.restore(of.snapshot());
-  if (choice_.key != world_.integrator().key || choice_.substeps != world_.substeps())
-    world_.set_integrator(choice_.key, choice_.substeps);
+  if (choice_ != world_.integrator_choice()) world_.set_integrator(choice_);
   before_.copy(world_.positions());
   blown_up_ = false;
 }

@@ -2,7 +2,7 @@
 // A second world beside the one that is shown: the same bodies from the same state on, moved by another integrator.
 
 #include "app/compare/drawn_positions.h"
-#include "app/session/integrator_choice.h"
+#include "softbody/integrators.h"
 #include "softbody/world.h"
 
 namespace app {
@@ -10,14 +10,14 @@ namespace app {
 class Ghost {
  public:
   /// From the present state of `of` on. Throws SceneError if the integrator cannot move it.
-  Ghost(const softbody::World& of, const IntegratorChoice& choice, int threads);
+  Ghost(const softbody::World& of, const softbody::IntegratorChoice& choice, int threads);
 
   /// Into the present state of `of` again, which has been changed by hand. Throws as the constructor.
   void restart(const softbody::World& of);
   /// One frame, unless it has blown up.
   void step();
 
-  const IntegratorChoice& choice() const { return choice_; }
+  const softbody::IntegratorChoice& choice() const { return choice_; }
   const softbody::World& world() const { return world_; }
   /// `part` of the way from the last frame but one.
   DrawnPositions drawn_positions(float part) const {
@@ -32,7 +32,7 @@ class Ghost {
  private:
   bool has_blown_up() const;
 
-  IntegratorChoice choice_;
+  softbody::IntegratorChoice choice_;
   softbody::World world_;
   Positions before_;
   bool blown_up_ = false;

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/text.h"
+#include "softbody/prototype.h"
 
 namespace app {
 
@@ -31,17 +32,17 @@ void Guard::begin(const softbody::World& world, std::size_t bodies) {
 
 /// What shields hold as it begins, for a body may have come where another is: they give back the work of their push.
 void Guard::add_shields(const softbody::World& world, Look& first) const {
-  const double held = softbody::total(world.shield_energies());
+  const double held = softbody::total(world.pair_energies().next);
   first.energy += held;
   if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
 }
 
 /// Notes whether surfaces that lay in each other as it began still come apart.
 void Guard::follow_parting(const softbody::World& world, Look& now) {
-  parting_ = world.dynamics().surface_contact().gives_energy() ? std::max(parting_, 1) - 1 : 0;
+  parting_ = world.last_step().adds_energy ? std::max(parting_, 1) - 1 : 0;
   if (parting_ == 0) return;
   now.pushed = true;
-  now.bounce = std::max(now.bounce, 2 * double(softbody::SurfaceContact::push_speed));  // elastic bodies are thrown off
+  now.bounce = std::max(now.bounce, 2 * double(softbody::max_separation_speed));  // elastic bodies are thrown off
 }
 
 Guard::Look Guard::sum_up(const std::vector<softbody::BodyMeasures>& bodies) const {

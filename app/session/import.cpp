@@ -12,7 +12,7 @@
 #include "app/base/text.h"
 #include "softbody/measures.h"
 #include "softbody/obj_file.h"
-#include "softbody/prototype_set.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {

@@ -59,7 +59,8 @@ std::string shell_word(const std::string& text) {
 namespace {
 
 /// A space before each.
-std::string scene_options(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+std::string scene_options(const std::string& name, const softbody::Scene& used,
+                          const softbody::IntegratorChoice& integrator) {
   const collide::Settings& c = used.collision;
   std::string text;
   const auto add = [&text](const char* option, const std::string& value) {
@@ -89,12 +90,13 @@ std::string this_program() {
 
 }  // namespace
 
-std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+std::string demo_command(const std::string& name, const softbody::Scene& used,
+                         const softbody::IntegratorChoice& integrator) {
   return this_program() + scene_options(name, used, integrator);
 }
 
-std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
-                             int frame) {
+std::string simulate_command(const std::string& name, const softbody::Scene& used,
+                             const softbody::IntegratorChoice& integrator, int frame) {
   const std::string number = std::to_string(std::max(frame, 1));  // nothing is drawn before the first
   return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
          number;

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-#include "app/session/integrator_choice.h"
+#include "softbody/integrators.h"
 #include "softbody/scene.h"
 
 namespace app {
@@ -33,8 +33,9 @@ std::string shell_word(const std::string& text);
 
 // Commands for a POSIX shell, with this executable: the demo with a scene of that name and the settings of `used`, and
 // the run without a window that takes a picture of the frame.
-std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator);
-std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
-                             int frame);
+std::string demo_command(const std::string& name, const softbody::Scene& used,
+                         const softbody::IntegratorChoice& integrator);
+std::string simulate_command(const std::string& name, const softbody::Scene& used,
+                             const softbody::IntegratorChoice& integrator, int frame);
 
 }  // namespace app

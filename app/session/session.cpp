@@ -40,16 +40,15 @@ void Session::adopt(softbody::Scene scene) {
   solids_ = list_solids(scene_);
 }
 
-void Session::start(const softbody::Scene& scene, const IntegratorChoice& integrator) {
-  leave_for(std::make_unique<softbody::World>(scene, softbody::World::Options{.threads = threads_,
-                                                                              .integrator = integrator.key,
-                                                                              .substeps = integrator.substeps,
-                                                                              .max_work = softbody::work_of_a_window}));
+void Session::start(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator) {
+  leave_for(std::make_unique<softbody::World>(
+      scene,
+      softbody::World::Options{.threads = threads_, .integrator = integrator, .max_work = softbody::work_of_a_window}));
 }
 
 void Session::leave_for(std::unique_ptr<softbody::World> world) {
   if (world_) {
-    world_->release();
+    world_->grab({});
     remember({std::move(world_), {}, scene_, scene_file_, solids_});
   }
   world_ = std::move(world);
@@ -130,13 +129,13 @@ softbody::Scene Session::scene_in_use() const {
   scene.method = world_->method().key;
   scene.contact_surface = now.contact_surface;
   scene.collision = world_->collision();
-  scene.default_cell_size = world_->uses_default_cell_size();
+  scene.default_cell_size = world_->scene().default_cell_size;
   return scene;
 }
 
 softbody::Scene Session::scene_as_it_is() const {
   softbody::Scene scene = scene_in_use();
-  scene.bodies = world_->sources();
+  scene.bodies = softbody::body_sources(*world_);
   return scene;
 }
 
@@ -153,19 +152,17 @@ void Session::restore(const softbody::Snapshot& snapshot) {
   const std::string method(world_->method().key);
   const softbody::ContactSurface surface = world_->scene().contact_surface;
   const collide::Settings settings = world_->collision();
-  const bool default_cell_size = world_->uses_default_cell_size();
-  const std::string integrator(world_->integrator().key);
-  const std::optional<int> substeps = world_->substeps();
+  const bool default_cell_size = world_->scene().default_cell_size;
+  const softbody::IntegratorChoice integrator = world_->integrator_choice();
   const softbody::Scene in_use = world_->scene();
   notice_.clear();
   succeeds([&] {
     world_->restore(snapshot);
-    if (integrator != world_->integrator().key || substeps != world_->substeps())
-      world_->set_integrator(integrator, substeps);
+    if (integrator != world_->integrator_choice()) world_->set_integrator(integrator);
     if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
     keep_world_settings(in_use);
     if (method != world_->method().key) world_->set_method(method);
-    if (settings != world_->collision() || default_cell_size != world_->uses_default_cell_size())
+    if (settings != world_->collision() || default_cell_size != world_->scene().default_cell_size)
       world_->set_collision(settings, default_cell_size);
   });
 }
@@ -238,7 +235,7 @@ void Session::add_body(softbody::BodySource body, softbody::Material material) {
     }
     // Also those that came after the past that the world has gone back to.
     for (std::size_t i = world_->scene().materials.size(); i < scene_.materials.size(); ++i)
-      world_->add_material(scene_.materials[i]);
+      world_->set_material(i, scene_.materials[i]);
     world_->add(body);
     remember(std::move(present));
     intervened();

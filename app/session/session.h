@@ -135,7 +135,7 @@ class Session {
 
   /// A second world that goes on from the present state by another integrator, or none. It begins anew whenever hands
   /// or settings change the one that is shown.
-  void set_ghost(const std::optional<IntegratorChoice>& choice);
+  void set_ghost(const std::optional<softbody::IntegratorChoice>& choice);
   const Ghost* ghost() const { return ghost_.get(); }
 
   // Detection. Settings with a problem() are refused with a notice(), and nothing changes.
@@ -145,7 +145,7 @@ class Session {
   void next_contact_surface();
   /// substeps: of the integrator's a frame; none: as many as stability asks for.
   void set_integrator(std::string_view key, std::optional<int> substeps);
-  IntegratorChoice integrator() const { return {std::string(world_->integrator().key), world_->substeps()}; }
+  const softbody::IntegratorChoice& integrator() const { return world_->integrator_choice(); }
   void set_collision(const collide::Settings& settings, bool default_cell_size);
   /// The bucket whose boxes the scene shows: always below the number of buckets.
   const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
@@ -184,7 +184,7 @@ class Session {
   /// What the surface oracle says of the last step, while judges_surfaces is true.
   const SurfaceWatch& surfaces() const { return surfaces_; }
   /// What pressed on what in the last step; empty unless the contact surface is the surfaces.
-  const std::vector<softbody::SurfaceTouch>& touches() const;
+  const std::vector<softbody::SurfaceContactPoint>& touches() const;
 
   const History& history() const { return history_; }
   /// Changes whenever anything about the positions or contacts may have changed: not with steps of a world at rest.
@@ -213,7 +213,7 @@ class Session {
     Value value{};
   };
 
-  void start(const softbody::Scene& scene, const IntegratorChoice& integrator);
+  void start(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator);
   void leave_for(std::unique_ptr<softbody::World> world);
   void show_anew();
   /// The world was restored to what it was.
@@ -271,7 +271,7 @@ class Session {
   mutable OfRevision<BucketContents> bucket_;
   History history_;
   CompareReport comparison_;
-  mutable std::vector<softbody::SurfaceTouch> touches_;
+  mutable std::vector<softbody::SurfaceContactPoint> touches_;
   mutable std::uint64_t touches_revision_ = 0;
   std::string notice_, aged_notice_;
   double notice_age_ = 0;  // s, of aged_notice_

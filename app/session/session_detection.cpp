@@ -55,7 +55,7 @@ void Session::set_contact_surface(softbody::ContactSurface surface) {
 
 void Session::set_integrator(std::string_view key, std::optional<int> substeps) {
   notice_.clear();
-  succeeds([&] { world_->set_integrator(key, substeps); });
+  succeeds([&] { world_->set_integrator({std::string(key), substeps}); });
   intervened();
   ++revision_;
 }
@@ -80,10 +80,10 @@ void Session::set_collision(const collide::Settings& settings, bool default_cell
   forget_measurements();
 }
 
-const std::vector<softbody::SurfaceTouch>& Session::touches() const {
+const std::vector<softbody::SurfaceContactPoint>& Session::touches() const {
   if (touches_revision_ == revision_) return touches_;
   touches_revision_ = revision_;
-  return touches_ = world_->dynamics().surface_contact().touches(world_->bodies());
+  return touches_ = world_->surface_contacts();
 }
 
 const CompareRow* Session::driver_row() const {

@@ -4,7 +4,7 @@
 
 namespace app {
 
-void Session::set_ghost(const std::optional<IntegratorChoice>& choice) {
+void Session::set_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
   notice_.clear();
   ++revision_;
   history_.ghost.clear();
@@ -47,7 +47,7 @@ void Session::step_ghost() {
     return;
   }
   if (ghost_->blown_up()) return;
-  if (ghost_->world().profile().seconds != world_->profile().seconds) return restart_ghost();  // one was cut short
+  if (ghost_->world().last_step().seconds != world_->last_step().seconds) return restart_ghost();  // one was cut short
   history_.ghost.push(world_->frame(), static_cast<float>(ghost_->distance(*world_)));
   if (!ghost_->world().all_at_rest()) ++revision_;
 }

@@ -62,7 +62,7 @@ void Session::run(double elapsed) {
   while (!paused && accumulator_ >= frame && steps < most_steps && spent_ms < budget_ms) {
     step();
     accumulator_ -= frame;
-    done += world_->profile().seconds;
+    done += world_->last_step().seconds;
     spent_ms += step_ms();
     ++steps;
   }
@@ -72,7 +72,7 @@ void Session::run(double elapsed) {
 }
 
 double Session::step_ms() const {
-  return world_->profile().total_ms + (ghost_ ? ghost_->world().profile().total_ms : 0);
+  return world_->last_step().total_ms + (ghost_ ? ghost_->world().last_step().total_ms : 0);
 }
 
 void Session::follow_pace(double asked, double done) {
@@ -111,8 +111,8 @@ void Session::step() {
   if (stability_.alarm() && !alarmed) paused = true;
   step_ghost();
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
-  history_.detect_ms.push(world_->frame(), static_cast<float>(world_->profile().detect_ms));
-  history_.solve_ms.push(world_->frame(), static_cast<float>(world_->profile().solve_ms));
+  history_.detect_ms.push(world_->frame(), static_cast<float>(world_->last_step().detect_ms));
+  history_.solve_ms.push(world_->frame(), static_cast<float>(world_->last_step().solve_ms));
   history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
 }
 

@@ -22,13 +22,19 @@ void Session::grab(const softbody::Grab& grab) {
   ++revision_;
 }
 
-void Session::pull_to(const glm::dvec3& target) { world_->pull_to(target); }
-void Session::release() { world_->release(); }
+void Session::pull_to(const glm::dvec3& target) {
+  std::optional<softbody::Grab> grab = world_->grabbed();
+  if (!grab) return;
+  grab->target = target;
+  world_->grab(grab);
+}
+
+void Session::release() { world_->grab({}); }
 
 /// But for the hand that may hold a body: nobody will be there to let go.
 Session::Past Session::as_it_is() const {
   softbody::Snapshot present = world_->snapshot();
-  present.dynamics.grab.reset();
+  present.grab.reset();
   return {nullptr, std::move(present), scene_, scene_file_, solids_};
 }
 
@@ -66,7 +72,7 @@ void Session::remove_selected() {
   notice_.clear();
   as_scripted_ = false;
   Past present = as_it_is();
-  world_->release();
+  world_->grab({});
   if (succeeds([&] { world_->remove(*selected_body_); })) remember(std::move(present));
   selected_body_.reset();
   intervened();

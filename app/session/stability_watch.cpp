@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/prototype.h"
+
 namespace app {
 namespace {
 
@@ -28,27 +30,26 @@ StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
 
 void StabilityWatch::before_step(const softbody::World& world) {
   if (to_be_good_ == 0) rewind_.keep(world);
-  needed_before_ = world.dynamics().substeps(world.frame_time());
+  needed_before_ = world.needed_substeps();
 }
 
 void StabilityWatch::after_step(const softbody::World& world, bool guarded) {
   const double frame = world.frame_time();
   // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
-  const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
-  const double seconds = world.profile().seconds;
+  const softbody::StepReport& last = world.last_step();
+  const int taken = last.substeps, needed = std::min(needed_before_, world.needed_substeps());
   margin_ = {};
   if (taken > 0)
     margin_ = {.taken = taken,
                .needed = needed,
-               .substep = seconds / taken,
+               .substep = last.seconds / taken,
                .bound = frame / needed,
-               .kind = kind_of(world.dynamics().used_integrator()),
-               .share = seconds / frame};
+               .kind = kind_of(*last.integrator),
+               .share = last.seconds / frame};
   const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
   if (world.frame() % every != 0) return;
-  const softbody::Dynamics& dynamics = world.dynamics();
-  const bool staggered = taken > 0 && dynamics.used_integrator().staggered;
-  const auto bodies = softbody::measure_bodies(world, staggered ? dynamics.last_substep() : 0);
+  const bool staggered = taken > 0 && last.integrator->staggered;
+  const auto bodies = softbody::measure_bodies(world, staggered ? last.last_substep : 0);
   record(world, bodies);
   if (!guarded) guard_.restart();
   if (guarded) judge(world, bodies);

@@ -11,7 +11,7 @@ namespace {
 void change_levels(Session& session, int by) {
   collide::Settings settings = session.world().collision();
   settings.levels = std::clamp(settings.levels + by, 0, collide::max_levels);
-  session.set_collision(settings, session.world().uses_default_cell_size());
+  session.set_collision(settings, session.world().scene().default_cell_size);
 }
 
 constexpr std::array shortcut_table{

@@ -65,7 +65,7 @@ bool in_use(const SweepRow& row, const softbody::World& world) {
 void apply(const Configuration& c, Session& session) {
   const collide::Method& method = collide::method_table()[c.method];
   collide::Settings settings = session.world().collision();
-  bool automatic = session.world().uses_default_cell_size();
+  bool automatic = session.world().scene().default_cell_size;
   if (method.uses_levels) settings.levels = c.settings.levels;
   if (method.uses_hash) {
     settings.buckets = c.settings.buckets;

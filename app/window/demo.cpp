@@ -46,7 +46,7 @@ class Demo {
                                                             : preferences_.kept().size)),
         opened_(open_session(options, *screen_)),
         session_(*opened_) {
-    session_.set_integrator(options.integrator, options.substeps);
+    session_.set_integrator(options.integrator.key, options.integrator.substeps);
     apply(preferences_.kept(), session_, ui_);
     keep_preferences();
     ui_.import.drop(options.meshes, session_);

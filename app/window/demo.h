@@ -13,8 +13,7 @@ struct DemoOptions {
   std::string scene_name;              // its key or file
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
   std::vector<std::string> meshes;     // OBJ files that join the scene, as if dropped on the window
-  std::string integrator{softbody::default_integrator};
-  std::optional<int> substeps;  // as World::Options
+  softbody::IntegratorChoice integrator;
   int threads = 1;
   int width = 1280, height = 720;  // of the window, screen coordinates
   bool size_given = false;         // else it has the size that it had last

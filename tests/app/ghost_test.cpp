@@ -3,13 +3,14 @@
 #include <gtest/gtest.h>
 
 #include "engine/resources.h"
+#include "softbody/prototype.h"
 #include "tests/app/hands.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {
 namespace {
 
-const IntegratorChoice rk4{"rk4", 8};
+const softbody::IntegratorChoice rk4{"rk4", 8};
 
 void go_on(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.advance(tick);
@@ -19,7 +20,7 @@ TEST(Ghost, OfTheSameIntegratorIsTheSameToTheBit) {
   Session session(touching_pair(), {}, 1);
   session.set_integrator("semi-implicit-euler", std::nullopt);
   go_on(session, 20);
-  session.set_ghost(IntegratorChoice{"semi-implicit-euler", std::nullopt});
+  session.set_ghost(softbody::IntegratorChoice{"semi-implicit-euler", std::nullopt});
   go_on(session, 40);
   EXPECT_EQ(session.ghost()->distance(session.world()), 0);
   EXPECT_EQ(session.ghost()->world().state_hash(), session.world().state_hash());
@@ -42,7 +43,7 @@ TEST(Ghost, ItsDistanceIsThatOfTheIntegrators) {
   scene.gravity = {0, -10, 0};
   Session session(scene, {}, 1);
   session.set_integrator("semi-implicit-euler", 10);
-  session.set_ghost(IntegratorChoice{"velocity-verlet", 10});
+  session.set_ghost(softbody::IntegratorChoice{"velocity-verlet", 10});
   go_on(session, 30);
   const double h = 1.0 / 600, t = 0.5, radius = session.world().prototype(0).radius;
   EXPECT_NEAR(session.ghost()->distance(session.world()), 0.5 * 10 * h * t / radius, 1e-4);
@@ -74,7 +75,7 @@ TEST(Ghost, ThatBlowsUpStops) {
   softbody::Scene scene = touching_pair();
   scene.materials[0].structural.stiffness = 20'000;
   Session session(scene, {}, 1);
-  session.set_ghost(IntegratorChoice{"explicit-euler", 1});
+  session.set_ghost(softbody::IntegratorChoice{"explicit-euler", 1});
   go_on(session, 120);
   ASSERT_TRUE(session.ghost()->blown_up());
   const int frame = session.ghost()->world().frame();
@@ -87,7 +88,7 @@ TEST(Ghost, WhatItsIntegratorCannotMoveIsRefused) {
   softbody::Scene scene = touching_pair();
   scene.materials[0].structural.stiffness = 1e9;
   Session session(scene, {}, 1);
-  session.set_ghost(IntegratorChoice{"explicit-euler", std::nullopt});
+  session.set_ghost(softbody::IntegratorChoice{"explicit-euler", std::nullopt});
   EXPECT_EQ(session.ghost(), nullptr);
   EXPECT_NE(session.notice().find("stiff"), std::string::npos) << session.notice();
 }

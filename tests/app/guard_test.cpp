@@ -5,6 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
+#include "softbody/prototype.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -104,7 +105,7 @@ TEST(Guard, IsCalmWhereABodyThatWasHeldSpringsUp) {
   double fastest = 0;
   for (int i = 0; i < 60; ++i) {
     world.step();
-    const auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    const auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
     fastest = std::max(fastest, bodies[0].max_speed);
     const auto alarm = guard.look(world, bodies);
     ASSERT_FALSE(alarm) << "frame " << i << ": " << alarm->what;
@@ -120,7 +121,7 @@ TEST(Guard, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
   Guard guard;
   const auto look = [&] {
     world.step();
-    return guard.look(world, softbody::measure_bodies(world, world.dynamics().last_substep()));
+    return guard.look(world, softbody::measure_bodies(world, world.last_step().last_substep));
   };
   for (int i = 0; i < 5; ++i) ASSERT_FALSE(look());
   const double start = softbody::measure(world).energy;
@@ -137,7 +138,7 @@ TEST(Guard, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
   }
   EXPECT_GT(most, start + 9.81 * world.prototype(0).radius) << "pushed out with ten times what is an alarm elsewhere";
   ASSERT_FALSE(look());
-  auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+  auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
   bodies[0].energy.elastic += 2 * (most - start);
   EXPECT_TRUE(guard.look(world, bodies));
 }
@@ -155,7 +156,7 @@ TEST(Guard, IsCalmWhereSurfacesArePushedOutOfEachOther) {
   Guard guard;
   const auto look = [&](double joules) {
     world.step();
-    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
     bodies[0].energy.elastic += joules;
     return guard.look(world, bodies);
   };
@@ -184,8 +185,8 @@ TEST(Guard, WaitsASecondForSurfacesToComeApart) {
   Guard guard;
   for (std::size_t i = 0; i < 2 * Guard::memory; ++i) {
     world.step();
-    ASSERT_TRUE(world.dynamics().surface_contact().gives_energy()) << i;
-    auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
+    ASSERT_TRUE(world.last_step().adds_energy) << i;
+    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
     bodies[0].energy.elastic = std::pow(2.0, double(i));
     EXPECT_EQ(guard.look(world, bodies).has_value(), i > Guard::memory) << i;
   }
@@ -212,7 +213,7 @@ TEST(Guard, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
   softbody::Scene scene = touching_pair();
   scene.materials[0].structural.stiffness = 1e5;
   for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
-    softbody::World world(scene, {.integrator = integrator, .substeps = 1});
+    softbody::World world(scene, {.integrator = {integrator, 1}});
     Guard guard;
     std::optional<Alarm> alarm;
     while (!alarm && world.frame() < 60) {

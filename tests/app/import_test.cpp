@@ -12,6 +12,7 @@
 
 #include "app/session/import.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 #include "softbody/prototype_set.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
+#include "softbody/prototype.h"
 #include "softbody/scene_write.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"

@@ -90,7 +90,7 @@ TEST(Panel, LegendsAreNoWiderThanTheirPlace) {
     PanelRig rig(scale);
     for (const OverlayRow& row : overlay_table) rig.ui.overlays.*row.shown = true;
     rig.session.set_contact_surface(softbody::ContactSurface::surfaces);
-    rig.session.set_ghost(IntegratorChoice{"semi-implicit-euler", 1234});
+    rig.session.set_ghost(softbody::IntegratorChoice{"semi-implicit-euler", 1234});
     rig.frames(3);
     const float display = 1280 * scale;
     ASSERT_LT(rig.interface.scene_area().max.x, display) << "there is no column";

@@ -16,16 +16,16 @@ TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
     if (i.automatic) continue;
     rig.click("Integrator");
     rig.click(i.name);
-    EXPECT_EQ(rig.session.world().integrator().key, i.key);
-    EXPECT_FALSE(rig.session.world().substeps());
+    EXPECT_EQ(rig.session.world().integrator_choice().key, i.key);
+    EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
     EXPECT_EQ(rig.widget("At work").min.y, at_work) << "nothing jumps";
   }
   rig.click("Fixed substeps");
-  EXPECT_TRUE(rig.session.world().substeps());
+  EXPECT_TRUE(rig.session.world().integrator_choice().substeps);
   rig.drag("Substeps", -400);
-  EXPECT_EQ(rig.session.world().substeps(), 1);
+  EXPECT_EQ(rig.session.world().integrator_choice().substeps, 1);
   rig.click("Fixed substeps");
-  EXPECT_FALSE(rig.session.world().substeps());
+  EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
 }
 
 TEST(StabilityPanel, GoingOnTakesTheAlarmAway) {

@@ -185,7 +185,7 @@ TEST(Panel, DragsEverySliderToItsEnds) {
   EXPECT_EQ(settings().buckets, collide::max_buckets);
   rig.drag("Buckets", -500);
   rig.click("Auto");
-  EXPECT_FALSE(rig.session.world().uses_default_cell_size());
+  EXPECT_FALSE(rig.session.world().scene().default_cell_size);
   rig.drag("Cell size", -500);
   EXPECT_NEAR(settings().cell_size.x, least_cell, 1e-5);
   rig.drag("Cell size", 500);
@@ -199,7 +199,7 @@ TEST(Panel, DragsEverySliderToItsEnds) {
   rig.click("Scene's settings");
   EXPECT_EQ(rig.session.world().method().key, collide::default_method);
   EXPECT_EQ(settings().levels, 3);
-  EXPECT_TRUE(rig.session.world().uses_default_cell_size());
+  EXPECT_TRUE(rig.session.world().scene().default_cell_size);
 }
 
 TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {

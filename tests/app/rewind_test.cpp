@@ -143,7 +143,7 @@ TEST(Session, GoesBackWithTheSettingsInUse) {
   EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_EQ(session.world().method().key, "grid-hash");
   EXPECT_EQ(session.world().collision().buckets, 77u);
-  EXPECT_FALSE(session.world().uses_default_cell_size());
+  EXPECT_FALSE(session.world().scene().default_cell_size);
   EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
 }
 

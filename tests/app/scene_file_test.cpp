@@ -68,8 +68,7 @@ TEST(Commands, MakeTheSceneAsItRuns) {
       const Options simulate = parse(simulate_command(key, used, {"xpbd", 7}, 17));
       EXPECT_EQ(simulate.command, Command::simulate);
       EXPECT_EQ(simulate.frames, 17);
-      EXPECT_EQ(simulate.integrator, "xpbd");
-      EXPECT_EQ(simulate.substeps, 7);
+      EXPECT_EQ(simulate.integrator, (softbody::IntegratorChoice{"xpbd", 7}));
       EXPECT_EQ(simulate.captures, std::vector{17});
       EXPECT_TRUE(load_scene(simulate).collision == made.collision);
     }
@@ -168,7 +167,7 @@ TEST(Reset, KeepsTheIntegrator) {
   Session session(touching_pair(), {}, 1);
   session.set_integrator("xpbd", 7);
   session.reset();
-  EXPECT_EQ(session.integrator(), (IntegratorChoice{"xpbd", 7}));
+  EXPECT_EQ(session.integrator(), (softbody::IntegratorChoice{"xpbd", 7}));
 }
 
 TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {

@@ -9,7 +9,9 @@
 #include <glm/matrix.hpp>
 
 #include "app/window/scene_mouse.h"
+#include "softbody/prototype.h"
 #include "tests/app/hands.h"
+#include "tests/support/world_insides.h"
 
 namespace app {
 namespace {
@@ -167,11 +169,11 @@ TEST_F(Mouse, GrabsPullsAndThrows) {
   const glm::vec2 target = input.at + glm::vec2(150, -60);
   for (int i = 1; i <= 30; ++i) move(input.at + (target - input.at) * 0.2f);
   frame(90);
-  const glm::vec3 point(session.world().dynamics().grabbed_point());
+  const glm::vec3 point(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
   EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // hangs by it
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-  const glm::dvec3 held(session.world().dynamics().grabbed_point());
+  const glm::dvec3 held(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
               glm::distance(glm::dvec3(camera.eye()), centre(session.world(), 0)), 1);
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));

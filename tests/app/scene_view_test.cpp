@@ -47,7 +47,8 @@ TEST_F(SceneViewTest, EveryOverlayShows) {
   OverlayRequest request;
   request.debug = &session_.debug();
   request.missed = &missed;
-  const std::vector<softbody::SurfaceTouch> touches{{0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
+  const std::vector<softbody::SurfaceContactPoint> touches{
+      {0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
   const std::vector<SurfaceMark> marks{{0, {0, 0.3f, 0}, false}, {200, {0, 0.1f, 0}, true}};
   request.touches = touches;
   request.marks = marks;

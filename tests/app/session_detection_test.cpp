@@ -169,7 +169,7 @@ TEST(Session, ComparesAllMethodsAgainAndAgainWhileAskedTo) {
 }
 
 /// The first side's closest point, or the second's.
-glm::dvec3 closest_point(const softbody::SurfaceTouch& touch, const collide::Frame& frame, bool second) {
+glm::dvec3 closest_point(const softbody::SurfaceContactPoint& touch, const collide::Frame& frame, bool second) {
   glm::dvec3 point(0.0);
   double sum = 0;
   for (std::size_t k = 0; k < touch.vertex.size(); ++k) {
@@ -191,7 +191,7 @@ TEST(Session, TouchesAreTheClosestPointsOfTheTwoBodies) {
   ASSERT_FALSE(session.touches().empty());
   const collide::Frame frame = session.world().positions();
   const auto body = session.world().vertex_body();
-  for (const softbody::SurfaceTouch& touch : session.touches()) {
+  for (const softbody::SurfaceContactPoint& touch : session.touches()) {
     EXPECT_NE(touch.a, touch.b);
     EXPECT_EQ(body[touch.vertex[0]], touch.a);
     EXPECT_EQ(body[touch.vertex[3]], touch.b);

@@ -110,7 +110,7 @@ TEST(Session, ResetKeepsTheSettingsAndRestartsTheWorld) {
   session.restore_settings();
   EXPECT_EQ(session.world().method().key, collide::default_method);
   EXPECT_EQ(session.world().collision().buckets, 1001u);
-  EXPECT_TRUE(session.world().uses_default_cell_size());
+  EXPECT_TRUE(session.world().scene().default_cell_size);
 }
 
 TEST(Session, DropsABodyAlsoWhereTheSceneDoesNotSayWhere) {

@@ -4,6 +4,7 @@
 
 #include "app/session/session.h"
 #include "app/ui/status.h"
+#include "softbody/prototype.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -29,7 +30,7 @@ struct Watched {
   void explode() {
     ASSERT_FALSE(watch.alarm());
     ASSERT_LT(softbody::measure(world).max_speed, 5);
-    world.set_integrator("semi-implicit-euler", 2);
+    world.set_integrator({"semi-implicit-euler", 2});
     watch.intervened();
     step();
     ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
@@ -59,7 +60,7 @@ TEST(StabilityWatch, WatchesAgainOnceTheWorldWasGoodForAWhile) {
   w.watch.dismiss_alarm();
   const int bad = w.world.frame();
   w.world.restore(w.watch.past().snapshots().front());  // bodies in order again: an exploded world would take minutes
-  w.world.set_integrator(softbody::default_integrator, {});
+  w.world.set_integrator({});
   w.watch.intervened();
   const int again = bad + 2 * static_cast<int>(Guard::memory);
   while (w.world.frame() < again) {
@@ -68,7 +69,7 @@ TEST(StabilityWatch, WatchesAgainOnceTheWorldWasGoodForAWhile) {
   }
   EXPECT_GT(w.watch.past().snapshots().back().frame, bad);
   EXPECT_GT(w.watch.last_good_frame(), bad);
-  w.world.set_integrator("semi-implicit-euler", 2);
+  w.world.set_integrator({"semi-implicit-euler", 2});
   w.watch.intervened();
   while (!w.watch.alarm() && w.world.frame() < again + 10) w.step();
   EXPECT_TRUE(w.watch.alarm()) << "of another explosion";
@@ -84,7 +85,7 @@ TEST(StepLight, IsGreenAmberAndRed) {
 }
 
 TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
-  softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler"});
+  softbody::World world(touching_pair(), {.integrator = {"semi-implicit-euler"}});
   StabilityWatch watch;
   const auto step = [&] {
     watch.before_step(world);
@@ -95,7 +96,7 @@ TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
   EXPECT_EQ(watch.margin().share, 1);
   std::vector<softbody::Particle> particles;
   for (softbody::Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
-    particles.push_back(world.dynamics().particle(0, i));
+    particles.push_back(world.particle(0, i));
   particles[0].velocity.y += 1e6;
   world.set_particles(0, particles);
   step();
@@ -111,12 +112,12 @@ TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
   EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
   EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
   for (const softbody::Integrator& integrator : softbody::integrators()) {
-    softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
+    softbody::World world(touching_pair(), {.integrator = {std::string(integrator.key), 1}});
     StabilityWatch watch;
     watch.before_step(world);
     world.step();
     watch.after_step(world, true);
-    const std::string_view used = world.dynamics().used_integrator().key;
+    const std::string_view used = world.last_step().integrator->key;
     const Bound expected = used == "implicit" || used == "xpbd" ? Bound::unconditional
                            : used == "explicit-euler"           ? Bound::by_damping
                                                                 : Bound::stable;
@@ -126,8 +127,8 @@ TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
 
 TEST(StepLight, ComparesTheStepWithTheBound) {
   for (const std::optional<int> substeps : {std::optional<int>(), std::optional(1)}) {
-    softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler", .substeps = substeps});
-    const int needed = world.dynamics().substeps(world.frame_time());
+    softbody::World world(touching_pair(), {.integrator = {"semi-implicit-euler", substeps}});
+    const int needed = world.needed_substeps();
     ASSERT_GT(needed, 1);
     StabilityWatch watch;
     watch.before_step(world);

@@ -11,6 +11,7 @@
 
 #include "app/files/obj.h"
 #include "app/session/export/take_away.h"
+#include "softbody/prototype.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/limits.h"
+#include "softbody/prototype.h"
 #include "tests/app/hands.h"
 
 namespace app {
@@ -126,6 +127,8 @@ TEST(Undo, TakesADropAndAThrowBackToTheBit) {
   session.undo();
   EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_FALSE(session.world().grabbed());
+  session.pull_to({9, 9, 9});  // nothing to pull
   EXPECT_FALSE(session.world().grabbed());
   EXPECT_FALSE(session.can_undo());
 }

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/reference_run.h"
+#include "softbody/prototype.h"
 
 namespace app::test {
 namespace {
@@ -108,7 +109,7 @@ TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
 
 /// Of the world with rk4 from the reference, R.
 double difference(const softbody::Scene& scene, int substeps) {
-  softbody::World world(scene, {.integrator = "rk4", .substeps = substeps});
+  softbody::World world(scene, {.integrator = {"rk4", substeps}});
   EXPECT_EQ(ReferenceBody::missing(world), "");
   const ReferenceBody body(world.prototype(0), world.scene());
   const Reference r = find_reference(body, state_of(world, 0), 1e-5, {.seconds = 0.25, .steps = 20'000});
@@ -134,7 +135,7 @@ TEST(ReferenceBody, AgreesWithTheWorldInContact) {
 
 TEST(ReferenceBody, AKilometreFromTheOriginItsGasIsAsSteady) {
   softbody::Scene scene = lone_ball(1e8, 0.02);
-  const softbody::World world(scene, {.substeps = 1});
+  const softbody::World world(scene, {.integrator = {.substeps = 1}});
   const ReferenceBody body(world.prototype(0), scene);
   BodyState s{world.prototype(0).start, std::vector<dvec3>(162, dvec3(0.0))};
   for (dvec3& p : s.x) p += 1000.0;

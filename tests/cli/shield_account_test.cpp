@@ -101,15 +101,15 @@ softbody::Scene slack_on_stiff() {
 TEST(ShieldAccount, PairsFoundFromBehindAreNoEnergyOfTheBodies) {
   softbody::World world(slack_on_stiff(), {.frame_time = 1.0 / 30});
   ShieldAccount account;
-  account.join(world.shield_energies(), 0);
+  account.join(world.pair_energies().next, 0);
   const double start = softbody::measure(world).energy, bound = 0.05 * 9.81;  // J: of m g R, both bodies
   double stored = 0, potential = 0;                                           // J, the most: with the bodies' own
   for (int frame = 0; frame < 60; ++frame) {
     world.step();
-    account.frame(world.last_shield_energies(), world.shield_energies());
+    account.frame(world.pair_energies().last, world.pair_energies().next);
     const double own = softbody::measure(world).energy - start;
     stored = std::max(stored, own + account.stored());
-    potential = std::max(potential, own + softbody::total(world.shield_energies()));
+    potential = std::max(potential, own + softbody::total(world.pair_energies().next));
   }
   EXPECT_GT(potential, 2 * bound) << "they are found so";
   EXPECT_LT(stored, bound);
@@ -125,13 +125,13 @@ TEST(ShieldAccount, HoldsWhatBodiesLoseToEachOther) {
     scene.bodies[1].velocity = {drift, -0.2, 0};
     softbody::World world(scene, {.frame_time = 1.0 / 240});
     ShieldAccount account;
-    account.join(world.shield_energies(), 0);
+    account.join(world.pair_energies().next, 0);
     const double start = softbody::measure(world).energy, rounding = 1e-6 * (1 + drift * drift);  // J
     double most = 0, lost = 0;  // J: stored, and what the bodies had less then
     for (int frame = 0; frame < 480; ++frame) {
       world.step();
       const double before = account.stored();
-      account.frame(world.last_shield_energies(), world.shield_energies());
+      account.frame(world.pair_energies().last, world.pair_energies().next);
       const double own = softbody::measure(world).energy - start;
       ASSERT_LT(own + account.stored(), rounding) << drift << " m/s, frame " << frame;
       ASSERT_NEAR(account.stored(), before, 1e-4) << drift << " m/s, frame " << frame;

@@ -16,6 +16,7 @@
 #include "softbody/measures.h"
 #include "tests/soak/actions.h"
 #include "tests/soak/resources.h"
+#include "tests/support/world_insides.h"
 #include "tests/temporary_folder.h"
 
 namespace soak {
@@ -32,7 +33,7 @@ constexpr int cut_substeps = 2000;             // that a frame counts for of whi
 constexpr std::size_t large_scene = 50'000;    // vertices; gets a sixtieth of the time
 
 // What a frame may cost: in counted work, and where nothing counts it in processor time, far above what frames take.
-constexpr int most_substeps = softbody::World::max_substeps;
+constexpr int most_substeps = softbody::max_substeps;
 constexpr std::uint64_t most_pair_tests = 1'000'000'000;  // Session's own bound for the method that drives
 constexpr double most_seconds = 20;
 constexpr double slow_seconds = 1;  // from where on a frame that is slower than all before is told of
@@ -56,11 +57,11 @@ class Soak {
         frame(i % picture_every == 0);
         const softbody::World& world = demo_.session.world();
         if (world.frame() == before) continue;
-        const softbody::Dynamics& dynamics = world.dynamics();
+        const softbody::Dynamics& dynamics = softbody::WorldInsides::dynamics(world);
         const auto candidates = int(dynamics.surface_contact().search().features().size());
         const int weight = dynamics.used_integrator().implicit ? implicit_substeps : 1;
-        substeps += world.profile().substeps * (weight + candidates / candidates_of_substep);
-        if (world.profile().seconds < world.frame_time()) substeps += cut_substeps;
+        substeps += world.last_step().substeps * (weight + candidates / candidates_of_substep);
+        if (world.last_step().seconds < world.frame_time()) substeps += cut_substeps;
       }
       if (substeps >= many_substeps) {
         ++impatient_;
@@ -90,14 +91,14 @@ class Soak {
   /// What to look into.
   void say_slow(double seconds) const {
     const softbody::World& world = demo_.session.world();
-    const softbody::Profile& p = world.profile();
-    const softbody::SurfaceContact& surface = world.dynamics().surface_contact();
+    const softbody::StepReport& p = world.last_step();
+    const softbody::SurfaceContact& surface = softbody::WorldInsides::dynamics(world).surface_contact();
     std::printf(
         "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %d substeps of %s, %.5f s "
         "simulated, %.0f ms to detect, %.0f ms to solve, with surface contact of %.3g a search and %.3g a substep\n",
         world.scene().key.c_str(), static_cast<unsigned long long>(frames_), seconds, last_.c_str(),
         world.bodies().count(), world.bodies().vertex_count(), p.substeps,
-        std::string(world.dynamics().used_integrator().key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
+        std::string(world.last_step().integrator->key).c_str(), p.seconds, p.detect_ms, p.solve_ms,
         double(surface.search().work()), surface.work_of_substep(float(p.seconds / std::max(p.substeps, 1))));
     std::fflush(stdout);
   }
@@ -136,7 +137,7 @@ class Soak {
     const softbody::World& world = session.world();
     if (took > std::max(slowest_, slow_seconds)) say_slow(took);
     slowest_ = std::max(slowest_, took);
-    substeps_ = std::max(substeps_, world.profile().substeps);
+    substeps_ = std::max(substeps_, world.last_step().substeps);
     pair_tests_ = std::max(pair_tests_, world.detection().counters.pair_tests);
     if (substeps_ > most_substeps) fail("a frame took " + std::to_string(substeps_) + " substeps");
     if (pair_tests_ > most_pair_tests) fail("a frame took " + std::to_string(pair_tests_) + " pair tests");
@@ -152,7 +153,7 @@ class Soak {
     app::Session& session = demo_.session;
     const softbody::World& world = session.world();
     ++explosions_;
-    const bool by_itself = world.integrator().automatic && !world.substeps();
+    const bool by_itself = world.integrator_choice().integrator().automatic && !world.integrator_choice().substeps;
     if (by_itself) {
       ++explosions_by_itself_;
       std::printf("%-10s frame %llu: %s, after \"%s\"\n", world.scene().key.c_str(),

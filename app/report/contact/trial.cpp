@@ -15,6 +15,7 @@
 #include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -64,8 +65,8 @@ class Trial {
     });
     require_whole_frame(world_);
     result_.cpu_ms += 1e3 * (thread_seconds() - start - looking);
-    result_.detect_ms += world_.profile().detect_ms;
-    result_.solve_ms += world_.profile().solve_ms;
+    result_.detect_ms += world_.last_step().detect_ms;
+    result_.solve_ms += world_.last_step().solve_ms;
     look_for_passages(rest_way);
     look_into_solids();
     if (world_.frame() > limits_.frames - last_second) look_at_speeds();
@@ -149,7 +150,7 @@ class Trial {
       if (world_.body(b).asleep) continue;
       const collide::Index size = world_.bodies().size(b);
       for (collide::Index v = 0; v < size; ++v) {
-        const glm::dvec3 velocity = world_.dynamics().particle(b, v).velocity;
+        const glm::dvec3 velocity = world_.particle(b, v).velocity;
         squares_ += glm::dot(velocity, velocity);
       }
       awake_particles_ += size;

@@ -3,6 +3,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/text.h"
+#include "app/report/own_steps.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -14,7 +16,7 @@ SolverScene free_flight(double stiffness, const std::string& key) {
   SolverScene s{.key = key, .name = format("Free flight, k = %g N/m", stiffness)};
   softbody::Material calm = ball_material(stiffness, 0.02);
   s.scene = lone_scene(calm);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position);
   s.scene.materials[0].gas_pressure *= 1.1;
   return s;
@@ -24,8 +26,8 @@ SolverScene free_flight(double stiffness, const std::string& key) {
 SolverScene on_the_ground() {
   SolverScene s{.key = "contact-1e3", .name = "Ball let down on the ground, k = 1000 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));
-  const softbody::Particle lowest =
-      particles_of(softbody::World(s.scene, {.substeps = 1}), 0)[0];  // an icosphere's extent is that of any corner
+  const softbody::World world(s.scene, {.integrator = one_step()});
+  const softbody::Particle lowest = world.particle(0, 0);  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
   s.scene.ground = softbody::Ground{};
   s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0].thickness + 1e-3;
@@ -81,7 +83,7 @@ softbody::Scene lone_scene(const softbody::Material& material) {
 Particles particles_of(const softbody::World& world, softbody::BodyId body) {
   Particles list;
   for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    list.push_back(world.dynamics().particle(body, i));
+    list.push_back(world.particle(body, i));
   return list;
 }
 

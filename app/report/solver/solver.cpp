@@ -11,6 +11,7 @@
 #include "app/report/own_steps.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/trial.h"
+#include "softbody/limits.h"
 
 namespace app {
 namespace {

@@ -9,6 +9,7 @@
 #include "app/report/cpu_clock.h"
 #include "app/report/own_steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -29,9 +30,7 @@ World make_world(const SolverScene& of, const SolverRun& run, const softbody::In
       body.position.x += c * spacing;
       scene.bodies.push_back(body);
     }
-  World world(std::move(scene), {.frame_time = run.frame_time,
-                                 .integrator = std::string(integrator.key),
-                                 .substeps = steps_for(integrator, substeps)});
+  World world(std::move(scene), {.frame_time = run.frame_time, .integrator = with_steps(integrator, substeps)});
   for (int c = 0; c < copies; ++c)
     for (std::size_t b = 0; b < of.start.size(); ++b) {
       Particles start = of.start[b];
@@ -67,7 +66,7 @@ double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b
 /// Where the reference does not have the scene's model: the world's own rk4, in floats.
 Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
   World world = make_world(scene, run, rk4(), 1, 1);
-  int substeps = world.dynamics().substeps(run.frame_time);
+  int substeps = world.needed_substeps();
   const auto outcome = [&](const SolverScene& s, int n) {
     World w = make_world(s, run, rk4(), n, 1);
     return advance(w, run.frames);
@@ -142,7 +141,7 @@ Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, s
 
 WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) {
   WorkPoint p;
-  const World world(scene.scene, {.substeps = 1});
+  const World world(scene.scene, {.integrator = one_step()});
   p.blew_up = !o.finite;
   if (p.blew_up) return p;
   p.error = error_of(o.bodies, truth.bodies, world);

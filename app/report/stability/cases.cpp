@@ -7,6 +7,7 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
+#include "app/report/own_steps.h"
 
 namespace app {
 namespace {
@@ -23,7 +24,7 @@ StabilityScene lone(double k) { return {.scene = lone_scene(ball_material(k, dam
 template <class Place>
 StabilityScene placed(double k, Place place) {
   StabilityScene s = lone(k);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.position = place(p.position);
   return s;
 }
@@ -66,7 +67,7 @@ StabilityScene over_ground(double k, double height) {
 
 /// The radius that gas gives the ball; the mesh itself is smaller.
 double inflated(double k) {
-  return glm::length(particles_of(softbody::World(lone(k).scene, {.substeps = 1}), 0)[0].position);
+  return glm::length(particles_of(softbody::World(lone(k).scene, {.integrator = one_step()}), 0)[0].position);
 }
 
 StabilityScene on_the_ground(double k) { return over_ground(k, inflated(k) + 0.006); }
@@ -133,7 +134,7 @@ StabilityScene spoilt_mesh(double k, Spoil spoil) {
   spoil(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
   s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
   s.scene.materials[0].shape_frequency = 0;
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.position.y *= 0.5;
   return s;
 }

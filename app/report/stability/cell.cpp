@@ -12,6 +12,7 @@
 #include "app/report/solid_passages.h"
 #include "app/report/stability/joiners.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -40,13 +41,11 @@ class Run {
   Run(const StabilityStart& start) : start_(start), judge_(start.limits), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
-    World world(
-        start_.scene,
-        {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_for(integrator, 1)});
+    World world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)});
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      shields_.join(world.shield_energies(), 0);
+      shields_.join(world.pair_energies().next, 0);
       while (bodies_ < world.bodies().count()) take_in();
     }
     return world;
@@ -61,7 +60,8 @@ class Run {
     require_whole_frame(world);
     if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
-    shields_.frame(world.last_shield_energies(), world.shield_energies());
+    const softbody::PairEnergies pairs = world.pair_energies();
+    shields_.frame(pairs.last, pairs.next);
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
                       .frame = frame_,
@@ -132,8 +132,7 @@ class Run {
     constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
     if (start_.limits.begins_inside && !came_out_)
-      for (BodyId b = 0; b < world.bodies().count(); ++b)
-        work_ += push_out * glm::length(world.dynamics().solid_impulse(b));
+      for (BodyId b = 0; b < world.bodies().count(); ++b) work_ += push_out * glm::length(world.body(b).solid_impulse);
   }
 
   const StabilityStart& start_;

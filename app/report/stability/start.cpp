@@ -8,8 +8,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/base/text.h"
+#include "app/report/own_steps.h"
 #include "softbody/measures.h"
-#include "softbody/snapshot.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -50,7 +51,7 @@ StabilityStart::Leash leash_of(const softbody::Prototype& p) {
 
 /// The world with its bodies where the case wants them.
 World placed(const StabilityScene& from) {
-  World world(from.scene, {.substeps = 1});
+  World world(from.scene, {.integrator = one_step()});
   for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
   return world;
 }
@@ -73,7 +74,7 @@ StabilityLimits limits_of(const World& world, const StabilityStart& start, doubl
   const softbody::Measures m = softbody::measure(world);
   double smallest = infinite;
   for (const StabilityStart::Member& member : start.members) smallest = std::min(smallest, member.radius);
-  return {.energy = m.energy + softbody::total(world.shield_energies()),
+  return {.energy = m.energy + softbody::total(world.pair_energies().next),
           .seconds = start.first_frame + seconds,
           .radius = smallest,
           .begins_inside = m.deepest_penetration > 0};
@@ -106,9 +107,11 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   const World world = placed(from);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
-  const softbody::PrototypeSet prototypes = world.snapshot().prototypes;
-  for (const softbody::BodySource& source : s.scene.bodies)
-    s.members.push_back(member_of(*prototypes.of(source), source, s.scene.gravity));
+  for (const softbody::BodySource& source : s.scene.bodies) {
+    const auto prototype =
+        softbody::shared_prototype(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
+    s.members.push_back(member_of(*prototype, source, s.scene.gravity));
+  }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
     s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
@@ -121,7 +124,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
 }
 
 void find_truth(StabilityStart& start, std::uint64_t steps) {
-  World world(start.scene, {.substeps = 1});
+  World world(start.scene, {.integrator = one_step()});
   const auto no = [&](const std::string& why) { start.untold = joined("the reference ", why); };
   if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
     return no(joined("does not model ", missing));

@@ -4,8 +4,10 @@
 #include <random>
 
 #include "app/reference/reference_body.h"
+#include "app/report/own_steps.h"
 #include "app/report/solver/scenes.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {
@@ -14,7 +16,7 @@ namespace {
 class DisturbedBall {
  public:
   explicit DisturbedBall(double stiffness) : scene_(lone_scene(ball_material(stiffness, 0.1))) {
-    const softbody::World world(scene_, {.substeps = 1});
+    const softbody::World world(scene_, {.integrator = one_step()});
     start_ = particles_of(world, 0);
     balance_ = softbody::measure(world).energy;
     std::mt19937 random(1);
@@ -46,7 +48,7 @@ class DisturbedBall {
 
  private:
   softbody::World make(const softbody::Integrator& integrator, double h) const {
-    softbody::World world(scene_, {.frame_time = h, .integrator = std::string(integrator.key), .substeps = 1});
+    softbody::World world(scene_, {.frame_time = h, .integrator = one_step(integrator.key)});
     world.set_particles(0, start_);
     return world;
   }

@@ -161,7 +161,7 @@ void draw_detection(Widgets& w, Session& session, bool structure_shown) {
   draw_method(w, session);
   const collide::Method& method = session.world().method();
   collide::Settings settings = session.world().collision();
-  bool automatic = session.world().uses_default_cell_size();
+  bool automatic = session.world().scene().default_cell_size;
   // Settings are offered where something has use for them: the driving method, what is shown of §2, or a comparison.
   const bool others = structure_shown || session.selected_bucket() || session.compare.on;
   const bool hash = method.uses_hash || others;

@@ -9,9 +9,10 @@ namespace {
 
 /// "Auto (Semi-implicit Euler)", or "Runge-Kutta 4, 8 substeps".
 std::string in_words(const softbody::World& world) {
-  std::string text(world.integrator().name);
-  if (world.integrator().automatic) text.append(" (").append(world.dynamics().used_integrator().name).append(")");
-  if (const auto substeps = world.substeps())
+  const softbody::IntegratorChoice& choice = world.integrator_choice();
+  std::string text(choice.integrator().name);
+  if (choice.integrator().automatic) text.append(" (").append(world.last_step().integrator->name).append(")");
+  if (const auto substeps = choice.substeps)
     text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
   return text;
 }
@@ -23,9 +24,9 @@ std::string distance_text(const Session& session) {
 
 }  // namespace
 
-bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choice, int proposed) {
-  const IntegratorChoice before = choice;
-  const softbody::Integrator& now = *softbody::find_integrator(choice.key);
+bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorChoice& choice, int proposed) {
+  const softbody::IntegratorChoice before = choice;
+  const softbody::Integrator& now = choice.integrator();
   w.row("Integrator", w.px(label_column));
   if (w.begin_choices(joined(name, "Integrator").c_str(), std::string(now.name).c_str(),
                       std::string(now.summary).c_str())) {
@@ -53,10 +54,10 @@ void draw_ghost(Widgets& w, Session& session) {
   if (w.checkbox("Ghost world", on,
                  "The same bodies from this moment on, moved by another integrator: translucent, in a colour of their "
                  "own. Whenever hands or settings change the world, the ghost begins anew from it."))
-    session.set_ghost(on ? std::optional(IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
+    session.set_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
   if (!session.ghost()) return;
-  IntegratorChoice choice = session.ghost()->choice();
-  const int used = session.ghost()->world().profile().substeps;
+  softbody::IntegratorChoice choice = session.ghost()->choice();
+  const int used = session.ghost()->world().last_step().substeps;
   if (draw_integrator_choice(w, "Ghost ", choice, used)) session.set_ghost(choice);
   if (!session.ghost()) return;
   w.curve("Ghost apart", distance_text(session), session.history().ghost,

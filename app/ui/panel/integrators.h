@@ -8,7 +8,7 @@ namespace app {
 
 /// Two rows: an integrator from the list, and whether its substeps are fixed, and at how many. True if that changed.
 /// name: of the whole, in labels ("" or "Ghost "); proposed: substeps to begin with.
-bool draw_integrator_choice(Widgets& widgets, const char* name, IntegratorChoice& choice, int proposed);
+bool draw_integrator_choice(Widgets& widgets, const char* name, softbody::IntegratorChoice& choice, int proposed);
 
 /// The ghost's switch, its integrator, and how far it is from the world that is shown.
 void draw_ghost(Widgets& widgets, Session& session);

@@ -7,6 +7,7 @@
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/status.h"
+#include "softbody/measures.h"
 
 namespace app {
 namespace {
@@ -21,10 +22,10 @@ constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 
 
 void draw_curves(Widgets& w, const Session& session, float fineness) {
   const History& history = session.history();
-  const softbody::Profile& profile = session.world().profile();
+  const softbody::StepReport& last = session.world().last_step();
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
-  w.curve("Detect", format("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", format("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Detect", format("%.2f ms", last.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
+  w.curve("Solve", format("%.2f ms", last.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
   w.curve("Picture", format("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
@@ -43,7 +44,7 @@ void draw_touches(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) return;
   const auto& touches = session.touches();
   const auto inside = static_cast<std::size_t>(
-      std::ranges::count_if(touches, [](const softbody::SurfaceTouch& touch) { return touch.a == touch.b; }));
+      std::ranges::count_if(touches, [](const softbody::SurfaceContactPoint& touch) { return touch.a == touch.b; }));
   w.figure("surfaces, between bodies", grouped(touches.size() - inside),
            "Vertices on faces and edges on edges of another body that pressed on each other in the last substep. "
            "Bodies that sleep are not looked at.");
@@ -99,7 +100,7 @@ void draw_numbers(Widgets& w, const Session& session, float fineness) {
   w.figure("between bodies", grouped(found.contacts.size() - found.self_contacts),
            "Contacts whose two vertices belong to two bodies (§2.3).");
   w.figure("inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
-  w.figure("with solids", grouped(session.world().solid_contacts().size()),
+  w.figure("with solids", grouped(softbody::solid_contacts(session.world()).size()),
            "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
   draw_touches(w, session);
   draw_pair_tests(w, session);

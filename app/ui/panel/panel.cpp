@@ -79,7 +79,7 @@ void draw_progress(Widgets& w, const Session& session) {
   const softbody::World& world = session.world();
   ImGui::TextDisabled("Frame %d", world.frame());
   ImGui::SameLine(w.px(label_column));
-  ImGui::TextDisabled("%.2f s", world.time());
+  ImGui::TextDisabled("%.2f s", world.last_step().time);
   ImGui::SameLine(w.px(label_column + 76));
   std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
   if (session.paused) {

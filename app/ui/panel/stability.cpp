@@ -8,6 +8,7 @@
 #include "app/ui/panel/integrators.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/status.h"
+#include "softbody/limits.h"
 
 namespace app {
 namespace {
@@ -30,7 +31,7 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::BeginDisabled(past.empty());
   int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
   const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
-  const std::string shown = format("frame %d, %.2f s", frame, session.world().time());
+  const std::string shown = format("frame %d, %.2f s", frame, session.world().last_step().time);
   if (w.slider("Go back to", place, 0, last, shown.c_str(),
                "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
                "the settings in use. Snapshots are dense lately and sparse long ago."))
@@ -44,15 +45,15 @@ void draw_past(Widgets& w, Session& session) {
 /// Which integrator, with how many substeps; and which one is at work, if it chooses by itself.
 void draw_integrator(Widgets& w, Session& session) {
   const softbody::World& world = session.world();
-  IntegratorChoice choice{std::string(world.integrator().key), world.substeps()};
-  const int asked = std::max(session.stability().margin().needed, world.profile().substeps);
-  const int proposed = std::min(asked, softbody::World::max_substeps);
+  const softbody::StepReport& last = world.last_step();
+  softbody::IntegratorChoice choice = world.integrator_choice();
+  const int asked = std::max(session.stability().margin().needed, last.substeps);
+  const int proposed = std::min(asked, softbody::max_substeps);
   if (draw_integrator_choice(w, "", choice, proposed)) session.set_integrator(choice.key, choice.substeps);
-  const softbody::Dynamics& dynamics = world.dynamics();
-  const bool chosen = !dynamics.used_integrator().automatic;  // not before the first step
-  const std::string why = world.integrator().automatic ? "Because " + std::string(dynamics.why_integrator()) + "."
-                                                       : "The one that was chosen.";
-  w.figure("At work", chosen ? std::string(dynamics.used_integrator().name) : "from the next step on", why.c_str());
+  const bool chosen = !last.integrator->automatic;  // not before the first step
+  const std::string why = world.integrator_choice().integrator().automatic ? "Because " + std::string(last.why) + "."
+                                                                           : "The one that was chosen.";
+  w.figure("At work", chosen ? std::string(last.integrator->name) : "from the next step on", why.c_str());
 }
 
 struct StabilityCurve {

@@ -8,6 +8,7 @@
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace app {
 namespace {

@@ -6,6 +6,7 @@
 
 #include "app/base/text.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace bench {
 namespace {
