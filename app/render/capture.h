@@ -10,7 +10,7 @@ namespace app {
 
 class Capture {
  public:
-  /// Throws engine::Unavailable, engine::ResourceError or engine::ShaderError: one line that says what is missing.
+  /// Throws engine::ContextError, engine::ResourceError or engine::ShaderError: one line that says what is missing.
   Capture(int width, int height);
   ~Capture();
 

@@ -18,7 +18,7 @@ using Points = std::span<const glm::vec3>;
 void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
-  if (!tinted) set.fill = 0;
+  if (!tinted) set.face_alpha = 0;
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     glm::vec3 lo(std::numeric_limits<float>::max()), hi(std::numeric_limits<float>::lowest());
@@ -39,7 +39,7 @@ glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
   engine::BoxSet set;
-  set.fill = request.bucket ? 0.0f : 0.05f;
+  set.face_alpha = request.bucket ? 0.0f : 0.05f;
   const float alpha = request.bucket ? 0.15f : 0.85f;
   for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::most_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
@@ -51,9 +51,9 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
 /// What is in a bucket, with its cells: those of one cell in one colour, and in another what shares but the bucket.
 void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
   const CellGroup* reference = request.bucket->group(request.bucket_cell);
-  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .hidden = 0.6f, .fill = 0.22f};
-  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .hidden = 0.5f, .fill = 0.08f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.6f};
+  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = 0.6f, .face_alpha = 0.22f};
+  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = 0.5f, .face_alpha = 0.08f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.6f};
   for (const CellGroup& group : request.bucket->groups) {
     const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
     cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
@@ -74,8 +74,8 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
 void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
-  set.hidden = 0.6f;
-  set.fill = 0.12f;
+  set.occluded_alpha = 0.6f;
+  set.face_alpha = 0.12f;
   for (const auto& [lo, hi, body] : areas) {
     if (set.boxes.size() < SceneView::most_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
   }
@@ -83,7 +83,7 @@ void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::Fr
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.0f, .hidden = 0.12f, .fill = 0};
+  engine::BoxSet set{.boxes = {}, .width = 1.0f, .occluded_alpha = 0.12f, .face_alpha = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
     if (set.boxes.size() == SceneView::most_boxes) break;
     set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
@@ -103,8 +103,8 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
 constexpr float contacts_hidden = 0.55f;
 
 void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
   const auto body = world.vertex_body();
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = body[contact.a] == body[contact.b];
@@ -118,8 +118,8 @@ void add_contacts(const softbody::World& world, Points positions, engine::FrameD
 }
 
 void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.8f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.8f};
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.8f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.8f};
   for (const collide::Contact& contact : missed) {
     add_contact(positions, contact, contact_missed_colour, lines, points);
   }
@@ -130,8 +130,8 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 /// Both closest points, and the normal from the second one, half a mean edge long.
 void add_touches(const softbody::World& world, std::span<const softbody::SurfaceTouch> touches, Points positions,
                  engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
   for (const softbody::SurfaceTouch& touch : touches) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < touch.vertex.size(); ++k)
@@ -148,8 +148,8 @@ void add_touches(const softbody::World& world, std::span<const softbody::Surface
 
 /// Penetrating vertices joined to the surface that they passed, and the points where edges pierce faces.
 void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 1.5f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 4.0f, .hidden = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 4.0f, .occluded_alpha = contacts_hidden};
   const glm::vec4 colour(contact_missed_colour, 1.0f);
   for (const SurfaceMark& mark : marks) {
     const glm::vec3 vertex = positions[mark.vertex], point = vertex + mark.offset;
@@ -191,8 +191,8 @@ bool is_near(const softbody::Prototype& prototype, Points body, const Sight& sig
 }
 
 void add_springs(const softbody::World& world, const Sight& sight, Points positions, engine::FrameData& frame) {
-  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
-  engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
+  engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = 0};  // they are too many to draw twice
+  engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
@@ -212,7 +212,7 @@ void add_springs(const softbody::World& world, const Sight& sight, Points positi
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  engine::FrameData& frame) {
   constexpr float outside = 0.08f;  // of the length of an edge
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.5f};
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.5f};
   const collide::surface::Surface& surface = *world.prototype(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
@@ -244,8 +244,8 @@ void add_grab(const softbody::World& world, const softbody::Grab& grab, Points p
             positions[world.bodies().first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
-  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .hidden = 0.7f});
-  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .hidden = 0.7f});
+  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = 0.7f});
+  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = 0.7f});
 }
 
 }  // namespace

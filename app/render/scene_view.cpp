@@ -70,7 +70,7 @@ void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions&
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
   // Where the two worlds hardly differ, neither surface may show through the other in patches.
-  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .recess = 0.05f};
+  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .depth_bias = 0.05f};
   for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
   frame_.translucent.push_back(std::move(set));
 }
@@ -80,7 +80,7 @@ void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions&
 void SceneView::apply(const Spotlight& spotlight) {
   const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
   engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
-      others{.meshes = {}, .opacity = hint, .hides = false};
+      others{.meshes = {}, .opacity = hint, .writes_depth = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
@@ -101,12 +101,12 @@ void SceneView::gather_solids(const softbody::Scene& scene) {
     frame_.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius), grey});
   for (const softbody::SolidBox& b : scene.boxes) {
     const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
-    frame_.blocks.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
+    frame_.oriented_boxes.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
   }
-  if (scene.ground) frame_.ground = static_cast<float>(scene.ground->height);
+  if (scene.ground) frame_.floor_height = static_cast<float>(scene.ground->height);
   for (const softbody::SolidPlane& p : scene.planes) {
-    if (!frame_.ground && p.normal == glm::dvec3(0, 1, 0))
-      frame_.ground = static_cast<float>(p.point.y);  // a floor
+    if (!frame_.floor_height && p.normal == glm::dvec3(0, 1, 0))
+      frame_.floor_height = static_cast<float>(p.point.y);  // a floor
     else
       frame_.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
   }
@@ -130,7 +130,7 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   frame_.positions = positions_;
   frame_.normals = normals_;
   if (overlays.spotlight) apply(*overlays.spotlight);
-  frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
+  frame_.tessellated = !overlays.shown.springs;  // springs run along the straight edges
 
   const softbody::Scene& scene = world.scene();
   gather_solids(scene);

@@ -53,7 +53,7 @@ class Demo {
   }
 
   void run() {
-    while (screen_->window.open() && !ui_.quit) {
+    while (screen_->window.is_open() && !ui_.quit) {
       screen_->window.poll(pacer_.spare());
       const double elapsed = pacer_.tick();
       if (screen_->window.minimised()) continue;  // poll() has slept; the world waits for its window
@@ -75,14 +75,14 @@ class Demo {
     }
   }
 
-  /// The world goes on in a new window. Throws engine::Unavailable if there is none, or it did not last either.
+  /// The world goes on in a new window. Throws engine::ContextError if there is none, or it did not last either.
   void renew_screen() {
     keep_preferences(true);
     if (now() - renewed_ < shortest_screen)
-      throw engine::Unavailable(
+      throw engine::ContextError(
           "the graphics driver was reset again and again: update it, or set LIBGL_ALWAYS_SOFTWARE=1");
     const glm::ivec2 size = window_size();
-    screen_->window.wait_for_reset();
+    screen_->window.wait_for_context_reset();
     screen_.reset();  // one window at a time
     screen_ = std::make_unique<Screen>(size);
     drawn_ = {};
@@ -93,7 +93,7 @@ class Demo {
   void handle_keys() {
     for (const engine::KeyPress& key : screen_->gui.take_key_presses())
       if (press(key.key, key.repeat, session_, ui_, key.mods) ||
-          press(key.otherwise, key.repeat, session_, ui_, key.mods))
+          press(key.fallback_key, key.repeat, session_, ui_, key.mods))
         seconds_ += key_hint_seconds;
   }
 
@@ -110,10 +110,10 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.take_dropped_files(), session_);
-    if (screen_->window.input_waits() || ui_.take_away.recording()) pacer_.stir();
+    if (screen_->window.has_pending_input() || ui_.take_away.recording()) pacer_.stir();
     // Whatever waits of mouse and keyboard, a click at a time: a slow world does not keep those who type or click.
     take_input(elapsed);
-    while (screen_->window.input_waits()) {
+    while (screen_->window.has_pending_input()) {
       screen_->gui.end_frame();
       take_input(0);
     }

@@ -20,7 +20,7 @@ struct DemoOptions {
   bool size_given = false;         // else it has the size that it had last
 };
 
-/// Runs until the window is closed; returns the exit code. Throws engine::Unavailable without a display,
+/// Runs until the window is closed; returns the exit code. Throws engine::ContextError without a display,
 /// engine::ResourceError or engine::ShaderError if the program's files are not found or broken, softbody::SceneError if
 /// the scene cannot be simulated.
 int run_demo(const DemoOptions& options);

@@ -19,7 +19,7 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Screen& screen
   for (const double began = now(); status != std::future_status::ready;) {
     status = opening.wait_for(std::chrono::milliseconds(30));
     screen.window.poll();
-    if (!screen.window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
+    if (!screen.window.is_open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
     if (screen.window.minimised()) continue;
     const std::string text =
         "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
@@ -33,7 +33,7 @@ std::unique_ptr<Session> open_session(const DemoOptions& options, Screen& screen
     screen.gui.draw();
     screen.window.present();
   }
-  while (screen.window.input_waits()) screen.window.take_input();  // nor is what is left of it for the session
+  while (screen.window.has_pending_input()) screen.window.take_input();  // nor is what is left of it for the session
   return opening.get();
 }
 

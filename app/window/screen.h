@@ -20,7 +20,7 @@ struct Screen {
   engine::Window window;  // before the others, which need its context
   engine::Gui gui{window};
   SceneView view{engine::find_folder("shaders")};
-  Canvas canvas{engine::draws_in_software()};
+  Canvas canvas{engine::uses_software_renderer()};
 };
 
 }  // namespace app

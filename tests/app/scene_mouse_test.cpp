@@ -138,11 +138,11 @@ TEST_F(Mouse, GoesOnTurningBetweenFrames) {
     if (between) {
       const engine::Orbit before = camera.orbit();
       mouse.turn_on({60, 20}, camera, size);
-      camera.settle();
+      camera.finish_glide();
       EXPECT_NE(camera.orbit().azimuth, before.azimuth);
     }
     move({100, 40});
-    camera.settle();
+    camera.finish_glide();
     button(0, false);
     return camera.orbit();
   };
@@ -151,7 +151,7 @@ TEST_F(Mouse, GoesOnTurningBetweenFrames) {
   EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
   const engine::Orbit before = camera.orbit();
   mouse.turn_on({400, 300}, camera, size);  // nobody drags
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
 }
 
@@ -191,7 +191,7 @@ TEST_F(Mouse, BesideAllBodiesTurnsAndAClickSelectsNothing) {
   button(0, true);
   move({205, 5});
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
   EXPECT_EQ(session.selected_body(), 0u);  // that was no click
   move({5, 5});
@@ -207,7 +207,7 @@ TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
     input.moved = to - input.at;
     input.at = to;
     button(which, down);
-    camera.settle();
+    camera.finish_glide();
   };
   session.select_body(0);
   for (const std::size_t which : {0u, 1u}) {
@@ -238,7 +238,7 @@ TEST_F(Mouse, WhilePausedSelectsAndTurns) {
   EXPECT_FALSE(session.world().grabbed());
   move(input.at + glm::vec2(100, 0));
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
   EXPECT_EQ(session.selected_body(), 0u);
 }
@@ -249,7 +249,7 @@ TEST_F(Mouse, ADoubleClickLooksAtTheBody) {
   input.double_click = true;
   button(0, true);
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_LT(glm::distance(glm::dvec3(camera.orbit().target), centre(session.world(), 1)), 0.05);
   EXPECT_LT(camera.orbit().distance, 5);
   EXPECT_FALSE(session.world().grabbed());
@@ -261,7 +261,7 @@ TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
   button(1, true);
   move(input.at + glm::vec2(50, 0));
   button(1, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(glm::distance(camera.orbit().target, target), 0.05f);
   const engine::Orbit before = camera.orbit();
   input.over_scene = false;
@@ -269,7 +269,7 @@ TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
   move(body_pixel(0));
   button(0, true);
   move(input.at + glm::vec2(50, 0));
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().distance, before.distance);
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
   EXPECT_FALSE(session.selected_body());

@@ -28,7 +28,9 @@ void frame_pair(const TourView& v, Spotlight& light) {
   frame(light, glm::min(v.f.bounds[0].lo, v.f.bounds[1].lo), glm::max(v.f.bounds[0].hi, v.f.bounds[1].hi));
 }
 
-engine::BoxSet outlines(float width, float fill) { return {.boxes = {}, .width = width, .hidden = 0.7f, .fill = fill}; }
+engine::BoxSet outlines(float width, float fill) {
+  return {.boxes = {}, .width = width, .occluded_alpha = 0.7f, .face_alpha = fill};
+}
 
 void add_cell(const TourView& v, const Cell& cell, const glm::vec3& colour, Spotlight& light) {
   engine::BoxSet set = outlines(1.25f, 0.06f);
@@ -38,8 +40,8 @@ void add_cell(const TourView& v, const Cell& cell, const glm::vec3& colour, Spot
 
 void add_contacts(const TourView& v, const std::vector<collide::Contact>& contacts, const glm::vec3& colour,
                   float width, Spotlight& light) {
-  engine::LineSet lines{.lines = {}, .width = width, .hidden = 0.9f};
-  engine::PointSet points{.points = {}, .diameter = 3 + 1.5f * width, .hidden = 0.9f};
+  engine::LineSet lines{.lines = {}, .width = width, .occluded_alpha = 0.9f};
+  engine::PointSet points{.points = {}, .diameter = 3 + 1.5f * width, .occluded_alpha = 0.9f};
   for (const collide::Contact& contact : contacts) {
     const glm::vec3 a = vertex(v, contact.a), b = vertex(v, contact.b);
     lines.lines.push_back({a, b, glm::vec4(colour, 1.0f)});
@@ -58,8 +60,9 @@ void show_body(const TourView& v, Spotlight& light) {
   engine::BoxSet box = outlines(2.5f, 0.08f);
   box.boxes.push_back({lo, hi, glm::vec4(shape_ink, 1.0f)});
   light.boxes = {std::move(box)};
-  light.points = {
-      {.points = {{lo, glm::vec4(shape_ink, 1.0f)}, {hi, glm::vec4(shape_ink, 1.0f)}}, .diameter = 9, .hidden = 0.9f}};
+  light.points = {{.points = {{lo, glm::vec4(shape_ink, 1.0f)}, {hi, glm::vec4(shape_ink, 1.0f)}},
+                   .diameter = 9,
+                   .occluded_alpha = 0.9f}};
   light.labels = {{lo, "minimum"}, {hi, "maximum"}};
   frame(light, lo, hi);
 }
@@ -85,7 +88,7 @@ void show_corners(const TourView& v, Spotlight& light) {
   box.boxes.push_back({lo, hi, glm::vec4(shape_ink, 1.0f)});
   light.boxes = {std::move(box)};
   add_cell(v, v.chosen().cell, same_cell_colour, light);
-  engine::PointSet points{.points = {}, .diameter = 9, .hidden = 0.9f};
+  engine::PointSet points{.points = {}, .diameter = 9, .occluded_alpha = 0.9f};
   for (std::size_t i = 0; i < v.f.corners.size(); ++i) {
     const HashedCorner& corner = v.f.corners[i];
     const bool chosen = i == v.corner;
