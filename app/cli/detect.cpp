@@ -8,9 +8,9 @@
 
 #include <nlohmann/json.hpp>
 
-#include "app/base/times.h"
+#include "app/base/timings.h"
 #include "app/files/contacts_csv.h"
-#include "app/files/obj.h"
+#include "app/files/obj_reader.h"
 
 namespace app {
 namespace {
@@ -65,7 +65,7 @@ collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
 }
 
 /// Frames stay in memory, so that to read them is no part of the times.
-constexpr std::size_t most_positions = std::size_t{1} << 27;  // of all frames together, 1.5 GiB
+constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together, 1.5 GiB
 
 Sequence read_sequence(const DetectOptions& options) {
   Sequence sequence;
@@ -76,9 +76,9 @@ Sequence read_sequence(const DetectOptions& options) {
     require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
     if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
     const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
-    if (vertices * files > most_positions)
+    if (vertices * files > max_positions)
       throw UsageError(std::to_string(files) + " files of " + std::to_string(vertices) + " vertices each: at most " +
-                       std::to_string(most_positions) + " together; give fewer files at a time");
+                       std::to_string(max_positions) + " together; give fewer files at a time");
   }
   ObjBodies& first = sequence.frames.front();
   if (options.rest) {
@@ -94,12 +94,12 @@ Sequence read_sequence(const DetectOptions& options) {
 }
 
 /// Figures of one frame.
-struct MethodRow {
+struct DetectRow {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
   collide::Skipped skipped{};
-  Times times;  // of each repetition
+  Timings times;  // of each repetition
 };
 
 /// From positions in memory to the finished list.
@@ -114,13 +114,13 @@ double timed_detect(collide::Detector& detector, const collide::Frame& frame, co
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<MethodRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
+std::vector<DetectRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
                            const Sequence& sequence) {
   std::optional<ContactsCsv> csv;
   if (options.detect.contacts) csv.emplace(*options.detect.contacts);
   collide::Workers workers(options.threads);
   collide::Result result;
-  std::vector<MethodRow> rows(sequence.frames.size());
+  std::vector<DetectRow> rows(sequence.frames.size());
   for (int repetition = 0; repetition < options.detect.repeat; ++repetition) {
     auto detector = method.make();
     for (std::size_t f = 0; f < rows.size(); ++f) {
@@ -140,17 +140,17 @@ std::vector<MethodRow> run(const Options& options, const collide::Method& method
 }
 
 void print_json(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
+                const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
-  for (const MethodRow& r : rows) {
+  for (const DetectRow& r : rows) {
     Json skipped = Json::object();
     for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
       skipped[std::string(collide::skip_kinds[kind].key)] = r.skipped[kind];
     frames.push_back({{"frame", frames.size()},
                       {"contacts", r.contacts},
                       {"self_contacts", r.self_contacts},
-                      {"ms", {{"min", r.times.least()}, {"median", r.times.median()}}},
+                      {"ms", {{"min", r.times.min()}, {"median", r.times.median()}}},
                       {"pair_tests", r.counters.pair_tests},
                       {"hashes", r.counters.hashes},
                       {"boxes", r.counters.boxes},
@@ -164,7 +164,7 @@ void print_json(const Options& options, const collide::Method& method, const std
 }
 
 void print_table(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                 const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
+                 const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
   std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
               *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
   for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
@@ -172,8 +172,8 @@ void print_table(const Options& options, const collide::Method& method, const st
               "pair tests", "hashes", "boxes");
   const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
   for (std::size_t f = 0; f < rows.size(); ++f) {
-    const MethodRow& r = rows[f];
-    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.least(), r.times.median(),
+    const DetectRow& r = rows[f];
+    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.min(), r.times.median(),
                 r.contacts, number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
                 number(r.counters.boxes));
   }
@@ -189,7 +189,7 @@ void detect(const Options& options) {
   const Sequence sequence = read_sequence(options.detect);
   if (automatic_cell_size(options.detection, true))
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
-  const std::vector<MethodRow> rows = run(options, method, settings, sequence);
+  const std::vector<DetectRow> rows = run(options, method, settings, sequence);
   std::vector<std::string> notes = warnings(method, settings);
   std::ranges::copy(sequence.notes, std::back_inserter(notes));
   if (options.json)

@@ -5,9 +5,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/base/number_text.h"
+#include "app/base/parse_numbers.h"
 #include "app/base/text.h"
-#include "app/cli/whole_number_option.h"
+#include "app/cli/integer_option.h"
 #include "app/files/scene_folder.h"
 #include "softbody/limits.h"
 #include "softbody/world.h"
@@ -33,7 +33,7 @@ std::string reason(const CLI::ParseError& error) {
 void parse_size(const std::string& text, Options& options) {
   const auto parts = split(text, 'x');
   const auto side = [&](std::size_t which) {
-    const auto pixels = parts.size() == 2 ? whole_number(parts[which]) : std::nullopt;
+    const auto pixels = parts.size() == 2 ? parse_integer(parts[which]) : std::nullopt;
     if (!pixels || *pixels < 1 || *pixels > 16384)
       throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
     return static_cast<int>(*pixels);
@@ -47,7 +47,7 @@ void parse_captures(const std::string& text, Options& options) {
     throw UsageError("--capture " + text + ": '" + std::string(item) + "' " + why);
   };
   for (const std::string_view item : split(text, ',')) {
-    const auto frame = whole_number(item);
+    const auto frame = parse_integer(item);
     if (!frame || *frame < 1) refuse(item, "is no frame number; write e.g. 100,400,600,800");
     if (*frame > options.frames) refuse(item, "lies beyond --frames " + std::to_string(options.frames));
     options.captures.push_back(static_cast<int>(*frame));
@@ -56,7 +56,7 @@ void parse_captures(const std::string& text, Options& options) {
 }
 
 softbody::View read_view(const std::string& text) {
-  const auto v = real_numbers(text, ',');
+  const auto v = parse_reals(text, ',');
   const auto within = [&](std::size_t which, double least, double most) {
     return (*v)[which] >= least && (*v)[which] <= most;
   };
@@ -72,7 +72,7 @@ void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
-      ->transform(whole_number_from(1, 256));
+      ->transform(integer_in_range(1, 256));
 }
 
 void add_scene_options(CLI::App& command, Options& options) {
@@ -87,7 +87,7 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--substeps", options.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->transform(whole_number_from(1, softbody::World::max_substeps));
+      ->transform(integer_in_range(1, softbody::World::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -103,7 +103,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   add_scene_options(*simulate, options);
   simulate->add_option("--frames", options.frames, "frames to run")
       ->type_name("N")
-      ->transform(whole_number_from(1, 10'000'000));
+      ->transform(integer_in_range(1, 10'000'000));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
@@ -111,7 +111,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate
       ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
       ->type_name("N")
-      ->transform(whole_number_from(1, 10'000'000));
+      ->transform(integer_in_range(1, 10'000'000));
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -132,7 +132,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
       ->type_name("FILE");
   detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
       ->type_name("K")
-      ->transform(whole_number_from(1, 100'000));
+      ->transform(integer_in_range(1, 100'000));
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -151,7 +151,7 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
           "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
           "side (default: all cores)")
       ->type_name("N")
-      ->transform(whole_number_from(1, 256));
+      ->transform(integer_in_range(1, 256));
   report->add_option("--out", r.out, "folder for the report")->type_name("DIR")->required();
   return report;
 }

@@ -12,7 +12,7 @@
 
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
-#include "app/files/obj_write.h"
+#include "app/files/obj_writer.h"
 #include "app/files/output_file.h"
 #include "app/files/scene_folder.h"
 #include "softbody/measures.h"
@@ -178,9 +178,9 @@ class Pictures {
 };
 
 /// Writes the bodies of every Nth frame, and once more at rest whenever there are others than before.
-class Motion {
+class ObjSequence {
  public:
-  explicit Motion(const Options& options) : options_(options) {
+  explicit ObjSequence(const Options& options) : options_(options) {
     if (!options.obj_every) return;
     prepare_folder(options.out);
     for (const auto& entry : std::filesystem::directory_iterator(options.out))
@@ -189,7 +189,7 @@ class Motion {
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
     if (world.bodies().count() == 0) return;  // `detect` takes no file without vertices
-    if (!bodies_ || !bodies_->are_those_of(world)) {
+    if (!bodies_ || !bodies_->matches(world)) {
       bodies_.emplace(world);
       write_file(file("rest", world.frame()), bodies_->at_rest());
     }
@@ -213,7 +213,7 @@ class Motion {
   }
 
   const Options& options_;
-  std::optional<MovingBodies> bodies_;
+  std::optional<ObjWriter> bodies_;
 };
 
 /// What was done to the meshes from files, where it may surprise; each once.
@@ -238,7 +238,7 @@ void simulate(const Options& options) {
                                            .integrator = options.integrator,
                                            .substeps = options.substeps});
   Pictures pictures(options);
-  Motion motion(options);
+  ObjSequence obj_sequence(options);
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
   WorldOracle oracle(options.oracle ? options.threads : 1);
@@ -252,7 +252,7 @@ void simulate(const Options& options) {
       rows.back().oracle =
           collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
-    motion.take(world);
+    obj_sequence.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
   }
   if (progress) std::fprintf(stderr, "\r%40s\r", "");

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 #include "app/compare/positions.h"
 
 namespace app {
@@ -17,7 +17,7 @@ namespace app {
 std::size_t method_index(std::string_view key);
 
 /// One frame, copied, and what to run on it.
-struct Snapshot {
+struct FrameSnapshot {
   std::uint64_t id = 0;     // the caller's: names the state that was copied
   std::uint64_t world = 0;  // another number, another world
   int frame_number = 0;     // of the world
@@ -51,7 +51,7 @@ struct CompareReport {
   std::optional<std::size_t> reference;  // the method whose contacts count as the true ones
   std::size_t true_contacts = 0;
   double reference_ms = 0;
-  std::string stands_in;           // why the reference is not brute force, or why there is none; else empty
+  std::string reference_note;      // why the reference is not brute force, or why there is none; else empty
   std::vector<std::size_t> order;  // in which methods were timed
   std::vector<CompareRow> rows;    // by method
 };
@@ -60,14 +60,14 @@ struct CompareReport {
 class Comparison {
  public:
   /// Pair tests that one method may take on one frame: about a second of one core.
-  static constexpr std::uint64_t usual_budget = 1'000'000'000;
+  static constexpr std::uint64_t default_budget = 1'000'000'000;
 
-  explicit Comparison(std::uint32_t seed, std::uint64_t budget = usual_budget);
+  explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget);
 
   /// Times the chosen methods within the budget, in a new shuffled order with every call; brute force, or an exact
   /// method of another kind than the driver where brute force exceeds the budget, is the reference, outside of the
   /// timed part. A stop asked for is heeded between two methods; the report is worthless then.
-  CompareReport run(const Snapshot& snapshot, const std::stop_token& stop = {});
+  CompareReport run(const FrameSnapshot& snapshot, const std::stop_token& stop = {});
 
  private:
   struct Entry {
@@ -78,15 +78,15 @@ class Comparison {
     std::string error;
   };
 
-  std::vector<std::size_t> choose(const Snapshot& snapshot, CompareReport& report);
-  void detect(std::size_t method, const Snapshot& snapshot);
-  std::optional<std::size_t> find_reference(const Snapshot& snapshot, std::string& stands_in) const;
-  void score(const Snapshot& snapshot, CompareReport& report) const;
+  std::vector<std::size_t> choose(const FrameSnapshot& snapshot, CompareReport& report);
+  void detect(std::size_t method, const FrameSnapshot& snapshot);
+  std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot, std::string& reference_note) const;
+  void score(const FrameSnapshot& snapshot, CompareReport& report) const;
 
   std::uint64_t budget_;
   std::mt19937 random_;
   std::vector<Entry> entries_;  // by method
-  Forecast forecast_;
+  CostModel cost_model_;
   collide::Workers alone_{1};
 };
 

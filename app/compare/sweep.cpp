@@ -66,10 +66,10 @@ Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& conf
 
 /// Strikes out what would exceed the budget.
 void Sweep::predict() {
-  Forecast forecast;
+  CostModel cost_model;
   for (SweepRow& row : report_.rows) {
-    forecast.begin(frame_, row.configuration.settings, 0);
-    const Work work = forecast.of(row.configuration.method);
+    cost_model.begin(frame_, row.configuration.settings, 0);
+    const WorkEstimate work = cost_model.of(row.configuration.method);
     predicted_.push_back(work.cost());
     if (work.cost() > limits_.budget) row.not_run = "over budget: " + work.in_words() + " predicted";
   }
@@ -114,7 +114,7 @@ void Sweep::find_reference() {
   try {
     if (const auto c = choose_reference()) run(*c);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
-    report_.stands_in = error.what();
+    report_.reference_note = error.what();
   }
 }
 
@@ -130,7 +130,7 @@ std::optional<Configuration> Sweep::choose_reference() {
     const collide::Method& method = collide::method_table()[row.configuration.method];
     if (method.key == collide::reference_method) {
       if (row.not_run.empty()) return row.configuration;
-      report_.stands_in = "brute force is " + row.not_run;
+      report_.reference_note = "brute force is " + row.not_run;
     }
     if (method.exact && row.not_run.empty() && (!best || rank(i) < rank(*best))) best = i;
   }

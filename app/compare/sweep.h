@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "app/base/times.h"
-#include "app/compare/forecast.h"
+#include "app/base/timings.h"
+#include "app/compare/cost_model.h"
 #include "softbody/world.h"
 
 namespace app {
@@ -37,7 +37,7 @@ struct SweepRow {
   Configuration configuration;
   std::string not_run;   // why it was not run, else empty
   bool checked = false;  // the rest but the times is known
-  Times times;           // from scratch each, in the order in which they were taken; empty: not timed yet
+  Timings times;         // from scratch each, in the order in which they were taken; empty: not timed yet
   collide::Counters counters;
   collide::Skipped skipped{};
   collide::Coverage coverage = collide::Coverage::exact;
@@ -48,16 +48,17 @@ struct SweepRow {
 
 struct SweepReport {
   std::optional<Configuration> reference;  // whose contacts count as the true ones; nothing: not found yet, or none
-  std::string stands_in;                   // why that is not brute force, or why there is none; else empty
+  std::string reference_note;              // why that is not brute force, or why there is none; else empty
   std::size_t true_contacts = 0;
   std::vector<SweepRow> rows;  // as the configurations
 };
 
 struct SweepLimits {
-  std::uint64_t budget = 1'000'000'000;  // Work::cost() that a configuration may be predicted to take: about a second
-  int repetitions = 5;                   // timed runs of each configuration, at most ...
-  double repeat_ms = 500;                // ... and none any more once its runs have taken so long
-  std::uint32_t seed = 1;                // of the order
+  std::uint64_t budget =
+      1'000'000'000;       // WorkEstimate::cost() that a configuration may be predicted to take: about a second
+  int repetitions = 5;     // timed runs of each configuration, at most ...
+  double repeat_ms = 500;  // ... and none any more once its runs have taken so long
+  std::uint32_t seed = 1;  // of the order
 };
 
 /// Runs configurations on one frame: first each with a fresh detector, which checks what it finds and takes; then
@@ -90,7 +91,7 @@ class Sweep {
   collide::Workers& workers_;
   std::mt19937 random_;
   SweepReport report_;
-  std::vector<std::uint64_t> predicted_;  // Work::cost(), by row
+  std::vector<std::uint64_t> predicted_;  // WorkEstimate::cost(), by row
   std::vector<collide::Contact> truth_;
   std::vector<std::unique_ptr<collide::Detector>> detectors_;  // by method, for the timed runs
   collide::Result result_;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <span>
 
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 
 namespace app {
 namespace {

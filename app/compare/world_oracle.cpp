@@ -20,7 +20,7 @@ collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
   return collide::oracle::find_overlaps(world.positions(), surfaces_of(world), workers_);
 }
 
-double WorldOracle::moved(const softbody::World& world) const {
+double WorldOracle::max_displacement(const softbody::World& world) const {
   const collide::Frame now = world.positions();
   double most2 = 0;
   for (std::size_t v = 0; v < before_.x.size(); ++v) {
@@ -35,7 +35,7 @@ std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::Wo
   const std::size_t known = bodies_.vertex_count();  // arrivals come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
   std::vector<collide::oracle::Crossing> found;
-  if (moved(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
+  if (max_displacement(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
   std::swap(earlier_, before_);
   before_.copy(now);
   bodies_ = world.bodies();
@@ -43,7 +43,7 @@ std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::Wo
   return found;
 }
 
-bool WorldOracle::came_inside(const collide::oracle::Crossing& crossing) const {
+bool WorldOracle::entered_body(const collide::oracle::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
     const collide::VertexRun at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};

@@ -20,14 +20,14 @@ class WorldOracle {
   collide::oracle::Overlaps overlaps(const softbody::World& world);
 
   /// m: how far a vertex is at the most from where it was when crossings() was called last; 0 before.
-  double moved(const softbody::World& world) const;
+  double max_displacement(const softbody::World& world) const;
 
   /// What passed through what since the last call, each vertex taken along the straight line between the two: bodies
   /// that arrived in between are left out, and the first call finds nothing. To be called for one world only.
   std::vector<collide::oracle::Crossing> crossings(const softbody::World& world);
   /// Whether a vertex that crossed a face of a closed body in the last call came to be inside it. Crossings alone do
   /// not tell: of those through one face only the first is listed, and those through a rim are those of two.
-  bool came_inside(const collide::oracle::Crossing& crossing) const;
+  bool entered_body(const collide::oracle::Crossing& crossing) const;
 
  private:
   collide::Workers workers_;

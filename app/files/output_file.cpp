@@ -38,7 +38,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
   out.commit();
 }
 
-fs::path next_free(const fs::path& folder, const std::string& prefix, const std::string& ending) {
+fs::path next_free_path(const fs::path& folder, const std::string& prefix, const std::string& ending) {
   for (int number = 1;; ++number) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');

@@ -19,8 +19,8 @@ void prepare_folder(const std::filesystem::path& folder, std::string_view option
 void write_file(const std::filesystem::path& file, std::string_view bytes);
 
 /// The first of PREFIX_0001ENDING, PREFIX_0002ENDING, ... in a folder that is not there yet.
-std::filesystem::path next_free(const std::filesystem::path& folder, const std::string& prefix,
-                                const std::string& ending);
+std::filesystem::path next_free_path(const std::filesystem::path& folder, const std::string& prefix,
+                                     const std::string& ending);
 
 class OutputFile {
  public:

@@ -54,7 +54,7 @@ RigidMotion rigid_motion(const BodyState& s) {
   return m;
 }
 
-double internal_speed(const BodyState& s) {
+double deformation_speed(const BodyState& s) {
   const RigidMotion m = rigid_motion(s);
   double sum = 0;
   for (std::size_t i = 0; i < s.x.size(); ++i) {

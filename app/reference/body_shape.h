@@ -23,6 +23,6 @@ struct RigidMotion {
 };
 RigidMotion rigid_motion(const BodyState& state);
 /// m/s, root of the mean square of what velocities differ from the rigid motion by.
-double internal_speed(const BodyState& state);
+double deformation_speed(const BodyState& state);
 
 }  // namespace app

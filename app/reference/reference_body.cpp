@@ -62,7 +62,7 @@ BodyState state_of(const softbody::World& world, softbody::BodyId body) {
   return state;
 }
 
-std::string ReferenceBody::missing(const softbody::World& world) {
+std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
   // Detection and sleep move nothing by themselves: a body that sleeps has come to rest.
   constexpr std::array known{
       Stage::structural_springs, Stage::bend_springs,  Stage::shear_springs, Stage::gas_pressure, Stage::gravity,

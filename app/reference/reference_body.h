@@ -25,7 +25,7 @@ class ReferenceBody {
 
   /// A stage of the plan that has a say in the motion and that this model does not know; empty: there is none, and the
   /// model is the scene's.
-  static std::string missing(const softbody::World& world);
+  static std::string unsupported_stage(const softbody::World& world);
 
   const softbody::Prototype& prototype() const { return prototype_; }
   const softbody::Scene& scene() const { return scene_; }

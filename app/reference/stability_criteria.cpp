@@ -8,15 +8,15 @@
 
 namespace app {
 
-void StabilityJudge::add(const StabilitySample& s) {
+void StabilityAssessment::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
-  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.speed_reach,
-               extent = s.extent / s.extent_reach, depth = s.depth / limits_.radius;
+  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.reachable_speed,
+               extent = s.extent / s.reachable_extent, depth = s.depth / limits_.radius;
   // What is no number is no less than any bound: std::max would pass over it.
   const auto finite = [](double figure) { return std::isfinite(figure); };
   f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);
   if (!f.finite) {
-    f.blew_up = s.time;
+    f.blow_up_time = s.time;
     return;
   }
   f.energy = std::max(f.energy, excess);
@@ -25,8 +25,8 @@ void StabilityJudge::add(const StabilitySample& s) {
   constexpr int coming_out = 10;  // frames
   if (!limits_.begins_inside || s.frame > coming_out) f.transient = std::max(f.transient, depth);
   if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);
-  f.through = s.through;
-  if (excess > 10) f.blew_up = s.time;
+  f.passed_through = s.passed_through;
+  if (excess > 10) f.blow_up_time = s.time;
 }
 
 std::vector<std::string> failures(const StabilityFigures& f) {
@@ -42,9 +42,9 @@ std::vector<std::string> failures(const StabilityFigures& f) {
   check(f.extent <= b.extent, format("box %.2g of what energy can draw", f.extent));
   check(f.transient <= b.transient, format("%.2g R deep in a solid", f.transient));
   check(f.steady <= b.steady, format("%.2g R deep in a solid in the end", f.steady));
-  check(f.through == 0, format("through a solid: %zu", f.through));
-  if (f.blew_up > 0) all.push_back(format("gave up at %.3g s", f.blew_up));
-  if (!f.reference || f.blew_up > 0) return all;
+  check(f.passed_through == 0, format("through a solid: %zu", f.passed_through));
+  if (f.blow_up_time > 0) all.push_back(format("gave up at %.3g s", f.blow_up_time));
+  if (!f.reference || f.blow_up_time > 0) return all;
   check(f.reference->shape <= b.shape, format("shape off by %.2g R", f.reference->shape));
   check(f.reference->volume <= b.volume, format("volume off by %.2g %%", 100 * f.reference->volume));
   check(f.reference->rest <= b.rest, format("moves by %.2g m/s too fast", f.reference->rest));

@@ -24,14 +24,14 @@ struct StabilitySample {
   double work = 0;     // J, that came from outside so far: solids push out what is in them, bodies join with theirs
   double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that have begun or joined by now
   double speed = 0,
-         speed_reach = 0;  // m/s: of the fastest particle, and what all the energy there may be could give it
-  double extent = 0, extent_reach = 0;  // m: the longest box of a body, and how long that energy could draw it
-  double depth = 0;                     // m, the deepest particle in a solid
-  std::size_t through = 0;              // bodies that have gone through a solid so far
+         reachable_speed = 0;  // m/s: of the fastest particle, and what all the energy there may be could give it
+  double extent = 0, reachable_extent = 0;  // m: the longest box of a body, and how long that energy could draw it
+  double depth = 0;                         // m, the deepest particle in a solid
+  std::size_t passed_through = 0;           // bodies that have gone through a solid so far
 };
 
 /// How the end differs from the reference's.
-struct AgainstReference {
+struct ReferenceDeviation {
   double shape = 0;   // R, RMS once moved and turned to fit
   double volume = 0;  // of the reference's; 0 for what holds none
   double rest = 0;    // m/s, RMS of the motion within the body, above the reference's
@@ -44,10 +44,10 @@ struct StabilityFigures {
   double extent = 0;     // in its reach: the largest
   double transient = 0;  // R, deepest in a solid; from the 11th frame on if it began inside
   double steady = 0;     // R, deepest in a solid in the last quarter of the time
-  std::size_t through = 0;
-  std::optional<AgainstReference> reference{};  // none: it is judged on the rest
-  double blew_up = 0;                           // s, when the run was given up; 0: it was not
-  std::string refused{};                        // why the solver would not run; then nothing else has a meaning
+  std::size_t passed_through = 0;
+  std::optional<ReferenceDeviation> reference{};  // none: it is judged on the rest
+  double blow_up_time = 0;                        // s, when the run was given up; 0: it was not
+  std::string refused{};                          // why the solver would not run; then nothing else has a meaning
 };
 
 struct StabilityBounds {
@@ -58,12 +58,12 @@ struct StabilityBounds {
 };
 inline constexpr StabilityBounds stability_bounds;
 
-class StabilityJudge {
+class StabilityAssessment {
  public:
-  explicit StabilityJudge(const StabilityLimits& limits) : limits_(limits) {}
+  explicit StabilityAssessment(const StabilityLimits& limits) : limits_(limits) {}
   void add(const StabilitySample& sample);
   /// It is not finite, or has ten times the energy that it may: nothing better will come.
-  bool lost() const { return figures_.blew_up > 0; }
+  bool diverged() const { return figures_.blow_up_time > 0; }
   const StabilityFigures& figures() const { return figures_; }
 
  private:

@@ -30,9 +30,9 @@ void copy(const engine::Framebuffer& from, GLuint to, glm::ivec2 size, glm::ivec
 
 }  // namespace
 
-float Fineness::value() const { return levels[level_]; }
+float RenderScale::value() const { return levels[level_]; }
 
-void Fineness::add(double interval, double drawing) {
+void RenderScale::add(double interval, double drawing) {
   interval_ += interval;
   drawing_ += drawing;
   if (++pictures_ < looked_at) return;
@@ -43,7 +43,7 @@ void Fineness::add(double interval, double drawing) {
 }
 
 const engine::Framebuffer& Canvas::coarse(glm::ivec2 size) {
-  drawn_at_ = fineness_.value();
+  drawn_at_ = render_scale_.value();
   const glm::ivec2 fewer = glm::max(glm::ivec2(drawn_at_ * glm::vec2(size)), 1);
   if (!coarse_ || coarse_->size() != fewer) coarse_.emplace(fewer, 0);
   return *coarse_;
@@ -58,7 +58,7 @@ void Canvas::update(glm::ivec2 size, bool changed, bool fine, const Draw& draw) 
   moved_ = changed;
   if (!changed && (is_fine_ || !fine)) return;
   is_fine_ = fine || !in_software_;
-  is_coarse_ = !is_fine_ && fineness_.value() < 1;
+  is_coarse_ = !is_fine_ && render_scale_.value() < 1;
   const engine::Framebuffer& target = is_fine_ ? *multisampled_ : is_coarse_ ? coarse(size) : *full_;
   target.bind();
   draw({{0, 0}, target.size()});
@@ -72,7 +72,7 @@ void Canvas::show(glm::ivec2 origin) const {
 }
 
 void Canvas::pace(double interval, double drawing) {
-  if (moved_ && !is_fine_) fineness_.add(interval, drawing);
+  if (moved_ && !is_fine_) render_scale_.add(interval, drawing);
 }
 
 }  // namespace app

@@ -15,7 +15,7 @@ namespace app {
 
 /// How many of its pixels along each side a moving picture gets: all, or where fewer than 30 pictures a second come as
 /// many as let them come, but never less than 55 %.
-class Fineness {
+class RenderScale {
  public:
   /// After each moving picture: s from the one before it to this one, and s that drawing took.
   void add(double interval, double drawing);
@@ -43,10 +43,10 @@ class Canvas {
   /// The picture, if the last update() wanted it fine; else it may be an older one. Empty before the first.
   engine::Image read() const { return full_ ? full_->read() : engine::Image{}; }
 
-  /// How the last picture came, see Fineness::add(): one that moved tells how the next ones are to be drawn.
+  /// How the last picture came, see RenderScale::add(): one that moved tells how the next ones are to be drawn.
   void pace(double interval, double drawing);
   /// Of the picture at hand.
-  float fineness() const { return is_coarse_ ? drawn_at_ : 1.0f; }
+  float render_scale() const { return is_coarse_ ? drawn_at_ : 1.0f; }
 
  private:
   static constexpr int samples = 4;
@@ -55,7 +55,7 @@ class Canvas {
 
   bool in_software_;
   bool is_fine_ = false, is_coarse_ = false, moved_ = false;
-  Fineness fineness_;
+  RenderScale render_scale_;
   float drawn_at_ = 1;  // of the last coarse picture
   std::optional<engine::Framebuffer> full_, multisampled_, coarse_;
 };

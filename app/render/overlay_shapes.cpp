@@ -41,7 +41,7 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   engine::BoxSet set;
   set.fill = request.bucket ? 0.0f : 0.05f;
   const float alpha = request.bucket ? 0.15f : 0.85f;
-  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::most_boxes); ++i) {
+  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
     set.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
   }
@@ -77,7 +77,7 @@ void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::Fr
   set.hidden = 0.6f;
   set.fill = 0.12f;
   for (const auto& [lo, hi, body] : areas) {
-    if (set.boxes.size() < SceneView::most_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
+    if (set.boxes.size() < SceneView::max_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
   }
   frame.boxes.push_back(std::move(set));
 }
@@ -85,7 +85,7 @@ void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::Fr
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
   engine::BoxSet set{.boxes = {}, .width = 1.0f, .hidden = 0.12f, .fill = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
-    if (set.boxes.size() == SceneView::most_boxes) break;
+    if (set.boxes.size() == SceneView::max_boxes) break;
     set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
   }
   frame.boxes.push_back(std::move(set));
@@ -179,27 +179,27 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
     if (!in_sight[spring.i] || !in_sight[spring.j]) continue;  // behind its own body: half of all lines
     const glm::vec3 a = body[spring.i], b = body[spring.j];
     const float strain = glm::distance(a, b) / static_cast<float>(spring.rest) - 1.0f;
-    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::full_strain), alpha)});
+    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::max_shown_strain), alpha)});
   }
 }
 
 /// Whether a body is so large on the screen that springs other than along its edges can be told from these.
-bool is_near(const softbody::Prototype& prototype, Points body, const Sight& sight) {
+bool is_near(const softbody::Prototype& prototype, Points body, const Viewpoint& viewpoint) {
   constexpr float least = 20;  // pixels, of an edge
   const float edge = static_cast<float>(prototype.mean_edge);
-  return edge * sight.pixels_at_one_metre > least * glm::distance(body.front(), sight.eye);
+  return edge * viewpoint.pixels_at_one_metre > least * glm::distance(body.front(), viewpoint.eye);
 }
 
-void add_springs(const softbody::World& world, const Sight& sight, Points positions, engine::FrameData& frame) {
+void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points positions, engine::FrameData& frame) {
   engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
   engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(prototype, body, sight.eye);
+    const std::vector<char> in_sight = vertices_in_sight(prototype, body, viewpoint.eye);
     add_springs(prototype.structural, body, in_sight, 1.0f, structural);
-    if (!is_near(prototype, body, sight)) continue;
+    if (!is_near(prototype, body, viewpoint)) continue;
     add_springs(prototype.bend, body, in_sight, 0.45f, others);
     add_springs(prototype.shear, body, in_sight, 0.7f, others);
   }
@@ -255,10 +255,10 @@ engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& c
   return {at * size, (at + 1.0f) * size, colour};
 }
 
-void add_overlays(const softbody::World& world, const OverlayRequest& request, const Sight& sight, Points positions,
-                  engine::FrameData& frame) {
+void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
+                  Points positions, engine::FrameData& frame) {
   const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, sight, positions, frame);
+  if (shown.springs) add_springs(world, viewpoint, positions, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
   if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
@@ -268,7 +268,7 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.touches) add_touches(world, request.touches, positions, frame);
   if (shown.true_surfaces) add_marks(request.marks, positions, frame);
-  if (request.selected_body) add_outline(world, *request.selected_body, sight.eye, positions, frame);
+  if (request.selected_body) add_outline(world, *request.selected_body, viewpoint.eye, positions, frame);
   if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
 }
 

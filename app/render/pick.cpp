@@ -29,7 +29,7 @@ std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::v
 }
 
 /// Whether the ray's line passes the sphere.
-bool passes(const engine::Ray& ray, const Round& round) {
+bool passes(const engine::Ray& ray, const BoundingSphere& round) {
   return glm::length(glm::cross(round.centre - ray.origin, ray.direction)) <= round.radius;
 }
 
@@ -54,7 +54,7 @@ float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, floa
 
 }  // namespace
 
-Round round_body(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions) {
+BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions) {
   const collide::Index first = world.bodies().first[body], end = world.bodies().first[body + 1];
   glm::vec3 lo = positions[first], hi = lo;
   for (collide::Index i = first; i < end; ++i) {
@@ -73,7 +73,7 @@ Round round_body(const softbody::World& world, softbody::BodyId body, const Draw
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions) {
   std::optional<Pick> nearest;
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
-    if (!passes(ray, round_body(world, body, positions))) continue;
+    if (!passes(ray, bounding_sphere(world, body, positions))) continue;
     const collide::Index first = world.bodies().first[body];
     for (const softbody::Triangle& t : world.prototype(body).mesh.triangles) {
       const auto hit = meet(ray, positions[first + t[0]], positions[first + t[1]], positions[first + t[2]]);

@@ -23,10 +23,10 @@ struct Pick {
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions);
 
 /// A sphere round a body as it is drawn.
-struct Round {
+struct BoundingSphere {
   glm::vec3 centre;
   float radius;
 };
-Round round_body(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions);
+BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions);
 
 }  // namespace app

@@ -6,10 +6,10 @@
 #include <optional>
 
 #include "app/compare/drawn_positions.h"
+#include "app/compare/surface_check.h"
 #include "app/compare/table_contents.h"
-#include "app/compare/true_surfaces.h"
+#include "app/render/highlight.h"
 #include "app/render/overlays.h"
-#include "app/render/spotlight.h"
 #include "engine/renderer.h"
 #include "softbody/world.h"
 
@@ -26,15 +26,15 @@ struct OverlayRequest {
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
   std::span<const softbody::SurfaceTouch> touches;        // the same
   std::span<const SurfaceMark> marks;                     // the same
-  const Spotlight* spotlight = nullptr;                   // shows, and all else steps back
+  const Highlight* highlight = nullptr;                   // shows, and all else steps back
   const softbody::World* ghost = nullptr;                 // another world with the same bodies, to look through
   DrawnPositions ghost_positions;
 };
 
 class SceneView {
  public:
-  static constexpr std::size_t most_boxes = 20'000;  // of each kind; further ones are not drawn
-  static constexpr float full_strain = 0.2f;         // relative change of length at the ends of the colour scale
+  static constexpr std::size_t max_boxes = 20'000;  // of each kind; further ones are not drawn
+  static constexpr float max_shown_strain = 0.2f;   // relative change of length at the ends of the colour scale
 
   /// Needs a current context. Throws engine::ShaderError.
   explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
@@ -48,7 +48,7 @@ class SceneView {
   }
 
   /// What the last draw() drew, from elsewhere. The world is not asked, but labels and hints stay those of then.
-  void draw_again(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
+  void redraw(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
     frame_.pixel_scale = pixel_scale;
     renderer_.draw(camera, viewport, frame_);
   }
@@ -74,7 +74,7 @@ class SceneView {
   /// How to draw the bodies whose vertices, gathered last, begin at `first`; their colours are still to be set.
   std::vector<engine::MeshDraw> gather_bodies(const softbody::World& world, std::uint32_t first);
   void gather_ghost(const softbody::World& ghost, const DrawnPositions& positions);
-  void apply(const Spotlight& spotlight);
+  void apply(const Highlight& highlight);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);

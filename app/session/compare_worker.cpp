@@ -3,14 +3,14 @@
 namespace app {
 
 /// Too little memory for a comparison must not end the demo: its report says so instead.
-CompareReport CompareTask::answer(const Snapshot& snapshot, const std::stop_token& stop) {
+CompareReport CompareTask::answer(const FrameSnapshot& snapshot, const std::stop_token& stop) {
   try {
     return comparison.run(snapshot, stop);
   } catch (const std::exception& error) {
     CompareReport report;
     report.id = snapshot.id;
     report.frame = snapshot.frame_number;
-    report.stands_in = std::string("the comparison failed: ") + error.what();
+    report.reference_note = std::string("the comparison failed: ") + error.what();
     report.rows.resize(collide::method_table().size());
     return report;
   }

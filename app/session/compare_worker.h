@@ -7,11 +7,11 @@
 namespace app {
 
 struct CompareTask {
-  using Question = Snapshot;
+  using Question = FrameSnapshot;
   using Answer = CompareReport;
   static constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the demo shuffles alike
 
-  CompareReport answer(const Snapshot& snapshot, const std::stop_token& stop);
+  CompareReport answer(const FrameSnapshot& snapshot, const std::stop_token& stop);
 
   Comparison comparison{seed};
 };

@@ -105,10 +105,11 @@ std::string Import::progress() const {
          (seconds > 0 ? ": " + std::to_string(seconds) + " s so far" : "");
 }
 
-void Import::add(Verdict verdict) {
-  report_.push_back(std::move(verdict));
-  if (report_.size() <= most_verdicts) return;
-  const auto newest = report_.end() - 1, oldest = std::ranges::find(report_.begin(), newest, false, &Verdict::refused);
+void Import::add(FileReport file_report) {
+  report_.push_back(std::move(file_report));
+  if (report_.size() <= max_file_reports) return;
+  const auto newest = report_.end() - 1,
+             oldest = std::ranges::find(report_.begin(), newest, false, &FileReport::refused);
   if (oldest != newest) report_.erase(oldest);
 }
 

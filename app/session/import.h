@@ -43,12 +43,12 @@ softbody::Material imported_material(double extent);
 class Import {
  public:
   /// On one file: what was found in it and done to it, a line each; or why it was refused.
-  struct Verdict {
+  struct FileReport {
     std::vector<std::string> lines;
     bool refused = false;
   };
-  static constexpr float least_size = 0.05f, most_size = 20;   // m
-  static constexpr double least_weld = 1e-7, most_weld = 0.1;  // times a mesh's size
+  static constexpr float min_size = 0.05f, max_size = 20;   // m
+  static constexpr double min_weld = 1e-7, max_weld = 0.1;  // times a mesh's size
 
   std::string path;                         // OBJ or TOML
   float size = 1;                           // m, the largest extent that a mesh is scaled to
@@ -66,22 +66,22 @@ class Import {
   /// What is being read, and for how long; empty unless busy().
   std::string progress() const;
   /// On the files since the last load(), in their order: every refusal, and the last few of the others.
-  const std::vector<Verdict>& report() const { return report_; }
+  const std::vector<FileReport>& report() const { return report_; }
   /// It has been read.
   void dismiss_report() { report_.clear(); }
 
  private:
-  static constexpr std::size_t most_verdicts = 5;
+  static constexpr std::size_t max_file_reports = 5;
 
   void open(Session& session);
-  void add(Verdict verdict);
+  void add(FileReport file_report);
   void refuse(Session& session, const std::string& why);
   void read(FileReader::Question question);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
 
-  std::vector<Verdict> report_;
+  std::vector<FileReport> report_;
   std::vector<std::string> dropped_;  // still to be loaded
   bool reading_ = false;
   std::chrono::steady_clock::time_point began_;

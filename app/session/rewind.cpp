@@ -12,7 +12,7 @@ void Rewind::keep(const softbody::World& world) {
     remove(n - 1);
   snapshots_.push_back(world.snapshot());
   bytes_ += snapshots_.back().bytes();
-  while (bytes_ > limit_ && snapshots_.size() > 1) remove(least_missed());
+  while (bytes_ > limit_ && snapshots_.size() > 1) remove(most_redundant());
 }
 
 void Rewind::clear() {
@@ -27,7 +27,7 @@ void Rewind::remove(std::size_t i) {
 
 /// The one that leaves the smallest gap for its age, so that gaps grow with age; never the newest, and the start of it
 /// all only if nothing else is left.
-std::size_t Rewind::least_missed() const {
+std::size_t Rewind::most_redundant() const {
   std::size_t least = 0;
   double smallest = std::numeric_limits<double>::infinity();
   const int now = snapshots_.back().frame;

@@ -9,10 +9,10 @@ namespace app {
 
 class Rewind {
  public:
-  static constexpr std::size_t most_bytes = std::size_t{64} << 20;
+  static constexpr std::size_t max_bytes = std::size_t{64} << 20;
   static constexpr int period = 5;  // frames between two snapshots, at the least, but for the newest
 
-  explicit Rewind(std::size_t limit = most_bytes) : limit_(limit) {}
+  explicit Rewind(std::size_t limit = max_bytes) : limit_(limit) {}
 
   /// Keeps the world as it is now as the newest; what was kept of this frame or of later ones is another future's.
   void keep(const softbody::World& world);
@@ -26,7 +26,7 @@ class Rewind {
 
  private:
   void remove(std::size_t i);
-  std::size_t least_missed() const;
+  std::size_t most_redundant() const;
 
   std::size_t limit_, bytes_ = 0;
   std::vector<softbody::Snapshot> snapshots_;

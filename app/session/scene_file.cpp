@@ -46,7 +46,7 @@ SceneFile SceneFile::save(softbody::Scene scene, const fs::path& file) {
   return {file.string(), std::move(scene)};
 }
 
-bool SceneFile::makes(const softbody::Scene& used) const { return without_options(used) == content_; }
+bool SceneFile::reproduces(const softbody::Scene& used) const { return without_options(used) == content_; }
 
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";

@@ -21,7 +21,7 @@ class SceneFile {
   /// What --scene finds it by from any folder: a key, or an absolute path.
   const std::string& name() const { return name_; }
   /// Whether the scene of this name and options of the command line make the scene `used`.
-  bool makes(const softbody::Scene& used) const;
+  bool reproduces(const softbody::Scene& used) const;
 
  private:
   std::string name_;

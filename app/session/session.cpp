@@ -181,8 +181,8 @@ void Session::rewind_to(int frame) {
 
 void Session::went_back() {
   stability_.went_back(*world_);
-  for (Ring* ring : {&history_.detect_ms, &history_.solve_ms, &history_.contacts, &history_.recall})
-    ring->forget_from(world_->frame());
+  for (TimeSeries* series : {&history_.detect_ms, &history_.solve_ms, &history_.contacts, &history_.recall})
+    series->forget_from(world_->frame());
   show_anew();
 }
 

@@ -6,15 +6,15 @@
 #include <memory>
 #include <optional>
 
-#include "app/base/ring.h"
+#include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"
 #include "app/compare/table_contents.h"
 #include "app/session/compare_worker.h"
 #include "app/session/ghost.h"
 #include "app/session/scene_file.h"
 #include "app/session/solid_list.h"
-#include "app/session/stability_watch.h"
-#include "app/session/surface_watch.h"
+#include "app/session/stability_monitor.h"
+#include "app/session/surface_monitor.h"
 #include "collide/methods/detectors.h"
 #include "softbody/snapshot.h"
 
@@ -25,10 +25,11 @@ struct SceneChoice {
 };
 
 struct History {
-  Ring frame_ms;  // real time from one advance() to the next
-  Ring detect_ms, solve_ms, contacts, recall;
-  Ring ghost;                                                                       // distance(), in radii
-  std::vector<Ring> method_ms = std::vector<Ring>(collide::method_table().size());  // of the comparison, by method
+  TimeSeries frame_ms;  // real time from one advance() to the next
+  TimeSeries detect_ms, solve_ms, contacts, recall;
+  TimeSeries ghost;  // distance(), in radii
+  std::vector<TimeSeries> method_ms =
+      std::vector<TimeSeries>(collide::method_table().size());  // of the comparison, by method
   void clear() { *this = {}; }
 };
 
@@ -128,8 +129,8 @@ class Session {
   const std::string& caption() const;
 
   /// Pauses when the world blows up.
-  bool guarded = true;
-  const StabilityWatch& stability() const { return stability_; }
+  bool pause_on_blow_up = true;
+  const StabilityMonitor& stability() const { return stability_; }
   /// Back to the last snapshot of stability().past() not after this frame, and pauses. The settings in use stay.
   void rewind_to(int frame);
 
@@ -182,7 +183,7 @@ class Session {
 
   bool judges_surfaces = false;
   /// What the surface oracle says of the last step, while judges_surfaces is true.
-  const SurfaceWatch& surfaces() const { return surfaces_; }
+  const SurfaceMonitor& surfaces() const { return surfaces_; }
   /// What pressed on what in the last step; empty unless the contact surface is the surfaces.
   const std::vector<softbody::SurfaceTouch>& touches() const;
 
@@ -233,12 +234,12 @@ class Session {
   /// For what a world may refuse: then it is as before, and goes on.
   void try_change(const std::function<void()>& change);
   bool affordable(const collide::Method& method, const collide::Settings& settings);
-  Work work_of(const collide::Method& method, const collide::Settings& settings) const;
+  WorkEstimate work_of(const collide::Method& method, const collide::Settings& settings) const;
   /// How long those who work beside the demo rest, in times of their work: longer while the pictures come late.
   int rests() const;
   void exchange_comparison();
   void keep(CompareReport report);
-  Snapshot snapshot() const;
+  FrameSnapshot snapshot() const;
   void forget_measurements();
   void follow_pace(double asked, double done);
   void intervened();
@@ -276,8 +277,8 @@ class Session {
   std::string notice_, aged_notice_;
   double notice_age_ = 0;  // s, of aged_notice_
   CompareWorker compare_worker_;
-  SurfaceWatch surfaces_;
-  StabilityWatch stability_;
+  SurfaceMonitor surfaces_;
+  StabilityMonitor stability_;
   std::unique_ptr<Ghost> ghost_;
 };
 

@@ -7,15 +7,15 @@
 
 namespace app {
 
-Work Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
-  Forecast forecast;
-  forecast.begin(world_->positions(), settings, 0);
-  return forecast.of(static_cast<std::size_t>(&method - collide::method_table().data()));
+WorkEstimate Session::work_of(const collide::Method& method, const collide::Settings& settings) const {
+  CostModel cost_model;
+  cost_model.begin(world_->positions(), settings, 0);
+  return cost_model.of(static_cast<std::size_t>(&method - collide::method_table().data()));
 }
 
 /// False, with a notice(), if the method would hold the window up: it runs where the bodies are moved and drawn.
 bool Session::affordable(const collide::Method& method, const collide::Settings& settings) {
-  const Work work = work_of(method, settings);
+  const WorkEstimate work = work_of(method, settings);
   if (work.cost() <= most_work) return true;
   notice_ = std::string(method.name);
   notice_.append(" would take ").append(work.in_words()).append(" a frame here: too long to drive the bodies with");
@@ -111,7 +111,7 @@ void Session::keep(CompareReport report) {
   ++comparisons_;
   if (const CompareRow* row = driver_row()) history_.recall.push(comparison_.frame, static_cast<float>(row->recall));
   for (std::size_t i = 0; i < comparison_.rows.size(); ++i) {
-    Ring& times = history_.method_ms[i];
+    TimeSeries& times = history_.method_ms[i];
     if (const auto ms = comparison_.rows[i].ms)
       times.push(comparison_.frame, static_cast<float>(*ms));
     else
@@ -119,8 +119,8 @@ void Session::keep(CompareReport report) {
   }
 }
 
-Snapshot Session::snapshot() const {
-  Snapshot copy;
+FrameSnapshot Session::snapshot() const {
+  FrameSnapshot copy;
   copy.id = revision_;
   copy.frame_number = world_->frame();
   copy.world = worlds_;
@@ -136,7 +136,7 @@ Snapshot Session::snapshot() const {
 /// What was measured with other settings: its report stays until there is a new one, its curves do not.
 void Session::forget_measurements() {
   history_.recall.clear();
-  for (Ring& times : history_.method_ms) times.clear();
+  for (TimeSeries& times : history_.method_ms) times.clear();
   first_comparable_ = revision_;
 }
 

@@ -102,13 +102,13 @@ void Session::single_step() {
 void Session::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
-  if (!paused) stability_.dismiss_alarm();
-  const bool alarmed = stability_.alarm().has_value();
+  if (!paused) stability_.dismiss_blow_up();
+  const bool alarmed = stability_.blow_up().has_value();
   stability_.before_step(*world_);
   const bool stepped = succeeds([&] { world_->step(); });
   if (world_->grabbed()) intervened();  // a hand brings energy
-  stability_.after_step(*world_, guarded);
-  if (stability_.alarm() && !alarmed) paused = true;
+  stability_.after_step(*world_, pause_on_blow_up);
+  if (stability_.blow_up() && !alarmed) paused = true;
   step_ghost();
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
   history_.detect_ms.push(world_->frame(), static_cast<float>(world_->profile().detect_ms));

@@ -32,7 +32,7 @@ void SweepWorker::start(const softbody::World& world) {
     running_ = true;
   } catch (const std::exception& error) {  // too little memory for the copy, or no thread to be had
     state.running = false;
-    state.broken_off = error.what();
+    state.stop_reason = error.what();
     publish(std::move(state));
   }
 }
@@ -53,10 +53,10 @@ void SweepWorker::run(const std::stop_token& stop, Job& job) {
       rest(Clock::now() - start, stop);
     }
     state.progress = sweep.progress();
-    if (state.progress < 1) state.broken_off = "cancelled";
+    if (state.progress < 1) state.stop_reason = "cancelled";
     state.report = sweep.report();
   } catch (const std::exception& error) {  // too little memory must not end the demo
-    state.broken_off = error.what();
+    state.stop_reason = error.what();
   }
   state.running = false;
   publish(std::move(state));

@@ -14,9 +14,9 @@ struct SweepState {
   std::string scene;  // name of the one that the frame was copied from; empty: nothing swept yet
   int frame = 0;      // of that scene's world
   bool running = false;
-  double progress = 0;     // 0 .. 1
-  std::string broken_off;  // why it ended before its time, else empty
-  SweepReport report;      // of a running sweep: what is known so far
+  double progress = 0;      // 0 .. 1
+  std::string stop_reason;  // why it ended before its time, else empty
+  SweepReport report;       // of a running sweep: what is known so far
 };
 
 class SweepWorker {

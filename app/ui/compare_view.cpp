@@ -97,9 +97,9 @@ struct Scale {
 Scale common_scale(const Session& session) {
   Scale scale;
   float most = 0;
-  for (const Ring& times : session.history().method_ms) {
+  for (const TimeSeries& times : session.history().method_ms) {
     scale.slowest = std::max(scale.slowest, times.median(median_of));
-    most = std::max(most, times.largest());
+    most = std::max(most, times.max());
   }
   scale.axis = axis_end(most, 0.1f);
   return scale;
@@ -147,7 +147,7 @@ bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
 }
 
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
-  const Ring& times = session.history().method_ms[row.index];
+  const TimeSeries& times = session.history().method_ms[row.index];
   if (times.size() == 0) {
     const bool reference = row.is_reference && row.scored();
     if (reference)
@@ -210,7 +210,7 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     draw_score(w, grid, row);
   else
     draw_reason(session, grid, row);
-  const Ring& times = session.history().method_ms[row.index];
+  const TimeSeries& times = session.history().method_ms[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
     w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis}, row.method.colour, "ms",

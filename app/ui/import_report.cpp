@@ -8,7 +8,7 @@ namespace app {
 
 namespace {
 
-void draw_verdict(Widgets& w, const Import::Verdict& verdict) {
+void draw_verdict(Widgets& w, const Import::FileReport& verdict) {
   if (verdict.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
   for (const std::string& line : verdict.lines) {
     ImGui::TextWrapped("%s", line.c_str());
@@ -26,7 +26,7 @@ void draw_import_report(Widgets& w, Import& import, const SceneArea& area) {
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.max.y - area.min.y - 2 * margin});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Import", nullptr, plate & ~ImGuiWindowFlags_NoScrollbar);
-  for (const Import::Verdict& verdict : import.report()) {
+  for (const Import::FileReport& verdict : import.report()) {
     draw_verdict(w, verdict);
     if (&verdict != &import.report().back()) ImGui::Separator();
   }

@@ -16,7 +16,7 @@ constexpr double hint_seconds = 20, fade_seconds = 2;
 
 std::string recall_sentence(const Session& session) {
   const CompareReport& report = session.comparison();
-  if (report.id != 0 && !report.reference) return "Recall not measured: " + report.stands_in;
+  if (report.id != 0 && !report.reference) return "Recall not measured: " + report.reference_note;
   const CompareRow* row = session.driver_row();
   if (!row) return "Recall: measuring";
   std::array<char, 32> number{};
@@ -25,7 +25,7 @@ std::string recall_sentence(const Session& session) {
   text += report.true_contacts == 0 ? "no contacts in the frame last measured"
                                     : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) +
                                           " contacts missed when last measured";
-  if (!report.stands_in.empty()) text += " (see Compare: V)";
+  if (!report.reference_note.empty()) text += " (see Compare: V)";
   return text;
 }
 
@@ -51,10 +51,10 @@ std::string whose_structure(const Session& session) {
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
 
 std::string reference_sentence(const CompareReport& report) {
-  if (!report.reference) return report.stands_in.empty() ? "Measuring" : "Not measured: " + report.stands_in;
+  if (!report.reference) return report.reference_note.empty() ? "Measuring" : "Not measured: " + report.reference_note;
   const std::string name(collide::method_table()[*report.reference].name);
   std::string text = "Measured against " + name;
-  return report.stands_in.empty() ? text : text + ": " + report.stands_in;
+  return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
 
 float draw_status(Widgets& w, Session& session, const std::string& no_room, const SceneArea& area, bool& explained) {

@@ -28,7 +28,7 @@ std::string tooltip(const SweepRow& row) {
     text += format("\nCells of %.3g x %.3g x %.3g m", double{cell.x}, double{cell.y}, double{cell.z});
     text += format(", %g of the automatic size", row.configuration.cell);
   }
-  text += format("\n%.4g ms: median of %zu, least %.4g", row.times.median(), row.times.ms.size(), row.times.least());
+  text += format("\n%.4g ms: median of %zu, least %.4g", row.times.median(), row.times.ms.size(), row.times.min());
   text += format("\nRecall %.4f, precision %.4f; ", rounded_down(row.recall), rounded_down(row.precision));
   text += joined(grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
   text += joined("\n", grouped(row.counters.pair_tests), " pair tests, ", grouped(row.counters.hashes), " hashes");
@@ -97,9 +97,9 @@ std::string footing(const SweepState& state) {
   if (report.reference) {
     text += joined(grouped(report.true_contacts), " true contacts by ",
                    collide::method_table()[report.reference->method].name,
-                   report.stands_in.empty() ? "." : ", which stands in for brute force.");
-  } else if (!report.stands_in.empty()) {
-    text += joined("No true contacts: ", report.stands_in, ".");
+                   report.reference_note.empty() ? "." : ", which stands in for brute force.");
+  } else if (!report.reference_note.empty()) {
+    text += joined("No true contacts: ", report.reference_note, ".");
   }
   return text;
 }
@@ -119,16 +119,16 @@ void legend_entry(Widgets& w, const std::string& text, const char* tip, bool fir
 }
 
 void draw_progress(Widgets& w, const SweepState& state, float width) {
-  const std::string text = state.broken_off.empty() ? format("%.0f %%", 100 * state.progress) : state.broken_off;
+  const std::string text = state.stop_reason.empty() ? format("%.0f %%", 100 * state.progress) : state.stop_reason;
   ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
   colour.w = 0.35f;  // pale: the text stands on it
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
   ImGui::ProgressBar(static_cast<float>(state.progress), {width, 0}, text.c_str());
   ImGui::PopStyleColor();
-  w.done("Sweep progress", state.broken_off.empty()
+  w.done("Sweep progress", state.stop_reason.empty()
                                ? "First each setting is checked against the true contacts, then all are timed, up to "
                                  "five times, in shuffled order."
-                               : state.broken_off.c_str());
+                               : state.stop_reason.c_str());
 }
 
 }  // namespace
@@ -203,7 +203,7 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
 
 void SweepView::draw_footing(Widgets& w) const {
   w.line(footing(state_));
-  const std::string& why = state_.report.stands_in;
+  const std::string& why = state_.report.reference_note;
   w.done("Sweep footing", why.empty() ? "The frame that is swept, whatever the demo shows by now." : why.c_str());
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "app/render/overlays.h"
-#include "app/session/export/take_away.h"
+#include "app/session/export/exporter.h"
 #include "app/session/import.h"
 #include "app/ui/tour/tour.h"
 
@@ -25,10 +25,10 @@ struct UiState {
   bool throw_body = false;    // likewise
   bool list_open = false;     // a list to choose from, in the last frame
   bool quit = false;
-  float fineness = 1;                    // of the scene's picture, see Canvas
+  float render_scale = 1;                // of the scene's picture, see Canvas
   std::map<std::string, bool> sections;  // of the panel: whether they are open, by their labels
   softbody::View view;                   // the camera, as a scene file has it
-  TakeAway take_away;
+  Exporter exporter;
   Tour tour;
   Import import;
   std::string save_as = "scene.toml";      // where the scene is saved to

@@ -61,7 +61,7 @@ class Demo {
     }
     keep_preferences(true);
     // A balance that is being sought could hold a closed window for minutes.
-    if (ui_.import.busy() && !ui_.take_away.recording() && !ui_.take_away.finishing()) std::quick_exit(EXIT_SUCCESS);
+    if (ui_.import.busy() && !ui_.exporter.recording() && !ui_.exporter.finishing()) std::quick_exit(EXIT_SUCCESS);
   }
 
  private:
@@ -110,7 +110,7 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(screen_->window.take_dropped_files(), session_);
-    if (screen_->window.input_waits() || ui_.take_away.recording()) pacer_.stir();
+    if (screen_->window.input_waits() || ui_.exporter.recording()) pacer_.stir();
     // Whatever waits of mouse and keyboard, a click at a time: a slow world does not keep those who type or click.
     take_input(elapsed);
     while (screen_->window.input_waits()) {
@@ -119,11 +119,11 @@ class Demo {
     }
     const engine::Viewport viewport = scene_viewport();
     double drawing = timed([&] { draw_scene(viewport); });
-    if (const Spotlight* light = ui_.tour.spotlight())
+    if (const Highlight* light = ui_.tour.highlight())
       draw_labels(light->labels, camera_, viewport.size, interface_.scene_area(), screen_->gui.scale());
     ui_.view = SceneView::view(camera_, viewport.size);
     screen_->gui.end_frame();
-    ui_.take_away.frame(session_, [this](bool with_panel) { return picture(with_panel); });
+    ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
     screen_->canvas.pace(elapsed, drawing);
@@ -134,8 +134,8 @@ class Demo {
   /// Steps that take long run beside the window: meanwhile one can look round, and what is typed or clicked is kept.
   void advance(double elapsed) {
     const auto advance = [&] {
-      if (ui_.take_away.recording())
-        session_.advance_one(elapsed, ui_.take_away.may_step());
+      if (ui_.exporter.recording())
+        session_.advance_one(elapsed, ui_.exporter.may_step());
       else
         session_.advance(elapsed);
     };
@@ -158,7 +158,7 @@ class Demo {
     if (camera_.view() == drawn_.view) return;
     drawn_.view = camera_.view();
     screen_->canvas.update(viewport.size, true, false, [&](const engine::Viewport& whole) {
-      screen_->view.draw_again(camera_, whole, pixel_scale(whole, viewport));
+      screen_->view.redraw(camera_, whole, pixel_scale(whole, viewport));
     });
     present(viewport);
   }
@@ -228,7 +228,7 @@ class Demo {
     if (ui_.tour.open() && !before_tour_) before_tour_ = camera_.orbit();
     if (!ui_.tour.open() && before_tour_) camera_.glide_to(*std::exchange(before_tour_, std::nullopt));
     if (!ui_.tour.take_framing()) return;
-    const Spotlight& light = *ui_.tour.spotlight();
+    const Highlight& light = *ui_.tour.highlight();
     camera_.glide_to(light.centre, tour_room * light.radius, viewport.size);
   }
 
@@ -251,12 +251,12 @@ class Demo {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
     const bool still = (session_.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still || ui_.take_away.wants_picture();
+    const bool fine = still || ui_.exporter.wants_picture();
     screen_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
       screen_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole, pixel_scale(whole, viewport),
                          session_.drawn_positions(whole_steps(session_, ui_.overlays)));
     });
-    ui_.fineness = screen_->canvas.fineness();
+    ui_.render_scale = screen_->canvas.render_scale();
     if (!still) pacer_.stir();
     drawn_ = key;
   }

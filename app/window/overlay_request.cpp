@@ -18,7 +18,7 @@ OverlayRequest overlay_request(const Session& session, const UiState& ui) {
   request.missed = session.missed();
   if (request.shown.touches) request.touches = session.touches();
   request.marks = session.surfaces().report().marks;
-  request.spotlight = ui.tour.spotlight();
+  request.highlight = ui.tour.highlight();
   const Ghost* ghost = ui.tour.open() ? nullptr : session.ghost();
   if (ghost && !ghost->blown_up()) {
     request.ghost = &ghost->world();

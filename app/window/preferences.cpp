@@ -66,7 +66,7 @@ Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2
           .table = ui.table,
           .sweep = ui.sweep,
           .compare = session.compare.on,
-          .picture_with_panel = ui.take_away.with_panel,
+          .picture_with_panel = ui.exporter.with_panel,
           .slow_factor = session.slow_factor,
           .sections = ui.sections};
 }
@@ -78,7 +78,7 @@ void apply(const Preferences& p, Session& session, UiState& ui) {
   ui.panel = p.panel;
   ui.table = p.table;
   ui.sweep = p.sweep;
-  ui.take_away.with_panel = p.picture_with_panel;
+  ui.exporter.with_panel = p.picture_with_panel;
   ui.sections = p.sections;
 }
 

@@ -21,7 +21,7 @@ glm::dvec3 beside(const engine::Ray& ray, const engine::Camera& camera, const gl
 }  // namespace
 
 void look_at(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {
-  const Round round = round_body(session.world(), body, session.drawn_positions());
+  const BoundingSphere round = bounding_sphere(session.world(), body, session.drawn_positions());
   camera.glide_to(round.centre, round.radius, size);
 }
 

@@ -13,15 +13,15 @@ namespace {
 /// Pictures that take `fixed` s to draw whatever their size, `pixels` s with all their pixels, and `other` s besides.
 struct Cost {
   double fixed, pixels, other;
-  void draw(Fineness& fineness) const {
-    const double drawing = fixed + pixels * double(fineness.value()) * double(fineness.value());
-    fineness.add(drawing + other, drawing);
+  void draw(RenderScale& render_scale) const {
+    const double drawing = fixed + pixels * double(render_scale.value()) * double(render_scale.value());
+    render_scale.add(drawing + other, drawing);
   }
 };
 
-float after(int pictures, Fineness& fineness, const Cost& cost) {
-  for (int i = 0; i < pictures; ++i) cost.draw(fineness);
-  return fineness.value();
+float after(int pictures, RenderScale& render_scale, const Cost& cost) {
+  for (int i = 0; i < pictures; ++i) cost.draw(render_scale);
+  return render_scale.value();
 }
 
 TEST(Pacer, HasTimeToSpareWhereNothingHasStirredForASecond) {
@@ -40,37 +40,37 @@ TEST(Pacer, HasTimeToSpareWhereNothingHasStirredForASecond) {
   EXPECT_EQ(pacer.spare(), 0);
 }
 
-TEST(Fineness, IsLessWhereDrawingTakesTooLong) {
-  Fineness fineness;
-  EXPECT_EQ(fineness.value(), 1);
-  EXPECT_EQ(after(200, fineness, {0.005, 0.020, 0.005}), 1);
-  EXPECT_EQ(after(200, fineness, {0.005, 0.030, 0.005}), 0.8f);
-  EXPECT_EQ(after(200, fineness, {0.010, 0.080, 0.005}), 0.55f);
-  EXPECT_EQ(after(200, fineness, {0.001, 0.004, 0.025}), 1) << "it comes back";
+TEST(RenderScale, IsLessWhereDrawingTakesTooLong) {
+  RenderScale render_scale;
+  EXPECT_EQ(render_scale.value(), 1);
+  EXPECT_EQ(after(200, render_scale, {0.005, 0.020, 0.005}), 1);
+  EXPECT_EQ(after(200, render_scale, {0.005, 0.030, 0.005}), 0.8f);
+  EXPECT_EQ(after(200, render_scale, {0.010, 0.080, 0.005}), 0.55f);
+  EXPECT_EQ(after(200, render_scale, {0.001, 0.004, 0.025}), 1) << "it comes back";
 }
 
-TEST(Fineness, StaysThoughAScreenOfSixtyHertzIsMissedNowAndThen) {
-  Fineness fineness;
-  for (int i = 0; i < 400; ++i) fineness.add(i % 36 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
-  EXPECT_EQ(fineness.value(), 1);
-  for (int i = 0; i < 400; ++i) fineness.add(i % 9 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
-  EXPECT_LT(fineness.value(), 1) << "not if that is the rule";
+TEST(RenderScale, StaysThoughAScreenOfSixtyHertzIsMissedNowAndThen) {
+  RenderScale render_scale;
+  for (int i = 0; i < 400; ++i) render_scale.add(i % 36 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
+  EXPECT_EQ(render_scale.value(), 1);
+  for (int i = 0; i < 400; ++i) render_scale.add(i % 9 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
+  EXPECT_LT(render_scale.value(), 1) << "not if that is the rule";
 }
 
-TEST(Fineness, DoesNotPayForWhatElseIsSlow) {
-  Fineness fineness;
-  EXPECT_EQ(after(200, fineness, {0.005, 0.015, 0.050}), 1);
+TEST(RenderScale, DoesNotPayForWhatElseIsSlow) {
+  RenderScale render_scale;
+  EXPECT_EQ(after(200, render_scale, {0.005, 0.015, 0.050}), 1);
 }
 
-TEST(Fineness, SettlesWhateverPicturesCost) {
+TEST(RenderScale, SettlesWhateverPicturesCost) {
   for (double fixed = 0.001; fixed < 0.06; fixed *= 1.3)
     for (double pixels = 0.001; pixels < 0.2; pixels *= 1.3)
       for (const double other : {0.001, 0.01, 0.03}) {
         const Cost cost{fixed, pixels, other};
-        Fineness fineness;
-        const float settled = after(200, fineness, cost);
+        RenderScale render_scale;
+        const float settled = after(200, render_scale, cost);
         for (int i = 0; i < 100; ++i)
-          ASSERT_EQ(after(1, fineness, cost), settled) << fixed << " " << pixels << " " << other;
+          ASSERT_EQ(after(1, render_scale, cost), settled) << fixed << " " << pixels << " " << other;
       }
 }
 
@@ -109,9 +109,9 @@ TEST_F(CanvasTest, MovingPicturesAreCoarseOnlyWhereTheyComeTooSlowly) {
   EXPECT_EQ(drawn(true, false), size);
   let_it_be_slow();
   EXPECT_EQ(drawn(true, false), glm::ivec2(0.55f * glm::vec2(size)));
-  EXPECT_EQ(canvas_.fineness(), 0.55f);
+  EXPECT_EQ(canvas_.render_scale(), 0.55f);
   EXPECT_EQ(drawn(false, true), size) << "and fine when they stand still";
-  EXPECT_EQ(canvas_.fineness(), 1);
+  EXPECT_EQ(canvas_.render_scale(), 1);
   const engine::Image picture = canvas_.read();
   EXPECT_EQ(picture.width, size.x);
   EXPECT_EQ(picture.height, size.y);

@@ -17,8 +17,8 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t seed = 7;
 
-Snapshot snapshot_of(const softbody::World& world) {
-  Snapshot snapshot;
+FrameSnapshot snapshot_of(const softbody::World& world) {
+  FrameSnapshot snapshot;
   snapshot.id = snapshot.world = 1;
   snapshot.at.copy(world.positions());
   snapshot.bodies = world.bodies();
@@ -118,7 +118,7 @@ TEST(Comparison, FindsNothingMissingInExactMethods) {
 }
 
 TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
-  Snapshot snapshot = snapshot_of(world_with("grid-hash", 0.5f));
+  FrameSnapshot snapshot = snapshot_of(world_with("grid-hash", 0.5f));
   snapshot.chosen.clear();
   const std::size_t all = snapshot.found.contacts.size();
   snapshot.found.contacts.erase(snapshot.found.contacts.begin());
@@ -134,14 +134,14 @@ TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
 }
 
 TEST(Comparison, CountsTheDriverFromScratchAsItTimesIt) {
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
+  FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   snapshot.found.counters = {};  // of a frame in which all bodies rested
   const CompareReport report = Comparison(seed).run(snapshot);
   EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
 }
 
 TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
-  Snapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
+  FrameSnapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
   snapshot.settings.tolerance = 1e-6f;
   snapshot.found = {};
   for (const CompareRow& each : Comparison(seed).run(snapshot).rows) {
@@ -151,7 +151,7 @@ TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
 }
 
 TEST(Comparison, RunsOnlyWhatIsChosen) {
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
+  FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
   snapshot.chosen.assign(collide::method_table().size(), false);
   snapshot.chosen[method_index("bounding-box")] = true;
   const CompareReport report = Comparison(seed).run(snapshot);
@@ -162,7 +162,7 @@ TEST(Comparison, RunsOnlyWhatIsChosen) {
 }
 
 TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
-  const Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
+  const FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   Comparison one(seed), same(seed);
   std::set<std::vector<std::size_t>> orders;
   for (int i = 0; i < 12; ++i) {
@@ -176,7 +176,7 @@ TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
 }
 
 TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
-  const Snapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
+  const FrameSnapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
   const CompareReport report = Comparison(seed, tight_budget).run(snapshot);
   EXPECT_EQ(row(report, "brute-force").not_run, "not run: 117,855 pair tests predicted");
   EXPECT_FALSE(row(report, "brute-force").scored);
@@ -184,7 +184,7 @@ TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
   const CompareReport none = Comparison(seed, 10).run(snapshot);
   EXPECT_TRUE(none.order.empty());
   EXPECT_FALSE(none.reference);
-  EXPECT_EQ(none.stands_in, "brute force would take 117,855 pair tests");
+  EXPECT_EQ(none.reference_note, "brute force would take 117,855 pair tests");
 }
 
 TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
@@ -196,7 +196,7 @@ TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
     const collide::Method& reference = collide::method_table()[*report.reference];
     EXPECT_EQ(reference.key, driver.uses_levels ? "grid-hash" : "multi-level-sb-exact") << driver.key;
     EXPECT_EQ(report.true_contacts, true_contacts(world).size());
-    EXPECT_EQ(report.stands_in, "brute force would take 117,855 pair tests");
+    EXPECT_EQ(report.reference_note, "brute force would take 117,855 pair tests");
   }
 }
 
@@ -212,7 +212,7 @@ std::optional<CompareReport> wait_for_report(CompareWorker& worker) {
 TEST(CompareWorker, ReportsOnWhatItWasGiven) {
   CompareWorker worker;
   EXPECT_TRUE(worker.ready());
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
+  FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
   snapshot.id = 42;
   const CompareReport expected = Comparison(seed).run(snapshot);
   worker.offer(snapshot);

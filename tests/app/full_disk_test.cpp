@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/session/export/take_away.h"
+#include "app/session/export/exporter.h"
 #include "app/window/preferences.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -53,16 +53,16 @@ TEST_F(FullDisk, KeepsThePreferences) {
 
 TEST_F(FullDisk, IsSaidOfPicturesAndCurves) {
   folder.write("curves_0001.csv", "saved before");
-  TakeAway take_away;
-  take_away.folder = folder.path().string();
+  Exporter exporter;
+  exporter.folder = folder.path().string();
   const tests::FullDisk full(too_little);
-  take_away.write_curves(session);
-  EXPECT_TRUE(take_away.failed());
-  EXPECT_NE(take_away.message().find("curves_0002.csv: cannot be written"), std::string::npos) << take_away.message();
-  take_away.picture_asked = true;
-  take_away.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
-  EXPECT_TRUE(take_away.failed());
-  EXPECT_NE(take_away.message().find("picture_0001.png: cannot be written"), std::string::npos) << take_away.message();
+  exporter.write_curves(session);
+  EXPECT_TRUE(exporter.failed());
+  EXPECT_NE(exporter.message().find("curves_0002.csv: cannot be written"), std::string::npos) << exporter.message();
+  exporter.picture_asked = true;
+  exporter.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
+  EXPECT_TRUE(exporter.failed());
+  EXPECT_NE(exporter.message().find("picture_0001.png: cannot be written"), std::string::npos) << exporter.message();
   expect_unchanged("curves_0001.csv", "saved before");
 }
 

@@ -70,7 +70,7 @@ class Importing : public testing::Test {
   }
   std::string report() const {
     std::string text;
-    for (const Import::Verdict& verdict : import.report())
+    for (const Import::FileReport& verdict : import.report())
       for (const std::string& line : verdict.lines) text += line + "\n";
     return text;
   }
@@ -219,7 +219,7 @@ TEST_F(Importing, EveryFileOfABatchHasItsVerdict) {
   EXPECT_NE(report().find("none.obj"), std::string::npos) << report();
   EXPECT_NE(report().find("model.stl"), std::string::npos) << report();
   drop({none, none, none, none, ball});
-  EXPECT_EQ(std::ranges::count(import.report(), true, &Import::Verdict::refused), 6) << "no refusal is lost";
+  EXPECT_EQ(std::ranges::count(import.report(), true, &Import::FileReport::refused), 6) << "no refusal is lost";
   EXPECT_FALSE(refused()) << "nor is the newest verdict";
   load(ball);
   EXPECT_EQ(import.report().size(), 1u) << report();

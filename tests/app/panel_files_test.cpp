@@ -52,9 +52,9 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
   EXPECT_FALSE(drop_and_see_if_closed());
   rig.drag("Weld distance", -2000);
-  EXPECT_EQ(rig.ui.import.weld, Import::least_weld);
+  EXPECT_EQ(rig.ui.import.weld, Import::min_weld);
   rig.drag("Weld distance", 2000);
-  EXPECT_EQ(rig.ui.import.weld, Import::most_weld);
+  EXPECT_EQ(rig.ui.import.weld, Import::max_weld);
   rig.double_click("Weld distance");
   rig.type("2");
   EXPECT_EQ(rig.ui.import.weld, 0.02) << "a hundredth of what is typed, no more digits";
@@ -114,21 +114,21 @@ TEST(TakeAwayPanel, AsksForAPictureAndRecords) {
   PanelRig rig;
   open_only(rig, "Take away");
   rig.type("Output folder", folder.path().string());
-  EXPECT_EQ(rig.ui.take_away.folder, folder.path().string());
+  EXPECT_EQ(rig.ui.exporter.folder, folder.path().string());
   rig.click("Picture");
-  EXPECT_TRUE(rig.ui.take_away.picture_asked);
+  EXPECT_TRUE(rig.ui.exporter.picture_asked);
   rig.click("Curves");
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
   for (const RecordingKind& kind : recording_kinds) {
     rig.click("Kind of recording");
     rig.click(kind.name);
-    EXPECT_EQ(recording_kinds[rig.ui.take_away.kind].key, kind.key);
+    EXPECT_EQ(recording_kinds[rig.ui.exporter.kind].key, kind.key);
   }
   rig.click("Record");
-  EXPECT_TRUE(rig.ui.take_away.recording());
+  EXPECT_TRUE(rig.ui.exporter.recording());
   EXPECT_FALSE(rig.widget("Kind of recording").enabled);
   rig.click("Record");
-  EXPECT_FALSE(rig.ui.take_away.recording());
+  EXPECT_FALSE(rig.ui.exporter.recording());
 }
 
 TEST(Sections, AreRemembered) {

@@ -85,7 +85,7 @@ TEST(Panel, GoesBackByASlider) {
   rig.drag("Go back to", 400);
   EXPECT_GE(rig.session.world().frame(), frame);
   rig.click("Pause when a body explodes");
-  EXPECT_FALSE(rig.session.guarded);
+  EXPECT_FALSE(rig.session.pause_on_blow_up);
   EXPECT_TRUE(rig.recorder.find("Total"));
   EXPECT_TRUE(rig.recorder.find("Step light"));
   EXPECT_FALSE(rig.recorder.find("Alarm"));

@@ -61,7 +61,7 @@ TEST(Rewind, ForgetsTheFutureThatDidNotCome) {
 }
 
 /// Everything that the shipped scenes do, with bodies that come and settings that change, is within reach.
-TEST(Guard, IsSilentThroughAWholeSessionOfChanges) {
+TEST(BlowUpMonitor, IsSilentThroughAWholeSessionOfChanges) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces}) {
     Session session(touching_pair(), {}, 1);
     session.set_contact_surface(surface);
@@ -73,7 +73,7 @@ TEST(Guard, IsSilentThroughAWholeSessionOfChanges) {
       settings.tolerance = round % 2 ? 0.1f : 0.4f;
       session.set_collision(settings, true);
     }
-    EXPECT_FALSE(session.stability().alarm()) << session.stability().alarm()->what;
+    EXPECT_FALSE(session.stability().blow_up()) << session.stability().blow_up()->what;
     EXPECT_FALSE(session.paused);
   }
 }
@@ -107,26 +107,26 @@ TEST(Session, ShowsWhatIsSoWhereItWentBackTo) {
   EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
   EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
   EXPECT_FLOAT_EQ(shown.speed.latest(), float(now.max_speed));
-  for (const Ring* ring : {&shown.total, &session.history().contacts}) {
-    ASSERT_GT(ring->size(), 0u);
-    EXPECT_LE(ring->frame(ring->size() - 1), 30);
+  for (const TimeSeries* series : {&shown.total, &session.history().contacts}) {
+    ASSERT_GT(series->size(), 0u);
+    EXPECT_LE(series->frame(series->size() - 1), 30);
   }
   EXPECT_EQ(session.stability().margin().taken, 0);
   EXPECT_FALSE(session.world().all_at_rest()) << "so the light may not say that nothing moves";
 }
 
-TEST(Ring, ForgetsFromAFrameOn) {
-  Ring ring;
-  for (int frame = 0; frame < 300; ++frame) ring.push(frame, static_cast<float>(frame));
-  ring.forget_from(250);
-  EXPECT_EQ(ring.latest(), 249);
-  EXPECT_EQ(ring.largest(), 249);
-  EXPECT_EQ(ring.smallest(), 120);
-  ring.push(250, -1);
-  EXPECT_EQ(ring.smallest(), -1);
-  EXPECT_EQ(ring.size(), 131u);
-  ring.forget_from(0);
-  EXPECT_EQ(ring.size(), 0u);
+TEST(TimeSeries, ForgetsFromAFrameOn) {
+  TimeSeries series;
+  for (int frame = 0; frame < 300; ++frame) series.push(frame, static_cast<float>(frame));
+  series.forget_from(250);
+  EXPECT_EQ(series.latest(), 249);
+  EXPECT_EQ(series.max(), 249);
+  EXPECT_EQ(series.min(), 120);
+  series.push(250, -1);
+  EXPECT_EQ(series.min(), -1);
+  EXPECT_EQ(series.size(), 131u);
+  series.forget_from(0);
+  EXPECT_EQ(series.size(), 0u);
 }
 
 TEST(Session, GoesBackWithTheSettingsInUse) {
@@ -150,33 +150,33 @@ TEST(Session, GoesBackWithTheSettingsInUse) {
 TEST(Session, PausesWhenABodyExplodesAndOffersTheLastGoodFrame) {
   Session session(doomed_pair(), {}, 1);
   run(session, 40);
-  ASSERT_TRUE(session.stability().alarm());
+  ASSERT_TRUE(session.stability().blow_up());
   EXPECT_TRUE(session.paused);
-  EXPECT_EQ(session.stability().alarm()->body, 1u);
-  const int bad = session.stability().alarm()->frame;
+  EXPECT_EQ(session.stability().blow_up()->body, 1u);
+  const int bad = session.stability().blow_up()->frame;
   EXPECT_EQ(session.world().frame(), bad);
   EXPECT_LT(session.stability().last_good_frame(), bad);
   session.rewind_to(session.stability().last_good_frame());
-  EXPECT_FALSE(session.stability().alarm());
+  EXPECT_FALSE(session.stability().blow_up());
   EXPECT_TRUE(softbody::measure(session.world()).finite);
 }
 
 TEST(Session, GoesOnThroughAnExplosionWhenAskedTo) {
   Session session(doomed_pair(), {}, 1);
-  session.guarded = false;
+  session.pause_on_blow_up = false;
   run(session, 40);
-  EXPECT_FALSE(session.stability().alarm());
+  EXPECT_FALSE(session.stability().blow_up());
   EXPECT_FALSE(session.paused);
   session.reset();
-  session.guarded = true;
+  session.pause_on_blow_up = true;
   run(session, 40);
-  ASSERT_TRUE(session.stability().alarm());
+  ASSERT_TRUE(session.stability().blow_up());
   session.paused = false;
   const int bad = session.world().frame();
   run(session, 5);
   EXPECT_EQ(session.world().frame(), bad + 5) << "it stops once, not in every frame";
   EXPECT_LT(session.stability().past().snapshots().back().frame, bad) << "no bad frame is kept";
-  EXPECT_FALSE(session.stability().alarm()) << "who goes on has read it";
+  EXPECT_FALSE(session.stability().blow_up()) << "who goes on has read it";
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ TEST(Commands, OfASavedSceneMakeAllOfIt) {
   EXPECT_EQ(session.scene_file().name(), file.string());
   softbody::Scene used = session.scene_in_use();
   used.view = view;
-  EXPECT_TRUE(session.scene_file().makes(used));
+  EXPECT_TRUE(session.scene_file().reproduces(used));
   softbody::Scene made = load_scene(parse(demo_command(session.scene_file().name(), used, {})));
   made.key = used.key;
   made.collision.cell_size = used.collision.cell_size;
@@ -105,13 +105,13 @@ TEST(Commands, OfASavedSceneMakeAllOfIt) {
 TEST(SceneFile, KnowsWhatTheCommandLineCannotSay) {
   const SceneFile file("D", touching_pair());
   softbody::Scene used = touching_pair();
-  EXPECT_TRUE(file.makes(used));
-  EXPECT_TRUE(file.makes(changed(used)));
+  EXPECT_TRUE(file.reproduces(used));
+  EXPECT_TRUE(file.reproduces(changed(used)));
   used.gravity.y = -1;
-  EXPECT_FALSE(file.makes(used));
+  EXPECT_FALSE(file.reproduces(used));
   used = touching_pair();
   used.bodies.pop_back();
-  EXPECT_FALSE(file.makes(used));
+  EXPECT_FALSE(file.reproduces(used));
 }
 
 TEST(SavedSession, HasTheSettingsInUse) {
@@ -149,7 +149,7 @@ TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
   ASSERT_EQ(session.world().added().size(), 4u);
   session.save_scene(file, {});
   ASSERT_EQ(session.notice(), "");
-  EXPECT_TRUE(session.scene_file().makes(session.scene_as_it_is()));
+  EXPECT_TRUE(session.scene_file().reproduces(session.scene_as_it_is()));
   Session again(softbody::load_scene(file), {}, 1);
   EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
   go_on(again, 70);

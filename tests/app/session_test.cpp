@@ -175,17 +175,18 @@ TEST(Session, ResetKeepsTheContactSurfaceAndTheScenesSettingsBringItBack) {
   EXPECT_EQ(surface(), softbody::ContactSurface::vertices);
 }
 
-TEST(Ring, KeepsTheLastValuesInOrder) {
-  Ring ring;
-  EXPECT_EQ(ring.size(), 0u);
-  for (std::size_t i = 0; i < Ring::capacity + 5; ++i) ring.push(static_cast<int>(2 * i), static_cast<float>(i));
-  EXPECT_EQ(ring.size(), Ring::capacity);
-  EXPECT_EQ(ring[0], 5.0f);
-  EXPECT_EQ(ring.frame(0), 10);
-  EXPECT_EQ(ring[Ring::capacity - 1], static_cast<float>(Ring::capacity + 4));
-  EXPECT_EQ(ring.largest(), static_cast<float>(Ring::capacity + 4));
-  EXPECT_EQ(ring.median(3), static_cast<float>(Ring::capacity + 3));
-  EXPECT_EQ(Ring().median(3), 0.0f);
+TEST(TimeSeries, KeepsTheLastValuesInOrder) {
+  TimeSeries series;
+  EXPECT_EQ(series.size(), 0u);
+  for (std::size_t i = 0; i < TimeSeries::capacity + 5; ++i)
+    series.push(static_cast<int>(2 * i), static_cast<float>(i));
+  EXPECT_EQ(series.size(), TimeSeries::capacity);
+  EXPECT_EQ(series[0], 5.0f);
+  EXPECT_EQ(series.frame(0), 10);
+  EXPECT_EQ(series[TimeSeries::capacity - 1], static_cast<float>(TimeSeries::capacity + 4));
+  EXPECT_EQ(series.max(), static_cast<float>(TimeSeries::capacity + 4));
+  EXPECT_EQ(series.median(3), static_cast<float>(TimeSeries::capacity + 3));
+  EXPECT_EQ(TimeSeries().median(3), 0.0f);
 }
 
 }  // namespace

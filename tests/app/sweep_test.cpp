@@ -70,7 +70,7 @@ TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
   ASSERT_EQ(report.rows.size(), configurations.size());
   ASSERT_TRUE(report.reference);
   EXPECT_EQ(report.reference->method, method_index("brute-force"));
-  EXPECT_EQ(report.stands_in, "");
+  EXPECT_EQ(report.reference_note, "");
   EXPECT_GT(report.true_contacts, 0u);
   for (std::size_t i = 0; i < configurations.size(); ++i) {
     const Configuration& c = configurations[i];
@@ -121,7 +121,7 @@ TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
   const collide::Method& reference = collide::method_table()[report.reference->method];
   EXPECT_TRUE(reference.exact);
   EXPECT_FALSE(reference.uses_levels);
-  EXPECT_EQ(report.stands_in, "brute force is over budget: 117,855 pair tests predicted");
+  EXPECT_EQ(report.reference_note, "brute force is over budget: 117,855 pair tests predicted");
   EXPECT_EQ(report.true_contacts, world.detection().contacts.size());
 }
 
@@ -160,9 +160,9 @@ TEST(ParetoFront, HoldsWhatNothingElseBeats) {
 }
 
 TEST(TimesTest, MedianIsTheMiddleOrTheMeanOfTheTwoMiddleOnes) {
-  EXPECT_EQ((Times{{3, 1, 2}}.median()), 2);
-  EXPECT_EQ((Times{{4, 1, 2, 9}}.median()), 3);
-  EXPECT_EQ((Times{{4, 1, 2, 9}}.least()), 1);
+  EXPECT_EQ((Timings{{3, 1, 2}}.median()), 2);
+  EXPECT_EQ((Timings{{4, 1, 2, 9}}.median()), 3);
+  EXPECT_EQ((Timings{{4, 1, 2, 9}}.min()), 1);
 }
 
 }  // namespace

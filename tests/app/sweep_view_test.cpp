@@ -50,7 +50,7 @@ TEST(SweepWorker, FindsWhatASweepOfTheSameFrameFinds) {
   const SweepState state = end_of(worker);
   EXPECT_EQ(state.scene, "Touching pair");
   EXPECT_EQ(state.progress, 1.0);
-  EXPECT_EQ(state.broken_off, "");
+  EXPECT_EQ(state.stop_reason, "");
   collide::Workers alone(1);
   Sweep expected(world.positions(), sweep_configurations(world), limits, alone);
   while (expected.step()) continue;
@@ -89,7 +89,7 @@ TEST(SweepWorker, KeepsWhatItKnowsWhenCancelledAndCanBeginAnew) {
     EXPECT_TRUE(worker.cancelling());
     const SweepState state = end_of(worker);
     EXPECT_FALSE(worker.cancelling());
-    EXPECT_EQ(state.broken_off, "cancelled");
+    EXPECT_EQ(state.stop_reason, "cancelled");
     EXPECT_LT(state.progress, 1);
     for (const SweepRow& row : state.report.rows) EXPECT_TRUE(row.checked);
   }
@@ -173,7 +173,7 @@ TEST(SweepView, IsCancelledByTheButtonThatBeganIt) {
   ASSERT_TRUE(rig.interface.sweep_view().state().running);
   rig.click("Sweep");
   ASSERT_TRUE(wait_until(rig, has_ended));
-  EXPECT_EQ(rig.interface.sweep_view().state().broken_off, "cancelled");
+  EXPECT_EQ(rig.interface.sweep_view().state().stop_reason, "cancelled");
   EXPECT_LT(rig.interface.sweep_view().state().progress, 1);
 }
 

@@ -200,7 +200,7 @@ TEST(Tour, OfAWorldWithoutBodiesSaysSo) {
   rig.click("Tour");
   EXPECT_FALSE(rig.ui.tour.view(rig.session));
   EXPECT_TRUE(rig.recorder.find("Tour problem"));
-  EXPECT_EQ(rig.ui.tour.spotlight(), nullptr);
+  EXPECT_EQ(rig.ui.tour.highlight(), nullptr);
 }
 
 TEST(Tour, WorksInEveryScene) {
@@ -218,8 +218,8 @@ TEST(Tour, WorksInEveryScene) {
       ASSERT_EQ(view.has_value(), session.world().bodies().count() > 0) << key;
       if (!view) break;
       EXPECT_FALSE(tour_steps()[step].figures(*view).empty()) << key;
-      EXPECT_GT(tour.spotlight()->radius, 0) << key;
-      EXPECT_FALSE(tour.spotlight()->bodies.empty()) << key;
+      EXPECT_GT(tour.highlight()->radius, 0) << key;
+      EXPECT_FALSE(tour.highlight()->bodies.empty()) << key;
     }
   }
 }

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "app/reference/reference_run.h"
+#include "app/reference/reference_trajectory.h"
 
 namespace app::test {
 namespace {
@@ -49,7 +49,7 @@ TEST(ReferenceBody, ADampedSpringSwingsAsTheClosedFormHasIt) {
   const double reduced = 0.25, rate = 2 / (2 * reduced), omega = std::sqrt(100 / reduced - rate * rate);
   const double t = 0.37;
   const double stretch = 0.1 * std::exp(-rate * t) * (std::cos(omega * t) + rate / omega * std::sin(omega * t));
-  const Flight flight = fly(pair.body, pair.stretched, 0.01, {.seconds = t});
+  const Trajectory flight = integrate(pair.body, pair.stretched, 0.01, {.seconds = t});
   EXPECT_NEAR(flight.end.x[1].x - flight.end.x[0].x, 1 + stretch, 1e-9);
 }
 
@@ -57,7 +57,7 @@ TEST(ReferenceBody, ConvergesWithTheFourthOrder) {
   const Pair pair(100, 0);
   const double t = 0.5, exact = 1 + 0.1 * std::cos(20 * t);
   const auto error = [&](double fraction) {
-    const BodyState end = fly(pair.body, pair.stretched, fraction, {.seconds = t}).end;
+    const BodyState end = integrate(pair.body, pair.stretched, fraction, {.seconds = t}).end;
     return std::abs(end.x[1].x - end.x[0].x - exact);
   };
   EXPECT_NEAR(std::log2(error(0.1) / error(0.05)), 4, 0.3);
@@ -69,10 +69,10 @@ TEST(ReferenceBody, FliesAsBodiesFall) {
   scene.bodies[0].velocity = {3, 4, 5};
   const softbody::World world(scene, {});
   const ReferenceBody body(world.prototype(0), scene);
-  const BodyState end = fly(body, state_of(world, 0), 1, {.seconds = 0.5}).end;
+  const BodyState end = integrate(body, state_of(world, 0), 1, {.seconds = 0.5}).end;
   const RigidMotion m = rigid_motion(end);
   EXPECT_LT(glm::distance(m.centre, 0.5 * dvec3(3, 4, 5) + 0.125 * dvec3(0, -9.81, 0)), 1e-7);
-  EXPECT_LT(internal_speed(end), 1e-4) << "it started in balance";
+  EXPECT_LT(deformation_speed(end), 1e-4) << "it started in balance";
 }
 
 TEST(ReferenceBody, ForcesAreTheGradientOfTheEnergyInEveryBranchOfTheGasLaw) {
@@ -101,7 +101,7 @@ TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
   pair.scene.gravity = {0, -10, 0};
   pair.prototype.material.thickness = 0;
   const BodyState sliding{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}};
-  const BodyState end = fly(pair.body, sliding, 0.02, {.seconds = 0.1}).end;
+  const BodyState end = integrate(pair.body, sliding, 0.02, {.seconds = 0.1}).end;
   EXPECT_NEAR(end.v[0].z, 0.5, 1e-6) << "0.1 s at 5 m/s^2";
   EXPECT_NEAR(end.x[0].y, 0, 1e-12);
 }
@@ -109,7 +109,7 @@ TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
 /// Of the world with rk4 from the reference, R.
 double difference(const softbody::Scene& scene, int substeps) {
   softbody::World world(scene, {.integrator = "rk4", .substeps = substeps});
-  EXPECT_EQ(ReferenceBody::missing(world), "");
+  EXPECT_EQ(ReferenceBody::unsupported_stage(world), "");
   const ReferenceBody body(world.prototype(0), world.scene());
   const Reference r = find_reference(body, state_of(world, 0), 1e-5, {.seconds = 0.25, .steps = 20'000});
   EXPECT_LT(r.change, 1e-3);
@@ -138,34 +138,34 @@ TEST(ReferenceBody, AKilometreFromTheOriginItsGasIsAsSteady) {
   const ReferenceBody body(world.prototype(0), scene);
   BodyState s{world.prototype(0).start, std::vector<dvec3>(162, dvec3(0.0))};
   for (dvec3& p : s.x) p += 1000.0;
-  EXPECT_LT(internal_speed(fly(body, s, 0.5, {.seconds = 1e-3}).end), 1e-3);
+  EXPECT_LT(deformation_speed(integrate(body, s, 0.5, {.seconds = 1e-3}).end), 1e-3);
 }
 
 TEST(ReferenceBody, SaysWhatItDoesNotModel) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
   scene.materials[0].internal_damping = 1;
-  EXPECT_EQ(ReferenceBody::missing(softbody::World(scene, {})), "internal-damping");
+  EXPECT_EQ(ReferenceBody::unsupported_stage(softbody::World(scene, {})), "internal-damping");
   scene.bodies.push_back(scene.bodies[0]);
-  EXPECT_EQ(ReferenceBody::missing(softbody::World(scene, {})), "several bodies");
+  EXPECT_EQ(ReferenceBody::unsupported_stage(softbody::World(scene, {})), "several bodies");
 }
 
-TEST(Flight, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
+TEST(Trajectory, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
   const Pair pair(100, 5);
-  EXPECT_TRUE(fly(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).settled);
-  const Flight cut = fly(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .steps = 100});
+  EXPECT_TRUE(integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).settled);
+  const Trajectory cut = integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .steps = 100});
   EXPECT_FALSE(cut.complete);
   EXPECT_EQ(cut.steps, 100u);
 }
 
-TEST(Flight, OneBetweenTwoBouncesIsNotAtRest) {
+TEST(Trajectory, OneBetweenTwoBouncesIsNotAtRest) {
   BodyState falling{{{0, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, -1, 0}}};
   Pair pair(100, 5);
-  EXPECT_LT(restless_speed(pair.body, falling), 1e-12) << "free of gravity it flies on";
+  EXPECT_LT(unsettled_speed(pair.body, falling), 1e-12) << "free of gravity it flies on";
   pair.scene.gravity = {0, -9.81, 0};
-  EXPECT_DOUBLE_EQ(restless_speed({pair.prototype, pair.scene}, falling), 1);
+  EXPECT_DOUBLE_EQ(unsettled_speed({pair.prototype, pair.scene}, falling), 1);
   pair.scene.gravity = {};
   pair.scene.ground = softbody::Ground{};
-  EXPECT_DOUBLE_EQ(restless_speed({pair.prototype, pair.scene}, falling), 1) << "it touches the ground";
+  EXPECT_DOUBLE_EQ(unsettled_speed({pair.prototype, pair.scene}, falling), 1) << "it touches the ground";
 }
 
 TEST(BodyShape, TellsShapeFromPlaceAndSpinFromDeformation) {
@@ -178,11 +178,11 @@ TEST(BodyShape, TellsShapeFromPlaceAndSpinFromDeformation) {
   }
   EXPECT_LT(shape_distance(s.x, turned), 1e-9);
   EXPECT_LT(glm::distance(rigid_motion(s).spin, spin), 1e-9);
-  EXPECT_LT(internal_speed(s), 1e-9);
+  EXPECT_LT(deformation_speed(s), 1e-9);
   turned[0].x += 1;
   EXPECT_GT(shape_distance(s.x, turned), 0.1);
   s.v[0].y += 1;
-  EXPECT_GT(internal_speed(s), 0.1);
+  EXPECT_GT(deformation_speed(s), 0.1);
 }
 
 }  // namespace

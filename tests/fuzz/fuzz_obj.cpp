@@ -1,6 +1,6 @@
 // Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
 
-#include "app/files/obj.h"
+#include "app/files/obj_reader.h"
 #include "require.h"
 #include "softbody/mesh_import.h"
 #include "text_file.h"

@@ -143,7 +143,7 @@ class Soak {
     if (slowest_ > most_seconds) fail("a frame took " + std::to_string(slowest_) + " s of processor time");
     if (const GLenum error = glGetError()) fail("OpenGL error " + std::to_string(error));
     if (session.notice().starts_with(app::Session::defect)) fail(session.notice());
-    if (session.stability().alarm()) return recover();
+    if (session.stability().blow_up()) return recover();
     if (!softbody::measure(world).finite) fail("not finite, and no alarm");
   }
 
@@ -156,11 +156,11 @@ class Soak {
     if (by_itself) {
       ++explosions_by_itself_;
       std::printf("%-10s frame %llu: %s, after \"%s\"\n", world.scene().key.c_str(),
-                  static_cast<unsigned long long>(frames_), session.stability().alarm()->what.c_str(), last_.c_str());
+                  static_cast<unsigned long long>(frames_), session.stability().blow_up()->what.c_str(), last_.c_str());
     }
     if (!session.paused) fail("it blew up and went on");
     if (by_itself && !softbody::measure(world).finite)
-      fail("not finite in steps that the program chose: " + session.stability().alarm()->what);
+      fail("not finite in steps that the program chose: " + session.stability().blow_up()->what);
     session.set_integrator(softbody::default_integrator, std::nullopt);
     session.rewind_to(session.stability().last_good_frame());
     if (!softbody::measure(world).finite) fail("the last good frame is not finite");

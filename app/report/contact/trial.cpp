@@ -87,7 +87,7 @@ class Trial {
 
   /// Unless no vertex has gone so far (m) since the last look.
   void look_for_passages(double way) {
-    if (oracle_.moved(world_) < way) return;
+    if (oracle_.max_displacement(world_) < way) return;
     const std::vector<collide::oracle::Crossing> crossings = oracle_.crossings(world_);
     const auto figures = collide::oracle::figures_of(world_.positions(), {}, crossings);
     result_.passed += passed(crossings);
@@ -107,7 +107,7 @@ class Trial {
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
       if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
         balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
-      else if (oracle_.came_inside(c))
+      else if (oracle_.entered_body(c))
         vertices.insert(c.feature[0]);
     }
     for (const auto& [key, sum] : balance) {

@@ -43,7 +43,7 @@ void add_measured(CsvLine& line, const SweepRow& row, const SweepReport& sweep) 
   line.add(row.not_run);
   line.add(std::uint64_t{row.times.ms.size()});
   line.add_if(run, run ? row.times.median() : 0);
-  line.add_if(run, run ? row.times.least() : 0);
+  line.add_if(run, run ? row.times.min() : 0);
   line.add_if(run, std::uint64_t{row.contacts});
   line.add_if(sweep.reference.has_value(), std::uint64_t{sweep.true_contacts});
   line.add_if(scored, std::uint64_t{row.missed});

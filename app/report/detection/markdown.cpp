@@ -134,9 +134,9 @@ std::string scene_facts(const SceneResult& scene) {
   for (const StateResult& s : scene.states)
     text += joined(format("; frame %d: ", s.frame), grouped(s.sweep.true_contacts), " contacts");
   if (!last.sweep.reference)
-    return joined(text, ". No method could find the true contacts: ", last.sweep.stands_in, ".\n");
+    return joined(text, ". No method could find the true contacts: ", last.sweep.reference_note, ".\n");
   text += joined(". True contacts by ", in_words(*last.sweep.reference));
-  return joined(text, last.sweep.stands_in.empty() ? "" : ", since ", last.sweep.stands_in, ".\n");
+  return joined(text, last.sweep.reference_note.empty() ? "" : ", since ", last.sweep.reference_note, ".\n");
 }
 
 std::string not_run(const std::vector<Mean>& means) {

@@ -4,7 +4,7 @@
 #include <array>
 
 #include "app/base/text.h"
-#include "app/base/times.h"
+#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
@@ -28,7 +28,7 @@ struct Effort {
 struct Cell {
   std::size_t of, curve, point;  // indices
   int substeps;
-  Times alone{}, batch{};  // a run
+  Timings alone{}, batch{};  // a run
 };
 
 class SolverReport {
@@ -85,7 +85,7 @@ class SolverReport {
   void repeat(Cell& cell) {
     const SolverScene& scene = scenes_[cell.of];
     const softbody::Integrator& integrator = *results.cases[cell.of].curves[cell.curve].integrator;
-    const auto time = [&](Times& times, int copies) {
+    const auto time = [&](Timings& times, int copies) {
       if (times.total() > 1e3 * effort_.seconds) return;  // a long run's time is less chance's than a short one's
       times.ms.push_back(1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu);
     };

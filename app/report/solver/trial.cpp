@@ -134,8 +134,8 @@ double energy_scale(const World& world, BodyId id) {
 
 Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
   const World world = make_world(scene, run, rk4(), 1, 1);
-  Truth t = ReferenceBody::missing(world).empty() ? body_truth(world, run, bound, steps)
-                                                  : world_truth(scene, run, bound, steps);
+  Truth t = ReferenceBody::unsupported_stage(world).empty() ? body_truth(world, run, bound, steps)
+                                                            : world_truth(scene, run, bound, steps);
   for (BodyId b = 0; b < world.bodies().count(); ++b) t.energy_scale += energy_scale(world, b);
   return t;
 }
@@ -152,7 +152,7 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) 
   bool closed = false;
   for (BodyId b = 0; b < o.bodies.size(); ++b) {
     const auto& mesh = world.prototype(b).mesh;
-    const double speed = internal_speed(o.bodies[b]);
+    const double speed = deformation_speed(o.bodies[b]);
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;
     closed = true;

@@ -1,7 +1,7 @@
 #pragma once
 // One scene, run to its end by one integrator, and held against a reference.
 
-#include "app/reference/reference_run.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/scenes.h"
 

@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/reference/shield_account.h"
+#include "app/reference/contact_energy_ledger.h"
 #include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
 #include "app/report/stability/joiners.h"
@@ -37,7 +37,7 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), judge_(start.limits), above_balance_(start.above_balance) {}
+  Run(const StabilityStart& start) : start_(start), assessment_(start.limits), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
     World world(
@@ -46,7 +46,7 @@ class Run {
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
       passages_.look(world);
-      shields_.join(world.shield_energies(), 0);
+      contact_energy_.add_bodies(world.shield_energies(), 0);
       while (bodies_ < world.bodies().count()) take_in();
     }
     return world;
@@ -61,23 +61,23 @@ class Run {
     require_whole_frame(world);
     if (bodies_ == 0) return;  // nobody to judge
     passages_.look(world);
-    shields_.frame(world.last_shield_energies(), world.shield_energies());
+    contact_energy_.end_frame(world.last_shield_energies(), world.shield_energies());
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
                       .frame = frame_,
                       .finite = m.finite,
-                      .energy = m.energy + shields_.stored(),
+                      .energy = m.energy + contact_energy_.stored(),
                       .scale = std::max(above_balance_, weight_),
                       .speed = m.max_speed,
                       .depth = m.deepest_penetration,
-                      .through = passages_.count()};
+                      .passed_through = passages_.count()};
     if (m.finite) add_reach(world, s, depth_before);
-    judge_.add(s);
+    assessment_.add(s);
   }
 
   double time() const { return time_; }
-  bool lost() const { return judge_.lost(); }
-  const StabilityFigures& figures() const { return judge_.figures(); }
+  bool lost() const { return assessment_.diverged(); }
+  const StabilityFigures& figures() const { return assessment_.figures(); }
 
  private:
   void add_reach(const World& world, StabilitySample& s, double depth_before) {
@@ -94,12 +94,12 @@ class Run {
       extents.push_back(extent_of(particles));
     }
     const double least = 1e-9 * s.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
-    s.extent_reach = 1;
+    s.reachable_speed = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
+    s.reachable_extent = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
       const auto& [length, stiffness] = start_.members[b].leash;
       const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
-      if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
+      if (extents[b] / reach > s.extent / s.reachable_extent) s.extent = extents[b], s.reachable_extent = reach;
     }
   }
 
@@ -124,7 +124,7 @@ class Run {
     }
     if (bodies_ == first) return;
     const auto joiners = std::span(sources).subspan(first, bodies_ - first);
-    work_ += shields_.join(shield_energies_with(world, joiners), world.bodies().vertex_count());
+    work_ += contact_energy_.add_bodies(shield_energies_with(world, joiners), world.bodies().vertex_count());
   }
 
   /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse.
@@ -137,24 +137,24 @@ class Run {
   }
 
   const StabilityStart& start_;
-  StabilityJudge judge_;
+  StabilityAssessment assessment_;
   double above_balance_;                                       // J, that the bodies at hand began or joined with
   BodyId bodies_ = 0;                                          // at hand
   double balance_ = 0;                                         // J, their springs and gas in balance
   double weight_ = 0;                                          // J, their m g R
   double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
   SolidPassages passages_;
-  ShieldAccount shields_;
+  ContactEnergyLedger contact_energy_;
   int frame_ = 0;
   double time_ = 0, work_ = 0;
   bool came_out_ = false;
 };
 
-AgainstReference compare(const World& world, const StabilityStart& start) {
+ReferenceDeviation compare(const World& world, const StabilityStart& start) {
   const softbody::Prototype& p = world.prototype(0);
   const BodyState end = state_of(world, 0);
-  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius,
-                     .rest = std::max(0.0, internal_speed(end) - internal_speed(start.truth))};
+  ReferenceDeviation r{.shape = shape_distance(end.x, start.truth.x) / p.radius,
+                       .rest = std::max(0.0, deformation_speed(end) - deformation_speed(start.truth))};
   if (p.mesh.closed)
     r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.truth.x, p.mesh.triangles) - 1);
   return r;

@@ -36,10 +36,10 @@ void add_figures(CsvLine& line, const StabilityFigures& f) {
   const bool ran = f.refused.empty();
   line.add_if(ran, static_cast<std::uint64_t>(f.finite));
   for (const double value : {f.energy, f.speed, f.extent, f.transient, f.steady}) line.add_if(ran, value);
-  line.add_if(ran, static_cast<std::uint64_t>(f.through));
-  const AgainstReference r = f.reference.value_or(AgainstReference{});
+  line.add_if(ran, static_cast<std::uint64_t>(f.passed_through));
+  const ReferenceDeviation r = f.reference.value_or(ReferenceDeviation{});
   for (const double value : {r.shape, r.volume, r.rest}) line.add_if(f.reference.has_value(), value);
-  line.add_if(ran && f.blew_up > 0, f.blew_up);
+  line.add_if(ran && f.blow_up_time > 0, f.blow_up_time);
 }
 
 void add_cell(std::string& text, const StabilityResults& results, const StabilitySection& section,

@@ -123,26 +123,26 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
 void find_truth(StabilityStart& start, std::uint64_t steps) {
   World world(start.scene, {.substeps = 1});
   const auto no = [&](const std::string& why) { start.untold = joined("the reference ", why); };
-  if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
+  if (const std::string missing = ReferenceBody::unsupported_stage(world); !missing.empty())
     return no(joined("does not model ", missing));
   world.set_particles(0, start.particles[0]);
   const ReferenceBody body(world.prototype(0), world.scene());
   const auto flown = [&](const BodyState& from, double fraction, std::uint64_t most) {
-    return fly(body, from, fraction, {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
+    return integrate(body, from, fraction, {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
   };
-  const auto settled = [&](const Flight& f) { return restless_speed(body, f.end) <= stability_bounds.rest; };
+  const auto settled = [&](const Trajectory& f) { return unsettled_speed(body, f.end) <= stability_bounds.rest; };
   const BodyState first = state_of(world, 0);
-  const Flight flight = flown(first, 0.5, steps);
+  const Trajectory flight = flown(first, 0.5, steps);
   if (!flight.complete) return no("would take too many steps");
-  if (!std::isfinite(internal_speed(flight.end))) return no("does not stay finite");
+  if (!std::isfinite(deformation_speed(flight.end))) return no("does not stay finite");
   if (!settled(flight)) return no("has not settled by then");
   const bool free = world.scene().gravity == dvec3(0.0);
   if (free && shape_distance(flight.end.x, start.balanced) > stability_bounds.shape * body.prototype().radius)
     return no("does not recover");
-  Flight finer = flown(first, 0.25, 2 * steps);
+  Trajectory finer = flown(first, 0.25, 2 * steps);
   if (!finer.complete || !alike(body, flight.end, finer.end)) return no("does not converge");
   // As solvers in single precision cannot but start. What turns back from inside out, say, falls from an edge.
-  const Flight beside = flown(disturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
+  const Trajectory beside = flown(perturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
   if (!beside.complete || !settled(beside) || !alike(body, beside.end, finer.end))
     return no("comes to rest later or elsewhere after a disturbance by the last digits of a float");
   start.truth = std::move(finer.end);

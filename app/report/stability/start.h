@@ -1,7 +1,7 @@
 #pragma once
 // What all cells of one case at one stiffness share: where it starts, what it may do from there, where it must end.
 
-#include "app/reference/reference_run.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/reference/stability_criteria.h"
 #include "app/report/stability/cases.h"
 

@@ -16,7 +16,7 @@ std::string numbered(const char* format, int number) {
 }
 
 fs::path new_folder(const fs::path& parent, const std::string& prefix) {
-  fs::path folder = next_free(parent, prefix, "");
+  fs::path folder = next_free_path(parent, prefix, "");
   prepare_folder(folder, "");
   return folder;
 }
@@ -53,7 +53,7 @@ class MotionWriter : public FrameWriter {
   }
 
   fs::path parent_, folder_;
-  std::shared_ptr<const MovingBodies> bodies_;
+  std::shared_ptr<const ObjWriter> bodies_;
 };
 
 }  // namespace

@@ -11,7 +11,7 @@ FrameRecording::FrameRecording(std::unique_ptr<FrameWriter> writer) : writer_(st
 
 bool FrameRecording::has_room() const {
   const std::scoped_lock lock(mutex_);
-  return waiting_.size() < most_waiting;
+  return waiting_.size() < max_waiting;
 }
 
 void FrameRecording::add(RecordedFrame frame) {

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "app/compare/positions.h"
-#include "app/files/obj_write.h"
+#include "app/files/obj_writer.h"
 #include "engine/image.h"
 
 namespace app {
@@ -18,7 +18,7 @@ namespace app {
 struct RecordedFrame {
   int number = 0;         // of the world
   engine::Image picture;  // pictures and video
-  std::shared_ptr<const MovingBodies> bodies;
+  std::shared_ptr<const ObjWriter> bodies;
   Positions positions;  // of the bodies, for their motion
 };
 
@@ -35,7 +35,7 @@ class FrameWriter {
 
 class FrameRecording {
  public:
-  static constexpr std::size_t most_waiting = 4;  // frames in memory
+  static constexpr std::size_t max_waiting = 4;  // frames in memory
 
   explicit FrameRecording(std::unique_ptr<FrameWriter> writer);
   /// Waits until all frames are written.

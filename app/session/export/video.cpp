@@ -26,7 +26,7 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int patience = 30;  // s, that ffmpeg may take for one picture, and for the end
+constexpr int timeout = 30;  // s, that ffmpeg may take for one picture, and for the end
 
 /// Closes it.
 class Descriptor {
@@ -58,7 +58,7 @@ class Ffmpeg {
     if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);
     const Descriptor output(errors[1]);
     errors_ = Descriptor(errors[0]);
-    const timeval limit{patience, 0};
+    const timeval limit{timeout, 0};
     ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
     if (const int error = spawn(arguments, input.number(), video, output.number())) refuse(error);
   }
@@ -86,7 +86,7 @@ class Ffmpeg {
     pictures_ = Descriptor();
     if (child_ <= 0) return false;
     int status = 0;
-    for (int tenth = 0; tenth < 10 * patience; ++tenth) {
+    for (int tenth = 0; tenth < 10 * timeout; ++tenth) {
       if (::waitpid(child_, &status, WNOHANG) == child_) {
         child_ = 0;
         return WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -97,7 +97,7 @@ class Ffmpeg {
   }
 
   /// The last line that it has said on standard error; call it after finish().
-  std::string last_words() const {
+  std::string last_error_line() const {
     std::string text(4096, '\0');
     ::fcntl(errors_.number(), F_SETFL, O_NONBLOCK);
     const auto length = ::read(errors_.number(), text.data(), text.size());
@@ -136,7 +136,7 @@ class Ffmpeg {
 
 class VideoWriter : public FrameWriter {
  public:
-  explicit VideoWriter(const fs::path& folder) : file_(next_free(folder, "video", ".mp4")) {
+  explicit VideoWriter(const fs::path& folder) : file_(next_free_path(folder, "video", ".mp4")) {
     prepare_folder(folder, "");
   }
 
@@ -194,7 +194,7 @@ class VideoWriter : public FrameWriter {
                                        output_->descriptor());
   }
 
-  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words()); }
+  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_error_line()); }
 
   fs::path file_;
   int width_ = 0, height_ = 0;

@@ -35,7 +35,7 @@ void draw_import(Widgets& w, Session& session, Import& import) {
   w.row("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
-  w.slider("Size of meshes", import.size, Import::least_size, Import::most_size, "%.2f m",
+  w.slider("Size of meshes", import.size, Import::min_size, Import::max_size, "%.2f m",
            "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
            true);
   ImGui::SameLine();
@@ -43,8 +43,8 @@ void draw_import(Widgets& w, Session& session, Import& import) {
   w.row("Weld", w.px(narrow_column));
   auto percent = static_cast<float>(100 * import.weld);
   if (w.slider(
-          "Weld distance", percent, static_cast<float>(100 * Import::least_weld),
-          static_cast<float>(100 * Import::most_weld), "%.5f %% of the size",
+          "Weld distance", percent, static_cast<float>(100 * Import::min_weld),
+          static_cast<float>(100 * Import::max_weld), "%.5f %% of the size",
           "Vertices of the next mesh that are no further apart become one, so that seams close. Raise it if a mesh "
           "that should be closed is open; lower it if what should be apart is joined.",
           true))
@@ -93,37 +93,37 @@ void draw_command(Widgets& w, const Session& session, UiState& ui, const softbod
   ImGui::EndDisabled();
 }
 
-void draw_recording(Widgets& w, TakeAway& take_away) {
+void draw_recording(Widgets& w, Exporter& exporter) {
   w.row("Record", w.px(narrow_column));
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
-  ImGui::BeginDisabled(take_away.recording() || take_away.finishing());
+  ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
   const auto text = [](std::string_view part) { return std::string(part); };
-  const RecordingKind& now = recording_kinds[take_away.kind];
+  const RecordingKind& now = recording_kinds[exporter.kind];
   if (w.begin_choices("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
     for (std::size_t i = 0; i < recording_kinds.size(); ++i) {
       const RecordingKind& kind = recording_kinds[i];
-      if (w.choice(text(kind.name).c_str(), i == take_away.kind, text(kind.tooltip).c_str())) take_away.kind = i;
+      if (w.choice(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str())) exporter.kind = i;
     }
     ImGui::EndCombo();
   }
   ImGui::EndDisabled();
   ImGui::SameLine(0, gap);
-  ImGui::BeginDisabled(take_away.finishing());
-  if (w.button(take_away.recording() ? "Stop###Record" : "Start###Record",
+  ImGui::BeginDisabled(exporter.finishing());
+  if (w.button(exporter.recording() ? "Stop###Record" : "Start###Record",
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
                w.px(button_width)))
-    take_away.toggle_recording();
+    exporter.toggle_recording();
   ImGui::EndDisabled();
 }
 
 /// A line of its own whether it says something or not: nothing moves.
-void draw_message(Widgets& w, const TakeAway& take_away) {
-  if (take_away.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
-  w.line(take_away.message());
-  if (take_away.failed()) ImGui::PopStyleColor();
-  w.done("Message", take_away.message().empty() ? nullptr : take_away.message().c_str());
+void draw_message(Widgets& w, const Exporter& exporter) {
+  if (exporter.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
+  w.line(exporter.message());
+  if (exporter.failed()) ImGui::PopStyleColor();
+  w.done("Message", exporter.message().empty() ? nullptr : exporter.message().c_str());
 }
 
 }  // namespace
@@ -132,26 +132,25 @@ void draw_files(Widgets& w, Session& session, UiState& ui) {
   draw_import(w, session, ui.import);
   softbody::Scene used = session.scene_as_it_is();
   used.view = ui.view;
-  const bool saved = session.scene_file().makes(used);
+  const bool saved = session.scene_file().reproduces(used);
   draw_save(w, session, ui, saved);
   draw_command(w, session, ui, used, saved);
 }
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {
-  TakeAway& take_away = ui.take_away;
+  Exporter& exporter = ui.exporter;
   w.row("Folder", w.px(narrow_column));
-  w.text("Output folder", take_away.folder, "the current one",
+  w.text("Output folder", exporter.folder, "the current one",
          "Where all of this goes. Names end in the next free number; nothing is overwritten.");
   w.row("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) take_away.picture_asked = true;
+  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) exporter.picture_asked = true;
   ImGui::SameLine();
-  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) take_away.write_curves(session);
-  draw_recording(w, take_away);
+  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) exporter.write_curves(session);
+  draw_recording(w, exporter);
   w.row("", w.px(narrow_column));
-  w.checkbox("With the panel", take_away.with_panel,
-             "Pictures and videos show the whole window, else the scene alone.");
-  draw_message(w, take_away);
+  w.checkbox("With the panel", exporter.with_panel, "Pictures and videos show the whole window, else the scene alone.");
+  draw_message(w, exporter);
 }
 
 }  // namespace app

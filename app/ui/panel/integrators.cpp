@@ -60,7 +60,7 @@ void draw_ghost(Widgets& w, Session& session) {
   if (draw_integrator_choice(w, "Ghost ", choice, used)) session.set_ghost(choice);
   if (!session.ghost()) return;
   w.curve("Ghost apart", distance_text(session), session.history().ghost,
-          {0, axis_end(session.history().ghost.largest(), 0.01f)}, ghost_colour,
+          {0, axis_end(session.history().ghost.max(), 0.01f)}, ghost_colour,
           "radii: the root mean square distance of all vertices to the ghost's, each over its body's radius");
 }
 

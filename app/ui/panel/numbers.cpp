@@ -19,21 +19,21 @@ constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
     "Pairs of near bodies that have not moved since the last frame: their contacts are kept, not found again."};
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
 
-void draw_curves(Widgets& w, const Session& session, float fineness) {
+void draw_curves(Widgets& w, const Session& session, float render_scale) {
   const History& history = session.history();
   const softbody::Profile& profile = session.world().profile();
-  const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
+  const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
   w.curve("Detect", format("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
   w.curve("Solve", format("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
   w.curve("Picture", format("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
-          {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
+          {0, axis_end(history.frame_ms.max(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
-      "drawn at", format("%.0f %%", 100 * double(fineness)),
+      "drawn at", format("%.0f %%", 100 * double(render_scale)),
       "Of the pixels along each side, the scene's picture has so many. Less than 100 % only while it moves, "
       "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
       "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
-          {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
+          {0, axis_end(history.contacts.max(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
   const std::string value = driver ? format("%.4f", rounded_down(driver->recall)) : "-";
   w.curve("Recall", value, history.recall, {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
@@ -92,8 +92,8 @@ void draw_hashes(Widgets& w, const Session& session) {
 
 }  // namespace
 
-void draw_numbers(Widgets& w, const Session& session, float fineness) {
-  draw_curves(w, session, fineness);
+void draw_numbers(Widgets& w, const Session& session, float render_scale) {
+  draw_curves(w, session, render_scale);
   const collide::Result& found = session.world().detection();
   const collide::Counters& counters = found.counters;
   w.figure("between bodies", grouped(found.contacts.size() - found.self_contacts),

@@ -37,7 +37,7 @@ void draw_past(Widgets& w, Session& session) {
     session.rewind_to(past[static_cast<std::size_t>(place)].frame);
   ImGui::EndDisabled();
   const double mebi = static_cast<double>(session.stability().past().bytes()) / (1 << 20);
-  w.figure("Snapshots", format("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
+  w.figure("Snapshots", format("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::max_bytes >> 20),
            "Memory is bounded: when it is full, old snapshots are thinned out.");
 }
 
@@ -57,7 +57,7 @@ void draw_integrator(Widgets& w, Session& session) {
 
 struct StabilityCurve {
   const char* label;
-  Ring StabilityHistory::*ring;
+  TimeSeries StabilityHistory::*series;
   const char* format;
   float least;  // length of the axis
   const char* unit;
@@ -71,8 +71,8 @@ constexpr std::array<StabilityCurve, 9> curves{{
     {"Gas", &StabilityHistory::gas, "%.3g J", 1, "J in the gas and the air outside, against the start", energy_colour},
     {"Gravity", &StabilityHistory::gravity, "%.4g J", 1, "J above or below the world's origin", energy_colour},
     {"Total", &StabilityHistory::total, "%.4g J", 1, "J, but for what contacts store", energy_colour},
-    {"Least volume", &StabilityHistory::least_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
-    {"Most volume", &StabilityHistory::most_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
+    {"Least volume", &StabilityHistory::min_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
+    {"Most volume", &StabilityHistory::max_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
     {"Strain", &StabilityHistory::strain, "%.3f", 0.1f, "of a spring's resting length, the largest", shape_colour},
     {"Speed", &StabilityHistory::speed, "%.2f m/s", 1, "m/s of the fastest particle", plain},
 }};
@@ -106,10 +106,10 @@ void draw_step_light(Widgets& w, Session& session) {
          format("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
                 margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
              .c_str());
-  if (!session.stability().alarm()) return;
+  if (!session.stability().blow_up()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
   ImGui::TextWrapped("%s (frame %d). Rewind, then take more substeps, Auto or softer springs.",
-                     session.stability().alarm()->what.c_str(), session.stability().alarm()->frame);
+                     session.stability().blow_up()->what.c_str(), session.stability().blow_up()->frame);
   ImGui::PopStyleColor();
   w.done("Alarm", nullptr);
   if (w.button("Rewind to the last good frame", "The world as it was before; then try other settings, or go on."))
@@ -119,15 +119,15 @@ void draw_step_light(Widgets& w, Session& session) {
 void draw_stability(Widgets& w, Session& session) {
   draw_integrator(w, session);
   draw_ghost(w, session);
-  w.checkbox("Pause when a body explodes", session.guarded,
+  w.checkbox("Pause when a body explodes", session.pause_on_blow_up,
              "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
              "there could give it, and names it.");
   draw_past(w, session);
   const StabilityHistory& history = session.stability().history();
   for (const StabilityCurve& c : curves) {
-    const Ring& ring = history.*c.ring;
-    w.curve(c.label, format(c.format, static_cast<double>(ring.latest())), ring, axis_around(ring, c.least), c.colour,
-            c.unit);
+    const TimeSeries& series = history.*c.series;
+    w.curve(c.label, format(c.format, static_cast<double>(series.latest())), series, axis_around(series, c.least),
+            c.colour, c.unit);
   }
 }
 

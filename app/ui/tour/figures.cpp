@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "app/base/text.h"
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 #include "app/render/palette.h"
 #include "app/ui/bucket_view.h"
 

@@ -9,7 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 #include "app/compare/score.h"
 #include "app/ui/tour/excerpt.h"
 #include "collide/core/body_boxes.h"
@@ -178,9 +178,9 @@ void look_at_structure(const softbody::World& world, Findings& f) {
 }
 
 std::uint64_t predicted_tests(const softbody::World& world, std::size_t method) {
-  Forecast forecast;
-  forecast.begin(world.positions(), world.collision(), 0);
-  return forecast.of(method).pair_tests;
+  CostModel cost_model;
+  cost_model.begin(world.positions(), world.collision(), 0);
+  return cost_model.of(method).pair_tests;
 }
 
 std::size_t paper_index() {

@@ -19,25 +19,25 @@ glm::vec3 vertex(const TourView& v, collide::Index i) {
   return {f.x[i], f.y[i], f.z[i]};
 }
 
-void frame(Spotlight& light, const glm::vec3& lo, const glm::vec3& hi) {
+void frame(Highlight& light, const glm::vec3& lo, const glm::vec3& hi) {
   light.centre = 0.5f * (lo + hi);
   light.radius = std::max(0.5f * glm::distance(lo, hi), 1e-3f);
 }
 
-void frame_pair(const TourView& v, Spotlight& light) {
+void frame_pair(const TourView& v, Highlight& light) {
   frame(light, glm::min(v.f.bounds[0].lo, v.f.bounds[1].lo), glm::max(v.f.bounds[0].hi, v.f.bounds[1].hi));
 }
 
 engine::BoxSet outlines(float width, float fill) { return {.boxes = {}, .width = width, .hidden = 0.7f, .fill = fill}; }
 
-void add_cell(const TourView& v, const Cell& cell, const glm::vec3& colour, Spotlight& light) {
+void add_cell(const TourView& v, const Cell& cell, const glm::vec3& colour, Highlight& light) {
   engine::BoxSet set = outlines(1.25f, 0.06f);
   set.boxes.push_back(cell_box(cell, v.world.collision().cell_size, glm::vec4(colour, 0.8f)));
   light.boxes.push_back(std::move(set));
 }
 
 void add_contacts(const TourView& v, const std::vector<collide::Contact>& contacts, const glm::vec3& colour,
-                  float width, Spotlight& light) {
+                  float width, Highlight& light) {
   engine::LineSet lines{.lines = {}, .width = width, .hidden = 0.9f};
   engine::PointSet points{.points = {}, .diameter = 3 + 1.5f * width, .hidden = 0.9f};
   for (const collide::Contact& contact : contacts) {
@@ -52,7 +52,7 @@ void add_contacts(const TourView& v, const std::vector<collide::Contact>& contac
 
 }  // namespace
 
-void show_body(const TourView& v, Spotlight& light) {
+void show_body(const TourView& v, Highlight& light) {
   const auto& [lo, hi] = v.f.bounds[0];
   light.bodies = {v.f.body};
   engine::BoxSet box = outlines(2.5f, 0.08f);
@@ -64,7 +64,7 @@ void show_body(const TourView& v, Spotlight& light) {
   frame(light, lo, hi);
 }
 
-void show_boxes(const TourView& v, Spotlight& light) {
+void show_boxes(const TourView& v, Highlight& light) {
   light.bodies = {v.f.body};
   light.opacity = 0.45f;
   engine::BoxSet boxes = outlines(2, 0.12f);
@@ -77,7 +77,7 @@ void show_boxes(const TourView& v, Spotlight& light) {
   frame(light, v.f.bounds[0].lo, v.f.bounds[0].hi);
 }
 
-void show_corners(const TourView& v, Spotlight& light) {
+void show_corners(const TourView& v, Highlight& light) {
   light.bodies = {v.f.body};
   light.opacity = 0.35f;
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.box];
@@ -98,7 +98,7 @@ void show_corners(const TourView& v, Spotlight& light) {
   frame(light, v.f.bounds[0].lo, v.f.bounds[0].hi);
 }
 
-void show_bucket(const TourView& v, Spotlight& light) {
+void show_bucket(const TourView& v, Highlight& light) {
   light.opacity = 0.35f;
   const BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
   const CellGroup* own = bucket.group(v.chosen().cell);
@@ -121,7 +121,7 @@ void show_bucket(const TourView& v, Spotlight& light) {
   frame(light, low, high);
 }
 
-void show_contact(const TourView& v, Spotlight& light) {
+void show_contact(const TourView& v, Highlight& light) {
   light.bodies = {v.f.body};
   if (v.f.other != v.f.body) light.bodies.push_back(v.f.other);
   light.opacity = 0.35f;

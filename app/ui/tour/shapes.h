@@ -5,10 +5,10 @@
 
 namespace app {
 
-void show_body(const TourView& view, Spotlight& light);
-void show_boxes(const TourView& view, Spotlight& light);
-void show_corners(const TourView& view, Spotlight& light);
-void show_bucket(const TourView& view, Spotlight& light);
-void show_contact(const TourView& view, Spotlight& light);
+void show_body(const TourView& view, Highlight& light);
+void show_boxes(const TourView& view, Highlight& light);
+void show_corners(const TourView& view, Highlight& light);
+void show_bucket(const TourView& view, Highlight& light);
+void show_contact(const TourView& view, Highlight& light);
 
 }  // namespace app

@@ -1,7 +1,7 @@
 #pragma once
 // The steps of the guided tour: one table, which the card and the tests loop over.
 
-#include "app/render/spotlight.h"
+#include "app/render/highlight.h"
 #include "app/ui/tour/findings.h"
 
 namespace app {
@@ -24,7 +24,7 @@ struct TourStep {
   std::string_view title;  // with its section of the paper
   std::string_view text;
   std::vector<TourFigure> (*figures)(const TourView& view);
-  void (*show)(const TourView& view, Spotlight& light);
+  void (*show)(const TourView& view, Highlight& light);
   bool corners = false;  // one of the box's corners can be chosen
 };
 

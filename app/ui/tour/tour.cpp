@@ -79,8 +79,8 @@ void Tour::find(const Session& session, const softbody::View* view) {
 void Tour::show(const Session& session) {
   shown_ = true;
   ++changes_;
-  spotlight_ = {};
-  if (const auto now = view(session)) tour_steps()[step_].show(*now, spotlight_);
+  highlight_ = {};
+  if (const auto now = view(session)) tour_steps()[step_].show(*now, highlight_);
 }
 
 std::optional<TourView> Tour::view(const Session& session) const {

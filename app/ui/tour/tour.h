@@ -29,10 +29,10 @@ class Tour {
   std::optional<TourView> view(const Session& session) const;
   const std::string& problem() const { return problem_; }
   /// What the step shows in the scene; nullptr if nothing.
-  const Spotlight* spotlight() const { return findings_ ? &spotlight_ : nullptr; }
-  /// Changes with all that the spotlight depends on.
+  const Highlight* highlight() const { return findings_ ? &highlight_ : nullptr; }
+  /// Changes with all that the highlight depends on.
   std::uint64_t changes() const { return changes_; }
-  /// True once after each step: the camera should frame the spotlight.
+  /// True once after each step: the camera should frame the highlight.
   bool take_framing() { return findings_ && std::exchange(framing_, false); }
 
   /// The user's own overlays, which wait for the end of the tour.
@@ -47,7 +47,7 @@ class Tour {
   std::optional<Findings> findings_;
   std::optional<std::size_t> chosen_corner_;  // none: the findings'
   std::string problem_;
-  Spotlight spotlight_;
+  Highlight highlight_;
   std::size_t step_ = 0;
   std::uint64_t revision_ = 0, changes_ = 0;  // revision_: of the findings
   std::optional<softbody::BodyId> wish_;      // likewise

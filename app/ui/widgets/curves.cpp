@@ -15,9 +15,9 @@ float axis_end(float most, float least) {
   return end;
 }
 
-Axis axis_around(const Ring& ring, float least) {
-  const float range = axis_end(ring.largest() - ring.smallest(), least), grid = range / 4;
-  const float bottom = grid * std::floor(ring.smallest() / grid);
+Axis axis_around(const TimeSeries& series, float least) {
+  const float range = axis_end(series.max() - series.min(), least), grid = range / 4;
+  const float bottom = grid * std::floor(series.min() / grid);
   return {bottom, bottom + range + grid};
 }
 
@@ -25,14 +25,14 @@ namespace {
 
 std::string range_of(const Axis& axis, const char* unit) {
   std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
+  std::snprintf(text.data(), text.size(), "The last %zu values, from %g to %g %s.", TimeSeries::capacity,
                 static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
   return text.data();
 }
 
 }  // namespace
 
-void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
+void Widgets::curve(const char* label, const std::string& text, const TimeSeries& series, const Axis& axis,
                     const glm::vec3& colour, const char* unit) {
   constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
   const float end = px(value_end), start = ImGui::GetCursorPosX();
@@ -43,10 +43,10 @@ void Widgets::curve(const char* label, const std::string& text, const Ring& ring
   ImGui::EndGroup();
   explain(label, range_of(axis, unit).c_str());
   ImGui::SameLine(start + end + px(10));
-  sparkline(label, ring, axis, colour, unit);
+  sparkline(label, series, axis, colour, unit);
 }
 
-void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, const glm::vec3& colour,
+void Widgets::sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
                         const char* unit, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
@@ -55,11 +55,12 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));
-  std::array<ImVec2, Ring::capacity> points;
+  std::array<ImVec2, TimeSeries::capacity> points;
   int count = 0;
-  for (std::size_t i = 0; i < ring.size(); ++i) {
-    const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
-    const float y = 1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f);
+  for (std::size_t i = 0; i < series.size(); ++i) {
+    const float x =
+        static_cast<float>(TimeSeries::capacity - series.size() + i) / static_cast<float>(TimeSeries::capacity - 1);
+    const float y = 1.0f - std::clamp((series[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f);
     const ImVec2 point{at.x + x * size.x, at.y + y * size.y};
     const auto level = [&](int before) { return points[static_cast<std::size_t>(count - before)].y == point.y; };
     if (count >= 2 && level(1) && level(2)) --count;

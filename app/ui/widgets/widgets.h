@@ -11,8 +11,8 @@
 
 #include <glm/vec3.hpp>
 
-#include "app/base/ring.h"
 #include "app/base/text.h"
+#include "app/base/time_series.h"
 
 namespace app {
 
@@ -50,8 +50,8 @@ float axis_end(float most, float least);
 struct Axis {
   float bottom, top;
 };
-/// Around all values of a ring, at least `least` long; it stays while they change a little.
-Axis axis_around(const Ring& ring, float least);
+/// Around all values of a series, at least `least` long; it stays while they change a little.
+Axis axis_around(const TimeSeries& series, float least);
 
 /// One frame of the panel. Labels are unique, also as ImGui's identifiers.
 class Widgets {
@@ -99,11 +99,11 @@ class Widgets {
   /// A dot of colour that starts a line.
   void dot(const glm::vec3& colour);
   /// A curve of the last values between the ends of an axis; width 0: what is left of the line.
-  void sparkline(const char* label, const Ring& ring, const Axis& axis, const glm::vec3& colour, const char* unit,
-                 float width = 0);
+  void sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
+                 const char* unit, float width = 0);
   /// A line with a grey label, a value and its curve.
-  void curve(const char* label, const std::string& value, const Ring& ring, const Axis& axis, const glm::vec3& colour,
-             const char* unit);
+  void curve(const char* label, const std::string& value, const TimeSeries& series, const Axis& axis,
+             const glm::vec3& colour, const char* unit);
 
   /// Notes the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void done(const char* label, const char* tooltip);

@@ -1,0 +1,158 @@
+// What the watch makes of the guard's alarms, and the step light.
+
+#include <gtest/gtest.h>
+
+#include "app/session/session.h"
+#include "app/ui/status.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+/// A world that is watched for ten frames, and the change that makes it explode in the next one.
+struct Watched {
+  softbody::World world = [] {
+    softbody::Scene scene = touching_pair();
+    scene.materials[0].structural.stiffness = 1e5;
+    return softbody::World(scene, {});
+  }();
+  StabilityMonitor monitor;
+
+  Watched() {
+    for (int i = 0; i < 10; ++i) step();
+  }
+  void step() {
+    monitor.before_step(world);
+    world.step();
+    monitor.after_step(world, true);
+  }
+  void explode() {
+    ASSERT_FALSE(monitor.blow_up());
+    ASSERT_LT(softbody::measure(world).max_speed, 5);
+    world.set_integrator("semi-implicit-euler", 2);
+    monitor.intervened();
+    step();
+    ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
+    step();
+    ASSERT_TRUE(monitor.blow_up());
+  }
+};
+
+TEST(StabilityMonitor, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
+  Watched w;
+  w.explode();
+  EXPECT_EQ(w.monitor.last_good_frame(), 10);
+}
+
+TEST(StabilityMonitor, KnowsNoGoodFrameThatIsStillToCome) {
+  Watched w;
+  w.world.restore(w.monitor.past().snapshots().front());
+  w.monitor.went_back(w.world);
+  const int now = w.world.frame();
+  w.explode();
+  EXPECT_EQ(w.monitor.last_good_frame(), now);
+}
+
+TEST(StabilityMonitor, WatchesAgainOnceTheWorldWasGoodForAWhile) {
+  Watched w;
+  w.explode();
+  w.monitor.dismiss_blow_up();
+  const int bad = w.world.frame();
+  w.world.restore(w.monitor.past().snapshots().front());  // bodies in order again: an exploded world would take minutes
+  w.world.set_integrator(softbody::default_integrator, {});
+  w.monitor.intervened();
+  const int again = bad + 2 * static_cast<int>(BlowUpMonitor::memory);
+  while (w.world.frame() < again) {
+    w.step();
+    ASSERT_FALSE(w.monitor.blow_up()) << "of the same explosion, in frame " << w.world.frame();
+  }
+  EXPECT_GT(w.monitor.past().snapshots().back().frame, bad);
+  EXPECT_GT(w.monitor.last_good_frame(), bad);
+  w.world.set_integrator("semi-implicit-euler", 2);
+  w.monitor.intervened();
+  while (!w.monitor.blow_up() && w.world.frame() < again + 10) w.step();
+  EXPECT_TRUE(w.monitor.blow_up()) << "of another explosion";
+}
+
+TEST(StepLight, IsGreenAmberAndRed) {
+  EXPECT_STREQ(light_of(StepMargin{}).name, "Green");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1}).name, "Green");
+  EXPECT_STREQ(light_of(StepMargin{9, 10, 0.1, 0.1}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{8, 10, 0.1, 0.1}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
+  EXPECT_STREQ(light_of(StepMargin{4000, 9000, 1e-6, 1e-6, StepMargin::Bound::stable, 0.4}).name, "Amber");
+}
+
+TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
+  softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler"});
+  StabilityMonitor monitor;
+  const auto step = [&] {
+    monitor.before_step(world);
+    world.step();
+    monitor.after_step(world, false);
+  };
+  step();
+  EXPECT_EQ(monitor.margin().share, 1);
+  std::vector<softbody::Particle> particles;
+  for (softbody::Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
+    particles.push_back(world.dynamics().particle(0, i));
+  particles[0].velocity.y += 1e6;
+  world.set_particles(0, particles);
+  step();
+  EXPECT_GT(monitor.margin().share, 0);
+  EXPECT_LT(monitor.margin().share, 1);
+  EXPECT_NEAR(monitor.margin().substep * monitor.margin().taken, monitor.margin().share * world.frame_time(), 1e-12);
+}
+
+TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
+  using Bound = StepMargin::Bound;
+  EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
+  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
+  EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
+  for (const softbody::Integrator& integrator : softbody::integrators()) {
+    softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
+    StabilityMonitor monitor;
+    monitor.before_step(world);
+    world.step();
+    monitor.after_step(world, true);
+    const std::string_view used = world.dynamics().used_integrator().key;
+    const Bound expected = used == "implicit" || used == "xpbd" ? Bound::unconditional
+                           : used == "explicit-euler"           ? Bound::by_damping
+                                                                : Bound::stable;
+    EXPECT_EQ(monitor.margin().kind, expected) << integrator.key;
+  }
+}
+
+TEST(StepLight, ComparesTheStepWithTheBound) {
+  for (const std::optional<int> substeps : {std::optional<int>(), std::optional(1)}) {
+    softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler", .substeps = substeps});
+    const int needed = world.dynamics().substeps(world.frame_time());
+    ASSERT_GT(needed, 1);
+    StabilityMonitor monitor;
+    monitor.before_step(world);
+    world.step();
+    monitor.after_step(world, true);
+    EXPECT_GE(monitor.margin().taken, substeps.value_or(needed));
+    EXPECT_STREQ(light_of(monitor.margin()).name, substeps ? "Red" : "Green");
+    EXPECT_DOUBLE_EQ(monitor.margin().substep, world.frame_time() / monitor.margin().taken);
+    EXPECT_EQ(monitor.history().total.size(), 1u);
+  }
+}
+
+TEST(StepLight, HasNothingToJudgeWhileAllSleep) {
+  softbody::Scene scene = touching_pair();
+  scene.sleep = {.speed = 1e3, .frames = 1};
+  softbody::World world(scene, {});
+  world.step();
+  ASSERT_TRUE(world.all_at_rest());
+  StabilityMonitor monitor;
+  monitor.before_step(world);
+  world.step();
+  monitor.after_step(world, true);
+  EXPECT_EQ(monitor.margin().taken, 0);
+  EXPECT_EQ(monitor.margin().needed, 0);
+}
+
+}  // namespace
+}  // namespace app

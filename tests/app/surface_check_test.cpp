@@ -1,0 +1,136 @@
+#include "app/compare/surface_check.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+#include <glm/geometric.hpp>
+
+#include "app/session/session.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// Two spheres of radius 0.5 m with their centres so far apart, as if just there.
+StepSnapshot pair_apart(double distance) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].position = {-0.5 * distance, 3, 0.03};
+  scene.bodies[1].position = {0.5 * distance, 3, 0};
+  const softbody::World world(scene, {});
+  StepSnapshot step;
+  step.id = 7;
+  step.frame = 3;
+  step.at.copy(world.positions());
+  step.before = step.at;
+  step.bodies = world.bodies();
+  step.surfaces = {world.prototype(0).surface, world.prototype(1).surface};
+  return step;
+}
+
+TEST(TrueSurfaces, WithoutContactsAllThatOverlapsIsMissed) {
+  const SurfaceReport report = check_surfaces(pair_apart(0.8));
+  EXPECT_EQ(report.id, 7u);
+  EXPECT_EQ(report.frame, 3);
+  EXPECT_EQ(report.failure, "");
+  EXPECT_GT(report.penetrations, 0u);
+  EXPECT_GT(report.figures.deepest, 0.1);
+  EXPECT_LT(report.figures.deepest, 0.2);  // they overlap by 0.2 m
+  EXPECT_EQ(report.missed_penetrations, report.penetrations);
+  EXPECT_EQ(report.missed_piercings, report.figures.piercings);
+  EXPECT_EQ(report.missed_pairs, 1u);
+}
+
+TEST(TrueSurfaces, MarksLeadFromEachMissedVertexToTheSurfaceAndToEachPiercing) {
+  const StepSnapshot step = pair_apart(0.8);
+  const SurfaceReport report = check_surfaces(step);
+  const auto piercings = static_cast<std::size_t>(std::ranges::count_if(report.marks, &SurfaceMark::piercing));
+  EXPECT_EQ(piercings, report.missed_piercings);
+  EXPECT_EQ(report.marks.size(), report.missed_penetrations + report.missed_piercings);
+  double deepest = 0;
+  for (const SurfaceMark& mark : report.marks) {
+    const double length = static_cast<double>(glm::length(mark.offset));
+    if (mark.piercing) {
+      EXPECT_LT(std::abs(step.at.x[mark.vertex] + mark.offset.x), 0.1f);  // between the two spheres' poles
+    } else {
+      deepest = std::max(deepest, length);
+    }
+  }
+  EXPECT_NEAR(deepest, report.figures.deepest, 1e-6);
+}
+
+TEST(TrueSurfaces, ContactsOfAllVerticesMissNothing) {
+  StepSnapshot step = pair_apart(0.8);
+  const collide::Index half = step.bodies.first[1];
+  for (collide::Index a = 0; a < half; ++a)
+    for (collide::Index b = half; b < step.bodies.vertex_count(); ++b) step.contacts.push_back({a, b});
+  const SurfaceReport report = check_surfaces(step);
+  EXPECT_GT(report.penetrations, 0u);
+  EXPECT_EQ(report.missed_penetrations + report.missed_piercings + report.missed_pairs, 0u);
+  EXPECT_TRUE(report.marks.empty());
+}
+
+TEST(TrueSurfaces, CountsWhatPassedThroughInTheStep) {
+  StepSnapshot step = pair_apart(0.8);
+  EXPECT_EQ(check_surfaces(step).figures.crossed_pairs, 0u);
+  step.before = pair_apart(1.5).at;
+  const collide::oracle::SurfaceFigures passed = check_surfaces(step).figures;
+  EXPECT_EQ(passed.crossed_vertices, passed.penetrating_vertices);
+  EXPECT_EQ(passed.crossed_pairs, 1u);
+  for (auto* some : {&step.before.x, &step.before.y, &step.before.z}) some->resize(step.bodies.first[1]);
+  const collide::oracle::SurfaceFigures arrived = check_surfaces(step).figures;  // the second body has just come
+  EXPECT_GT(arrived.crossed_vertices, 0u);
+  step.before = {};
+  EXPECT_EQ(check_surfaces(step).figures.crossed_pairs, 0u);  // both have
+}
+
+TEST(TrueSurfaces, SaysWhyThereAreNoFigures) {
+  StepSnapshot step = pair_apart(0.8);
+  step.surfaces.pop_back();
+  EXPECT_NE(check_surfaces(step).failure, "");
+}
+
+/// Lets a paused session run until the surfaces of its present state are judged.
+bool wait_for_judgement(Session& session) {
+  for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
+    session.advance(tick);
+    if (session.surfaces().report().id == session.revision()) return true;
+    std::this_thread::sleep_for(1ms);
+  }
+  return false;
+}
+
+TEST(SurfaceMonitor, JudgesTheTrueSurfacesOfEachStateWhileAskedTo) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].position.x = -0.3;  // inside the other one
+  Session session(scene, {}, 1);
+  session.paused = true;
+  session.advance(tick);
+  EXPECT_EQ(session.surfaces().report().id, 0u);
+  session.judges_surfaces = true;
+  ASSERT_TRUE(wait_for_judgement(session));
+  EXPECT_EQ(session.surfaces().report().figures.overlapping_pairs, 1u);
+  EXPECT_EQ(session.surfaces().sums().steps, 0);  // nothing has moved yet
+  session.single_step();
+  session.advance(tick);
+  ASSERT_TRUE(wait_for_judgement(session));
+  EXPECT_EQ(session.surfaces().report().frame, 1);
+  const CrossingSums sums = session.surfaces().sums();
+  EXPECT_EQ(sums.steps, 1);
+  session.set_method("grid-hash");  // the same step once more
+  ASSERT_TRUE(wait_for_judgement(session));
+  EXPECT_EQ(session.surfaces().sums().steps, 1);
+  EXPECT_EQ(session.surfaces().sums().vertices, sums.vertices);
+  session.judges_surfaces = false;
+  session.advance(tick);
+  EXPECT_EQ(session.surfaces().report().id, 0u);
+  EXPECT_EQ(session.surfaces().sums().steps, 0);
+}
+
+}  // namespace
+}  // namespace app
