@@ -1,5 +1,5 @@
 #pragma once
-// CSV, RFC 4180 but for the line ends, which are "\n".
+// CSV as in RFC 4180, except that lines end with "\n".
 
 #include <cstdint>
 #include <string>
@@ -9,7 +9,7 @@
 
 namespace app {
 
-/// One line, field by field; ends with its life.
+/// Appends one line to a text, field by field. The destructor ends the line.
 class CsvLine {
  public:
   explicit CsvLine(std::string& text) : text_(text) {}
@@ -30,7 +30,7 @@ class CsvLine {
   }
   void add(double number) { add(std::string_view(format("%.9g", number))); }
   void add(std::uint64_t number) { add(std::string_view(std::to_string(number))); }
-  /// The number if it means something, else an empty field.
+  /// Adds the number if it is known, else an empty field.
   template <class Number>
   void add_if(bool known, Number number) {
     known ? add(number) : add(std::string_view());

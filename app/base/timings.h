@@ -2,18 +2,23 @@
 // Repeated measurements of one duration.
 
 #include <algorithm>
+#include <cassert>
 #include <numeric>
 #include <vector>
 
 namespace app {
 
-/// In milliseconds; min() and median() need at least one.
+/// Durations in milliseconds. min() and median() require at least one.
 struct Timings {
   std::vector<double> ms;
 
   double total() const { return std::accumulate(ms.begin(), ms.end(), 0.0); }
-  double min() const { return *std::min_element(ms.begin(), ms.end()); }
+  double min() const {
+    assert(!ms.empty());
+    return *std::min_element(ms.begin(), ms.end());
+  }
   double median() const {
+    assert(!ms.empty());
     std::vector<double> sorted = ms;
     std::sort(sorted.begin(), sorted.end());
     return (sorted[(sorted.size() - 1) / 2] + sorted[sorted.size() / 2]) / 2;

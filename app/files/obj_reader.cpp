@@ -11,7 +11,7 @@ namespace {
 
 using collide::Index;
 
-/// Adds the edges of a polygon; false if it reaches across bodies.
+/// Adds the edges of a polygon. Returns false if its corners belong to several bodies.
 bool add_edges(ObjBodies& bodies, std::span<const Index> corners) {
   const auto next_body = std::upper_bound(bodies.first.begin(), bodies.first.end(), corners[0]);
   const Index begin = *(next_body - 1), end = *next_body;
@@ -25,10 +25,10 @@ bool add_edges(ObjBodies& bodies, std::span<const Index> corners) {
   return true;
 }
 
-/// The least and the greatest vertex that the faces of an object name.
+/// The smallest and the largest vertex that the faces of an object name.
 struct Range {
-  Index least = ~Index{0}, greatest = 0;
-  bool empty() const { return least > greatest; }
+  Index min = ~Index{0}, max = 0;
+  bool empty() const { return min > max; }
 };
 
 std::vector<Range> ranges_of_faces(const softbody::ObjFile& obj) {
@@ -36,26 +36,27 @@ std::vector<Range> ranges_of_faces(const softbody::ObjFile& obj) {
   std::size_t object = 0, face = 0;
   obj.for_each_face([&](std::span<const Index> corners, std::uint64_t) {
     while (object + 1 < ranges.size() && obj.objects[object + 1].first_face <= face) ++object;
-    const auto [least, greatest] = std::ranges::minmax(corners);
-    ranges[object].least = std::min(ranges[object].least, least);
-    ranges[object].greatest = std::max(ranges[object].greatest, greatest);
+    const auto [min, max] = std::ranges::minmax(corners);
+    ranges[object].min = std::min(ranges[object].min, min);
+    ranges[object].max = std::max(ranges[object].max, max);
     ++face;
   });
   return ranges;
 }
 
-/// ObjBodies::first by what the faces name, where all vertices stand before the first `o`; none if objects mix theirs.
+/// Returns ObjBodies::first for a file whose vertices all stand before the first `o`: each object gets the vertices
+/// that its faces name. Returns nothing if the vertices of two objects are mixed.
 std::optional<std::vector<Index>> divide_by_faces(std::vector<Index> first, const std::vector<Range>& faces) {
   for (std::size_t object = faces.size(); object-- > 0;) {
     const Range& range = faces[object];
-    if (!range.empty() && range.greatest >= first[object + 1]) return std::nullopt;
-    if (object > 0) first[object] = range.empty() ? first[object + 1] : range.least;
+    if (!range.empty() && range.max >= first[object + 1]) return std::nullopt;
+    if (object > 0) first[object] = range.empty() ? first[object + 1] : range.min;
   }
   if (first[1] == 0) first.erase(first.begin());
   return first;
 }
 
-/// Fills in `first`.
+/// Fills in bodies.first.
 void divide(ObjBodies& bodies, const softbody::ObjFile& obj) {
   for (const softbody::ObjFile::Object& object : obj.objects) bodies.first.push_back(object.first_vertex);
   bodies.first.push_back(static_cast<Index>(bodies.x.size()));

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdio>
 
 namespace app {
@@ -17,7 +18,8 @@ void add_face(std::string& text, std::size_t first, std::span<const Index> corne
   text += '\n';
 }
 
-/// The quad of which two triangles are the halves, if their common side is a diagonal: no edge of the mesh.
+/// Adds the quad that two triangles form if their common side is a diagonal, which is no edge of the mesh. Returns
+/// false if they form none.
 bool add_quad(std::string& text, std::size_t first, const softbody::Mesh& mesh, const Triangle& a, const Triangle& b) {
   for (std::size_t i = 0; i < 3; ++i) {
     const Index from = a[i], to = a[(i + 1) % 3];
@@ -65,6 +67,7 @@ ObjWriter::ObjWriter(const softbody::World& world) : prototypes_(prototypes_of(w
 bool ObjWriter::matches(const softbody::World& world) const { return prototypes_ == prototypes_of(world); }
 
 std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
+  assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size());
   std::string text;
   std::array<char, 64> line;
   for (std::size_t b = 0; b < faces_.size(); ++b) {

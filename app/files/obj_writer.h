@@ -1,5 +1,5 @@
 #pragma once
-// Bodies as OBJ text that `detect` reads back: the same bodies, the same positions to the bit, the same edges.
+// Writes bodies as OBJ text. `detect` reads it back as the same bodies with the same edges and, to the bit, positions.
 
 #include <string>
 #include <vector>
@@ -8,23 +8,23 @@
 
 namespace app {
 
-/// All of a world's bodies that does not move.
+/// Keeps the faces and the rest positions of a world's bodies, and combines them with the positions of frames.
 class ObjWriter {
  public:
   explicit ObjWriter(const softbody::World& world);
 
-  /// Whether these are still the bodies of the world.
+  /// Returns true if these are still the bodies of the world.
   bool matches(const softbody::World& world) const;
 
-  /// A file of one frame: each body an object, body_0 and so on. x, y, z: of all vertices, metres.
+  /// Returns the file of one frame: each body is an object, body_0 and so on. x, y, z: of all vertices, in metres.
   std::string frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const;
-  /// The bodies at rest, each round its own origin: for --rest, which compares distances inside one body only.
+  /// Returns the bodies at rest, each about its own origin: --rest compares only distances inside one body.
   std::string at_rest() const;
 
  private:
-  std::vector<const softbody::Prototype*> prototypes_;  // only to be compared: the world may be gone
-  std::vector<std::size_t> first_;                      // vertex of each body; one more at the end
-  std::vector<std::string> faces_;                      // of each body
+  std::vector<const softbody::Prototype*> prototypes_;  // only for comparison: the world may be gone
+  std::vector<std::size_t> first_;                      // by body: its first vertex; one more at the end
+  std::vector<std::string> faces_;                      // by body
   std::vector<float> x_, y_, z_;                        // at rest
 };
 

@@ -15,7 +15,7 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-/// True if nothing is lost when a file with this heading takes the place of `file`.
+/// Returns true if nothing is lost when a file with this heading replaces `file`.
 bool may_replace(const fs::path& file, std::string_view heading) {
   std::string beginning(heading.size(), '\0');
   std::ifstream in(file, std::ios::binary);
