@@ -1,6 +1,7 @@
 #include "app/compare/compare.h"
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <utility>
 
@@ -28,7 +29,9 @@ CompareRow scored(const collide::Result& found, const std::vector<collide::Conta
 }  // namespace
 
 std::size_t method_index(std::string_view key) {
-  return static_cast<std::size_t>(collide::find_method(key) - collide::method_table().data());
+  const collide::Method* method = collide::find_method(key);
+  assert(method);
+  return static_cast<std::size_t>(method - collide::method_table().data());
 }
 
 Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
@@ -60,7 +63,8 @@ CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_tok
   return report;
 }
 
-/// The methods to time, in the order of the table. The reference is not among them if it is brute force.
+/// Returns the methods to time, in the order of the table. Brute force is not among them: it only serves as the
+/// reference.
 std::vector<std::size_t> Comparison::choose(const FrameSnapshot& snapshot, CompareReport& report) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < snapshot.chosen.size(); ++i) {
@@ -78,7 +82,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   Entry& entry = entries_[method];
   entry.error.clear();
   try {
-    entry.detector->forget();  // from scratch, as the others
+    entry.detector->forget();  // all methods search from scratch
     const double start = now_ms();
     entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result);
     entry.ms = now_ms() - start;
@@ -95,7 +99,7 @@ std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snaps
   const WorkEstimate work = cost_model_.of(brute_force);
   if (work.cost() <= budget_) return brute_force;
   reference_note = "brute force would take " + work.in_words();
-  // Methods that build boxes of their own and methods that do not share the least code.
+  // A method with levels and one without share the least code.
   const bool driver_uses_levels = collide::method_table()[snapshot.driver].uses_levels;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const collide::Method& method = collide::method_table()[i];
@@ -108,7 +112,7 @@ std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snaps
 void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) const {
   if (!report.reference) return;
   const Entry& reference = entries_[*report.reference];
-  if (!reference.done) {  // it has thrown
+  if (!reference.done) {  // it threw
     report.reference_note = reference.error;
     report.reference.reset();
     return;
@@ -120,7 +124,7 @@ void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) con
     CompareRow& row = report.rows[i];
     if (i == snapshot.driver) {
       row = scored(snapshot.found, truth, std::move(row));
-      if (entries_[i].done) row.counters = entries_[i].result.counters;  // from scratch, as its time
+      if (entries_[i].done) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed
     } else if (entries_[i].done) {
       row = scored(entries_[i].result, truth, std::move(row));
     }

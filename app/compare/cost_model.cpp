@@ -1,6 +1,7 @@
 #include "app/compare/cost_model.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -12,7 +13,7 @@
 namespace app {
 namespace {
 
-/// Cells within the tolerance of a vertex, on average.
+/// Returns the mean number of cells within the tolerance of a vertex.
 double cells_of_a_vertex(const collide::Settings& settings) {
   double cells = 1;
   for (int axis = 0; axis < 3; ++axis) {
@@ -51,58 +52,61 @@ void CostModel::begin(const collide::Frame& frame, const collide::Settings& sett
 
   collide::Result unused;
   boxes_.build(frame, unused);
-  glm::dvec3 least(1e300), most(-1e300);
+  glm::dvec3 lo(1e300), hi(-1e300);
   for (const collide::Index b : boxes_.live) {
-    least = glm::min(least, glm::dvec3(boxes_.box[b].lo));
-    most = glm::max(most, glm::dvec3(boxes_.box[b].hi));
+    lo = glm::min(lo, glm::dvec3(boxes_.box[b].lo));
+    hi = glm::max(hi, glm::dvec3(boxes_.box[b].hi));
   }
-  extent_ = boxes_.live.empty() ? glm::dvec3(0) : most - least;
-  // The exact method: some sixteen tests a vertex, but no fewer than its cuts leave of all.
+  extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
+  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
   const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
     return std::max(16 * vertices, tests >> settings.levels);
   };
-  in_near_bodies_ = exact_tests_ = 0;
+  in_overlapping_boxes_ = exact_tests_ = 0;
   for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
-    in_near_bodies_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
+    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
     exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
   }
   if (!settings.self_collision) return;
   for (const collide::Index b : boxes_.live) {
-    in_near_bodies_ += pairs_of(bodies.size(b));
+    in_overlapping_boxes_ += pairs_of(bodies.size(b));
     exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
   }
 }
 
 WorkEstimate CostModel::of(std::size_t method) const {
+  assert(method < learnt_.size());
   const Learnt& learnt = learnt_[method];
   const collide::Method& row = collide::method_table()[method];
   if (learnt.vertices == 0 || (!row.uses_hash && !row.uses_levels)) return estimate(row);
-  const double growth = vertices_ / learnt.vertices;  // by bodies dropped since: pairs grow with its square
+  const double growth = vertices_ / learnt.vertices;  // more bodies since then: the pairs grow with its square
   return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),
           whole(static_cast<double>(learnt.work.hashes) * growth)};
 }
 
 void CostModel::learn(std::size_t method, const collide::Counters& counters) {
+  assert(method < learnt_.size());
   learnt_[method] = {{counters.pair_tests, counters.hashes}, vertices_};
 }
 
-/// Poor primes leave buckets empty for good: the sum is a multiple of what they and the bucket count have in common,
-/// and no greater than the cells of the frame make it.
+/// Returns the number of buckets that the hash can reach. Poor primes leave buckets empty: the sum in the hash is a
+/// multiple of the common divisor of primes and bucket count, and bounded by the cells of the frame.
 double CostModel::reachable_buckets() const {
   std::uint64_t common = settings_.buckets;
-  double greatest = 1;
+  double max_sum = 1;
   for (int axis = 0; axis < 3; ++axis) {
     const std::uint64_t prime = settings_.primes[static_cast<std::size_t>(axis)] % settings_.buckets;
     common = std::gcd(common, prime);
-    greatest += static_cast<double>(prime) * (extent_[axis] / static_cast<double>(settings_.cell_size[axis]) + 1);
+    max_sum += static_cast<double>(prime) * (extent_[axis] / static_cast<double>(settings_.cell_size[axis]) + 1);
   }
-  return std::min(static_cast<double>(settings_.buckets / common), greatest);
+  return std::min(static_cast<double>(settings_.buckets / common), max_sum);
 }
 
 WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.key == collide::reference_method) return {all_, 0};
-  if (!method.uses_hash) return {method.uses_levels ? std::min(exact_tests_, in_near_bodies_) : in_near_bodies_, 0};
-  double chances = 64;  // box meets box: eight corners, or about as many cells, of each
+  if (!method.uses_hash)
+    return {method.uses_levels ? std::min(exact_tests_, in_overlapping_boxes_) : in_overlapping_boxes_, 0};
+  double chances = 64;  // two boxes: eight corners of each, or about as many cells
   double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   if (!method.uses_levels) {
     chances = cells_of_a_vertex(settings_);
@@ -110,7 +114,7 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
     hashes = vertices_ * (1 + chances);
   }
   const double aliased = static_cast<double>(all_) * chances / reachable_buckets();
-  return {std::min(all_, in_near_bodies_ + whole(aliased)), whole(hashes)};
+  return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
 }
 
 }  // namespace app

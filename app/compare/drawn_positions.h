@@ -1,5 +1,5 @@
 #pragma once
-// Where vertices are drawn: in slow motion between two steps.
+// The positions at which vertices are drawn; in slow motion these lie between two steps.
 
 #include <glm/common.hpp>
 
@@ -7,10 +7,11 @@
 
 namespace app {
 
-/// `part` of the way from `before` to `now`. Vertices beyond `before` are where they are. Owns nothing.
+/// The positions at the fraction `part` of the way from x, y, z to `now`. Vertices that x, y, z lack are drawn at
+/// `now`. Owns nothing.
 struct DrawnPositions {
   collide::Frame now{};
-  std::span<const float> x{}, y{}, z{};  // before
+  std::span<const float> x{}, y{}, z{};  // before the last step
   float part = 1;
 
   std::size_t size() const { return now.x.size(); }

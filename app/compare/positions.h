@@ -1,5 +1,5 @@
 #pragma once
-// A copy of where all vertices are.
+// A copy of the positions of all vertices.
 
 #include <vector>
 

@@ -23,7 +23,7 @@ std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Ov
   return marks;
 }
 
-/// The positions before the step, with bodies that came in it where they are now.
+/// Returns the positions before the step; bodies that were added in the step get their current positions.
 Positions completed(Positions before, const Positions& at) {
   const auto add_rest = [](std::vector<float>& some, const std::vector<float>& all) {
     some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(std::min(some.size(), all.size())), all.end());
@@ -35,13 +35,13 @@ Positions completed(Positions before, const Positions& at) {
 }
 
 void check_surfaces(const StepSnapshot& step, const std::stop_token& stop, SurfaceReport& report) {
-  collide::Workers alone(1);
+  collide::Workers worker(1);
   const collide::Frame now{step.at.x, step.at.y, step.at.z, &step.bodies};
-  const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, alone);
+  const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
   if (stop.stop_requested()) return;
   const Positions start = completed(step.before, step.at);
   const collide::Frame before{start.x, start.y, start.z, &step.bodies};
-  const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, alone);
+  const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, worker);
   report.figures = collide::oracle::figures_of(now, overlaps, crossings);
   const collide::oracle::Missed missed = collide::oracle::missed_by(step.contacts, now, step.surfaces, overlaps);
   report.penetrations = overlaps.penetrations.size();

@@ -1,6 +1,6 @@
 #pragma once
-// What the surface oracle says of one step, copied from the world: what is inside what, what passed through what, and
-// which of it the detector's contacts do not show.
+// Checks one step, copied from the world, with the surface oracle: what is inside what, what passed through what, and
+// which of these overlaps the detector's contacts do not show.
 
 #include <stop_token>
 #include <string>
@@ -11,35 +11,35 @@
 
 namespace app {
 
-/// One step, copied.
+/// A copy of one step.
 struct StepSnapshot {
-  std::uint64_t id = 0;  // the caller's: names the state that was copied
+  std::uint64_t id = 0;  // the caller's number of the copied state
   int frame = 0;         // of the world, after the step
-  Positions before, at;  // `before` may lack the last bodies: they have just come, and count as not having moved
+  Positions before, at;  // `before` may lack the last bodies: they have just been added, and count as not moved
   collide::Bodies bodies;
   collide::surface::Surfaces surfaces;
   std::vector<collide::Contact> contacts;  // found by the detector
 };
 
-/// Where an overlap was missed, seen from a vertex, so that it can be drawn on bodies that have moved on since.
+/// The place of a missed overlap, relative to a vertex, so that it can be drawn on bodies that have moved on since.
 struct SurfaceMark {
-  collide::Index vertex;  // the penetrating one, or an end of the edge
-  glm::vec3 offset;       // m, from it to the nearest point of the other surface, or to where the edge pierces the face
+  collide::Index vertex;  // the penetrating one, or an end of the piercing edge
+  glm::vec3 offset;       // m, from the vertex to the nearest point of the other surface, or to the pierced point
   bool piercing;
 };
 
 struct SurfaceReport {
-  std::uint64_t id = 0;  // of the step; 0: nothing judged yet
+  std::uint64_t id = 0;  // of the step; 0: nothing was checked yet
   int frame = 0;
   collide::oracle::SurfaceFigures figures;
-  std::size_t penetrations = 0;  // vertices inside bodies, once for each body
-  std::size_t missed_penetrations = 0, missed_piercings = 0, missed_pairs = 0;  // as in collide::oracle::Missed
-  std::vector<SurfaceMark> marks;                                               // of these penetrations and piercings
-  std::string failure;                                                          // why there are no figures, else empty
+  std::size_t penetrations = 0;  // vertices inside bodies, counted once for each body
+  std::size_t missed_penetrations = 0, missed_piercings = 0, missed_pairs = 0;  // see collide::oracle::Missed
+  std::vector<SurfaceMark> marks;  // of the missed penetrations and piercings
+  std::string failure;             // why there are no figures, else empty
 };
 
-/// On the calling thread alone. A stop asked for is heeded between overlaps and crossings; the report is worthless
-/// then. Too little memory is told by the report.
+/// Checks a step on the calling thread alone. `stop` is checked between overlaps and crossings; the report of a stopped
+/// check is worthless. Too little memory is reported as a failure.
 SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop = {});
 
 struct SurfaceCheckTask {

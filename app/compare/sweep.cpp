@@ -11,7 +11,7 @@
 namespace app {
 namespace {
 
-/// The one value that stands for an axis which a method has no use for.
+/// Returns the values of an axis; `otherwise` alone if the method does not use the axis.
 template <class Values, class Value>
 std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
   return used ? std::vector<Value>(values.begin(), values.end()) : std::vector<Value>{otherwise};
@@ -64,7 +64,7 @@ Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& conf
   predict();
 }
 
-/// Strikes out what would exceed the budget.
+/// Marks the configurations that would exceed the budget.
 void Sweep::predict() {
   CostModel cost_model;
   for (SweepRow& row : report_.rows) {
@@ -118,8 +118,8 @@ void Sweep::find_reference() {
   }
 }
 
-/// Brute force, if a row has it within the budget; else the exact configuration of least predicted work, one without
-/// subdivided boxes where there is one: it shares the least code with those that have them.
+/// Returns brute force if it is within the budget; else the exact configuration with the least predicted work. Those
+/// without subdivided boxes come first: they share the least code with the others.
 std::optional<Configuration> Sweep::choose_reference() {
   std::optional<std::size_t> best;
   const auto rank = [&](std::size_t i) {

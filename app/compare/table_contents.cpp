@@ -8,7 +8,7 @@
 namespace app {
 namespace {
 
-/// Pairs of equal neighbours' runs: the sum over runs of equal values of the pairs within each.
+/// Returns the number of pairs within runs of equal values, summed over all runs.
 template <class Range, class Same>
 std::uint64_t pairs_in_runs(const Range& range, const Same& same) {
   std::uint64_t pairs = 0;
@@ -20,7 +20,7 @@ std::uint64_t pairs_in_runs(const Range& range, const Same& same) {
   return pairs;
 }
 
-/// Of the entries of one bucket.
+/// Counts the shared cells and the aliasing among the entries of one bucket.
 Sharing sharing_in(std::span<const TableEntry> entries) {
   std::vector<collide::Index> items;
   for (const TableEntry& entry : entries) items.push_back(entry.item);

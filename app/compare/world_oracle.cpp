@@ -1,6 +1,7 @@
 #include "app/compare/world_oracle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
@@ -22,17 +23,18 @@ collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
 
 double WorldOracle::max_displacement(const softbody::World& world) const {
   const collide::Frame now = world.positions();
-  double most2 = 0;
+  assert(now.x.size() >= before_.x.size());
+  double max2 = 0;
   for (std::size_t v = 0; v < before_.x.size(); ++v) {
     const glm::dvec3 way(now.x[v] - before_.x[v], now.y[v] - before_.y[v], now.z[v] - before_.z[v]);
-    most2 = std::max(most2, glm::dot(way, way));
+    max2 = std::max(max2, glm::dot(way, way));
   }
-  return std::sqrt(most2);
+  return std::sqrt(max2);
 }
 
 std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::World& world) {
   const collide::Frame now = world.positions(), before{before_.x, before_.y, before_.z, &bodies_};
-  const std::size_t known = bodies_.vertex_count();  // arrivals come after them
+  const std::size_t known = bodies_.vertex_count();  // new bodies come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
   std::vector<collide::oracle::Crossing> found;
   if (max_displacement(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
