@@ -1,5 +1,6 @@
 #include "app/reference/body_shape.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
@@ -12,19 +13,21 @@ namespace {
 
 glm::dvec3 mean(const std::vector<glm::dvec3>& list) {
   glm::dvec3 sum(0.0);
-  for (const glm::dvec3& p : list) sum += p - list.front();  // near zero: nothing is lost a kilometre away
+  for (const glm::dvec3& p : list) sum += p - list.front();  // small numbers: no digits are lost a kilometre away
   return list.front() + sum / double(list.size());
 }
 
 }  // namespace
 
 double rms_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  assert(a.size() == b.size() && !a.empty());
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
   return std::sqrt(sum / double(a.size()));
 }
 
 double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  assert(a.size() == b.size() && !a.empty());
   const glm::dvec3 centre_a = mean(a), centre_b = mean(b);
   glm::dmat3 covariance(0.0);
   for (std::size_t i = 0; i < a.size(); ++i) covariance += glm::outerProduct(a[i] - centre_a, b[i] - centre_b);

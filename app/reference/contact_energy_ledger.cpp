@@ -8,7 +8,7 @@ namespace {
 const collide::Contact& contact_of(const softbody::PairEnergy& p) { return p.contact; }
 constexpr auto contact_in = [](const auto& entry) -> const collide::Contact& { return entry.found.contact; };
 
-/// The one of this contact in a list that ascends; nothing: it is not there.
+/// Returns the entry of a contact in an ascending list; nullptr if there is none.
 template <class List, class Projection>
 auto find(const List& list, const collide::Contact& contact, Projection of) -> decltype(&*list.begin()) {
   const auto at = std::ranges::lower_bound(list, contact, {}, of);

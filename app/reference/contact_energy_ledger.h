@@ -1,8 +1,9 @@
 #pragma once
-// What bodies have put into the shields between them. A pair's potential does not tell: it appears when the pair is
-// found, whole where it is found from behind; and every frame finds normals and shares of stiffness anew. Only what it
-// changes by within a frame, by the bodies' motion against its force, is the bodies'. Only bodies that begin or join
-// close to others have all that their pairs hold there, from behind or not. Knows no world.
+// Books the energy that bodies have put into the penalty contacts between them. The potential of a pair alone does not
+// tell: it appears as a whole when the pair is found, even from behind, and each frame finds normals and shares of
+// stiffness anew. Only the change within a frame, by the bodies' motion against the force, is the bodies' energy.
+// Bodies that start or are added close to others are an exception: they own all that their pairs hold at that moment.
+// The ledger knows no world.
 
 #include <span>
 #include <vector>
@@ -13,23 +14,24 @@ namespace app {
 
 class ContactEnergyLedger {
  public:
-  /// Bodies that begin, or that join in the coming frame: theirs are the vertices from `first` on. found: the pairs at
-  /// the positions where they do, before they have moved, ascending by contact; of those with such a vertex the account
-  /// has all that they hold. What a joiner's first frame carries it into is found there, and nobody's, as any other
-  /// pair. Returns how much came, J.
+  /// Adds bodies that start, or that are added in the coming frame: they own the vertices from `first` on. found: the
+  /// pairs at their first positions, before they have moved, ascending by contact. All that pairs with such a vertex
+  /// hold is booked. What the first frame of an added body moves it into belongs to nobody, as with any other pair.
+  /// Returns the energy that was booked (J).
   double add_bodies(std::span<const softbody::PairEnergy> found, std::size_t first);
 
-  /// After a frame, pairs ascending by contact. ended: those that acted in it, as it left them; found: those found on
-  /// the new positions. A pair never holds less than nothing, nor more than its potential: what it gives beyond what it
-  /// was given is a gain of the bodies, and what it can no longer give is lost. One that did not act, as that of a body
-  /// in its first frame, keeps what it has.
+  /// Books a frame. ended: the pairs that acted in the frame, at its end; found: the pairs at the new positions; both
+  /// ascending by contact. A pair holds at least 0 and at most its potential. If it gives more than it was given, the
+  /// bodies gain energy; what it can no longer give is lost. A pair that did not act, as in a body's first frame, keeps
+  /// what it holds.
   void end_frame(std::span<const softbody::PairEnergy> ended, std::span<const softbody::PairEnergy> found);
 
-  double stored() const;  // J, of all pairs
+  /// Returns the energy of all pairs (J).
+  double stored() const;
 
  private:
   struct Entry {
-    softbody::PairEnergy found;  // the potential that the coming frame starts with
+    softbody::PairEnergy found;  // its potential at the start of the coming frame
     double stored;               // J
   };
   std::vector<Entry> entries_;  // ascending

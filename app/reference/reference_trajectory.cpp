@@ -1,6 +1,7 @@
 #include "app/reference/reference_trajectory.h"
 
 #include <algorithm>
+#include <cassert>
 #include <random>
 
 #include <glm/geometric.hpp>
@@ -10,11 +11,11 @@
 namespace app {
 namespace {
 
-constexpr std::uint64_t bound_every = 4, look_every = 64;  // steps
-constexpr int calm_looks = 8;
-constexpr double top_of_flight = 1e-3;  // s: what gravity acts on is slow there, too, for a shorter time
+constexpr std::uint64_t bound_every = 4, check_every = 64;  // steps
+constexpr int settled_checks = 8;
+constexpr double top_of_arc = 1e-3;  // s: at the top of its arc a body is slow, too, but for a shorter time
 
-/// m/s, of a particle against the body's mean.
+/// Returns the largest speed (m/s) of a particle relative to the body's mean.
 double fastest(const BodyState& s) {
   const glm::dvec3 mean = rigid_motion(s).velocity;
   double most = 0;
@@ -22,7 +23,8 @@ double fastest(const BodyState& s) {
   return most;
 }
 
-/// The bound holds for the shape at hand: no particle goes further than a tenth of the body's radius in a step.
+/// Returns the stable step (s), shortened so that no particle moves more than a tenth of the radius: the stable step
+/// holds only for the current shape.
 double longest_step(const ReferenceBody& body, const BodyState& s) {
   return std::min(body.stable_step(s), 0.1 * body.prototype().radius / fastest(s));
 }
@@ -39,36 +41,37 @@ double unsettled_speed(const ReferenceBody& body, const BodyState& s) {
 
 BodyState perturbed(BodyState s, double size) {
   std::mt19937 random(1);
-  // Not by std::uniform_real_distribution, which is another one in each library.
-  const auto either_way = [&] { return 2 * double(random()) / double(std::mt19937::max()) - 1; };
-  // Braces: in a function's arguments each compiler would draw in an order of its own.
-  for (glm::dvec3& p : s.x) p += size * glm::dvec3{either_way(), either_way(), either_way()};
+  // Not std::uniform_real_distribution, which differs between libraries.
+  const auto signed_unit = [&] { return 2 * double(random()) / double(std::mt19937::max()) - 1; };
+  // Braces, because the order in which a function's arguments are evaluated differs between compilers.
+  for (glm::dvec3& p : s.x) p += size * glm::dvec3{signed_unit(), signed_unit(), signed_unit()};
   return s;
 }
 
 Trajectory integrate(const ReferenceBody& body, BodyState s, double fraction, const TrajectoryLimits& limits) {
-  Trajectory flight;
+  assert(fraction > 0);
+  Trajectory trajectory;
   double left = limits.seconds, h = 0;
-  int calm = 0;
-  const double calm_seconds = body.scene().gravity == glm::dvec3(0.0) ? 0 : top_of_flight;
-  for (double calm_since = left; left > 0; ++flight.steps) {
-    if (flight.steps % bound_every == 0) h = fraction * longest_step(body, s);
-    if (flight.steps == limits.steps) {
-      flight.complete = false;
+  int calm_checks = 0;
+  const double settled_seconds = body.scene().gravity == glm::dvec3(0.0) ? 0 : top_of_arc;
+  for (double left_when_unsettled = left; left > 0; ++trajectory.steps) {
+    if (trajectory.steps % bound_every == 0) h = fraction * longest_step(body, s);
+    if (trajectory.steps == limits.steps) {
+      trajectory.complete = false;
       break;
     }
     const double now = h < left ? h : left;
     body.step(s, now);
     left -= now;
-    if (limits.settled_speed <= 0 || flight.steps % look_every != 0) continue;
-    calm = unsettled_speed(body, s) < limits.settled_speed ? calm + 1 : 0;
-    if (calm == 0) calm_since = left;
-    if (calm < calm_looks || calm_since - left < calm_seconds) continue;
-    flight.settled = true;
+    if (limits.settled_speed <= 0 || trajectory.steps % check_every != 0) continue;
+    calm_checks = unsettled_speed(body, s) < limits.settled_speed ? calm_checks + 1 : 0;
+    if (calm_checks == 0) left_when_unsettled = left;
+    if (calm_checks < settled_checks || left_when_unsettled - left < settled_seconds) continue;
+    trajectory.settled = true;
     break;
   }
-  flight.end = std::move(s);
-  return flight;
+  trajectory.end = std::move(s);
+  return trajectory;
 }
 
 Reference find_reference(const ReferenceBody& body, const BodyState& start, double bound,

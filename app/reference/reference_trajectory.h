@@ -1,5 +1,5 @@
 #pragma once
-// The reference's motion at a step that is shown to be small enough.
+// Integrates the reference body, with a step that is shown to be small enough.
 
 #include "app/reference/body_shape.h"
 
@@ -9,25 +9,25 @@ struct Trajectory {
   BodyState end{};
   std::uint64_t steps = 0;
   bool complete = true;  // false: it would have taken more steps than allowed
-  bool settled = false;  // it was ended early: nothing moves within the body any more
+  bool settled = false;  // ended early, because nothing moves within the body any more
 };
 
 struct TrajectoryLimits {
   double seconds = 0.5;
   std::uint64_t steps = 200'000;
-  /// m/s: a body whose unsettled_speed() is below this for a while has settled. 0: never.
+  /// m/s: a body whose unsettled_speed() stays below this for a while has settled. 0: never.
   double settled_speed = 0;
 };
 
-/// m/s, RMS: what shows that the body has not come to rest. One that flies free of gravity and solids may fly on and
-/// turn; of any other all motion counts, so that one between two bounces is not at rest.
+/// Returns the RMS speed (m/s) that shows that the body is not yet at rest. A body free of gravity and solids may move
+/// and turn as a whole. For any other body all motion counts, so that one between two bounces is not at rest.
 double unsettled_speed(const ReferenceBody& body, const BodyState& state);
 
-/// With `fraction` of the stable step, or of that in which some particle goes a tenth of the radius if it is shorter;
-/// both are worked out anew every few steps.
+/// Integrates with `fraction` (> 0) of the stable step, or of the step in which a particle moves a tenth of the radius
+/// if that is shorter. Both steps are computed anew every few steps.
 Trajectory integrate(const ReferenceBody& body, BodyState start, double fraction, const TrajectoryLimits& limits);
 
-/// Every position moved by up to `size` (m) an axis, by fixed random numbers.
+/// Moves each position by up to `size` (m) along each axis, by fixed random numbers.
 BodyState perturbed(BodyState state, double size);
 
 struct Reference {
@@ -35,10 +35,10 @@ struct Reference {
   double step = 0;         // s, mean
   double change = 0;       // R, RMS of the positions when the step was last halved
   bool converged = false;  // change is within the bound
-  double growth = 0;       // by how much a disturbance of all positions of 1e-8 R has grown, RMS
+  double growth = 0;       // factor by which a perturbation of all positions by 1e-8 R has grown, RMS
 };
 
-/// Halves the step until the change is at most `bound` (in R), or the limits are reached.
+/// Halves the step until the end changes by at most `bound` (in R), or the limits are reached.
 Reference find_reference(const ReferenceBody& body, const BodyState& start, double bound,
                          const TrajectoryLimits& limits);
 

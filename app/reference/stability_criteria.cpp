@@ -12,7 +12,7 @@ void StabilityAssessment::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
   const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.reachable_speed,
                extent = s.extent / s.reachable_extent, depth = s.depth / limits_.radius;
-  // What is no number is no less than any bound: std::max would pass over it.
+  // std::max would ignore NaN.
   const auto finite = [](double figure) { return std::isfinite(figure); };
   f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);
   if (!f.finite) {
@@ -22,8 +22,8 @@ void StabilityAssessment::add(const StabilitySample& s) {
   f.energy = std::max(f.energy, excess);
   f.speed = std::max(f.speed, speed);
   f.extent = std::max(f.extent, extent);
-  constexpr int coming_out = 10;  // frames
-  if (!limits_.begins_inside || s.frame > coming_out) f.transient = std::max(f.transient, depth);
+  constexpr int frames_to_come_out = 10;
+  if (!limits_.begins_inside || s.frame > frames_to_come_out) f.transient = std::max(f.transient, depth);
   if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);
   f.passed_through = s.passed_through;
   if (excess > 10) f.blow_up_time = s.time;
