@@ -1,5 +1,5 @@
 #pragma once
-// What stands out of the scene, while all else steps back: for a step of the guided tour.
+// Highlights a part of the scene and fades the rest, for a step of the guided tour.
 
 #include <string>
 #include <vector>
@@ -15,8 +15,8 @@ struct SceneLabel {
 };
 
 struct Highlight {
-  std::vector<softbody::BodyId> bodies;  // in their colours; all others are but hinted at
-  float opacity = 1;                     // of these: below 1 one sees what is in them
+  std::vector<softbody::BodyId> bodies;  // in their colours; all others are faded
+  float opacity = 1;                     // of these; below 1 their inside shows
   std::vector<engine::BoxSet> boxes;
   std::vector<engine::LineSet> lines;
   std::vector<engine::PointSet> points;

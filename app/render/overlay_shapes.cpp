@@ -1,6 +1,7 @@
 #include "app/render/overlay_shapes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -14,7 +15,7 @@ namespace {
 
 using Points = std::span<const glm::vec3>;
 
-/// `tinted`: else their edges alone, where faces of other boxes tint the same.
+/// tinted: fill the faces, too; false where other boxes already tint the same place.
 void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
@@ -31,7 +32,7 @@ void add_body_boxes(const softbody::World& world, Points positions, bool tinted,
   frame.boxes.push_back(std::move(set));
 }
 
-/// The bucket that gives a box its colour is that of its minimum corner.
+/// Returns the colour of the bucket of the box's minimum corner.
 glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
   return bucket_colour(debug.box_bucket[debug.box_first[box]]);
 }
@@ -48,7 +49,7 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   frame.boxes.push_back(std::move(set));
 }
 
-/// What is in a bucket, with its cells: those of one cell in one colour, and in another what shares but the bucket.
+/// Adds the content of a bucket and its cells: one cell in one colour; what shares only the bucket in another.
 void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
   const CellGroup* reference = request.bucket->group(request.bucket_cell);
   engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .hidden = 0.6f, .fill = 0.22f};
@@ -99,7 +100,7 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   points.points.push_back({b, glm::vec4(colour, 1.0f)});
 }
 
-// Contacts lie where bodies press together, hence mostly behind a surface: they show through well.
+// Contacts lie where bodies press together, mostly behind a surface, so they must show through.
 constexpr float contacts_hidden = 0.55f;
 
 void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
@@ -127,7 +128,7 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
   frame.points.push_back(std::move(points));
 }
 
-/// Both closest points, and the normal from the second one, half a mean edge long.
+/// Adds both closest points, and the normal at the second one, half a mean edge long.
 void add_touches(const softbody::World& world, std::span<const softbody::SurfaceTouch> touches, Points positions,
                  engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
@@ -146,7 +147,7 @@ void add_touches(const softbody::World& world, std::span<const softbody::Surface
   frame.points.push_back(std::move(points));
 }
 
-/// Penetrating vertices joined to the surface that they passed, and the points where edges pierce faces.
+/// Adds lines from penetrating vertices to the surface that they passed, and the points where edges pierce faces.
 void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 1.5f, .hidden = contacts_hidden};
   engine::PointSet points{.points = {}, .diameter = 4.0f, .hidden = contacts_hidden};
@@ -160,8 +161,8 @@ void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::Fra
   frame.points.push_back(std::move(points));
 }
 
-/// Of each vertex of a body, whether a face at it is turned to the eye; of an open one, from which both sides show,
-/// all.
+/// Returns for each vertex of a body whether one of its faces is turned to the eye; always true for an open body, which
+/// shows both sides.
 std::vector<char> vertices_in_sight(const softbody::Prototype& prototype, Points body, const glm::vec3& eye) {
   const bool closed = prototype.start_volume > 0;
   std::vector<char> in_sight(body.size(), !closed);
@@ -183,15 +184,15 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
   }
 }
 
-/// Whether a body is so large on the screen that springs other than along its edges can be told from these.
+/// Returns true if the body is so large on the screen that its other springs can be told from those along edges.
 bool is_near(const softbody::Prototype& prototype, Points body, const Viewpoint& viewpoint) {
-  constexpr float least = 20;  // pixels, of an edge
+  constexpr float min_edge = 20;  // pixels
   const float edge = static_cast<float>(prototype.mean_edge);
-  return edge * viewpoint.pixels_at_one_metre > least * glm::distance(body.front(), viewpoint.eye);
+  return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
 void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points positions, engine::FrameData& frame) {
-  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
+  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // too many to draw twice
   engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
@@ -207,8 +208,8 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
   frame.lines.push_back(std::move(structural));
 }
 
-/// Edges between a face that is turned to the eye and one that is not, and borders; a little outside of the body or
-/// before it, for it is drawn rounder than its mesh is.
+/// Adds the borders, and the edges between a face that is turned to the eye and one that is not. They lie a little
+/// outside, because the body is drawn rounder than its mesh.
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  engine::FrameData& frame) {
   constexpr float outside = 0.08f;  // of the length of an edge
@@ -236,7 +237,7 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
   frame.lines.push_back(std::move(lines));
 }
 
-/// The spring of the hand: from the point that it holds to where it draws it.
+/// Adds the spring of the mouse: from the point that it holds to its target.
 void add_grab(const softbody::World& world, const softbody::Grab& grab, Points positions, engine::FrameData& frame) {
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
@@ -257,6 +258,7 @@ engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& c
 
 void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
                   Points positions, engine::FrameData& frame) {
+  assert(positions.size() == world.bodies().vertex_count());
   const Overlays& shown = request.shown;
   if (shown.springs) add_springs(world, viewpoint, positions, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);

@@ -1,5 +1,5 @@
 #pragma once
-// What can be drawn over the bodies. One table: panel, shortcuts, scene view and tests loop over it.
+// What can be drawn over the bodies. Panel, shortcuts, preferences, scene view and tests loop over one table.
 
 #include <array>
 #include <string_view>
@@ -24,7 +24,7 @@ struct Overlays {
 };
 
 struct OverlayRow {
-  std::string_view key;      // in messages and tests
+  std::string_view key;      // in preferences and tests
   std::string_view label;    // on the panel
   char shortcut;             // on the keyboard
   std::string_view tooltip;  // what it shows, with its section of the paper

@@ -17,7 +17,7 @@ float encode(float linear) {
 
 bool inside(const glm::vec3& c) { return std::min({c.x, c.y, c.z}) >= 0.0f && std::max({c.x, c.y, c.z}) <= 1.0f; }
 
-/// Björn Ottosson's OKLab, to linear sRGB.
+/// Converts Björn Ottosson's OKLab to linear sRGB.
 glm::vec3 linear_srgb(float lightness, float chroma, float hue) {
   const float angle = hue * 6.2831853f;
   const float a = chroma * std::cos(angle), b = chroma * std::sin(angle);
@@ -56,7 +56,7 @@ glm::vec3 body_colour(std::uint32_t number) {
 }
 
 glm::vec3 bucket_colour(std::uint32_t bucket) {
-  // An integer hash: buckets that differ by a Fibonacci number would share a hue otherwise.
+  // An integer hash, because otherwise buckets that differ by a Fibonacci number would have similar hues.
   std::uint32_t h = bucket * 2654435769u;
   h = (h ^ (h >> 15)) * 2246822519u;
   h ^= h >> 13;

@@ -16,7 +16,7 @@ struct Hit {
   glm::vec3 weights;
 };
 
-/// Moeller and Trumbore 1997, from both sides.
+/// Intersects a ray with a triangle, from both sides (Möller and Trumbore 1997).
 std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::vec3 ab = b - a, ac = c - a, across = glm::cross(ray.direction, ac);
   const float determinant = glm::dot(ab, across);
@@ -28,24 +28,24 @@ std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::v
   return Hit{distance, {1 - u - v, u, v}};
 }
 
-/// Whether the ray's line passes the sphere.
-bool passes(const engine::Ray& ray, const BoundingSphere& round) {
-  return glm::length(glm::cross(round.centre - ray.origin, ray.direction)) <= round.radius;
+/// Returns true if the ray's line meets the sphere.
+bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
+  return glm::length(glm::cross(sphere.centre - ray.origin, ray.direction)) <= sphere.radius;
 }
 
-/// How far the ray goes before it enters a solid, at most `most`: as far as the nearest solid is away it may go on,
-/// again and again. A solid that the ray starts in is looked through, as it is drawn.
-float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float most) {
-  constexpr double hair = 1e-3;  // m
-  constexpr int most_steps = 300;
-  double nearest = static_cast<double>(most);
+/// Returns the distance at which the ray enters a solid, at most `max_distance`, by sphere tracing. A solid in which
+/// the ray starts is ignored: it is drawn transparent.
+float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
+  constexpr double hit_distance = 1e-3;  // m
+  constexpr int max_steps = 300;
+  double nearest = static_cast<double>(max_distance);
   softbody::for_each_solid(scene, [&](const auto& solid) {
     double along = 0;
-    for (int i = 0; i < most_steps && along < nearest; ++i) {
+    for (int i = 0; i < max_steps && along < nearest; ++i) {
       const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
       const double away = softbody::surface_at(solid, at).distance;
       if (i == 0 && away <= 0) return;
-      if (away < hair) nearest = along;
+      if (away < hit_distance) nearest = along;
       along += away;
     }
   });

@@ -1,5 +1,5 @@
 #pragma once
-// What lies under the mouse.
+// Finds what lies under the mouse.
 
 #include <optional>
 
@@ -13,20 +13,20 @@ namespace app {
 struct Pick {
   softbody::BodyId body;
   softbody::Triangle corners;  // vertices of the body, counted from its first
-  glm::vec3 weights;           // of the corners
+  glm::vec3 weights;           // barycentric, of the corners
   glm::vec3 point;             // m
   float distance;              // m, from the ray's origin
 };
 
-/// The first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it meets none,
-/// or a solid before.
+/// Returns the first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it
+/// meets none, or a solid first.
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions);
 
-/// A sphere round a body as it is drawn.
 struct BoundingSphere {
   glm::vec3 centre;
   float radius;
 };
+/// Returns a sphere around a body as it is drawn.
 BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions);
 
 }  // namespace app

@@ -13,21 +13,22 @@
 namespace app {
 namespace {
 
-/// The radius in steps of a quarter, so that bodies rolling away do not make the shadows' resolution crawl.
-float reaching(const glm::vec3& centre, float radius, std::span<const glm::vec3> positions) {
-  float most = 0;
+/// Returns a radius that contains all positions, at most 8 times `radius`. It grows in steps of a quarter, so that the
+/// shadows' resolution does not flicker while bodies roll away.
+float enclosing_radius(const glm::vec3& centre, float radius, std::span<const glm::vec3> positions) {
+  float max2 = 0;
   for (const glm::vec3& p : positions) {
     const glm::vec3 d = p - centre;
     const float distance2 = glm::dot(d, d);
-    if (std::isfinite(distance2)) most = std::max(most, distance2);
+    if (std::isfinite(distance2)) max2 = std::max(max2, distance2);
   }
-  const float ratio = std::min(std::sqrt(most) / radius, 8.0f);  // whoever is further off casts no shadow
+  const float ratio = std::min(std::sqrt(max2) / radius, 8.0f);  // what is farther off casts no shadow
   return ratio <= 1.0f ? radius : radius * std::pow(1.25f, std::ceil(std::log(ratio) / std::log(1.25f)));
 }
 
-/// Scenes are composed for wide pictures; in narrower ones the camera steps back, so many times as far, until as much
-/// fits in.
-double step_back(glm::ivec2 size) {
+/// Returns the factor of the camera's distance for pictures of this size. Scenes are composed for wide pictures; in a
+/// narrower one the camera stands farther away, so that as much fits in.
+double distance_factor(glm::ivec2 size) {
   constexpr double composed_for = 1.5;
   return std::clamp(composed_for * std::max(size.y, 1) / std::max(size.x, 1), 1.0, 3.0);
 }
@@ -69,18 +70,17 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
 void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions& positions) {
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
-  // Where the two worlds hardly differ, neither surface may show through the other in patches.
+  // Where the two worlds hardly differ, neither surface should show through the other in patches.
   engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .recess = 0.05f};
   for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
   frame_.translucent.push_back(std::move(set));
 }
 
-/// Bodies that the highlight does not name are but hinted at, the fainter the more there are to look through; those
-/// that it does may be looked into.
+/// Fades bodies that the highlight does not name, the more the more of them there are. Named bodies may be translucent.
 void SceneView::apply(const Highlight& highlight) {
-  const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
+  const float faded = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
   engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity},
-      others{.meshes = {}, .opacity = hint, .hides = false};
+      others{.meshes = {}, .opacity = faded, .hides = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
@@ -116,7 +116,7 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
                      const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
-  // Overlays carry meaning in their colours, so the bodies step back.
+  // The colours of overlays have meanings, so the bodies are dimmed.
   const bool dimmed = overlays.shown.any() || overlays.bucket;
   positions_.clear();
   gather_positions(positions);
@@ -136,7 +136,7 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   gather_solids(scene);
   const Bounds around = bounds(scene);
   frame_.bounds_centre = around.centre;
-  frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
+  frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
@@ -154,7 +154,7 @@ double SceneView::radius(const softbody::MeshSource& source) {
   return radii_.emplace_back(source, softbody::bounding_radius(source.make())).second;
 }
 
-/// A sphere round the scene as it is set up: solids and where bodies start.
+/// Returns a sphere around the scene as it is set up: the solids, and the places where bodies start.
 SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
   glm::dvec3 lo = scene.view.target, hi = scene.view.target;
   const auto include = [&](const glm::dvec3& centre, double reach) {
@@ -178,14 +178,14 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));
   const softbody::View& view = scene.view;
-  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * step_back(size)),
+  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * distance_factor(size)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});
   return camera;
 }
 
 void SceneView::refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to) {
   engine::Orbit orbit = camera.orbit();
-  orbit.distance *= static_cast<float>(step_back(to) / step_back(from));
+  orbit.distance *= static_cast<float>(distance_factor(to) / distance_factor(from));
   camera.set_orbit(orbit);
 }
 
@@ -194,7 +194,7 @@ softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {
   const engine::Orbit& orbit = camera.orbit();
   softbody::View view;
   for (int k = 0; k < 3; ++k) view.target[k] = rounded(double{orbit.target[k]});
-  view.distance = std::max(rounded(double{orbit.distance} / step_back(size)), 1e-4);
+  view.distance = std::max(rounded(double{orbit.distance} / distance_factor(size)), 1e-4);
   view.azimuth = rounded(std::remainder(glm::degrees(double{orbit.azimuth}), 360.0));
   view.elevation = rounded(glm::degrees(double{orbit.elevation}));
   return view;

@@ -21,8 +21,8 @@ glm::dvec3 beside(const engine::Ray& ray, const engine::Camera& camera, const gl
 }  // namespace
 
 void look_at(softbody::BodyId body, const Session& session, engine::Camera& camera, glm::ivec2 size) {
-  const BoundingSphere round = bounding_sphere(session.world(), body, session.drawn_positions());
-  camera.glide_to(round.centre, round.radius, size);
+  const BoundingSphere sphere = bounding_sphere(session.world(), body, session.drawn_positions());
+  camera.glide_to(sphere.centre, sphere.radius, size);
 }
 
 MouseInput read_mouse(glm::vec2 origin, bool over_scene) {
