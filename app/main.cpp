@@ -1,4 +1,4 @@
-// The program: reads the command line and hands over. Errors end here, as one line and exit status 2.
+// The program: parses the command line and calls a command. All errors end here, as one line and exit status 2.
 
 #include <csignal>
 #include <cstdio>
@@ -58,7 +58,7 @@ int run(const app::Options& options) {
 int main(int argc, char** argv) {
   try {
     app::remove_temporary_files_on_signals();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, as on a full disk
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a size limit then fails like one on a full disk
     const auto options = app::parse_options(argc, argv);
     const int status = options ? run(*options) : 0;
     if (!std::cout.flush() || std::fflush(stdout) != 0)

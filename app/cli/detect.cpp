@@ -17,11 +17,11 @@ namespace {
 
 using collide::Index;
 
-/// All that is read from the files, which are consecutive frames of the same bodies.
+/// The content of the files, which are consecutive frames of the same bodies.
 struct Sequence {
   std::vector<ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
   collide::Bodies bodies;
-  std::vector<std::string> notes;  // the first file's as they are; those that only another file has with its name
+  std::vector<std::string> notes;  // of the first file; further ones begin with the name of their file
 
   /// Adds the notes of a file.
   void note(const std::string& file, const ObjBodies& read) {
@@ -49,7 +49,8 @@ void require_match(const ObjBodies& bodies, const std::string& file, const ObjBo
   }
 }
 
-/// `rest`: nullptr, or what matches `mesh`. Copies of one mesh, one after another, share their topology.
+/// Makes the bodies of a mesh. rest: nullptr, or the same bodies at rest. Consecutive copies of a mesh share a
+/// topology.
 collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
   collide::Bodies bodies;
   std::shared_ptr<const collide::Topology> topology;
@@ -64,8 +65,8 @@ collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
   return bodies;
 }
 
-/// Frames stay in memory, so that to read them is no part of the times.
-constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together, 1.5 GiB
+// All frames stay in memory, so that the times do not include reading.
+constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
 Sequence read_sequence(const DetectOptions& options) {
   Sequence sequence;
@@ -93,22 +94,22 @@ Sequence read_sequence(const DetectOptions& options) {
   return sequence;
 }
 
-/// Figures of one frame.
+/// The figures of one frame.
 struct DetectRow {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
   collide::Skipped skipped{};
-  Timings times;  // of each repetition
+  Timings times;  // by repetition
 };
 
-/// From positions in memory to the finished list.
+/// Returns the time (ms) from positions in memory to the finished list of contacts.
 double timed_detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
                     collide::Workers& workers, collide::Result& result, const std::string& file) {
   const auto start = std::chrono::steady_clock::now();
   try {
     detector.detect(frame, settings, workers, result);
-  } catch (const std::length_error& error) {  // more than the method may take
+  } catch (const std::length_error& error) {  // more contacts than a method may report
     throw UsageError(file + ": " + error.what());
   }
   return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -132,7 +133,7 @@ std::vector<DetectRow> run(const Options& options, const collide::Method& method
       rows[f].self_contacts = result.self_contacts;
       rows[f].counters = result.counters;
       rows[f].skipped = result.skipped;
-      if (csv) csv->add(f, frame, result.contacts);  // at once: the lists of all frames may be too large to keep
+      if (csv) csv->add(f, frame, result.contacts);  // now, because the lists of all frames may be too large to keep
     }
   }
   if (csv) csv->commit();

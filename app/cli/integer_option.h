@@ -1,6 +1,7 @@
 #pragma once
 // Options whose values are whole numbers.
 
+#include <cassert>
 #include <cstdint>
 #include <string>
 
@@ -10,13 +11,14 @@
 
 namespace app {
 
-/// Decimal. In place of CLI::Range, which says of a fraction that it is out of range.
-inline CLI::Validator integer_in_range(std::int64_t least, std::int64_t most) {
-  const std::string from = std::to_string(least), to = std::to_string(most);
+/// Accepts decimal numbers from min to max. CLI::Range would call a fraction out of range.
+inline CLI::Validator integer_in_range(std::int64_t min, std::int64_t max) {
+  assert(min <= max);
+  const std::string from = std::to_string(min), to = std::to_string(max);
   return CLI::Validator(
       [=](std::string& text) {
         const auto number = parse_integer(text);
-        if (!number || *number < least || *number > most)
+        if (!number || *number < min || *number > max)
           return "must be a whole number from " + from + " to " + to + ", not " + text;
         text = std::to_string(*number);  // CLI11 would read 010 as 8
         return std::string();

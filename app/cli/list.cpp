@@ -13,7 +13,7 @@ namespace {
 
 void row(std::string_view key, std::string_view name) { std::cout << key << '\t' << name << '\n'; }
 
-/// A file that is not in order hides no other.
+/// Lists all valid scenes, then throws the error of the first invalid one.
 void list_scenes(const std::filesystem::path& folder) {
   std::optional<softbody::SceneError> first_error;
   for (const std::string& key : softbody::scene_keys(folder)) {

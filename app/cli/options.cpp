@@ -21,7 +21,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// Why the library refuses the command line.
+/// Returns why CLI11 refuses the command line.
 std::string reason(const CLI::ParseError& error) {
   constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
   std::string why = one_line(error.what());
@@ -29,7 +29,7 @@ std::string reason(const CLI::ParseError& error) {
   return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
 }
 
-/// "1280x720" to width and height.
+/// Reads width and height, e.g. "1280x720".
 void parse_size(const std::string& text, Options& options) {
   const auto parts = split(text, 'x');
   const auto side = [&](std::size_t which) {
@@ -57,8 +57,8 @@ void parse_captures(const std::string& text, Options& options) {
 
 softbody::View read_view(const std::string& text) {
   const auto v = parse_reals(text, ',');
-  const auto within = [&](std::size_t which, double least, double most) {
-    return (*v)[which] >= least && (*v)[which] <= most;
+  const auto within = [&](std::size_t which, double min, double max) {
+    return (*v)[which] >= min && (*v)[which] <= max;
   };
   if (!v || v->size() != 6 || !within(0, -1e6, 1e6) || !within(1, -1e6, 1e6) || !within(2, -1e6, 1e6) ||
       !within(3, 1e-9, 1e6) || !within(4, -360, 360) || !within(5, -89, 89))
@@ -156,8 +156,8 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
   return report;
 }
 
-/// CLI11 takes an empty value for none at all, so that `--tolerance ""` would go unnoticed, and the option after a
-/// forgotten value for that value.
+/// Throws UsageError for an empty value, which CLI11 would ignore, and for a forgotten value, for which CLI11 would
+/// take the next option.
 void refuse_missing_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& value : option->results()) {
@@ -171,7 +171,8 @@ void refuse_missing_values(const CLI::App& command) {
   for (const CLI::App* below : command.get_subcommands()) refuse_missing_values(*below);
 }
 
-/// Values of flags are added up by CLI11, which throws what is no error of its own at `--self=maybe`.
+/// Makes CLI11 refuse values of flags. Otherwise it would add them up, and throw an error of another kind for
+/// `--self=maybe`.
 void refuse_values_of_flags(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) option->disable_flag_override();
   for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
@@ -190,7 +191,7 @@ void check(const Options& options) {
                      std::to_string(options.frames) + ", so that no file would be written");
 }
 
-/// Of what scene files take: a scene that is saved is to be read again.
+/// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
 void require_length(const std::string& option, float metres, double most) {
   if (!(metres >= static_cast<float>(softbody::least_length) && metres <= static_cast<float>(most)))
     throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));

@@ -25,17 +25,17 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Figures of one frame.
+/// The figures of one frame.
 struct FrameRow {
   int frame;
   double time;  // s
   softbody::Profile profile;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
-  std::optional<collide::oracle::SurfaceFigures> oracle;  // if asked for
+  std::optional<collide::oracle::SurfaceFigures> oracle;  // on request
 };
 
-FrameRow take_row(const softbody::World& world) {
+FrameRow measure_row(const softbody::World& world) {
   const auto& d = world.detection();
   return {world.frame(),
           world.time(),
@@ -81,7 +81,7 @@ Json to_json(const softbody::Plan& plan) {
   return {{"stages", stages}, {"left_out", left_out}};
 }
 
-/// Which one was asked for, which one the last frame was integrated with and, if that was chosen automatically, why.
+/// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
 Json to_json_integrator(const softbody::World& world) {
   return {{"key", world.integrator().key},
           {"used", world.dynamics().used_integrator().key},
@@ -113,7 +113,7 @@ std::string ratio_text(const softbody::Measures& measures, double ratio) {
   return text;
 }
 
-/// About twenty lines, however many frames.
+/// Prints about twenty lines for any number of frames.
 void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
   std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
               world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
@@ -141,20 +141,21 @@ void print_table(const softbody::World& world, const std::vector<FrameRow>& rows
   std::printf("state hash %s\n", hex(world.state_hash()).c_str());
 }
 
-/// A result of one frame: PREFIX_0012ENDING in the folder for results, four digits or more.
+/// Returns the file for a result of one frame: PREFIX_0012ENDING in the folder for results, with at least four digits.
 std::filesystem::path result_file(const Options& options, const char* prefix, int frame, const char* ending) {
   char number[16];
   std::snprintf(number, sizeof number, "_%04d", frame);
   return options.out / std::string(prefix).append(number).append(ending);
 }
 
-/// Writes the pictures that were asked for; without graphics it refuses before anything runs.
+/// Writes the requested pictures. Without graphics the constructor throws before anything runs.
 class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
     if (options.captures.empty()) return;
 #if SBCOLLIDE_GRAPHICS
-    capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
+    capture_ =
+        std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder should be made
     prepare_folder(options.out);
     for (const int frame : options.captures) require_no_input(picture(frame));
 #else
@@ -177,7 +178,7 @@ class Pictures {
 #endif
 };
 
-/// Writes the bodies of every Nth frame, and once more at rest whenever there are others than before.
+/// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed.
 class ObjSequence {
  public:
   explicit ObjSequence(const Options& options) : options_(options) {
@@ -188,7 +189,7 @@ class ObjSequence {
   }
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
-    if (world.bodies().count() == 0) return;  // `detect` takes no file without vertices
+    if (world.bodies().count() == 0) return;  // `detect` refuses a file without vertices
     if (!bodies_ || !bodies_->matches(world)) {
       bodies_.emplace(world);
       write_file(file("rest", world.frame()), bodies_->at_rest());
@@ -216,12 +217,12 @@ class ObjSequence {
   std::optional<ObjWriter> bodies_;
 };
 
-/// What was done to the meshes from files, where it may surprise; each once.
+/// Prints what was changed in imported meshes where this may surprise, once for each mesh.
 void print_remarks(const softbody::Scene& scene) {
-  std::set<const softbody::ImportedMesh*> told;
+  std::set<const softbody::ImportedMesh*> printed;
   for (const softbody::BodySource& body : scene.bodies) {
     const softbody::ImportedMesh* mesh = body.mesh.imported.get();
-    if (!mesh || !told.insert(mesh).second) continue;
+    if (!mesh || !printed.insert(mesh).second) continue;
     if (const std::string text = remarks(mesh->findings); !text.empty())
       std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.string().c_str(), text.c_str());
   }
@@ -242,12 +243,12 @@ void simulate(const Options& options) {
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
   WorldOracle oracle(options.oracle ? options.threads : 1);
-  if (options.oracle) oracle.crossings(world);  // from where the first frame starts
+  if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   std::vector<FrameRow> rows;
   rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
-    rows.push_back(take_row(world));
+    rows.push_back(measure_row(world));
     if (options.oracle)
       rows.back().oracle =
           collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));

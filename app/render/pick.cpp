@@ -33,8 +33,8 @@ bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
   return glm::length(glm::cross(sphere.centre - ray.origin, ray.direction)) <= sphere.radius;
 }
 
-/// Returns the distance at which the ray enters a solid, at most `max_distance`, by sphere tracing. A solid in which
-/// the ray starts is ignored: it is drawn transparent.
+/// Returns the distance at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
+/// through a solid in which the ray starts, as the drawing does.
 float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
   constexpr double hit_distance = 1e-3;  // m
   constexpr int max_steps = 300;
