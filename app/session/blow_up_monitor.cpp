@@ -1,6 +1,7 @@
 #include "app/session/blow_up_monitor.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <numeric>
 
@@ -29,19 +30,20 @@ void BlowUpMonitor::begin(const softbody::World& world, std::size_t bodies) {
   fall_speed_ = g * static_cast<double>(memory) * world.frame_time();
 }
 
-/// What shields hold as it begins, for a body may have come where another is: they give back the work of their push.
+/// Adds the energy that penalty contacts hold at the start, because a body may have been added where another one is.
+/// They return it as they push the two apart.
 void BlowUpMonitor::add_contact_energy(const softbody::World& world, FrameTotals& first) const {
   const double held = softbody::total(world.shield_energies());
   first.energy += held;
   if (held > 0) first.bounce = std::max(first.bounce, std::sqrt(2 * held / *std::ranges::min_element(mass_)));
 }
 
-/// Notes whether surfaces that lay in each other as it began still come apart.
+/// Updates whether surfaces that overlapped at the start still separate.
 void BlowUpMonitor::update_separating(const softbody::World& world, FrameTotals& now) {
   separating_ = world.dynamics().surface_contact().gives_energy() ? std::max(separating_, 1) - 1 : 0;
   if (separating_ == 0) return;
   now.pushed = true;
-  now.bounce = std::max(now.bounce, 2 * double(softbody::SurfaceContact::push_speed));  // elastic bodies are thrown off
+  now.bounce = std::max(now.bounce, 2 * double(softbody::SurfaceContact::push_speed));  // elastic bodies bounce off
 }
 
 BlowUpMonitor::FrameTotals BlowUpMonitor::totals_of(const std::vector<softbody::BodyMeasures>& bodies) const {
@@ -59,6 +61,7 @@ BlowUpMonitor::FrameTotals BlowUpMonitor::totals_of(const std::vector<softbody::
 }
 
 BlowUpMonitor::FrameTotals BlowUpMonitor::recent_maximum() const {
+  assert(!recent_.empty());
   FrameTotals most = recent_.front();
   for (const FrameTotals& l : recent_)
     most = {std::max(most.energy, l.energy), std::max(most.active, l.active), std::max(most.speed, l.speed),
@@ -66,7 +69,7 @@ BlowUpMonitor::FrameTotals BlowUpMonitor::recent_maximum() const {
   return most;
 }
 
-/// The body that gained most since the last look.
+/// Returns the body that has gained most energy since the last check.
 softbody::BodyId BlowUpMonitor::body_with_largest_gain(const std::vector<softbody::BodyMeasures>& bodies) const {
   std::size_t found = 0;
   const auto gain = [&](std::size_t b) { return bodies[b].energy.total() + bodies[b].staggering - last_energy_[b]; };
@@ -75,8 +78,8 @@ softbody::BodyId BlowUpMonitor::body_with_largest_gain(const std::vector<softbod
   return static_cast<softbody::BodyId>(found);
 }
 
-std::optional<BlowUp> BlowUpMonitor::judge(const FrameTotals& now, const std::vector<softbody::BodyMeasures>& bodies,
-                                           int frame) const {
+std::optional<BlowUp> BlowUpMonitor::find_blow_up(const FrameTotals& now,
+                                                  const std::vector<softbody::BodyMeasures>& bodies, int frame) const {
   const FrameTotals most = recent_maximum();
   const double reach = max_speed_factor * (most.speed + most.bounce + fall_speed_) + rounding_velocity;
   if (now.speed > reach) {
@@ -97,8 +100,9 @@ std::optional<BlowUp> BlowUpMonitor::judge(const FrameTotals& now, const std::ve
                        now.energy - energy)};
 }
 
-std::optional<BlowUp> BlowUpMonitor::look(const softbody::World& world,
-                                          const std::vector<softbody::BodyMeasures>& bodies) {
+std::optional<BlowUp> BlowUpMonitor::check(const softbody::World& world,
+                                           const std::vector<softbody::BodyMeasures>& bodies) {
+  assert(bodies.size() == world.bodies().count());
   const auto lost = std::ranges::find(bodies, false, &softbody::BodyMeasures::finite);
   if (lost != bodies.end()) {
     const auto body = static_cast<softbody::BodyId>(lost - bodies.begin());
@@ -115,7 +119,7 @@ std::optional<BlowUp> BlowUpMonitor::look(const softbody::World& world,
     separating_ = static_cast<int>(memory) + 1;
   }
   update_separating(world, now);
-  if (!recent_.empty()) blow_up = judge(now, bodies, world.frame());
+  if (!recent_.empty()) blow_up = find_blow_up(now, bodies, world.frame());
   recent_.push_back(now);
   if (recent_.size() > memory) recent_.pop_front();
   last_energy_.clear();

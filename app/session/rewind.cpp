@@ -1,13 +1,14 @@
 #include "app/session/rewind.h"
 
 #include <algorithm>
+#include <cassert>
 #include <limits>
 
 namespace app {
 
 void Rewind::keep(const softbody::World& world) {
   while (!snapshots_.empty() && snapshots_.back().frame >= world.frame()) remove(snapshots_.size() - 1);
-  // The newest gives way unless it is a period after the one before.
+  // The newest snapshot is replaced unless it is a period after the one before it.
   if (const std::size_t n = snapshots_.size(); n >= 2 && snapshots_[n - 1].frame - snapshots_[n - 2].frame < period)
     remove(n - 1);
   snapshots_.push_back(world.snapshot());
@@ -25,22 +26,23 @@ void Rewind::remove(std::size_t i) {
   snapshots_.erase(snapshots_.begin() + static_cast<std::ptrdiff_t>(i));
 }
 
-/// The one that leaves the smallest gap for its age, so that gaps grow with age; never the newest, and the start of it
-/// all only if nothing else is left.
+/// Returns the snapshot whose removal leaves the smallest gap relative to its age, so that gaps grow with age. It is
+/// never the newest, and the first only if nothing else is left.
 std::size_t Rewind::most_redundant() const {
-  std::size_t least = 0;
+  std::size_t found = 0;
   double smallest = std::numeric_limits<double>::infinity();
   const int now = snapshots_.back().frame;
   for (std::size_t i = 1; i + 1 < snapshots_.size(); ++i) {
     const double gap = snapshots_[i + 1].frame - snapshots_[i - 1].frame, age = now - snapshots_[i].frame;
     if (gap / age >= smallest) continue;
     smallest = gap / age;
-    least = i;
+    found = i;
   }
-  return least;
+  return found;
 }
 
 std::size_t Rewind::at(int frame) const {
+  assert(!snapshots_.empty());
   const auto after = std::upper_bound(snapshots_.begin(), snapshots_.end(), frame,
                                       [](int f, const softbody::Snapshot& s) { return f < s.frame; });
   return static_cast<std::size_t>(std::max<std::ptrdiff_t>(after - snapshots_.begin(), 1) - 1);

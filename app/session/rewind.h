@@ -1,5 +1,5 @@
 #pragma once
-// The past of a world, to go back to: snapshots within a bound of memory, dense lately and sparse long ago.
+// Keeps snapshots of a world's past within a bound of memory: dense in the recent past, sparse further back.
 
 #include <vector>
 
@@ -10,17 +10,19 @@ namespace app {
 class Rewind {
  public:
   static constexpr std::size_t max_bytes = std::size_t{64} << 20;
-  static constexpr int period = 5;  // frames between two snapshots, at the least, but for the newest
+  static constexpr int period = 5;  // min frames between two snapshots, except before the newest
 
   explicit Rewind(std::size_t limit = max_bytes) : limit_(limit) {}
 
-  /// Keeps the world as it is now as the newest; what was kept of this frame or of later ones is another future's.
+  /// Keeps the present world as the newest snapshot. Removes those of this frame and of later ones: they belong to
+  /// another future.
   void keep(const softbody::World& world);
   void clear();
 
-  /// Ascending by frames.
+  /// Returns the snapshots, ascending by frame.
   const std::vector<softbody::Snapshot>& snapshots() const { return snapshots_; }
-  /// The last one not after this frame; there must be one at all, and the first stands for what is earlier.
+  /// Returns the index of the last snapshot not after this frame; 0 if all are later. Precondition: there is a
+  /// snapshot.
   std::size_t at(int frame) const;
   std::size_t bytes() const { return bytes_; }
 

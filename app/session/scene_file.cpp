@@ -10,10 +10,10 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-/// The scene without all that the command line has options for.
+/// Returns the scene without all that command-line options can set.
 softbody::Scene without_options(softbody::Scene scene) {
   const softbody::Scene plain;
-  scene.key = plain.key;  // of the file's name
+  scene.key = plain.key;  // depends on the file's name
   scene.method = plain.method;
   scene.contact_surface = plain.contact_surface;
   scene.collision = plain.collision;
@@ -27,7 +27,7 @@ std::string three(const auto& values) {
          softbody::toml_value(values[2]);
 }
 
-/// As --view takes it.
+/// Returns the view in the form of --view.
 std::string view_text(const softbody::View& v) {
   std::string text = three(v.target);
   for (const double value : {v.distance, v.azimuth, v.elevation}) text.append(",").append(softbody::toml_value(value));
@@ -58,7 +58,7 @@ std::string shell_word(const std::string& text) {
 
 namespace {
 
-/// A space before each.
+/// Returns the options that make the scene `used`, with a space before each.
 std::string scene_options(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
   const collide::Settings& c = used.collision;
   std::string text;
@@ -95,7 +95,7 @@ std::string demo_command(const std::string& name, const softbody::Scene& used, c
 
 std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
                              int frame) {
-  const std::string number = std::to_string(std::max(frame, 1));  // nothing is drawn before the first
+  const std::string number = std::to_string(std::max(frame, 1));  // frame 0 has no picture
   return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
          number;
 }

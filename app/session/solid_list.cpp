@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
 namespace app {
 namespace {
@@ -40,6 +41,7 @@ void put_solids(const SolidList& list, softbody::Scene& scene) {
 }
 
 std::string solid_name(const SolidList& list, std::size_t index) {
+  assert(index < list.size());
   static constexpr std::array names{"Ground", "Sphere", "Plane", "Box", "Capsule"};  // in the order of AnySolid
   const std::size_t kind = list[index].solid.index();
   const auto same = [kind](const SolidEntry& entry) { return entry.solid.index() == kind; };

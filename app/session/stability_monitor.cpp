@@ -6,7 +6,7 @@
 namespace app {
 namespace {
 
-/// Of springs and gas, in the starting shapes of all bodies.
+/// Returns the energy of springs and gas in the starting shapes of all bodies.
 softbody::Energy energy_at_start(const softbody::World& world) {
   softbody::Energy sum, one;
   const softbody::Prototype* last = nullptr;
@@ -27,13 +27,13 @@ StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
 }  // namespace
 
 void StabilityMonitor::before_step(const softbody::World& world) {
-  if (recovery_ == 0) rewind_.keep(world);
+  if (recovery_checks_ == 0) rewind_.keep(world);
   needed_before_ = world.dynamics().substeps(world.frame_time());
 }
 
 void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
   const double frame = world.frame_time();
-  // The bound changes within a frame as bodies move: the step is held against the wider of both ends.
+  // The bound changes within a frame as bodies move; the step is compared with the wider bound of both ends.
   const int taken = world.profile().substeps, needed = std::min(needed_before_, world.dynamics().substeps(frame));
   const double seconds = world.profile().seconds;
   margin_ = {};
@@ -55,24 +55,24 @@ void StabilityMonitor::after_step(const softbody::World& world, bool monitored) 
 }
 
 void StabilityMonitor::update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  auto found = monitor_.look(world, bodies);
+  auto found = monitor_.check(world, bodies);
   if (found) {
-    if (recovery_ == 0) blow_up_ = std::move(found);  // what goes on exploding is one explosion
-    recovery_ = BlowUpMonitor::memory;
-  } else if (recovery_ > 0) {
-    --recovery_;
-  } else if (monitor_.judged()) {
+    if (recovery_checks_ == 0) blow_up_ = std::move(found);  // a blow-up that continues is one blow-up
+    recovery_checks_ = BlowUpMonitor::memory;
+  } else if (recovery_checks_ > 0) {
+    --recovery_checks_;
+  } else if (monitor_.compared()) {
     good_frame_ = world.frame();
   }
 }
 
 void StabilityMonitor::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  constexpr double most = 1e30;  // what has blown up is no longer drawn
+  constexpr double max_shown = 1e30;  // a world that has blown up is no longer drawn
   const int frame = world.frame();
   const softbody::Measures all = softbody::total(bodies);
   const softbody::Energy start = energy_at_start(world);
   const auto push = [frame](TimeSeries& series, double value) {
-    if (std::abs(value) < most) series.push(frame, static_cast<float>(value));
+    if (std::abs(value) < max_shown) series.push(frame, static_cast<float>(value));
   };
   push(history_.kinetic, all.energies.kinetic);
   push(history_.elastic, all.energies.elastic - start.elastic);
@@ -94,7 +94,7 @@ void StabilityMonitor::went_back(const softbody::World& world) {
   monitor_.restart();
   good_frame_ = std::min(good_frame_, world.frame());
   blow_up_.reset();
-  recovery_ = 0;
+  recovery_checks_ = 0;
   margin_ = {};
   StabilityHistory& h = history_;
   for (TimeSeries* series :
@@ -105,7 +105,7 @@ void StabilityMonitor::went_back(const softbody::World& world) {
 
 void StabilityMonitor::keep_present(const softbody::World& world) {
   const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
-  if (recovery_ == 0 && !past) rewind_.keep(world);
+  if (recovery_checks_ == 0 && !past) rewind_.keep(world);
 }
 
 }  // namespace app

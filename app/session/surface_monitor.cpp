@@ -34,7 +34,7 @@ void SurfaceMonitor::restart(std::uint64_t revision) {
   first_wanted_ = revision;
 }
 
-/// A step may be judged more than once, with other contacts: what crossed in it counts once.
+/// A step may be checked more than once, with other contacts. Its crossings count once.
 void SurfaceMonitor::keep(SurfaceReport report) {
   const bool new_step = report.frame > 0 && (sums_.steps == 0 || report.frame != report_.frame);
   report_ = std::move(report);

@@ -1,12 +1,12 @@
 #pragma once
-// The true surfaces of the world that is shown, judged step after step on a thread of its own.
+// Checks the surfaces of the world on the screen, step by step, on a thread of its own.
 
 #include "app/compare/surface_check.h"
 #include "softbody/world.h"
 
 namespace app {
 
-/// What passed through a surface, over all steps judged since the watch began.
+/// What passed through surfaces, summed over all steps checked since the start.
 struct CrossingSums {
   int steps = 0;
   std::size_t vertices = 0, edge_pairs = 0;
@@ -14,15 +14,15 @@ struct CrossingSums {
 
 class SurfaceMonitor {
  public:
-  /// Takes the report that is ready, if any, and offers the present state if it was not yet. before: positions before
-  /// the last step; revision: names the state, ascending; rests: as BackgroundWorker::ready().
+  /// Takes the report that is ready, if any, and offers the present state unless it was offered before. before:
+  /// positions before the last step; revision: ascending number of the state; rests: see BackgroundWorker::ready().
   void exchange(const softbody::World& world, const Positions& before, std::uint64_t revision, int rests);
-  /// Begins anew: nothing is known, and reports of states before this revision are dropped.
+  /// Starts anew. Reports of states before this revision will be dropped.
   void restart(std::uint64_t revision);
 
-  /// Of a state a few frames old, whose vertices still exist.
+  /// Returns the report of a state that is a few frames old. Its vertices still exist.
   const SurfaceReport& report() const { return report_; }
-  /// Counts the reports, so that a new one is noticed.
+  /// Returns the number of reports so far, which tells when there is a new one.
   std::uint64_t reports() const { return reports_; }
   const CrossingSums& sums() const { return sums_; }
 

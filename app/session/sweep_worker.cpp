@@ -9,7 +9,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// Less if a stop is asked for.
+/// Waits; returns early if a stop is requested.
 void rest(Clock::duration duration, const std::stop_token& stop) {
   std::mutex mutex;
   std::unique_lock lock(mutex);
@@ -30,7 +30,7 @@ void SweepWorker::start(const softbody::World& world) {
     publish(SweepState(state));
     thread_ = std::jthread([this, job = std::move(job)](const std::stop_token& stop) mutable { run(stop, job); });
     running_ = true;
-  } catch (const std::exception& error) {  // too little memory for the copy, or no thread to be had
+  } catch (const std::exception& error) {  // too little memory for the copy, or no thread available
     state.running = false;
     state.stop_reason = error.what();
     publish(std::move(state));
@@ -67,7 +67,7 @@ void SweepWorker::publish(SweepState&& state) {
   news_ = std::move(state);
 }
 
-/// Only if the news before has been taken: a step may take microseconds, and a copy of the report costs as much.
+/// Publishes only if the last news were taken: a step may take microseconds, and a copy of the report takes as long.
 void SweepWorker::publish_progress(SweepState& state, const Sweep& sweep) {
   const std::scoped_lock lock(mutex_);
   if (news_) return;

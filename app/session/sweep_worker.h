@@ -1,5 +1,5 @@
 #pragma once
-// A sweep over a copy of one frame on a thread of its own: the demo goes on meanwhile, and never waits for it.
+// Runs a sweep over a copy of one frame on a thread of its own. The demo continues and never waits for it.
 
 #include <mutex>
 #include <thread>
@@ -9,33 +9,33 @@
 
 namespace app {
 
-/// The latest sweep, as far as it has come.
+/// The latest sweep and its progress.
 struct SweepState {
-  std::string scene;  // name of the one that the frame was copied from; empty: nothing swept yet
+  std::string scene;  // name of the scene of the frame; empty: no sweep yet
   int frame = 0;      // of that scene's world
   bool running = false;
   double progress = 0;      // 0 .. 1
-  std::string stop_reason;  // why it ended before its time, else empty
-  SweepReport report;       // of a running sweep: what is known so far
+  std::string stop_reason;  // why it ended early, else empty
+  SweepReport report;       // of a running sweep: the results so far
 };
 
 class SweepWorker {
  public:
-  /// Steps predicted to take some tenths of a second at most, so that a cancelled sweep ends soon and the window closes
-  /// without a long wait. In the largest scene some take a few seconds all the same.
+  /// Limits each step to a predicted few tenths of a second, so that a cancelled sweep ends soon and the window closes
+  /// quickly. In the largest scene some steps take a few seconds nevertheless.
   static constexpr SweepLimits live_limits{.budget = 200'000'000, .repeat_ms = 250};
 
   explicit SweepWorker(const SweepLimits& limits = live_limits) : limits_(limits) {}
 
-  /// Copies the world's present frame and sweeps it; the world may change or go meanwhile. Does nothing while a sweep
-  /// is running. What goes wrong is told by the state. The thread rests after each step for as long as that took, so
-  /// that it never takes more than half a core from the simulation and the drawing.
+  /// Copies the world's present frame and sweeps it; the world may change or end meanwhile. Does nothing while a sweep
+  /// is running. The state reports errors. After each step the thread rests as long as the step took, so that it takes
+  /// at most half a core from the simulation and the drawing.
   void start(const softbody::World& world);
-  /// The sweep ends after the step under way; what it knows by then stays.
+  /// Ends the sweep after the current step. The results so far stay.
   void cancel() { thread_.request_stop(); }
-  /// Cancelled, and that step still goes on.
+  /// Returns true if the sweep is cancelled and its current step still runs.
   bool cancelling() const { return running_ && thread_.get_stop_token().stop_requested(); }
-  /// The state, if it has changed since the last call.
+  /// Returns the state if it has changed since the last call.
   std::optional<SweepState> take();
 
  private:
@@ -51,10 +51,10 @@ class SweepWorker {
   void publish_progress(SweepState& state, const Sweep& sweep);
 
   const SweepLimits limits_;
-  bool running_ = false;  // as the caller knows it from take()
+  bool running_ = false;  // as last reported by take()
   std::mutex mutex_;      // guards news_
   std::optional<SweepState> news_;
-  std::jthread thread_;  // last: joined before all else goes
+  std::jthread thread_;  // last member: ends before the others go
 };
 
 }  // namespace app

@@ -20,9 +20,9 @@ TEST(BlowUpMonitor, NamesTheBodyThatIsNoLongerFinite) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
-  EXPECT_FALSE(monitor.look(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].finite = false;
-  const auto blow_up = monitor.look(world, bodies);
+  const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
   EXPECT_EQ(blow_up->body, 1u);
   EXPECT_EQ(blow_up->frame, 1);
@@ -34,11 +34,11 @@ TEST(BlowUpMonitor, NamesTheBodyThatGainsEnergyFromNothing) {
   auto bodies = softbody::measure_bodies(world);
   const double weight = 9.81 * world.prototype(0).radius;  // J: m g R of one body of 1 kg
   BlowUpMonitor monitor;
-  EXPECT_FALSE(monitor.look(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].energy.elastic += 0.1 * weight;
-  EXPECT_FALSE(monitor.look(world, bodies)) << "contacts give that much back";
+  EXPECT_FALSE(monitor.check(world, bodies)) << "contacts give that much back";
   bodies[1].energy.elastic += 0.3 * weight;
-  const auto blow_up = monitor.look(world, bodies);
+  const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
   EXPECT_EQ(blow_up->body, 1u);
   EXPECT_NE(blow_up->what.find("energy"), std::string::npos) << blow_up->what;
@@ -48,11 +48,11 @@ TEST(BlowUpMonitor, NamesTheBodyThatIsFasterThanAnythingThereCouldBe) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
-  EXPECT_FALSE(monitor.look(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
   bodies[0].max_speed = 13;
-  EXPECT_FALSE(monitor.look(world, bodies)) << "a second's fall, and half as much";
+  EXPECT_FALSE(monitor.check(world, bodies)) << "a second's fall, and half as much";
   bodies[0].max_speed = 60;
-  const auto blow_up = monitor.look(world, bodies);
+  const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
   EXPECT_EQ(blow_up->body, 0u);
   EXPECT_NE(blow_up->what.find("m/s"), std::string::npos) << blow_up->what;
@@ -62,13 +62,13 @@ TEST(BlowUpMonitor, CountsAnewAfterAChange) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
-  EXPECT_FALSE(monitor.look(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
   monitor.restart();
   bodies[0].energy.elastic += 1000;
-  EXPECT_FALSE(monitor.look(world, bodies));
-  EXPECT_FALSE(monitor.look(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
   bodies[0].energy.elastic += 1000;
-  EXPECT_TRUE(monitor.look(world, bodies));
+  EXPECT_TRUE(monitor.check(world, bodies));
 }
 
 /// Where nothing else moves, what parts them is all the energy there is.
@@ -106,7 +106,7 @@ TEST(BlowUpMonitor, IsCalmWhereABodyThatWasHeldSpringsUp) {
     world.step();
     const auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
     fastest = std::max(fastest, bodies[0].max_speed);
-    const auto blow_up = monitor.look(world, bodies);
+    const auto blow_up = monitor.check(world, bodies);
     ASSERT_FALSE(blow_up) << "frame " << i << ": " << blow_up->what;
   }
   EXPECT_GT(fastest, 10);
@@ -120,7 +120,7 @@ TEST(BlowUpMonitor, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
   BlowUpMonitor monitor;
   const auto look = [&] {
     world.step();
-    return monitor.look(world, softbody::measure_bodies(world, world.dynamics().last_substep()));
+    return monitor.check(world, softbody::measure_bodies(world, world.dynamics().last_substep()));
   };
   for (int i = 0; i < 5; ++i) ASSERT_FALSE(look());
   const double start = softbody::measure(world).energy;
@@ -139,7 +139,7 @@ TEST(BlowUpMonitor, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
   ASSERT_FALSE(look());
   auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
   bodies[0].energy.elastic += 2 * (most - start);
-  EXPECT_TRUE(monitor.look(world, bodies));
+  EXPECT_TRUE(monitor.check(world, bodies));
 }
 
 /// A row of bodies in each other, each of which is pushed off from the next.
@@ -157,7 +157,7 @@ TEST(BlowUpMonitor, IsCalmWhereSurfacesArePushedOutOfEachOther) {
     world.step();
     auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
     bodies[0].energy.elastic += joules;
-    return monitor.look(world, bodies);
+    return monitor.check(world, bodies);
   };
   ASSERT_FALSE(look(0));
   const double first = softbody::measure(world).energy;
@@ -187,7 +187,7 @@ TEST(BlowUpMonitor, WaitsASecondForSurfacesToComeApart) {
     ASSERT_TRUE(world.dynamics().surface_contact().gives_energy()) << i;
     auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
     bodies[0].energy.elastic = std::pow(2.0, double(i));
-    EXPECT_EQ(monitor.look(world, bodies).has_value(), i > BlowUpMonitor::memory) << i;
+    EXPECT_EQ(monitor.check(world, bodies).has_value(), i > BlowUpMonitor::memory) << i;
   }
 }
 
@@ -217,7 +217,7 @@ TEST(BlowUpMonitor, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
     std::optional<BlowUp> blow_up;
     while (!blow_up && world.frame() < 60) {
       world.step();
-      blow_up = monitor.look(world, softbody::measure_bodies(world));
+      blow_up = monitor.check(world, softbody::measure_bodies(world));
     }
     EXPECT_TRUE(blow_up) << integrator;
   }
