@@ -18,17 +18,17 @@ namespace app {
 namespace {
 
 constexpr std::size_t many_vertices = 10'000;
-// In tolerances. A vertex over the middle of a regular face is 1 / sqrt(3) of its edge away from the corners.
+// In tolerances. A vertex above the centre of a regular face has a distance of edge / sqrt(3) to the corners.
 constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
 
-/// The height at which a ball of this radius is clear of what is below, from `at` upwards.
+/// Returns the lowest height from `at` upwards at which a ball of this radius is clear of bodies and solids.
 double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
   const double gap = radius + static_cast<double>(world.collision().tolerance);
   const collide::Frame p = world.positions();
   for (std::size_t i = 0; i < p.x.size(); ++i)
     if (std::hypot(double{p.x[i]} - at.x, double{p.z[i]} - at.z) < gap) at.y = std::max(at.y, double{p.y[i]} + gap);
-  constexpr int most_tries = 1000;  // a scene may be solid all the way up
-  for (int i = 0; i < most_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
+  constexpr int max_tries = 1000;  // a scene may be solid all the way up
+  for (int i = 0; i < max_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
   return at.y;
 }
 
@@ -115,7 +115,7 @@ void Import::add(FileReport file_report) {
 
 void Import::refuse(Session& session, const std::string& why) {
   add({.lines = {why}, .refused = true});
-  session.set_notice("");  // the report says it
+  session.set_notice("");  // the report says it already
 }
 
 void Import::load(Session& session) {
@@ -143,10 +143,10 @@ void Import::read(FileReader::Question question) {
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
   dropped_.insert(dropped_.end(), files.begin(), files.end());
-  follow(session);
+  update(session);
 }
 
-void Import::follow(Session& session) {
+void Import::update(Session& session) {
   if (auto answer = reader_.take()) {
     reading_ = false;
     take(session, std::move(*answer));

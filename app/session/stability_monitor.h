@@ -33,7 +33,7 @@ struct StepMargin {
 
 class StabilityMonitor {
  public:
-  /// A world is measured in every frame; for each further so many vertices, one more frame is skipped.
+  /// A world is measured once every 1 + vertices / vertices_a_frame frames.
   static constexpr std::size_t vertices_a_frame = 50'000;
 
   /// Call these around each step of the world. monitored: report a blow_up().

@@ -13,7 +13,7 @@ namespace app {
 void Interface::draw(Session& session, UiState& ui, float scale, double seconds, Recorder* recorder) {
   if (recorder) recorder->widgets.clear();
   Widgets widgets(scale, hover_, ui.sections, recorder);
-  ui.import.follow(session);
+  ui.import.update(session);
   ui.tour.follow(session, &ui.view);
   layout_ = lay_out(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);

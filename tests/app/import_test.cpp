@@ -58,14 +58,14 @@ class Importing : public testing::Test {
   void wait() {
     for (const auto end = std::chrono::steady_clock::now() + 60s;
          import.busy() && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
-      import.follow(session);
+      import.update(session);
     ASSERT_FALSE(import.busy());
   }
   void drop(const std::vector<std::string>& files) {
     import.drop(files, session);
     for (std::size_t i = 0; i < files.size(); ++i) {
       wait();
-      import.follow(session);  // begins the next one
+      import.update(session);  // begins the next one
     }
   }
   std::string report() const {
@@ -202,7 +202,7 @@ TEST_F(Importing, FilesDroppedOnTheWindowComeOneAfterAnother) {
   import.drop({ball, bowl}, session);
   for (const auto end = std::chrono::steady_clock::now() + 60s;
        session.world().bodies().count() < 4 && std::chrono::steady_clock::now() < end;)
-    import.follow(session);
+    import.update(session);
   EXPECT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(import.path, bowl);
 }

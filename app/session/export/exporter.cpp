@@ -31,14 +31,16 @@ std::vector<Curve> curves_of(const Session& session) {
   return curves;
 }
 
-/// As the user names it, from any folder.
-fs::path whole(const std::string& folder) { return fs::absolute(folder.empty() ? "." : folder).lexically_normal(); }
+/// Returns the absolute path of a folder that the user names.
+fs::path absolute_folder(const std::string& folder) {
+  return fs::absolute(folder.empty() ? "." : folder).lexically_normal();
+}
 
 }  // namespace
 
 std::string curves_csv(const Session& session) {
   const std::vector<Curve> curves = curves_of(session);
-  // Of several values of a frame (it was paused, or gone back to) the last counts.
+  // A frame may have several values, if the world was paused or went back. The last one counts.
   std::map<int, std::vector<std::optional<float>>> rows;
   for (std::size_t c = 0; c < curves.size(); ++c)
     for (std::size_t i = 0; i < curves[c].series.size(); ++i) {
@@ -60,7 +62,7 @@ std::string curves_csv(const Session& session) {
   return text;
 }
 
-/// Whatever goes wrong is a message.
+/// Runs an action. Its result, or its error, becomes the message.
 void Exporter::attempt(const std::function<std::string()>& action) {
   try {
     message_ = action();
@@ -73,8 +75,8 @@ void Exporter::attempt(const std::function<std::string()>& action) {
 
 void Exporter::write_curves(const Session& session) {
   attempt([&] {
-    prepare_folder(whole(folder), "");
-    const fs::path file = next_free_path(whole(folder), "curves", ".csv");
+    prepare_folder(absolute_folder(folder), "");
+    const fs::path file = next_free_path(absolute_folder(folder), "curves", ".csv");
     write_file(file, curves_csv(session));
     return file.string();
   });
@@ -82,8 +84,8 @@ void Exporter::write_curves(const Session& session) {
 
 void Exporter::write_picture(const Picture& picture) {
   attempt([&] {
-    prepare_folder(whole(folder), "");
-    const fs::path file = next_free_path(whole(folder), "picture", ".png");
+    prepare_folder(absolute_folder(folder), "");
+    const fs::path file = next_free_path(absolute_folder(folder), "picture", ".png");
     write_file(file, engine::encode_png(picture(with_panel)));
     return file.string();
   });
@@ -91,10 +93,10 @@ void Exporter::write_picture(const Picture& picture) {
 
 void Exporter::toggle_recording() {
   if (recording()) return recording_->stop();
-  if (recording_) return;  // the last one is still being written
+  if (recording_) return;  // the last recording is still being written
   attempt([&] {
     recorded_ = &recording_kinds[kind];
-    recording_ = std::make_unique<FrameRecording>(recorded_->make(whole(folder)));
+    recording_ = std::make_unique<FrameRecording>(recorded_->make(absolute_folder(folder)));
     recorded_frame_ = -1;
     bodies_.reset();
     return recording_->progress().name;

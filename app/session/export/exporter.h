@@ -1,7 +1,8 @@
 #pragma once
-// What leaves the demo: a picture, a recording, the curves. No window and no ImGui: the main loop hands the pictures
-// in.
+// Exports pictures, recordings and curves of the demo. It knows neither window nor ImGui: the main loop passes the
+// pictures in.
 
+#include <cassert>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -13,29 +14,33 @@ namespace app {
 
 class Exporter {
  public:
-  /// Of the window as it is; with the panel, or the scene alone.
+  /// Returns a picture of the window, with the panel or of the scene alone.
   using Picture = std::function<engine::Image(bool with_panel)>;
 
-  std::string folder = ".";    // where all of it goes; made if it is not there
-  bool with_panel = false;     // pictures show the panel too
-  std::size_t kind = 0;        // of the next recording: an index into recording_kinds
-  bool picture_asked = false;  // with the next frame
+  std::string folder = ".";    // for all files; made if it does not exist
+  bool with_panel = false;     // pictures show the panel, too
+  std::size_t kind = 0;        // of the next recording: an index of recording_kinds
+  bool picture_asked = false;  // take a picture with the next frame
 
   void write_curves(const Session& session);
-  /// Begins a recording, or ends the one in progress.
+  /// Starts a recording, or stops the one in progress.
   void toggle_recording();
-  /// Then the world moves by one step a frame, so that the recording misses none, but only if it may_step().
+  /// Returns true during a recording. Then the world moves one step a picture, so that no frame is lost, and only if
+  /// may_step().
   bool recording() const { return recording_ && !recording_->progress().stopping; }
-  bool may_step() const { return recording_->has_room(); }
-  /// frame() will ask for one.
+  bool may_step() const {
+    assert(recording_);
+    return recording_->has_room();
+  }
+  /// Returns true if frame() will ask for a picture.
   bool wants_picture() const { return picture_asked || (recording() && recorded_->pictures); }
-  /// The last recording is still being written: there cannot be another one yet.
+  /// Returns true while the last recording is still being written: no other one can start.
   bool finishing() const { return recording_ && recording_->progress().stopping; }
 
-  /// Once a frame of the window, when it is drawn.
+  /// Takes and records pictures. Call it once for each frame of the window, after it is drawn.
   void frame(const Session& session, const Picture& picture);
 
-  /// What was written last, or is being written; or what went wrong.
+  /// Returns what was written last or is being written, or what failed.
   const std::string& message() const { return message_; }
   bool failed() const { return failed_; }
 
@@ -47,13 +52,13 @@ class Exporter {
 
   std::unique_ptr<FrameRecording> recording_;
   const RecordingKind* recorded_ = nullptr;
-  int recorded_frame_ = -1;                  // of the world, which is recorded once
+  int recorded_frame_ = -1;                  // of the world: each is recorded once
   std::shared_ptr<const ObjWriter> bodies_;  // of the last frame recorded
   std::string message_;
   bool failed_ = false;
 };
 
-/// The curves of the panel as CSV: a line for each frame of the world that any of them knows, a column each.
+/// Returns the curves of the panel as CSV: a column for each curve, and a line for each frame that some curve has.
 std::string curves_csv(const Session& session);
 
 }  // namespace app

@@ -31,10 +31,10 @@ class PictureWriter : public FrameWriter {
 
  private:
   fs::path folder_;
-  int count_ = 0;  // not the world's frame, which a reset sets back
+  int count_ = 0;  // not the world's frame, which a reset sets to 0
 };
 
-/// `detect` wants the same bodies in all files, so that whenever they change a new folder is begun.
+/// Starts a new folder whenever the bodies change, because `detect` requires the same bodies in all files.
 class MotionWriter : public FrameWriter {
  public:
   explicit MotionWriter(fs::path parent) : parent_(std::move(parent)), folder_(new_folder(parent_, "motion")) {}

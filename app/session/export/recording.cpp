@@ -38,7 +38,7 @@ FrameRecording::Progress FrameRecording::progress() const {
   return progress;
 }
 
-/// Waits for one; false after the last.
+/// Waits for a frame; returns false after the last one.
 bool FrameRecording::next(RecordedFrame& frame) {
   std::unique_lock lock(mutex_);
   wake_.wait(lock, [this] { return progress_.stopping || !waiting_.empty(); });
