@@ -1,4 +1,4 @@
-// The guard against figures made up for it and against real explosions.
+// The blow-up monitor on invented figures and on real blow-ups.
 
 #include <gtest/gtest.h>
 
@@ -16,7 +16,7 @@ softbody::World pair_after(int frames) {
   return world;
 }
 
-TEST(BlowUpMonitor, NamesTheBodyThatIsNoLongerFinite) {
+TEST(BlowUpMonitor, ReportsABodyThatIsNotFinite) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
@@ -29,14 +29,14 @@ TEST(BlowUpMonitor, NamesTheBodyThatIsNoLongerFinite) {
   EXPECT_NE(blow_up->what.find("Body 1 is no longer finite"), std::string::npos) << blow_up->what;
 }
 
-TEST(BlowUpMonitor, NamesTheBodyThatGainsEnergyFromNothing) {
+TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNothing) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   const double weight = 9.81 * world.prototype(0).radius;  // J: m g R of one body of 1 kg
   BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].energy.elastic += 0.1 * weight;
-  EXPECT_FALSE(monitor.check(world, bodies)) << "contacts give that much back";
+  EXPECT_FALSE(monitor.check(world, bodies)) << "contacts may return as much";
   bodies[1].energy.elastic += 0.3 * weight;
   const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
@@ -44,13 +44,13 @@ TEST(BlowUpMonitor, NamesTheBodyThatGainsEnergyFromNothing) {
   EXPECT_NE(blow_up->what.find("energy"), std::string::npos) << blow_up->what;
 }
 
-TEST(BlowUpMonitor, NamesTheBodyThatIsFasterThanAnythingThereCouldBe) {
+TEST(BlowUpMonitor, ReportsABodyThatIsFasterThanPossible) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[0].max_speed = 13;
-  EXPECT_FALSE(monitor.check(world, bodies)) << "a second's fall, and half as much";
+  EXPECT_FALSE(monitor.check(world, bodies)) << "as fast as after a fall of a second, and half as much again";
   bodies[0].max_speed = 60;
   const auto blow_up = monitor.check(world, bodies);
   ASSERT_TRUE(blow_up);
@@ -58,7 +58,7 @@ TEST(BlowUpMonitor, NamesTheBodyThatIsFasterThanAnythingThereCouldBe) {
   EXPECT_NE(blow_up->what.find("m/s"), std::string::npos) << blow_up->what;
 }
 
-TEST(BlowUpMonitor, CountsAnewAfterAChange) {
+TEST(BlowUpMonitor, StartsAnewAfterRestart) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
   BlowUpMonitor monitor;
@@ -71,8 +71,8 @@ TEST(BlowUpMonitor, CountsAnewAfterAChange) {
   EXPECT_TRUE(monitor.check(world, bodies));
 }
 
-/// Where nothing else moves, what parts them is all the energy there is.
-TEST(BlowUpMonitor, IsCalmWhereABodyComesToAnothersPlace) {
+/// Nothing else moves, so the energy that separates the two is all the energy there is.
+TEST(BlowUpMonitor, AcceptsABodyAddedInsideAnother) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces})
     for (const double stiffness : {200.0, 3e5})  // N/m
       for (const glm::dvec2 apart : {glm::dvec2(0.05, 0.02), {0.1, 0.2}, {0.5, 0.2}, {0.9, 0.2}, {1.02, 0}}) {
@@ -90,8 +90,8 @@ TEST(BlowUpMonitor, IsCalmWhereABodyComesToAnothersPlace) {
       }
 }
 
-/// Set to another gas while it is held, it is far from its balance.
-TEST(BlowUpMonitor, IsCalmWhereABodyThatWasHeldSpringsUp) {
+/// The body gets another gas while it is held, so it is far from its equilibrium.
+TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   softbody::Scene scene = touching_pair();
   scene.bodies.resize(1);
   scene.bodies[0].release = 10;
@@ -112,7 +112,7 @@ TEST(BlowUpMonitor, IsCalmWhereABodyThatWasHeldSpringsUp) {
   EXPECT_GT(fastest, 10);
 }
 
-TEST(BlowUpMonitor, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
+TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolidButNotForEver) {
   softbody::Scene scene = touching_pair();
   scene.bodies.resize(1);
   scene.ground.reset();
@@ -135,15 +135,16 @@ TEST(BlowUpMonitor, IsCalmWhereASolidComesToABodysPlaceAndNotForEver) {
     ASSERT_FALSE(blow_up) << "frame " << frame << ": " << blow_up->what;
     most = std::max(most, softbody::measure(world).energy);
   }
-  EXPECT_GT(most, start + 9.81 * world.prototype(0).radius) << "pushed out with ten times what is a blow-up elsewhere";
+  EXPECT_GT(most, start + 9.81 * world.prototype(0).radius)
+      << "pushed out with ten times the gain that is a blow-up elsewhere";
   ASSERT_FALSE(look());
   auto bodies = softbody::measure_bodies(world, world.dynamics().last_substep());
   bodies[0].energy.elastic += 2 * (most - start);
   EXPECT_TRUE(monitor.check(world, bodies));
 }
 
-/// A row of bodies in each other, each of which is pushed off from the next.
-TEST(BlowUpMonitor, IsCalmWhereSurfacesArePushedOutOfEachOther) {
+/// A row of overlapping bodies, each of which is pushed away from the next.
+TEST(BlowUpMonitor, AcceptsOverlappingSurfacesThatSeparate) {
   softbody::Scene scene = touching_pair();
   scene.gravity = glm::dvec3(0.0);
   scene.spheres.clear();
@@ -167,11 +168,11 @@ TEST(BlowUpMonitor, IsCalmWhereSurfacesArePushedOutOfEachOther) {
   }
   const double last = softbody::measure(world).energy;
   EXPECT_GT(last, 1.5 * first);
-  EXPECT_TRUE(look(0.2 * last)) << "they are apart";
+  EXPECT_TRUE(look(0.2 * last)) << "they are separate now";
 }
 
-/// Sheets in one plane, which never come apart.
-TEST(BlowUpMonitor, WaitsASecondForSurfacesToComeApart) {
+/// Sheets in one plane, which never separate.
+TEST(BlowUpMonitor, WaitsASecondForSurfacesToSeparate) {
   softbody::Scene scene = touching_pair();
   scene.gravity = glm::dvec3(0.0);
   for (softbody::BodySource& body : scene.bodies) {
@@ -191,8 +192,8 @@ TEST(BlowUpMonitor, WaitsASecondForSurfacesToComeApart) {
   }
 }
 
-/// Gas that is suddenly set to another pressure makes bodies swing as fast as explicit steps can follow.
-TEST(BlowUpMonitor, IsCalmWhereBodiesSwingFast) {
+/// Gas whose pressure changes suddenly makes bodies swing as fast as explicit steps can follow.
+TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
   for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
     softbody::Scene scene = touching_pair();
     softbody::Material& rubber = scene.materials[0];
@@ -208,7 +209,7 @@ TEST(BlowUpMonitor, IsCalmWhereBodiesSwingFast) {
 }
 
 /// Springs far too stiff for a single substep a frame.
-TEST(BlowUpMonitor, CatchesEveryIntegratorThatExplodesBeforeItIsLost) {
+TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
   softbody::Scene scene = touching_pair();
   scene.materials[0].structural.stiffness = 1e5;
   for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {

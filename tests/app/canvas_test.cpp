@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-/// Pictures that take `fixed` s to draw whatever their size, `pixels` s with all their pixels, and `other` s besides.
+/// The cost of pictures: `fixed` s to draw at any size, `pixels` s more with all pixels, and `other` s for other work.
 struct Cost {
   double fixed, pixels, other;
   void draw(RenderScale& render_scale) const {
@@ -40,29 +40,29 @@ TEST(Pacer, HasTimeToSpareWhereNothingHasStirredForASecond) {
   EXPECT_EQ(pacer.spare(), 0);
 }
 
-TEST(RenderScale, IsLessWhereDrawingTakesTooLong) {
+TEST(RenderScale, DropsIfDrawingTakesTooLong) {
   RenderScale render_scale;
   EXPECT_EQ(render_scale.value(), 1);
   EXPECT_EQ(after(200, render_scale, {0.005, 0.020, 0.005}), 1);
   EXPECT_EQ(after(200, render_scale, {0.005, 0.030, 0.005}), 0.8f);
   EXPECT_EQ(after(200, render_scale, {0.010, 0.080, 0.005}), 0.55f);
-  EXPECT_EQ(after(200, render_scale, {0.001, 0.004, 0.025}), 1) << "it comes back";
+  EXPECT_EQ(after(200, render_scale, {0.001, 0.004, 0.025}), 1) << "it rises again";
 }
 
-TEST(RenderScale, StaysThoughAScreenOfSixtyHertzIsMissedNowAndThen) {
+TEST(RenderScale, StaysIfA60HzScreenRarelyMissesAFrame) {
   RenderScale render_scale;
   for (int i = 0; i < 400; ++i) render_scale.add(i % 36 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
   EXPECT_EQ(render_scale.value(), 1);
   for (int i = 0; i < 400; ++i) render_scale.add(i % 9 == 7 ? 3.0 / 60 : 2.0 / 60, 0.025);
-  EXPECT_LT(render_scale.value(), 1) << "not if that is the rule";
+  EXPECT_LT(render_scale.value(), 1) << "but it drops if most frames are missed";
 }
 
-TEST(RenderScale, DoesNotPayForWhatElseIsSlow) {
+TEST(RenderScale, StaysIfSomethingElseIsSlow) {
   RenderScale render_scale;
   EXPECT_EQ(after(200, render_scale, {0.005, 0.015, 0.050}), 1);
 }
 
-TEST(RenderScale, SettlesWhateverPicturesCost) {
+TEST(RenderScale, SettlesForAnyCostOfDrawing) {
   for (double fixed = 0.001; fixed < 0.06; fixed *= 1.3)
     for (double pixels = 0.001; pixels < 0.2; pixels *= 1.3)
       for (const double other : {0.001, 0.01, 0.03}) {
@@ -78,7 +78,7 @@ class CanvasTest : public testing::Test {
  protected:
   static constexpr glm::ivec2 size{64, 48};
 
-  /// What it was told to draw into; nothing: not at all.
+  /// Updates the canvas. Returns the size that was drawn; nothing if nothing was drawn.
   std::optional<glm::ivec2> drawn(bool changed, bool fine) {
     std::optional<glm::ivec2> target;
     canvas_.update(size, changed, fine, [&](const engine::Viewport& whole) {
@@ -92,11 +92,11 @@ class CanvasTest : public testing::Test {
     for (int i = 0; i < 200; ++i) canvas_.pace(0.1, 0.09);
   }
 
-  engine::HeadlessContext context_;  // first: the canvas needs it
+  engine::HeadlessContext context_;  // first member: the canvas requires it
   Canvas canvas_{true};
 };
 
-TEST_F(CanvasTest, DrawsWhatChangedOnceAndFineOnce) {
+TEST_F(CanvasTest, DrawsAChangedSceneOnceAndOnceMoreFine) {
   EXPECT_EQ(drawn(false, false), size) << "the first";
   EXPECT_FALSE(drawn(false, false));
   EXPECT_EQ(drawn(false, true), size);
@@ -105,7 +105,7 @@ TEST_F(CanvasTest, DrawsWhatChangedOnceAndFineOnce) {
   EXPECT_FALSE(drawn(false, false));
 }
 
-TEST_F(CanvasTest, MovingPicturesAreCoarseOnlyWhereTheyComeTooSlowly) {
+TEST_F(CanvasTest, DrawsMovingPicturesCoarselyOnlyIfTheyAreSlow) {
   EXPECT_EQ(drawn(true, false), size);
   let_it_be_slow();
   EXPECT_EQ(drawn(true, false), glm::ivec2(0.55f * glm::vec2(size)));
@@ -118,7 +118,7 @@ TEST_F(CanvasTest, MovingPicturesAreCoarseOnlyWhereTheyComeTooSlowly) {
   EXPECT_EQ(picture.at(32, 24), glm::u8vec4(0, 255, 0, 255));
 }
 
-TEST_F(CanvasTest, StillPicturesSayNothingOfThePace) {
+TEST_F(CanvasTest, IgnoresThePaceOfStillPictures) {
   EXPECT_TRUE(drawn(true, true));
   let_it_be_slow();
   EXPECT_EQ(drawn(true, false), size);
@@ -127,12 +127,12 @@ TEST_F(CanvasTest, StillPicturesSayNothingOfThePace) {
   EXPECT_EQ(drawn(true, false), size);
 }
 
-TEST_F(CanvasTest, WithAGraphicsCardEveryPictureIsFine) {
+TEST_F(CanvasTest, DrawsEachPictureFineWithAGraphicsCard) {
   canvas_ = Canvas(false);
   EXPECT_EQ(drawn(true, false), size);
   let_it_be_slow();
   EXPECT_EQ(drawn(true, false), size);
-  EXPECT_FALSE(drawn(false, true)) << "it is that already";
+  EXPECT_FALSE(drawn(false, true)) << "it is fine already";
 }
 
 }  // namespace

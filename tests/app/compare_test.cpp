@@ -29,7 +29,7 @@ FrameSnapshot snapshot_of(const softbody::World& world) {
   return snapshot;
 }
 
-/// The true contacts, counted here once more and on their own.
+/// Returns the true contacts, by an independent double loop.
 std::vector<collide::Contact> true_contacts(const softbody::World& world) {
   const collide::Frame f = world.positions();
   const float tolerance2 = world.collision().tolerance * world.collision().tolerance;
@@ -50,13 +50,13 @@ softbody::World world_with(std::string_view method, float cell) {
   softbody::World world(touching_pair(), {});
   collide::Settings settings = world.collision();
   settings.cell_size = glm::vec3(cell);
-  settings.buckets = 1'000'003;  // practically no aliasing, which would hide misses
+  settings.buckets = 1'000'003;  // almost no aliasing, which would hide missed contacts
   world.set_method(method);
   world.set_collision(settings, false);
   return world;
 }
 
-/// Three bodies: brute force takes 117,855 pair tests, and every other method less than the budget.
+// With three bodies brute force takes 117,855 pair tests; all other methods stay within the budget.
 constexpr std::uint64_t tight_budget = 110'000;
 softbody::World three_bodies(std::string_view method) {
   softbody::World world = world_with(method, 2.0f);
@@ -67,7 +67,7 @@ softbody::World three_bodies(std::string_view method) {
 
 const CompareRow& row(const CompareReport& report, std::string_view key) { return report.rows[method_index(key)]; }
 
-TEST(Comparison, RowsAreWhatTheDetectorsFindThemselves) {
+TEST(Comparison, ReportsWhatTheDetectorsFind) {
   const softbody::World world = world_with("multi-level-sb", 0.13f);
   const CompareReport report = Comparison(seed).run(snapshot_of(world));
   EXPECT_EQ(report.id, 1u);
@@ -87,7 +87,7 @@ TEST(Comparison, RowsAreWhatTheDetectorsFindThemselves) {
   }
 }
 
-TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
+TEST(Comparison, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
   const softbody::World world = world_with("grid-hash", 0.13f);
   const auto truth = true_contacts(world);
   ASSERT_FALSE(truth.empty());
@@ -105,7 +105,7 @@ TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
   EXPECT_EQ(measured.coverage, collide::Coverage::exceeded);
 }
 
-TEST(Comparison, FindsNothingMissingInExactMethods) {
+TEST(Comparison, FindsNoMissedContactsOfExactMethods) {
   for (const float cell : {0.05f, 0.13f, 0.7f}) {
     const CompareReport report = Comparison(seed).run(snapshot_of(world_with("brute-force", cell)));
     for (const collide::Method& method : collide::method_table()) {
@@ -117,7 +117,7 @@ TEST(Comparison, FindsNothingMissingInExactMethods) {
   }
 }
 
-TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
+TEST(Comparison, ScoresTheDriverByItsOwnResult) {
   FrameSnapshot snapshot = snapshot_of(world_with("grid-hash", 0.5f));
   snapshot.chosen.clear();
   const std::size_t all = snapshot.found.contacts.size();
@@ -129,18 +129,18 @@ TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
   EXPECT_EQ(driver.recall, static_cast<double>(all - 1) / static_cast<double>(all));
   EXPECT_EQ(driver.precision, driver.recall);
   EXPECT_FALSE(driver.ms);
-  EXPECT_FALSE(row(report, "bounding-box").scored);  // nothing else was asked for
+  EXPECT_FALSE(row(report, "bounding-box").scored);  // no other method was chosen
   EXPECT_TRUE(report.order.empty());
 }
 
-TEST(Comparison, CountsTheDriverFromScratchAsItTimesIt) {
+TEST(Comparison, CountsTheDriversWorkFromScratch) {
   FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   snapshot.found.counters = {};  // of a frame in which all bodies rested
   const CompareReport report = Comparison(seed).run(snapshot);
   EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
 }
 
-TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
+TEST(Comparison, HasRecallAndPrecisionOneWithoutContacts) {
   FrameSnapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
   snapshot.settings.tolerance = 1e-6f;
   snapshot.found = {};
@@ -150,7 +150,7 @@ TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
   }
 }
 
-TEST(Comparison, RunsOnlyWhatIsChosen) {
+TEST(Comparison, RunsOnlyChosenMethods) {
   FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
   snapshot.chosen.assign(collide::method_table().size(), false);
   snapshot.chosen[method_index("bounding-box")] = true;
@@ -161,7 +161,7 @@ TEST(Comparison, RunsOnlyWhatIsChosen) {
   }
 }
 
-TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
+TEST(Comparison, ShufflesEachRunAndRepeatsForTheSameSeed) {
   const FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   Comparison one(seed), same(seed);
   std::set<std::vector<std::size_t>> orders;
@@ -175,7 +175,7 @@ TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
   EXPECT_GT(orders.size(), 6u);
 }
 
-TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
+TEST(Comparison, ReportsMethodsThatExceedTheBudget) {
   const FrameSnapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
   const CompareReport report = Comparison(seed, tight_budget).run(snapshot);
   EXPECT_EQ(row(report, "brute-force").not_run, "not run: 117,855 pair tests predicted");
@@ -187,7 +187,7 @@ TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
   EXPECT_EQ(none.reference_note, "brute force would take 117,855 pair tests");
 }
 
-TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
+TEST(Comparison, UsesAnIndependentExactReferenceIfBruteForceIsTooSlow) {
   for (const collide::Method& driver : collide::method_table()) {
     if (driver.key == "brute-force") continue;
     const softbody::World world = three_bodies(driver.key);
@@ -200,7 +200,7 @@ TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
   }
 }
 
-/// Waits for a report, as the demo never does.
+/// Waits for a report, which the demo never does.
 std::optional<CompareReport> wait_for_report(CompareWorker& worker) {
   for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
     if (auto report = worker.take()) return report;
@@ -209,7 +209,7 @@ std::optional<CompareReport> wait_for_report(CompareWorker& worker) {
   return std::nullopt;
 }
 
-TEST(CompareWorker, ReportsOnWhatItWasGiven) {
+TEST(CompareWorker, ReportsOnTheOfferedSnapshot) {
   CompareWorker worker;
   EXPECT_TRUE(worker.ready());
   FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
@@ -224,7 +224,7 @@ TEST(CompareWorker, ReportsOnWhatItWasGiven) {
   EXPECT_FALSE(worker.take());
 }
 
-TEST(CompareWorker, MayBeDestroyedWhileItWorks) {
+TEST(CompareWorker, CanBeDestroyedWhileItWorks) {
   for (int i = 0; i < 20; ++i) {
     CompareWorker worker;
     worker.offer(snapshot_of(world_with("brute-force", 0.5f)));

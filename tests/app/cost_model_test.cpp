@@ -30,7 +30,7 @@ TEST(CostModel, IsExactForMethodsWithoutAHashTable) {
   }
 }
 
-TEST(CostModel, OfHashMethodsIsNeverMoreThanBruteForceAndNotMuchTooSmall) {
+TEST(CostModel, PredictsAtLeastHalfOfTheTestsAndAtMostBruteForce) {
   const softbody::World world(touching_pair(), {});
   CostModel cost_model;
   cost_model.begin(world.positions(), world.collision(), 1);
@@ -63,7 +63,7 @@ TEST(CostModel, LearnsUntilSettingsOrWorldChange) {
   EXPECT_LT(cost_model.of(method).pair_tests, 9'000'000u);
 }
 
-TEST(CostModel, SeesThatTinyCellsCostHashes) {
+TEST(CostModel, PredictsManyHashesForTinyCells) {
   const softbody::World world(touching_pair(), {});
   collide::Bodies many;
   for (int i = 0; i < 3000; ++i) many.add(world.bodies().shape[0]);

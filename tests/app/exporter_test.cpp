@@ -1,4 +1,4 @@
-// Pictures, recordings and curves: what is written, under which names, and what is said when it cannot be.
+// Pictures, recordings and curves: what is written, under which names, and which errors are reported.
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -38,11 +38,11 @@ std::size_t index_of(std::string_view key) {
   return 0;
 }
 
-class TakingAway : public testing::Test {
+class ExporterTest : public testing::Test {
  protected:
-  TakingAway() { exporter.folder = folder.path().string(); }
+  ExporterTest() { exporter.folder = folder.path().string(); }
 
-  /// A frame of the demo's loop; the picture's colour is the world's frame.
+  /// Runs a frame of the demo's loop. The picture's colour is the number of the world's frame.
   void frame() {
     exporter.recording() ? session.advance_one(0.02, exporter.may_step()) : session.advance(0.02);
     exporter.frame(session, [&](bool with_panel) {
@@ -52,7 +52,7 @@ class TakingAway : public testing::Test {
       return image;
     });
   }
-  /// Until the world has done so many steps more.
+  /// Runs frames until the world has taken so many further steps.
   void frames(int steps) {
     for (const int end = session.world().frame() + steps; session.world().frame() < end && !HasFailure();) {
       frame();
@@ -73,14 +73,14 @@ class TakingAway : public testing::Test {
     }
     ASSERT_FALSE(exporter.finishing());
   }
-  /// An executable called ffmpeg, and nothing else, on the path for programs.
+  /// Makes an executable called ffmpeg the only program on the path.
   void fake_ffmpeg(const std::string& script) {
     std::filesystem::create_directories(tools.path());
     const auto file = tools.write("ffmpeg", "#!/bin/sh\nPATH=/usr/bin:/bin\n" + script);
     std::filesystem::permissions(file, std::filesystem::perms::owner_all);
     ::setenv("PATH", tools.path().c_str(), 1);
   }
-  ~TakingAway() override { ::setenv("PATH", path_.c_str(), 1); }
+  ~ExporterTest() override { ::setenv("PATH", path_.c_str(), 1); }
 
   TemporaryFolder folder, tools;
   Session session{touching_pair(), {}, 1};
@@ -92,7 +92,7 @@ class TakingAway : public testing::Test {
   const std::chrono::steady_clock::time_point limit = std::chrono::steady_clock::now() + 120s;
 };
 
-TEST_F(TakingAway, PicturesGetTheNextFreeName) {
+TEST_F(ExporterTest, GivesPicturesTheNextFreeName) {
   folder.write("picture_0002.png", "mine");
   for (int i = 0; i < 2; ++i) {
     exporter.picture_asked = true;
@@ -106,8 +106,8 @@ TEST_F(TakingAway, PicturesGetTheNextFreeName) {
   EXPECT_NE(exporter.message().find("picture_0003.png"), std::string::npos);
 }
 
-TEST_F(TakingAway, ThePictureSequenceHasEveryFrameOnce) {
-  session.slow_motion = true;  // of the demo, not of the recording
+TEST_F(ExporterTest, RecordsEachFrameOnce) {
+  session.slow_motion = true;  // affects the demo, not the recording
   record("pictures", 9);
   const auto sequence = folder.path() / "pictures_0001";
   ASSERT_EQ(names(sequence).size(), 9u);
@@ -118,7 +118,7 @@ TEST_F(TakingAway, ThePictureSequenceHasEveryFrameOnce) {
   EXPECT_TRUE(names(folder.path()).contains("pictures_0002"));
 }
 
-TEST_F(TakingAway, NothingIsRecordedWhilePaused) {
+TEST_F(ExporterTest, RecordsNothingWhilePaused) {
   exporter.kind = index_of("pictures");
   exporter.toggle_recording();
   frames(2);
@@ -128,7 +128,7 @@ TEST_F(TakingAway, NothingIsRecordedWhilePaused) {
   EXPECT_EQ(names(folder.path() / "pictures_0001").size(), 2u);
 }
 
-TEST_F(TakingAway, AFolderThatVanishesIsSaid) {
+TEST_F(ExporterTest, ReportsAFolderThatVanishes) {
   exporter.kind = index_of("pictures");
   exporter.toggle_recording();
   std::filesystem::remove_all(folder.path());
@@ -140,10 +140,10 @@ TEST_F(TakingAway, AFolderThatVanishesIsSaid) {
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("cannot be written"), std::string::npos) << exporter.message();
   EXPECT_FALSE(exporter.recording());
-  frame();  // the demo goes on
+  frame();  // the demo continues
 }
 
-TEST_F(TakingAway, AFolderThatCannotBeMadeIsSaid) {
+TEST_F(ExporterTest, ReportsAFolderThatCannotBeMade) {
   exporter.folder = (folder.write("file", "") / "below").string();
   exporter.picture_asked = true;
   frame();
@@ -154,7 +154,7 @@ TEST_F(TakingAway, AFolderThatCannotBeMadeIsSaid) {
   EXPECT_TRUE(exporter.failed());
 }
 
-TEST_F(TakingAway, TheMotionReadsBackAsTheBodiesThatMoved) {
+TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {
   exporter.kind = index_of("motion");
   exporter.toggle_recording();
   std::vector<Positions> seen;
@@ -168,7 +168,7 @@ TEST_F(TakingAway, TheMotionReadsBackAsTheBodiesThatMoved) {
   EXPECT_EQ(
       names(folder.path() / "motion_0001"),
       (std::set<std::string>{"frame_00001.obj", "frame_00002.obj", "frame_00003.obj", "frame_00004.obj", "rest.obj"}));
-  EXPECT_EQ(names(folder.path() / "motion_0002").size(), 3u) << "another body, another sequence";
+  EXPECT_EQ(names(folder.path() / "motion_0002").size(), 3u) << "another body needs another folder";
   const softbody::Mesh& mesh = session.world().prototype(0).mesh;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const ObjBodies file = read_obj(folder.path() / "motion_0001" / ("frame_0000" + std::to_string(i + 1) + ".obj"));
@@ -183,7 +183,7 @@ TEST_F(TakingAway, TheMotionReadsBackAsTheBodiesThatMoved) {
   }
 }
 
-TEST_F(TakingAway, AVideoIsPutInPlaceWhenFfmpegHasFinished) {
+TEST_F(ExporterTest, PutsAVideoInPlaceWhenFfmpegHasFinished) {
   fake_ffmpeg("for last; do :; done; cat > \"$last\"");
   record("video", 5);
   EXPECT_FALSE(exporter.failed()) << exporter.message();
@@ -191,7 +191,7 @@ TEST_F(TakingAway, AVideoIsPutInPlaceWhenFfmpegHasFinished) {
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "video_0001.mp4"), 5u * 8 * 6 * 4);
 }
 
-TEST_F(TakingAway, WithoutFfmpegItSaysSo) {
+TEST_F(ExporterTest, ReportsAMissingFfmpeg) {
   ::setenv("PATH", tools.path().c_str(), 1);
   record("video", 3);
   EXPECT_TRUE(exporter.failed());
@@ -199,7 +199,7 @@ TEST_F(TakingAway, WithoutFfmpegItSaysSo) {
   EXPECT_TRUE(names(folder.path()).empty());
 }
 
-TEST_F(TakingAway, AnFfmpegThatDiesIsSaidAndLeavesNothing) {
+TEST_F(ExporterTest, ReportsAnFfmpegThatDiesAndLeavesNoFile) {
   fake_ffmpeg("for last; do :; done; echo half > \"$last\"; head -c 100 >/dev/null; echo 'No space left' >&2; exit 1");
   record("video", 12);
   EXPECT_TRUE(exporter.failed());
@@ -207,17 +207,17 @@ TEST_F(TakingAway, AnFfmpegThatDiesIsSaidAndLeavesNothing) {
   EXPECT_TRUE(names(folder.path()).empty());
 }
 
-TEST_F(TakingAway, AnFfmpegThatFailsAtTheEndIsSaidAtOnce) {
+TEST_F(ExporterTest, ReportsAtOnceAnFfmpegThatFailsAtTheEnd) {
   fake_ffmpeg("cat >/dev/null; echo 'No space left' >&2; exit 1");
   const auto before = std::chrono::steady_clock::now();
   record("video", 3);
-  EXPECT_LT(std::chrono::steady_clock::now() - before, 20s) << "as patient as with one that does not end";
+  EXPECT_LT(std::chrono::steady_clock::now() - before, 20s) << "it waited as for an ffmpeg that does not end";
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("No space left"), std::string::npos) << exporter.message();
   EXPECT_TRUE(names(folder.path()).empty());
 }
 
-TEST_F(TakingAway, AVideoEndsWhereThePictureChangesItsSize) {
+TEST_F(ExporterTest, EndsAVideoWhenThePictureSizeChanges) {
   fake_ffmpeg("for last; do :; done; cat > \"$last\"");
   exporter.kind = index_of("video");
   exporter.toggle_recording();
@@ -230,7 +230,7 @@ TEST_F(TakingAway, AVideoEndsWhereThePictureChangesItsSize) {
   EXPECT_EQ(std::filesystem::file_size(folder.path() / "video_0001.mp4"), 3u * 8 * 6 * 4);
 }
 
-TEST_F(TakingAway, TheRealFfmpegMakesAVideo) {
+TEST_F(ExporterTest, WritesAVideoWithTheRealFfmpeg) {
   if (std::system("ffmpeg -version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no ffmpeg";
   width = 65;  // odd
   record("video", 5);
@@ -239,7 +239,7 @@ TEST_F(TakingAway, TheRealFfmpegMakesAVideo) {
   EXPECT_EQ(bytes.substr(4, 4), "ftyp");
 }
 
-TEST_F(TakingAway, TheProgramMayEndDuringARecording) {
+TEST_F(ExporterTest, CompletesARecordingWhenTheProgramEnds) {
   exporter.kind = index_of("pictures");
   exporter.toggle_recording();
   frames(3);
@@ -247,7 +247,7 @@ TEST_F(TakingAway, TheProgramMayEndDuringARecording) {
   EXPECT_EQ(names(folder.path() / "pictures_0001").size(), 3u);
 }
 
-TEST_F(TakingAway, CurvesHaveALineForEachFrame) {
+TEST_F(ExporterTest, WritesALineOfCurvesForEachFrame) {
   frames(7);
   exporter.write_curves(session);
   EXPECT_FALSE(exporter.failed()) << exporter.message();
@@ -255,7 +255,7 @@ TEST_F(TakingAway, CurvesHaveALineForEachFrame) {
   std::string heading, line, last;
   std::getline(file, heading);
   EXPECT_EQ(heading.substr(0, 43), "frame,frame_ms,detect_ms,solve_ms,contacts,");
-  const int first = session.world().frame() - 7;  // its picture took time, its step was not asked for
+  const int first = session.world().frame() - 7;  // its picture took time, but it took no step
   int number = first;
   for (; std::getline(file, line); last = line) EXPECT_EQ(line.substr(0, line.find(',')), std::to_string(number++));
   EXPECT_EQ(number, first + 8);

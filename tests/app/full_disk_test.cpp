@@ -1,4 +1,4 @@
-// A full disk under the demo: it says so, goes on, and what was saved before is as it was.
+// The demo on a full disk: it reports the error, continues, and leaves saved files unchanged.
 
 #include "tests/full_disk.h"
 
@@ -19,7 +19,7 @@ class FullDisk : public testing::Test {
  protected:
   static constexpr rlim_t too_little = 16;  // bytes
 
-  /// The folder holds what it held, and nothing else.
+  /// Expects that the folder holds this file alone, with the old text.
   void expect_unchanged(const std::string& name, const std::string& text) {
     std::ostringstream now;
     now << std::ifstream(folder.path() / name).rdbuf();
@@ -31,7 +31,7 @@ class FullDisk : public testing::Test {
   Session session{touching_pair(), {}, 1};
 };
 
-TEST_F(FullDisk, KeepsTheSceneThatWasSaved) {
+TEST_F(FullDisk, LeavesASavedSceneUnchanged) {
   const auto file = folder.write("a.toml", "saved before");
   const tests::FullDisk full(too_little);
   session.save_scene(file, {});
@@ -40,7 +40,7 @@ TEST_F(FullDisk, KeepsTheSceneThatWasSaved) {
   expect_unchanged("a.toml", "saved before");
 }
 
-TEST_F(FullDisk, KeepsThePreferences) {
+TEST_F(FullDisk, LeavesThePreferencesUnchanged) {
   const std::string saved = "panel = false\n";
   PreferencesFile file(folder.write("preferences.toml", saved));
   Preferences other;
@@ -51,7 +51,7 @@ TEST_F(FullDisk, KeepsThePreferences) {
   expect_unchanged("preferences.toml", saved);
 }
 
-TEST_F(FullDisk, IsSaidOfPicturesAndCurves) {
+TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   folder.write("curves_0001.csv", "saved before");
   Exporter exporter;
   exporter.folder = folder.path().string();

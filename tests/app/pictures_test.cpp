@@ -1,6 +1,6 @@
-// The paper's four moments as pictures, against pictures kept beside this file. They were made by
+// Compares pictures of the paper's four moments with those in the folder golden/. These were made by
 //   sbcollide simulate --frames 800 --capture 100,400,600,800 --size 320x180 --out tests/app/golden
-// and change only when the scene or the look is meant to change.
+// and change only if the scene or the drawing is meant to change.
 
 #include <gtest/gtest.h>
 
@@ -35,9 +35,9 @@ Difference difference(const engine::Image& a, const engine::Image& b) {
   return {d.mean / pixels, d.far_pixels / pixels};
 }
 
-// Another driver rounds edges and shadows differently; another picture differs in many pixels: those of two of the
-// four moments do in more than a tenth of theirs.
-TEST(Pictures, OfTheDropSceneShowThePapersFourMoments) {
+// Another driver rounds edges and shadows differently. Another picture differs in many pixels: two of the four moments
+// differ in more than a tenth of them.
+TEST(Pictures, ShowThePapersFourMomentsOfTheDropScene) {
   const std::filesystem::path golden = SBCOLLIDE_GOLDEN_DIR;
   const std::filesystem::path made = std::filesystem::path(testing::TempDir()) / "picture_test.png";
   softbody::World world(softbody::find_scene("drop", engine::find_folder("assets") / "scenes"), {});

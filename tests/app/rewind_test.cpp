@@ -1,4 +1,4 @@
-// The past within its bound; guard and past in a session.
+// Snapshots within their bound; blow-ups and going back in a session.
 
 #include <gtest/gtest.h>
 
@@ -12,7 +12,7 @@ void run(Session& session, int frames) {
   for (int i = 0; i < frames; ++i) session.advance(tick);
 }
 
-TEST(Rewind, KeepsWithinItsMemoryDenseLatelyAndSparseLongAgo) {
+TEST(Rewind, StaysWithinItsMemoryWithGapsThatGrowWithAge) {
   softbody::World world(touching_pair(), {});
   const std::size_t one = world.snapshot().bytes();
   Rewind past(12 * one);
@@ -24,7 +24,7 @@ TEST(Rewind, KeepsWithinItsMemoryDenseLatelyAndSparseLongAgo) {
   }
   const auto& list = past.snapshots();
   ASSERT_GE(list.size(), 8u);
-  EXPECT_EQ(list.front().frame, 0) << "the start of it all stays";
+  EXPECT_EQ(list.front().frame, 0) << "the first one stays";
   const auto gap = [&](std::size_t i) { return list[i].frame - list[i - 1].frame; };
   for (std::size_t i = 1; i + 1 < list.size(); ++i) EXPECT_GE(gap(i), Rewind::period);
   EXPECT_GE(list[list.size() - 2].frame, 400 - 3 * Rewind::period);
@@ -34,7 +34,7 @@ TEST(Rewind, KeepsWithinItsMemoryDenseLatelyAndSparseLongAgo) {
   EXPECT_EQ(past.bytes(), sum);
 }
 
-TEST(Rewind, KeepsOneSnapshotHoweverLargeItIs) {
+TEST(Rewind, KeepsOneSnapshotOfAnySize) {
   softbody::World world(touching_pair(), {});
   Rewind past(1);
   for (int i = 0; i < 12; ++i) {
@@ -45,7 +45,7 @@ TEST(Rewind, KeepsOneSnapshotHoweverLargeItIs) {
   }
 }
 
-TEST(Rewind, ForgetsTheFutureThatDidNotCome) {
+TEST(Rewind, ForgetsLaterSnapshotsAfterGoingBack) {
   softbody::World world(touching_pair(), {});
   Rewind past;
   for (int i = 0; i < 43; ++i) {
@@ -60,8 +60,8 @@ TEST(Rewind, ForgetsTheFutureThatDidNotCome) {
   EXPECT_EQ(past.snapshots().back().frame, 20);
 }
 
-/// Everything that the shipped scenes do, with bodies that come and settings that change, is within reach.
-TEST(BlowUpMonitor, IsSilentThroughAWholeSessionOfChanges) {
+/// All that the shipped scenes do, with added bodies and changed settings, stays within the limits.
+TEST(BlowUpMonitor, AcceptsAWholeSessionOfChanges) {
   for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces}) {
     Session session(touching_pair(), {}, 1);
     session.set_contact_surface(surface);
@@ -78,7 +78,7 @@ TEST(BlowUpMonitor, IsSilentThroughAWholeSessionOfChanges) {
   }
 }
 
-TEST(Session, GoesBackAndOnFromThereToTheBit) {
+TEST(Session, GoesBackAndContinuesToTheBit) {
   Session session(touching_pair(), {}, 1);
   run(session, 63);
   const std::uint64_t there = session.world().state_hash();
@@ -98,7 +98,7 @@ TEST(Session, GoesBackAndOnFromThereToTheBit) {
   EXPECT_EQ(session.world().state_hash(), there);
 }
 
-TEST(Session, ShowsWhatIsSoWhereItWentBackTo) {
+TEST(Session, ShowsTheFiguresOfTheFrameItWentBackTo) {
   Session session(touching_pair(), {}, 1);
   run(session, 63);
   session.rewind_to(30);
@@ -112,10 +112,10 @@ TEST(Session, ShowsWhatIsSoWhereItWentBackTo) {
     EXPECT_LE(series->frame(series->size() - 1), 30);
   }
   EXPECT_EQ(session.stability().margin().taken, 0);
-  EXPECT_FALSE(session.world().all_at_rest()) << "so the light may not say that nothing moves";
+  EXPECT_FALSE(session.world().all_at_rest()) << "so the light must not say that nothing moves";
 }
 
-TEST(TimeSeries, ForgetsFromAFrameOn) {
+TEST(TimeSeries, ForgetsValuesFromAFrameOn) {
   TimeSeries series;
   for (int frame = 0; frame < 300; ++frame) series.push(frame, static_cast<float>(frame));
   series.forget_from(250);
@@ -129,7 +129,7 @@ TEST(TimeSeries, ForgetsFromAFrameOn) {
   EXPECT_EQ(series.size(), 0u);
 }
 
-TEST(Session, GoesBackWithTheSettingsInUse) {
+TEST(Session, KeepsTheSettingsInUseWhenItGoesBack) {
   Session session(touching_pair(), {}, 1);
   run(session, 20);
   session.drop();
@@ -147,7 +147,7 @@ TEST(Session, GoesBackWithTheSettingsInUse) {
   EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
 }
 
-TEST(Session, PausesWhenABodyExplodesAndOffersTheLastGoodFrame) {
+TEST(Session, PausesAtABlowUpAndOffersTheLastGoodFrame) {
   Session session(doomed_pair(), {}, 1);
   run(session, 40);
   ASSERT_TRUE(session.stability().blow_up());
@@ -161,7 +161,7 @@ TEST(Session, PausesWhenABodyExplodesAndOffersTheLastGoodFrame) {
   EXPECT_TRUE(softbody::measure(session.world()).finite);
 }
 
-TEST(Session, GoesOnThroughAnExplosionWhenAskedTo) {
+TEST(Session, ContinuesThroughABlowUpOnRequest) {
   Session session(doomed_pair(), {}, 1);
   session.pause_on_blow_up = false;
   run(session, 40);
@@ -176,7 +176,7 @@ TEST(Session, GoesOnThroughAnExplosionWhenAskedTo) {
   run(session, 5);
   EXPECT_EQ(session.world().frame(), bad + 5) << "it stops once, not in every frame";
   EXPECT_LT(session.stability().past().snapshots().back().frame, bad) << "no bad frame is kept";
-  EXPECT_FALSE(session.stability().blow_up()) << "who goes on has read it";
+  EXPECT_FALSE(session.stability().blow_up()) << "a user who continues has read it";
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Saving the scene that runs, and the commands that reproduce it.
+// Saves the running scene, and checks the commands that reproduce it.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using tests::TemporaryFolder;
 
-/// What a shell makes of a command: its words.
+/// Returns the words into which a shell splits a command.
 std::vector<std::string> words_of(const std::string& command) {
   const std::string line = "printf '%s\\0' " + command;
   FILE* shell = ::popen(line.c_str(), "r");
@@ -37,7 +37,7 @@ Options parse(const std::string& command) {
   return parse_options(static_cast<int>(argv.size()), argv.data()).value();
 }
 
-/// With settings that none of the shipped scenes has.
+/// Returns the scene with settings that no shipped scene has.
 softbody::Scene changed(softbody::Scene scene) {
   scene.method = "grid-hash";
   scene.contact_surface = softbody::ContactSurface::surfaces;
@@ -52,7 +52,7 @@ softbody::Scene changed(softbody::Scene scene) {
   return scene;
 }
 
-TEST(Commands, MakeTheSceneAsItRuns) {
+TEST(SceneCommands, ReproduceTheRunningScene) {
   for (const std::string& key : softbody::scene_keys(scene_folder())) {
     SCOPED_TRACE(key);
     const softbody::Scene scene = softbody::find_scene(key, scene_folder());
@@ -76,7 +76,7 @@ TEST(Commands, MakeTheSceneAsItRuns) {
   }
 }
 
-TEST(Commands, AreQuotedForAShell) {
+TEST(SceneCommands, QuoteNamesForAShell) {
   for (const std::string name :
        {"it's a \"scene\" $HOME `id`\\.toml", "a b.toml", "-x.toml", "D", "é\n*?[a].toml", "~"})
     EXPECT_EQ(parse(demo_command(name, touching_pair(), {})).scene, name);
@@ -84,7 +84,7 @@ TEST(Commands, AreQuotedForAShell) {
   EXPECT_EQ(shell_word(""), "''");
 }
 
-TEST(Commands, OfASavedSceneMakeAllOfIt) {
+TEST(SceneCommands, ReproduceASavedScene) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   const auto file = folder.path() / "it's saved.toml";
@@ -102,7 +102,7 @@ TEST(Commands, OfASavedSceneMakeAllOfIt) {
   EXPECT_TRUE(made == used);
 }
 
-TEST(SceneFile, KnowsWhatTheCommandLineCannotSay) {
+TEST(SceneFile, TellsWhatOptionsCannotReproduce) {
   const SceneFile file("D", touching_pair());
   softbody::Scene used = touching_pair();
   EXPECT_TRUE(file.reproduces(used));
@@ -114,7 +114,7 @@ TEST(SceneFile, KnowsWhatTheCommandLineCannotSay) {
   EXPECT_FALSE(file.reproduces(used));
 }
 
-TEST(SavedSession, HasTheSettingsInUse) {
+TEST(SaveScene, WritesTheSettingsInUse) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   session.set_method("multi-level-sb");
@@ -133,7 +133,7 @@ TEST(SavedSession, HasTheSettingsInUse) {
   EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
-TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
+TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.toml";
   Session session(softbody::find_scene("drop", scene_folder()), {}, 1);
@@ -164,14 +164,14 @@ TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
   EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin);
 }
 
-TEST(Reset, KeepsTheIntegrator) {
+TEST(Session, KeepsTheIntegratorAtAReset) {
   Session session(touching_pair(), {}, 1);
   session.set_integrator("xpbd", 7);
   session.reset();
   EXPECT_EQ(session.integrator(), (IntegratorChoice{"xpbd", 7}));
 }
 
-TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
+TEST(SaveScene, ReportsErrorsAndWritesNothing) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   session.save_scene(folder.path() / "a.txt", {});
@@ -183,7 +183,7 @@ TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
   EXPECT_FALSE(session.paused);
 }
 
-TEST(SavedSession, ReplacesItsSceneButNoMesh) {
+TEST(SaveScene, ReplacesASceneFileButNoMesh) {
   const TemporaryFolder folder;
   const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const auto mesh = folder.write("mesh.obj", tetrahedron), added = folder.write("added.obj", tetrahedron);

@@ -27,12 +27,13 @@ glm::vec2 pixel_of(const engine::Camera& camera, const glm::vec3& point) {
   return glm::vec2(*camera.project(point, size));
 }
 
-/// The first of all triangles that the ray meets, by Cramer's rule in double.
+/// The first triangle that a ray meets.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   softbody::BodyId body = 0;
   softbody::Triangle corners{};
 };
+/// Tests all triangles, by Cramer's rule in double.
 Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   Nearest nearest;
   const collide::Frame f = world.positions();
@@ -50,7 +51,7 @@ Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   return nearest;
 }
 
-TEST(Pick, IsWhatBruteForceFinds) {
+TEST(Pick, FindsTheSameAsBruteForce) {
   softbody::World world(without_solids(), {});
   const engine::Camera camera = camera_at({0, 3, 0}, 4);
   std::mt19937 random(1);
@@ -77,7 +78,7 @@ TEST(Pick, IsWhatBruteForceFinds) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(Pick, ASolidHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
+TEST(Pick, IsBlockedOnlyByASolidInFront) {
   softbody::Scene scene = without_solids();
   softbody::World bare(scene, {});
   const engine::Ray ray{{-0.51f, 3.03f, 10}, {0, 0, -1}};
@@ -90,7 +91,7 @@ TEST(Pick, ASolidHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
   }
 }
 
-TEST(Pick, MeetsBodiesWhereTheyAreDrawn) {
+TEST(Pick, FindsBodiesWhereTheyAreDrawn) {
   softbody::World world(without_solids(), {});
   Positions before;
   before.copy(world.positions());

@@ -36,13 +36,13 @@ class SceneViewTest : public testing::Test {
     return target_.read().rgba;
   }
 
-  engine::HeadlessContext context_;  // first: the others need it
+  engine::HeadlessContext context_;  // first member: the others require it
   engine::Framebuffer target_{size, 0};
   SceneView view_{engine::find_folder("shaders")};
   Session session_{touching_pair(), {}, 1};
 };
 
-TEST_F(SceneViewTest, EveryOverlayShows) {
+TEST_F(SceneViewTest, DrawsEachOverlay) {
   const std::vector<collide::Contact> missed{{0, 200}};
   OverlayRequest request;
   request.debug = &session_.debug();
@@ -60,7 +60,7 @@ TEST_F(SceneViewTest, EveryOverlayShows) {
   }
 }
 
-TEST_F(SceneViewTest, ASelectedBucketShowsWithoutAnyOverlay) {
+TEST_F(SceneViewTest, DrawsTheSelectedBucketWithoutOverlays) {
   OverlayRequest request;
   const auto plain = picture(request);
   request.debug = &session_.debug();
@@ -69,7 +69,7 @@ TEST_F(SceneViewTest, ASelectedBucketShowsWithoutAnyOverlay) {
   EXPECT_NE(picture(request), plain);
 }
 
-TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
+TEST_F(SceneViewTest, InterpolatesFromEarlierPositions) {
   Positions earlier;
   earlier.copy(session_.world().positions());
   const auto now = picture({});
@@ -79,8 +79,8 @@ TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
   EXPECT_NE(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
 }
 
-/// Two surfaces that all but coincide would show through each other in patches.
-TEST_F(SceneViewTest, AGhostThatHardlyDiffersIsBehind) {
+/// Two surfaces that nearly coincide would otherwise show through each other in patches.
+TEST_F(SceneViewTest, DrawsAGhostThatHardlyDiffersBehind) {
   OverlayRequest request;
   const auto plain = picture(request);
   Positions nearly;
@@ -91,12 +91,12 @@ TEST_F(SceneViewTest, AGhostThatHardlyDiffersIsBehind) {
   const auto with_ghost = picture(request);
   std::size_t differ = 0;
   for (std::size_t i = 0; i < plain.size(); i += 4) differ += !std::equal(&plain[i], &plain[i] + 3, &with_ghost[i]);
-  EXPECT_LT(differ, plain.size() / 4 / 100) << "but for outlines";
+  EXPECT_LT(differ, plain.size() / 4 / 100) << "except outlines";
   for (float& x : nearly.x) x += 0.5f;
   EXPECT_NE(picture(request), with_ghost);
 }
 
-TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {
+TEST(Capture, WritesAPictureOfTheRequestedSize) {
   const auto file = std::filesystem::path(testing::TempDir()) / "sbcollide_capture_test.png";
   Capture capture(321, 123);
   capture.write(softbody::World(touching_pair(), {}), file);
@@ -107,7 +107,7 @@ TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {
   std::filesystem::remove(file);
 }
 
-TEST(Palette, TellsDozensOfBodiesApart) {
+TEST(Palette, HasDistinctColoursForDozensOfBodies) {
   for (std::uint32_t a = 0; a < 47; ++a) {
     for (std::uint32_t b = a + 1; b < 47; ++b) {
       EXPECT_GT(glm::distance(body_colour(a), body_colour(b)), 0.03f) << a << " and " << b;
@@ -115,7 +115,7 @@ TEST(Palette, TellsDozensOfBodiesApart) {
   }
 }
 
-TEST(Palette, LoadsGetLighterAllTheWay) {
+TEST(Palette, GetsLighterWithTheLoad) {
   const auto lightness = [](const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
   for (int i = 1; i <= 32; ++i) {
     EXPECT_GT(lightness(sequential_colour(static_cast<float>(i) / 32)),

@@ -1,4 +1,4 @@
-// What the watch makes of the guard's alarms, and the step light.
+// What the stability monitor does with blow-ups, and the step light.
 
 #include <gtest/gtest.h>
 
@@ -9,8 +9,8 @@
 namespace app {
 namespace {
 
-/// A world that is watched for ten frames, and the change that makes it explode in the next one.
-struct Watched {
+/// A world that is monitored for ten frames, and a change that makes it blow up in the next one.
+struct Monitored {
   softbody::World world = [] {
     softbody::Scene scene = touching_pair();
     scene.materials[0].structural.stiffness = 1e5;
@@ -18,7 +18,7 @@ struct Watched {
   }();
   StabilityMonitor monitor;
 
-  Watched() {
+  Monitored() {
     for (int i = 0; i < 10; ++i) step();
   }
   void step() {
@@ -26,52 +26,52 @@ struct Watched {
     world.step();
     monitor.after_step(world, true);
   }
-  void explode() {
+  void blow_up() {
     ASSERT_FALSE(monitor.blow_up());
     ASSERT_LT(softbody::measure(world).max_speed, 5);
     world.set_integrator("semi-implicit-euler", 2);
     monitor.intervened();
     step();
-    ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not explode: the test looks at nothing";
+    ASSERT_GT(softbody::measure(world).max_speed, 10) << "it does not blow up, so the test is void";
     step();
     ASSERT_TRUE(monitor.blow_up());
   }
 };
 
-TEST(StabilityMonitor, GoesBackBeforeAChangeThatBlewUpInItsFirstStep) {
-  Watched w;
-  w.explode();
+TEST(StabilityMonitor, OffersTheFrameBeforeAChangeThatBlewUpAtOnce) {
+  Monitored w;
+  w.blow_up();
   EXPECT_EQ(w.monitor.last_good_frame(), 10);
 }
 
-TEST(StabilityMonitor, KnowsNoGoodFrameThatIsStillToCome) {
-  Watched w;
+TEST(StabilityMonitor, OffersNoGoodFrameOfTheFuture) {
+  Monitored w;
   w.world.restore(w.monitor.past().snapshots().front());
   w.monitor.went_back(w.world);
   const int now = w.world.frame();
-  w.explode();
+  w.blow_up();
   EXPECT_EQ(w.monitor.last_good_frame(), now);
 }
 
-TEST(StabilityMonitor, WatchesAgainOnceTheWorldWasGoodForAWhile) {
-  Watched w;
-  w.explode();
+TEST(StabilityMonitor, ReportsASecondBlowUpAfterARecovery) {
+  Monitored w;
+  w.blow_up();
   w.monitor.dismiss_blow_up();
-  const int bad = w.world.frame();
-  w.world.restore(w.monitor.past().snapshots().front());  // bodies in order again: an exploded world would take minutes
+  const int bad_frame = w.world.frame();
+  w.world.restore(w.monitor.past().snapshots().front());  // a world that has blown up would take minutes
   w.world.set_integrator(softbody::default_integrator, {});
   w.monitor.intervened();
-  const int again = bad + 2 * static_cast<int>(BlowUpMonitor::memory);
+  const int again = bad_frame + 2 * static_cast<int>(BlowUpMonitor::memory);
   while (w.world.frame() < again) {
     w.step();
-    ASSERT_FALSE(w.monitor.blow_up()) << "of the same explosion, in frame " << w.world.frame();
+    ASSERT_FALSE(w.monitor.blow_up()) << "of the same blow-up, in frame " << w.world.frame();
   }
-  EXPECT_GT(w.monitor.past().snapshots().back().frame, bad);
-  EXPECT_GT(w.monitor.last_good_frame(), bad);
+  EXPECT_GT(w.monitor.past().snapshots().back().frame, bad_frame);
+  EXPECT_GT(w.monitor.last_good_frame(), bad_frame);
   w.world.set_integrator("semi-implicit-euler", 2);
   w.monitor.intervened();
   while (!w.monitor.blow_up() && w.world.frame() < again + 10) w.step();
-  EXPECT_TRUE(w.monitor.blow_up()) << "of another explosion";
+  EXPECT_TRUE(w.monitor.blow_up()) << "of another blow-up";
 }
 
 TEST(StepLight, IsGreenAmberAndRed) {
@@ -83,7 +83,7 @@ TEST(StepLight, IsGreenAmberAndRed) {
   EXPECT_STREQ(light_of(StepMargin{4000, 9000, 1e-6, 1e-6, StepMargin::Bound::stable, 0.4}).name, "Amber");
 }
 
-TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
+TEST(StepMargin, HasTheSimulatedShareOfAFrame) {
   softbody::World world(touching_pair(), {.integrator = "semi-implicit-euler"});
   StabilityMonitor monitor;
   const auto step = [&] {
@@ -104,7 +104,7 @@ TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
   EXPECT_NEAR(monitor.margin().substep * monitor.margin().taken, monitor.margin().share * world.frame_time(), 1e-12);
 }
 
-TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
+TEST(StepLight, DependsOnTheKindOfBound) {
   using Bound = StepMargin::Bound;
   EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
   EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
@@ -140,7 +140,7 @@ TEST(StepLight, ComparesTheStepWithTheBound) {
   }
 }
 
-TEST(StepLight, HasNothingToJudgeWhileAllSleep) {
+TEST(StepMargin, IsZeroWhileAllBodiesSleep) {
   softbody::Scene scene = touching_pair();
   scene.sleep = {.speed = 1e3, .frames = 1};
   softbody::World world(scene, {});

@@ -17,7 +17,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Two spheres of radius 0.5 m with their centres so far apart, as if just there.
+/// Returns a step of two spheres of radius 0.5 m at rest. distance: between their centres (m).
 StepSnapshot pair_apart(double distance) {
   softbody::Scene scene = touching_pair();
   scene.bodies[0].position = {-0.5 * distance, 3, 0.03};
@@ -33,7 +33,7 @@ StepSnapshot pair_apart(double distance) {
   return step;
 }
 
-TEST(TrueSurfaces, WithoutContactsAllThatOverlapsIsMissed) {
+TEST(CheckSurfaces, ReportsAllOverlapsAsMissedWithoutContacts) {
   const SurfaceReport report = check_surfaces(pair_apart(0.8));
   EXPECT_EQ(report.id, 7u);
   EXPECT_EQ(report.frame, 3);
@@ -46,7 +46,7 @@ TEST(TrueSurfaces, WithoutContactsAllThatOverlapsIsMissed) {
   EXPECT_EQ(report.missed_pairs, 1u);
 }
 
-TEST(TrueSurfaces, MarksLeadFromEachMissedVertexToTheSurfaceAndToEachPiercing) {
+TEST(CheckSurfaces, MarksEachMissedVertexAndPiercing) {
   const StepSnapshot step = pair_apart(0.8);
   const SurfaceReport report = check_surfaces(step);
   const auto piercings = static_cast<std::size_t>(std::ranges::count_if(report.marks, &SurfaceMark::piercing));
@@ -64,7 +64,7 @@ TEST(TrueSurfaces, MarksLeadFromEachMissedVertexToTheSurfaceAndToEachPiercing) {
   EXPECT_NEAR(deepest, report.figures.deepest, 1e-6);
 }
 
-TEST(TrueSurfaces, ContactsOfAllVerticesMissNothing) {
+TEST(CheckSurfaces, ReportsNothingMissedIfAllVerticesAreInContact) {
   StepSnapshot step = pair_apart(0.8);
   const collide::Index half = step.bodies.first[1];
   for (collide::Index a = 0; a < half; ++a)
@@ -75,7 +75,7 @@ TEST(TrueSurfaces, ContactsOfAllVerticesMissNothing) {
   EXPECT_TRUE(report.marks.empty());
 }
 
-TEST(TrueSurfaces, CountsWhatPassedThroughInTheStep) {
+TEST(CheckSurfaces, CountsTheCrossingsOfTheStep) {
   StepSnapshot step = pair_apart(0.8);
   EXPECT_EQ(check_surfaces(step).figures.crossed_pairs, 0u);
   step.before = pair_apart(1.5).at;
@@ -83,20 +83,20 @@ TEST(TrueSurfaces, CountsWhatPassedThroughInTheStep) {
   EXPECT_EQ(passed.crossed_vertices, passed.penetrating_vertices);
   EXPECT_EQ(passed.crossed_pairs, 1u);
   for (auto* some : {&step.before.x, &step.before.y, &step.before.z}) some->resize(step.bodies.first[1]);
-  const collide::oracle::SurfaceFigures arrived = check_surfaces(step).figures;  // the second body has just come
+  const collide::oracle::SurfaceFigures arrived = check_surfaces(step).figures;  // the second body has just been added
   EXPECT_GT(arrived.crossed_vertices, 0u);
   step.before = {};
-  EXPECT_EQ(check_surfaces(step).figures.crossed_pairs, 0u);  // both have
+  EXPECT_EQ(check_surfaces(step).figures.crossed_pairs, 0u);  // both have just been added
 }
 
-TEST(TrueSurfaces, SaysWhyThereAreNoFigures) {
+TEST(CheckSurfaces, ReportsWhyThereAreNoFigures) {
   StepSnapshot step = pair_apart(0.8);
   step.surfaces.pop_back();
   EXPECT_NE(check_surfaces(step).failure, "");
 }
 
-/// Lets a paused session run until the surfaces of its present state are judged.
-bool wait_for_judgement(Session& session) {
+/// Advances a paused session until the surfaces of its present state are checked.
+bool wait_for_check(Session& session) {
   for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
     session.advance(tick);
     if (session.surfaces().report().id == session.revision()) return true;
@@ -105,7 +105,7 @@ bool wait_for_judgement(Session& session) {
   return false;
 }
 
-TEST(SurfaceMonitor, JudgesTheTrueSurfacesOfEachStateWhileAskedTo) {
+TEST(SurfaceMonitor, ChecksEachStateOnRequest) {
   softbody::Scene scene = touching_pair();
   scene.bodies[0].position.x = -0.3;  // inside the other one
   Session session(scene, {}, 1);
@@ -113,17 +113,17 @@ TEST(SurfaceMonitor, JudgesTheTrueSurfacesOfEachStateWhileAskedTo) {
   session.advance(tick);
   EXPECT_EQ(session.surfaces().report().id, 0u);
   session.judges_surfaces = true;
-  ASSERT_TRUE(wait_for_judgement(session));
+  ASSERT_TRUE(wait_for_check(session));
   EXPECT_EQ(session.surfaces().report().figures.overlapping_pairs, 1u);
   EXPECT_EQ(session.surfaces().sums().steps, 0);  // nothing has moved yet
   session.single_step();
   session.advance(tick);
-  ASSERT_TRUE(wait_for_judgement(session));
+  ASSERT_TRUE(wait_for_check(session));
   EXPECT_EQ(session.surfaces().report().frame, 1);
   const CrossingSums sums = session.surfaces().sums();
   EXPECT_EQ(sums.steps, 1);
   session.set_method("grid-hash");  // the same step once more
-  ASSERT_TRUE(wait_for_judgement(session));
+  ASSERT_TRUE(wait_for_check(session));
   EXPECT_EQ(session.surfaces().sums().steps, 1);
   EXPECT_EQ(session.surfaces().sums().vertices, sums.vertices);
   session.judges_surfaces = false;

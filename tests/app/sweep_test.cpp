@@ -19,7 +19,7 @@ const softbody::World& pair_world() {
   return world;
 }
 
-/// Quick ones: one bucket count of each configuration of the whole sweep.
+/// Returns configurations that run quickly: those of the whole sweep with one of the bucket counts.
 std::vector<Configuration> some_configurations() {
   std::vector<Configuration> some;
   for (const Configuration& c : sweep_configurations(pair_world())) {
@@ -40,7 +40,7 @@ std::size_t count(std::string_view method) {
       std::ranges::count(sweep_configurations(pair_world()), method_index(method), &Configuration::method));
 }
 
-TEST(SweepConfigurations, EveryMethodTakesAllCombinationsOfTheAxesThatItUses) {
+TEST(SweepConfigurations, CombineAllAxesThatAMethodUses) {
   std::size_t expected = 0;
   for (const collide::Method& method : collide::method_table()) {
     const std::size_t own = (method.uses_levels ? 4 : 1) * (method.uses_hash ? 4 * 5 : 1);
@@ -54,7 +54,7 @@ TEST(SweepConfigurations, EveryMethodTakesAllCombinationsOfTheAxesThatItUses) {
   EXPECT_EQ(count("brute-force"), 1u);
 }
 
-TEST(SweepConfigurations, TheAutomaticCellIsTheWorldsOwn) {
+TEST(SweepConfigurations, UseTheWorldsAutomaticCellSize) {
   const softbody::World& world = pair_world();
   EXPECT_EQ(automatic_cell_size(world, world.collision().levels), world.collision().cell_size);
   EXPECT_LT(automatic_cell_size(world, 9).x, automatic_cell_size(world, 0).x);
@@ -64,7 +64,7 @@ TEST(SweepConfigurations, TheAutomaticCellIsTheWorldsOwn) {
   }
 }
 
-TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
+TEST(Sweep, ReportsWhatNewDetectorsFind) {
   const auto configurations = some_configurations();
   const SweepReport report = run(configurations, {.repetitions = 1});
   ASSERT_EQ(report.rows.size(), configurations.size());
@@ -90,12 +90,12 @@ TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
     EXPECT_EQ(row.missed, report.true_contacts - row.contacts);
     EXPECT_TRUE(row.recall == 1.0 || !method.exact) << method.key;
     if (method.key == "grid-hash") {
-      EXPECT_TRUE(row.memory > c.settings.buckets || heap_in_use() == 0) << "a byte a bucket at the least";
+      EXPECT_TRUE(row.memory > c.settings.buckets || heap_in_use() == 0) << "at least a byte per bucket";
     }
   }
 }
 
-TEST(Sweep, SeesWhatTheLiteralMethodMissesWithSmallCells) {
+TEST(Sweep, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
   const SweepReport report = run(some_configurations(), {.repetitions = 0});
   bool missed = false;
   for (const SweepRow& row : report.rows) {
@@ -106,9 +106,9 @@ TEST(Sweep, SeesWhatTheLiteralMethodMissesWithSmallCells) {
   EXPECT_TRUE(missed);
 }
 
-TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
+TEST(Sweep, ListsButDoesNotRunWhatExceedsTheBudget) {
   softbody::World world(touching_pair(), {});
-  world.drop();  // a third body, out of reach of the others: only brute force tests all 117,855 pairs of vertices
+  world.drop();  // a third body, far from the others: only brute force tests all 117,855 pairs of vertices
   Sweep sweep(world.positions(), sweep_configurations(world), {.budget = 110'000, .repetitions = 1}, alone());
   while (sweep.step()) continue;
   const SweepReport& report = sweep.report();
@@ -117,7 +117,7 @@ TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
     EXPECT_EQ(row.checked, row.not_run.empty());
     EXPECT_EQ(row.times.ms.empty(), !row.not_run.empty());
   }
-  ASSERT_TRUE(report.reference) << "another exact method stands in";
+  ASSERT_TRUE(report.reference) << "another exact method is the reference";
   const collide::Method& reference = collide::method_table()[report.reference->method];
   EXPECT_TRUE(reference.exact);
   EXPECT_FALSE(reference.uses_levels);
@@ -125,20 +125,20 @@ TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
   EXPECT_EQ(report.true_contacts, world.detection().contacts.size());
 }
 
-TEST(Sweep, WithoutAnyBudgetThereIsNoReferenceAndNothingRuns) {
+TEST(Sweep, RunsNothingWithoutABudget) {
   const SweepReport report = run(some_configurations(), {.budget = 0});
   EXPECT_FALSE(report.reference);
   for (const SweepRow& row : report.rows) EXPECT_FALSE(row.checked);
 }
 
-TEST(Sweep, TimesEachAsOftenAsAskedForUnlessItTakesTooLong) {
+TEST(Sweep, RepeatsEachConfigurationUntilItTakesTooLong) {
   for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e9}).rows)
     EXPECT_EQ(row.times.ms.size(), 3u);
   for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e-9}).rows)
-    EXPECT_EQ(row.times.ms.size(), 1u) << "but once at least";
+    EXPECT_EQ(row.times.ms.size(), 1u) << "but at least once";
 }
 
-TEST(Sweep, CanBeLeftAtAnyStepAndTellsItsProgress) {
+TEST(Sweep, CanStopAfterAnyStepAndReportsItsProgress) {
   Sweep sweep(pair_world().positions(), some_configurations(), {.repetitions = 2}, alone());
   EXPECT_EQ(sweep.progress(), 0.0);
   double before = 0;
@@ -153,13 +153,13 @@ TEST(Sweep, CanBeLeftAtAnyStepAndTellsItsProgress) {
   EXPECT_FALSE(sweep.step());
 }
 
-TEST(ParetoFront, HoldsWhatNothingElseBeats) {
+TEST(ParetoFront, HasThePointsThatNoOtherBeats) {
   EXPECT_TRUE(pareto_front({}).empty());
   const std::vector<Tradeoff> points{{3, 0.1}, {1, 0.5}, {2, 0.5}, {4, 0.2}, {5, 0.0}, {5, 0.0}, {9, 0.0}};
   EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 0, 4}));
 }
 
-TEST(TimesTest, MedianIsTheMiddleOrTheMeanOfTheTwoMiddleOnes) {
+TEST(Timings, HasTheMiddleValueAsMedian) {
   EXPECT_EQ((Timings{{3, 1, 2}}.median()), 2);
   EXPECT_EQ((Timings{{4, 1, 2, 9}}.median()), 3);
   EXPECT_EQ((Timings{{4, 1, 2, 9}}.min()), 1);

@@ -15,7 +15,7 @@ namespace {
 
 using collide::Index;
 
-/// Bodies of a few points each, strewn about.
+/// Bodies of twelve points each, at random places.
 struct Points {
   explicit Points(int number) {
     std::mt19937 random(7);
@@ -45,7 +45,7 @@ collide::DebugGeometry structure(std::string_view method, const Points& points, 
   return detector->debug();
 }
 
-/// Pair by pair, from the definition.
+/// Counts pair by pair, from the definition.
 Sharing counted_one_by_one(const BucketContents& bucket) {
   std::vector<std::pair<std::size_t, Index>> entries;  // group, item
   for (std::size_t g = 0; g < bucket.groups.size(); ++g)
@@ -62,7 +62,7 @@ Sharing counted_one_by_one(const BucketContents& bucket) {
 
 class TableContentsOf : public testing::TestWithParam<std::tuple<const char*, std::uint32_t, float>> {};
 
-TEST_P(TableContentsOf, HoldsWhatTheMethodHasPutIntoItsBuckets) {
+TEST_P(TableContentsOf, HasTheEntriesOfEachBucket) {
   const auto [method, buckets, cell] = GetParam();
   const Points points(30);
   collide::Settings settings;
@@ -96,20 +96,20 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableContentsOf,
                          testing::Combine(testing::Values("multi-level-sb", "grid-hash", "bounding-box-grid-hash"),
                                           testing::Values(1u, 7u, 1001u), testing::Values(0.1f, 0.8f)));
 
-TEST(TableContents, OfABucketThatIsEmptyHasNoGroup) {
+TEST(TableContents, HasNoGroupInAnEmptyBucket) {
   const TableContents table;
   EXPECT_EQ(table.bucket(3).items, 0u);
   EXPECT_EQ(table.bucket(3).group(std::nullopt), nullptr);
 }
 
-TEST(TableContents, GivesTheGroupOfACellOrTheFullest) {
+TEST(TableContents, ReturnsTheGroupOfACellOrTheFullest) {
   const BucketContents bucket{.bucket = 1, .groups = {{{0, 0, 0}, {1, 2}}, {{5, 5, 5}, {7}}}};
   EXPECT_EQ(bucket.group(std::nullopt), &bucket.groups[0]);
   EXPECT_EQ(bucket.group(Cell{5, 5, 5}), &bucket.groups[1]);
   EXPECT_EQ(bucket.group(Cell{9, 9, 9}), &bucket.groups[0]);
 }
 
-TEST(PaperStructure, IsThatOfAWholeDetection) {
+TEST(PaperStructure, EqualsThatOfAFullDetection) {
   const Points points(30);
   const collide::Settings settings;
   collide::Workers alone(1);

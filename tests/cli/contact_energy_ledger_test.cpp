@@ -1,4 +1,4 @@
-// What bodies have put into shields, on made-up potentials.
+// The ledger of contact energy, on invented potentials and on worlds.
 
 #include "app/reference/contact_energy_ledger.h"
 
@@ -13,19 +13,19 @@ namespace {
 
 using Pairs = std::vector<softbody::PairEnergy>;
 
-TEST(ContactEnergyLedger, StartsWithAllThatIsThere) {
+TEST(ContactEnergyLedger, BooksAllThatPairsHoldAtTheStart) {
   ContactEnergyLedger ledger;
   EXPECT_DOUBLE_EQ(ledger.add_bodies(Pairs{{{0, 5}, 2}, {{1, 5}, 0.5}}, 0), 2.5);
   EXPECT_DOUBLE_EQ(ledger.stored(), 2.5);
 }
 
-TEST(ContactEnergyLedger, DoesNotCountWhatAPairIsFoundWith) {
+TEST(ContactEnergyLedger, DoesNotBookTheEnergyOfANewPair) {
   ContactEnergyLedger ledger;
   ledger.end_frame({}, Pairs{{{0, 5}, 2}});
   EXPECT_EQ(ledger.stored(), 0);
 }
 
-TEST(ContactEnergyLedger, CountsWhatMotionStoresAndGivesBack) {
+TEST(ContactEnergyLedger, BooksWhatMotionStoresAndReturns) {
   ContactEnergyLedger ledger;
   ledger.end_frame({}, Pairs{{{0, 5}, 2}, {{0, 6}, 1}});
   ledger.end_frame(Pairs{{{0, 5}, 2.5}, {{0, 6}, 1.25}}, Pairs{{{0, 5}, 2.5}, {{0, 6}, 1.25}});
@@ -34,26 +34,26 @@ TEST(ContactEnergyLedger, CountsWhatMotionStoresAndGivesBack) {
   EXPECT_DOUBLE_EQ(ledger.stored(), 0.5);
 }
 
-TEST(ContactEnergyLedger, APairThatGivesMoreThanItWasGivenOwesNothing) {
+TEST(ContactEnergyLedger, KeepsAPairAtZeroIfItGivesMoreThanItHolds) {
   ContactEnergyLedger ledger;
   ledger.end_frame({}, Pairs{{{0, 5}, 2}, {{1, 6}, 0}});
   ledger.end_frame(Pairs{{{0, 5}, 0.5}, {{1, 6}, 0.25}}, Pairs{{{0, 5}, 0.5}, {{1, 6}, 0.25}});
-  EXPECT_DOUBLE_EQ(ledger.stored(), 0.25) << "nor do other pairs";
+  EXPECT_DOUBLE_EQ(ledger.stored(), 0.25) << "nor do other pairs pay for it";
 }
 
-/// As where stiffness is shared among more contacts, then among fewer again.
-TEST(ContactEnergyLedger, DoesNotCountWhatPotentialsBecomeBetweenFrames) {
+/// As if stiffness were shared among more contacts, then among fewer again.
+TEST(ContactEnergyLedger, IgnoresChangesOfPotentialBetweenFrames) {
   ContactEnergyLedger ledger;
   ledger.add_bodies(Pairs{{{0, 5}, 1}}, 0);
   ledger.end_frame(Pairs{{{0, 5}, 1.5}}, Pairs{{{0, 5}, 3}});
   EXPECT_DOUBLE_EQ(ledger.stored(), 1.5);
   ledger.end_frame(Pairs{{{0, 5}, 3}}, Pairs{{{0, 5}, 0.5}});
-  EXPECT_DOUBLE_EQ(ledger.stored(), 0.5) << "it can give back no more";
+  EXPECT_DOUBLE_EQ(ledger.stored(), 0.5) << "it can return no more";
   ledger.end_frame(Pairs{{{0, 5}, 0.5}}, Pairs{{{0, 5}, 3}});
   EXPECT_DOUBLE_EQ(ledger.stored(), 0.5);
 }
 
-TEST(ContactEnergyLedger, ForgetsPairsThatAreFoundNoMore) {
+TEST(ContactEnergyLedger, ForgetsPairsThatAreNoLongerFound) {
   ContactEnergyLedger ledger;
   ledger.add_bodies(Pairs{{{0, 5}, 1}, {{2, 5}, 4}}, 0);
   ledger.end_frame(Pairs{{{0, 5}, 1}, {{2, 5}, 4}}, Pairs{{{2, 5}, 4}});
@@ -62,24 +62,24 @@ TEST(ContactEnergyLedger, ForgetsPairsThatAreFoundNoMore) {
   EXPECT_DOUBLE_EQ(ledger.stored(), 4);
 }
 
-TEST(ContactEnergyLedger, BodiesThatJoinHaveWhatTheirPairsHoldThere) {
+TEST(ContactEnergyLedger, BooksWhatPairsOfAddedBodiesHold) {
   ContactEnergyLedger ledger;
   ledger.add_bodies(Pairs{{{0, 5}, 4}}, 0);
   EXPECT_DOUBLE_EQ(ledger.add_bodies(Pairs{{{0, 5}, 9}, {{1, 8}, 0.5}, {{9, 11}, 0.25}}, 8), 0.75)
-      << "no others' pairs";
+      << "without other bodies' pairs";
   EXPECT_DOUBLE_EQ(ledger.stored(), 4.75);
   ledger.end_frame(Pairs{{{0, 5}, 4}}, Pairs{{{0, 5}, 4}, {{1, 8}, 2}, {{9, 11}, 0.125}});
-  EXPECT_DOUBLE_EQ(ledger.stored(), 4.625) << "pairs of a first frame, which have not acted in it, gain nothing";
+  EXPECT_DOUBLE_EQ(ledger.stored(), 4.625) << "pairs that did not act in a first frame gain nothing";
 }
 
-TEST(ContactEnergyLedger, WhatAFirstFrameLeadsIntoIsNobodys) {
+TEST(ContactEnergyLedger, IgnoresWhatAFirstFrameMovesABodyInto) {
   ContactEnergyLedger ledger;
   EXPECT_EQ(ledger.add_bodies({}, 8), 0);
   ledger.end_frame({}, Pairs{{{1, 9}, 1}});
   EXPECT_EQ(ledger.stored(), 0);
 }
 
-/// A slack ball hits one 1e6 times as stiff. Its particles slip between the other's and come into sight from behind.
+/// A slack ball hits one that is 1e6 times as stiff. Its particles slip between the other's and are found from behind.
 softbody::Scene slack_on_stiff() {
   softbody::Scene scene;
   scene.gravity = glm::dvec3(0.0);
@@ -99,7 +99,7 @@ softbody::Scene slack_on_stiff() {
   return scene;
 }
 
-TEST(ContactEnergyLedger, PairsFoundFromBehindAreNoEnergyOfTheBodies) {
+TEST(ContactEnergyLedger, IgnoresPairsFoundFromBehind) {
   softbody::World world(slack_on_stiff(), {.frame_time = 1.0 / 30});
   ContactEnergyLedger ledger;
   ledger.add_bodies(world.shield_energies(), 0);
@@ -112,12 +112,12 @@ TEST(ContactEnergyLedger, PairsFoundFromBehindAreNoEnergyOfTheBodies) {
     stored = std::max(stored, own + ledger.stored());
     potential = std::max(potential, own + softbody::total(world.shield_energies()));
   }
-  EXPECT_GT(potential, 2 * bound) << "they are found so";
+  EXPECT_GT(potential, 2 * bound) << "they are found from behind";
   EXPECT_LT(stored, bound);
 }
 
-/// Slowly, so that little is lost in dampers; also as both drift along, and their origins follow now and then.
-TEST(ContactEnergyLedger, HoldsWhatBodiesLoseToEachOther) {
+/// The bodies meet slowly, so that dampers take little; also while both drift, so that their origins move with them.
+TEST(ContactEnergyLedger, HoldsTheEnergyThatBodiesLose) {
   for (const double drift : {0.0, 6.0}) {  // m/s
     softbody::Scene scene = slack_on_stiff();
     scene.bodies[1].material = 0;
@@ -140,7 +140,7 @@ TEST(ContactEnergyLedger, HoldsWhatBodiesLoseToEachOther) {
     }
     EXPECT_GT(most, 5e-4) << drift;
     EXPECT_GT(most, 0.8 * lost) << drift;
-    EXPECT_EQ(ledger.stored(), 0) << "they have parted, " << drift;
+    EXPECT_EQ(ledger.stored(), 0) << "they have separated, " << drift;
   }
 }
 

@@ -112,9 +112,9 @@ State random_state(unsigned seed) {
   return state;
 }
 
-State moved(const State& state, float most, unsigned seed) {
+State moved(const State& state, float max, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<float> step(-most, most);
+  std::uniform_real_distribution<float> step(-max, max);
   State result = state;
   for (Body& body : result.bodies) {
     body.faces.clear();

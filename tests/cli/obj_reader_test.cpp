@@ -1,4 +1,4 @@
-// The reader of OBJ files itself: numbers, statements, and that no bytes can harm it.
+// The reader of OBJ files: numbers, statements, objects, and random bytes.
 
 #include <gtest/gtest.h>
 
@@ -21,8 +21,8 @@ ObjBodies read(const std::string& text) {
   return app::read_obj(folder.write("a.obj", text));
 }
 
-TEST(Obj, NumbersAreRoundedCorrectlyToFloats) {
-  // Through a double, the first rounds twice and ends one step too low.
+TEST(ReadObj, RoundsNumbersCorrectlyToFloats) {
+  // By way of a double, the first number would be rounded twice and end one step too low.
   const ObjBodies b = read(
       "v 1.000000059604644775390626 16777217.0000001 0.1\nv 1e-50 -1e-400 7.1e-46\n"
       "v +.5 -2.E+1 3.4028235e38\n");
@@ -46,14 +46,14 @@ TEST(Obj, NumbersAreRoundedCorrectlyToFloats) {
   EXPECT_EQ(read(text).x, expected);
 }
 
-TEST(Obj, EveryObjectIsABody) {
+TEST(ReadObj, MakesEachObjectABody) {
   const ObjBodies b = read("v 0 0 0\nv 1 0 0\no\no named thing\nv 2 0 0\ng group\nv 3 0 0\nv 4 0 0\no last");
   EXPECT_EQ(b.first, (std::vector<collide::Index>{0, 2, 2, 5, 5}));
-  EXPECT_EQ(read("o only\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1})) << "nothing before the first o";
+  EXPECT_EQ(read("o only\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1})) << "no body before the first o";
   EXPECT_EQ(b.edges.size(), 4u);
 }
 
-TEST(Obj, FacesOfAllFormsGivePolygonEdges) {
+TEST(ReadObj, ReadsPolygonEdgesFromAllFormsOfFaces) {
   const std::string points = "v 9 9 9\no b\nv 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\n";
   const Edges quad{{3, 0}, {0, 1}, {1, 2}, {2, 3}};
   for (const char* face : {"f 2 3 4 5", "f 2/1 3/2 4/3 5/4", "f 2//1 3//1 4//1 5//1", "f 2/1/1 3/1/1 4/1/1 5/-1/-1",
@@ -66,7 +66,7 @@ TEST(Obj, FacesOfAllFormsGivePolygonEdges) {
   EXPECT_EQ(read("f 2 3 4\n" + points).edges[1], (Edges{{2, 0}, {0, 1}, {1, 2}})) << "a face may come first";
 }
 
-TEST(Obj, OtherStatementsAndLayoutDoNotMatter) {
+TEST(ReadObj, IgnoresOtherStatementsAndLayout) {
   const ObjBodies b = read(
       "\xEF\xBB\xBF# C:\\path\\\nv 1 2 3\r\n\r\n  v 4 5 6 1.0\r\nv 7 8 9 0.5 0.5 0.5\nvt 0 \\\n0\nvn 0 0 1\nvp 1\ng a "
       "b\ns off\n"
@@ -75,7 +75,7 @@ TEST(Obj, OtherStatementsAndLayoutDoNotMatter) {
   EXPECT_EQ(b.first, (std::vector<collide::Index>{0, 4}));
 }
 
-TEST(Obj, ANameThatEndsInABackslashSwallowsNoLine) {
+TEST(ReadObj, DoesNotContinueANameThatEndsInABackslash) {
   for (const std::string name : {"g a\\", "usemtl C:\\textures\\", "mtllib C:\\\\", "s \\ ", "# C:\\"}) {
     const ObjBodies b =
         read(name + "\nv 0 0 0\n" + name + "\r\nv 1 0 0\n" + name + "\rv 0 1 0\n" + name + "\nf 1 2 \\\n3\n");
@@ -85,7 +85,7 @@ TEST(Obj, ANameThatEndsInABackslashSwallowsNoLine) {
   EXPECT_EQ(read("o a\\\nv 0 0 0\no b\\\nv 0 0 0\n").first, (std::vector<collide::Index>{0, 1, 2}));
 }
 
-TEST(Obj, WeightsAndColoursArePassedOver) {
+TEST(ReadObj, IgnoresWeightsAndColours) {
   const ObjBodies b = read(
       "v 1 2 3 nan nan nan\nv 4 5 6 1.#QNAN -1.#IND 0\nv 7 8 9 .5 .5\nv 1 1 1 1e999 -inf 2 0.5\nv 2 2 2 1.0\n"
       "v 3 3 3 2\nv 3 3 3 nan\nv 3 3 3 1.#QNAN\n");
@@ -96,7 +96,7 @@ TEST(Obj, WeightsAndColoursArePassedOver) {
 
 constexpr const char* six = "v 0 0 0\nv 1 0 0\nv 2 0 0\nv 3 0 0\nv 4 0 0\nv 5 0 0\n";
 
-TEST(Obj, ObjectsAfterAllVerticesHaveThoseThatTheirFacesName) {
+TEST(ReadObj, GivesObjectsTheVerticesThatTheirFacesName) {
   using First = std::vector<collide::Index>;
   const auto first_of = [](const std::string& text) {
     const ObjBodies b = read(text);
@@ -104,14 +104,15 @@ TEST(Obj, ObjectsAfterAllVerticesHaveThoseThatTheirFacesName) {
     return b.first;
   };
   EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n"), (First{0, 3, 6}));
-  EXPECT_EQ(first_of(std::string(six) + "o a\nf 2 3 4\no b\nf 5 6 5\n"), (First{0, 1, 4, 6})) << "one that none names";
+  EXPECT_EQ(first_of(std::string(six) + "o a\nf 2 3 4\no b\nf 5 6 5\n"), (First{0, 1, 4, 6}))
+      << "vertices that no face names";
   EXPECT_EQ(first_of(std::string(six) + "f 1 2 1\no a\nf 4 3 3\no none\no b\nf 5 6 5\n"), (First{0, 2, 4, 4, 6}));
   EXPECT_EQ(first_of(std::string(six) + "o a\nf 1 2 1\nf 2 3 2\n"), (First{0, 6}));
   EXPECT_EQ(first_of(std::string(six) + "o a\no b\n"), (First{0, 6, 6, 6})) << "without faces, empty objects stay so";
   EXPECT_EQ(read(std::string(six) + "o a\nf 1 2 3\no b\nf 6 5 4\n").edges[1], (Edges{{0, 2}, {2, 1}, {1, 0}}));
 }
 
-TEST(Obj, FacesOfObjectsThatHaveNoVerticesOfTheirOwnAreNoted) {
+TEST(ReadObj, NotesObjectsWithoutVerticesOfTheirOwn) {
   const auto noted = [](const std::string& text) {
     const ObjBodies b = read(text);
     EXPECT_EQ(b.notes.size(), 1u) << text;
@@ -122,12 +123,13 @@ TEST(Obj, FacesOfObjectsThatHaveNoVerticesOfTheirOwnAreNoted) {
   EXPECT_EQ(noted(mixed), (First{0, 6, 6, 6}));
   EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nf 3 4 5\n"), (First{0, 6, 6, 6})) << "they share a vertex";
   EXPECT_EQ(noted(std::string(six) + "o a\nf 4 5 6\no b\nf 1 2 3\n"), (First{0, 6, 6, 6})) << "in another order";
-  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nv 9 9 9\n"), (First{0, 6, 6, 7})) << "not all stand first";
-  EXPECT_EQ(noted(std::string("o a\n") + six + "f 1 2 3\no b\nf 4 5 6\n"), (First{0, 6, 6})) << "a holds all";
+  EXPECT_EQ(noted(std::string(six) + "o a\nf 1 2 3\no b\nv 9 9 9\n"), (First{0, 6, 6, 7}))
+      << "not all vertices stand first";
+  EXPECT_EQ(noted(std::string("o a\n") + six + "f 1 2 3\no b\nf 4 5 6\n"), (First{0, 6, 6})) << "object a has them all";
   EXPECT_EQ(noted(std::string("o a\n") + six + "o b\nf 1 2 3\n"), (First{0, 6, 6}));
 }
 
-TEST(Obj, LinesAreWholeWhereverThePiecesEnd) {
+TEST(ReadObj, ReadsLinesAcrossTheEndsOfPieces) {
   std::string text;
   constexpr std::size_t count = 150'000;  // some pieces of 1 MiB
   for (std::size_t i = 0; i < count; ++i)
@@ -137,7 +139,7 @@ TEST(Obj, LinesAreWholeWhereverThePiecesEnd) {
   for (std::size_t i = 0; i < count; ++i) ASSERT_EQ(b.x[i], static_cast<float>(i));
 }
 
-/// A few bytes changed, removed, doubled, or cut off.
+/// Returns the text with a few bytes changed, removed or doubled, or cut short.
 std::string mutated(std::string text, std::mt19937& random) {
   static const std::string spice("\0\n\r\\/-+#.e0f vo\xff", 17);
   for (unsigned n = 1 + random() % 4; n > 0 && !text.empty(); --n) {
@@ -167,7 +169,7 @@ std::string mutated(std::string text, std::mt19937& random) {
   return text;
 }
 
-TEST(Obj, NoBytesCanHarmTheReader) {
+TEST(ReadObj, WithstandsAnyBytes) {
   const TemporaryFolder folder;
   std::mt19937 random(1);
   const std::string sources[]{

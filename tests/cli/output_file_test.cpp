@@ -1,4 +1,4 @@
-// Files that are written whole or not at all.
+// Files that become complete or do not change.
 
 #include "app/files/output_file.h"
 
@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a file cannot be written there; fails the test if it can.
+/// Returns why a file cannot be written there. Fails the test if it can be.
 std::string refusal(const fs::path& path) {
   try {
     app::OutputFile file(path);
@@ -28,7 +28,7 @@ std::string refusal(const fs::path& path) {
   return "";
 }
 
-TEST(OutputFile, IsWholeOnceCommittedAndReplacesWhatWasThere) {
+TEST(OutputFile, ReplacesTheOldFileOnCommit) {
   const TemporaryFolder folder;
   const fs::path path = folder.write("file", "old");
   {
@@ -42,7 +42,7 @@ TEST(OutputFile, IsWholeOnceCommittedAndReplacesWhatWasThere) {
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
 }
 
-TEST(OutputFile, LeavesNothingAndChangesNothingWithoutACommit) {
+TEST(OutputFile, ChangesNothingWithoutACommit) {
   const TemporaryFolder folder;
   const fs::path path = folder.write("file", "old");
   for (const fs::path& each : {path, folder.path() / "other"}) app::OutputFile(each).write("new");
@@ -50,7 +50,7 @@ TEST(OutputFile, LeavesNothingAndChangesNothingWithoutACommit) {
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
 }
 
-TEST(OutputFile, NeverReplacesAnInputByWhateverNameOrLink) {
+TEST(OutputFile, NeverReplacesAnInputUnderAnyNameOrLink) {
   const TemporaryFolder folder;
   const fs::path mesh = folder.write("mesh.obj", "v 0 0 0\n"), linked = folder.write("linked.obj", "v 1 0 0\n"),
                  link = folder.path() / "link", hard = folder.path() / "hard", to_linked = folder.path() / "to linked";
@@ -70,7 +70,7 @@ TEST(OutputFile, NeverReplacesAnInputByWhateverNameOrLink) {
   EXPECT_TRUE(file_names(folder.path()).contains("new"));
 }
 
-TEST(OutputFile, WithAHeadingReplacesOnlyWhatHasIt) {
+TEST(OutputFile, ReplacesOnlyFilesWithItsHeading) {
   const TemporaryFolder folder;
   for (const char* text : {"", "a,b\n", "a,b\n1,2\n"}) {
     app::OutputFile(folder.write("file", text), "a,b\n").commit();
@@ -82,16 +82,16 @@ TEST(OutputFile, WithAHeadingReplacesOnlyWhatHasIt) {
   }
 }
 
-TEST(OutputFile, HasTheRightsOfAnOrdinaryFile) {
+TEST(OutputFile, HasThePermissionsOfAnOrdinaryFile) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "file", ordinary = folder.write("ordinary", "x");
   app::OutputFile(path).commit();
   EXPECT_EQ(fs::status(path).permissions(), fs::status(ordinary).permissions());
 }
 
-TEST(OutputFile, RefusalsNameThePathAndLeaveNothing) {
+TEST(OutputFile, NamesThePathInErrorsAndLeavesNoFile) {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("file", "old");  // no folder; permissions would not stop root
+  const fs::path file = folder.write("file", "old");  // not a folder; permissions would not stop root
   const auto before = file_names(folder.path());
   for (const auto& [path, why] :
        {std::pair(folder.path() / "none" / "file", "No such file"), std::pair(file / "below", "Not a directory"),

@@ -1,4 +1,4 @@
-// The reports' reference: closed forms, and the world's own solver at small steps.
+// Compares the reports' reference with closed forms, and with the world's own solver at small steps.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ softbody::Scene lone_ball(double stiffness, double damping_ratio) {
   return scene;
 }
 
-/// Two particles that one spring of 1 m joins.
+/// Two particles, joined by a spring of 1 m.
 struct Pair {
   Pair(double stiffness, double damping) {
     prototype.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
@@ -44,16 +44,16 @@ struct Pair {
   ReferenceBody body{prototype, scene};
 };
 
-TEST(ReferenceBody, ADampedSpringSwingsAsTheClosedFormHasIt) {
+TEST(ReferenceBody, AgreesWithTheClosedFormOfADampedSpring) {
   const Pair pair(100, 2);
   const double reduced = 0.25, rate = 2 / (2 * reduced), omega = std::sqrt(100 / reduced - rate * rate);
   const double t = 0.37;
   const double stretch = 0.1 * std::exp(-rate * t) * (std::cos(omega * t) + rate / omega * std::sin(omega * t));
-  const Trajectory flight = integrate(pair.body, pair.stretched, 0.01, {.seconds = t});
-  EXPECT_NEAR(flight.end.x[1].x - flight.end.x[0].x, 1 + stretch, 1e-9);
+  const Trajectory trajectory = integrate(pair.body, pair.stretched, 0.01, {.seconds = t});
+  EXPECT_NEAR(trajectory.end.x[1].x - trajectory.end.x[0].x, 1 + stretch, 1e-9);
 }
 
-TEST(ReferenceBody, ConvergesWithTheFourthOrder) {
+TEST(ReferenceBody, ConvergesWithOrderFour) {
   const Pair pair(100, 0);
   const double t = 0.5, exact = 1 + 0.1 * std::cos(20 * t);
   const auto error = [&](double fraction) {
@@ -63,7 +63,7 @@ TEST(ReferenceBody, ConvergesWithTheFourthOrder) {
   EXPECT_NEAR(std::log2(error(0.1) / error(0.05)), 4, 0.3);
 }
 
-TEST(ReferenceBody, FliesAsBodiesFall) {
+TEST(ReferenceBody, FollowsAParabolaInFreeFall) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].velocity = {3, 4, 5};
@@ -72,10 +72,10 @@ TEST(ReferenceBody, FliesAsBodiesFall) {
   const BodyState end = integrate(body, state_of(world, 0), 1, {.seconds = 0.5}).end;
   const RigidMotion m = rigid_motion(end);
   EXPECT_LT(glm::distance(m.centre, 0.5 * dvec3(3, 4, 5) + 0.125 * dvec3(0, -9.81, 0)), 1e-7);
-  EXPECT_LT(deformation_speed(end), 1e-4) << "it started in balance";
+  EXPECT_LT(deformation_speed(end), 1e-4) << "it started in equilibrium";
 }
 
-TEST(ReferenceBody, ForcesAreTheGradientOfTheEnergyInEveryBranchOfTheGasLaw) {
+TEST(ReferenceBody, HasForcesThatAreTheGradientOfTheEnergy) {
   softbody::Scene scene = lone_ball(1e3, 0);
   scene.materials[0].ambient_pressure = 300;
   const softbody::World world(scene, {});
@@ -95,7 +95,7 @@ TEST(ReferenceBody, ForcesAreTheGradientOfTheEnergyInEveryBranchOfTheGasLaw) {
   }
 }
 
-TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
+TEST(ReferenceBody, StopsOnTheGroundAndSlowsByFriction) {
   Pair pair(100, 0);
   pair.scene.ground = softbody::Ground{.height = 0, .friction = 0.5};
   pair.scene.gravity = {0, -10, 0};
@@ -106,7 +106,7 @@ TEST(ReferenceBody, AParticleStopsOnTheGroundAndFrictionBrakesIt) {
   EXPECT_NEAR(end.x[0].y, 0, 1e-12);
 }
 
-/// Of the world with rk4 from the reference, R.
+/// Returns the distance (R) between the world, with rk4, and the reference.
 double difference(const softbody::Scene& scene, int substeps) {
   softbody::World world(scene, {.integrator = "rk4", .substeps = substeps});
   EXPECT_EQ(ReferenceBody::unsupported_stage(world), "");
@@ -132,7 +132,7 @@ TEST(ReferenceBody, AgreesWithTheWorldInContact) {
   EXPECT_LT(difference(scene, 512), 1e-3);
 }
 
-TEST(ReferenceBody, AKilometreFromTheOriginItsGasIsAsSteady) {
+TEST(ReferenceBody, KeepsItsAccuracyAKilometreFromTheOrigin) {
   softbody::Scene scene = lone_ball(1e8, 0.02);
   const softbody::World world(scene, {.substeps = 1});
   const ReferenceBody body(world.prototype(0), scene);
@@ -141,7 +141,7 @@ TEST(ReferenceBody, AKilometreFromTheOriginItsGasIsAsSteady) {
   EXPECT_LT(deformation_speed(integrate(body, s, 0.5, {.seconds = 1e-3}).end), 1e-3);
 }
 
-TEST(ReferenceBody, SaysWhatItDoesNotModel) {
+TEST(ReferenceBody, NamesAStageThatItDoesNotModel) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
   scene.materials[0].internal_damping = 1;
   EXPECT_EQ(ReferenceBody::unsupported_stage(softbody::World(scene, {})), "internal-damping");
@@ -149,7 +149,7 @@ TEST(ReferenceBody, SaysWhatItDoesNotModel) {
   EXPECT_EQ(ReferenceBody::unsupported_stage(softbody::World(scene, {})), "several bodies");
 }
 
-TEST(Trajectory, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
+TEST(Integrate, EndsWhenSettledOrAtTheStepLimit) {
   const Pair pair(100, 5);
   EXPECT_TRUE(integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .settled_speed = 1e-6}).settled);
   const Trajectory cut = integrate(pair.body, pair.stretched, 0.5, {.seconds = 1e9, .steps = 100});
@@ -157,10 +157,10 @@ TEST(Trajectory, EndsOnceNothingMovesAndSaysWhenItTakesTooLong) {
   EXPECT_EQ(cut.steps, 100u);
 }
 
-TEST(Trajectory, OneBetweenTwoBouncesIsNotAtRest) {
+TEST(UnsettledSpeed, CountsAllMotionUnlessTheBodyIsFree) {
   BodyState falling{{{0, 0, 0}, {1, 0, 0}}, {{0, -1, 0}, {0, -1, 0}}};
   Pair pair(100, 5);
-  EXPECT_LT(unsettled_speed(pair.body, falling), 1e-12) << "free of gravity it flies on";
+  EXPECT_LT(unsettled_speed(pair.body, falling), 1e-12) << "without gravity it may keep flying";
   pair.scene.gravity = {0, -9.81, 0};
   EXPECT_DOUBLE_EQ(unsettled_speed({pair.prototype, pair.scene}, falling), 1);
   pair.scene.gravity = {};
@@ -168,7 +168,7 @@ TEST(Trajectory, OneBetweenTwoBouncesIsNotAtRest) {
   EXPECT_DOUBLE_EQ(unsettled_speed({pair.prototype, pair.scene}, falling), 1) << "it touches the ground";
 }
 
-TEST(BodyShape, TellsShapeFromPlaceAndSpinFromDeformation) {
+TEST(BodyShape, SeparatesRigidMotionFromDeformation) {
   BodyState s{{{1, 0, 0}, {-1, 0, 0}, {0, 2, 0}, {0, 0, 3}}, {}};
   const dvec3 spin(0.3, -1, 0.5), velocity(1, 2, 3);
   std::vector<dvec3> turned;
