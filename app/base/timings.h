@@ -1,14 +1,23 @@
 #pragma once
-// Repeated measurements of one duration.
+// Measures durations.
 
 #include <algorithm>
 #include <cassert>
+#include <chrono>
 #include <numeric>
 #include <vector>
 
 namespace app {
 
-/// Durations in milliseconds. min() and median() require at least one.
+/// Runs an action and returns its duration (ms).
+template <class Action>
+double time_ms(const Action& action) {
+  const auto start = std::chrono::steady_clock::now();
+  action();
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+/// Durations of one action, in milliseconds. min() and median() require at least one.
 struct Timings {
   std::vector<double> ms;
 

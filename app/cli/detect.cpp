@@ -1,7 +1,6 @@
 #include "app/cli/detect.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <iostream>
 #include <iterator>
@@ -106,13 +105,11 @@ struct DetectRow {
 /// Returns the time (ms) from positions in memory to the finished list of contacts.
 double timed_detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
                     collide::Workers& workers, collide::Result& result, const std::string& file) {
-  const auto start = std::chrono::steady_clock::now();
   try {
-    detector.detect(frame, settings, workers, result);
+    return time_ms([&] { detector.detect(frame, settings, workers, result); });
   } catch (const std::length_error& error) {  // more contacts than a method may report
     throw UsageError(file + ": " + error.what());
   }
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
 std::vector<DetectRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,

@@ -2,17 +2,13 @@
 
 #include <algorithm>
 #include <cassert>
-#include <chrono>
 #include <utility>
 
+#include "app/base/timings.h"
 #include "app/compare/score.h"
 
 namespace app {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, CompareRow row) {
   row.scored = true;
@@ -83,9 +79,7 @@ void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   entry.error.clear();
   try {
     entry.detector->forget();  // all methods search from scratch
-    const double start = now_ms();
-    entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result);
-    entry.ms = now_ms() - start;
+    entry.ms = time_ms([&] { entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result); });
     entry.done = true;
     cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report

@@ -41,6 +41,7 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 }
 
 void CostModel::begin(const collide::Frame& frame, const collide::Settings& settings, std::uint64_t world) {
+  assert(collide::is_complete(frame));
   const collide::Bodies& bodies = *frame.bodies;
   if (world != world_ || settings != settings_) learnt_.clear();
   learnt_.resize(collide::method_table().size());

@@ -33,7 +33,8 @@ std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision)
 /// evenly over the buckets. A method with levels and no table is assumed to test about sixteen others for each vertex.
 class CostModel {
  public:
-  /// Sets the frame. `world` differs from world to world: what was learnt in another world is forgotten.
+  /// Sets the frame, which must be complete. `world` differs from world to world: what was learnt in another world is
+  /// forgotten.
   void begin(const collide::Frame& frame, const collide::Settings& settings, std::uint64_t world);
   /// Returns the predicted work of a method. Precondition, as of learn(): begin() was called.
   WorkEstimate of(std::size_t method) const;

@@ -1,6 +1,8 @@
 #pragma once
 // The positions at which vertices are drawn; in slow motion these lie between two steps.
 
+#include <cassert>
+
 #include <glm/common.hpp>
 
 #include "app/compare/positions.h"
@@ -16,6 +18,7 @@ struct DrawnPositions {
 
   std::size_t size() const { return now.x.size(); }
   glm::vec3 operator[](std::size_t i) const {
+    assert(i < size());
     const glm::vec3 here(now.x[i], now.y[i], now.z[i]);
     if (part >= 1 || i >= x.size()) return here;
     return glm::mix(glm::vec3(x[i], y[i], z[i]), here, part);

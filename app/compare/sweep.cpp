@@ -1,7 +1,7 @@
 #include "app/compare/sweep.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 #include <numeric>
 #include <set>
 
@@ -59,6 +59,7 @@ std::vector<Configuration> sweep_configurations(const softbody::World& world) {
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
              collide::Workers& workers)
     : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
+  assert(collide::is_complete(frame));
   for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
   for (const Configuration& c : configurations) report_.rows.emplace_back().configuration = c;
   predict();
@@ -142,8 +143,7 @@ void Sweep::next_round() {
   order_.clear();
   for (std::size_t i = 0; i < report_.rows.size(); ++i) {
     const SweepRow& row = report_.rows[i];
-    const double spent = std::accumulate(row.times.ms.begin(), row.times.ms.end(), 0.0);
-    if (row.not_run.empty() && spent < limits_.repeat_ms) order_.push_back(i);
+    if (row.not_run.empty() && row.times.total() < limits_.repeat_ms) order_.push_back(i);
   }
   std::ranges::shuffle(order_, random_);
 }
@@ -174,10 +174,7 @@ void Sweep::time(SweepRow& row) {
   detector.forget();
   detector.detect(frame_, c.settings, workers_, result_);
   detector.forget();
-  const auto start = std::chrono::steady_clock::now();
-  detector.detect(frame_, c.settings, workers_, result_);
-  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-  row.times.ms.push_back(taken.count());
+  row.times.ms.push_back(time_ms([&] { detector.detect(frame_, c.settings, workers_, result_); }));
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points) {

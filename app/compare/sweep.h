@@ -67,7 +67,7 @@ struct SweepLimits {
 /// a run that is not timed: this leaves scratch memory and caches as they are while frames follow each other.
 class Sweep {
  public:
-  /// The frame and the workers must outlive the sweep.
+  /// The frame must be complete. It and the workers must outlive the sweep.
   Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
         collide::Workers& workers);
 

@@ -1,6 +1,7 @@
 #include "app/compare/table_contents.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
 #include "app/compare/cost_model.h"
@@ -48,6 +49,7 @@ const CellGroup* BucketContents::group(const std::optional<Cell>& cell) const {
 TableContents::TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame,
                              const collide::Settings& settings)
     : vertices_(!debug.vertices.empty()) {
+  assert(collide::is_complete(frame));
   const collide::methods::CellHash hash(settings);
   const auto add = [&](const Cell& cell, collide::Index item) { entries_.push_back({hash.bucket(cell), cell, item}); };
   for (const collide::Index v : debug.vertices) add(hash.cell(frame.x[v], frame.y[v], frame.z[v]), v);

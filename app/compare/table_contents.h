@@ -43,7 +43,8 @@ struct BucketContents {
 class TableContents {
  public:
   TableContents() = default;
-  /// debug: the geometry of a method with a table, on this frame with these settings.
+  /// debug: the geometry of a method with a table, on this frame, which must be complete, with these
+  /// settings.
   TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame, const collide::Settings& settings);
 
   BucketContents bucket(std::uint32_t number) const;

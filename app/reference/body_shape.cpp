@@ -38,12 +38,14 @@ double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::d
 }
 
 double volume_of(const std::vector<glm::dvec3>& x, const std::vector<softbody::Triangle>& triangles) {
+  assert(!x.empty());
   std::vector<glm::dvec3> near;  // softbody::volume() loses digits far from the origin
   for (const glm::dvec3& p : x) near.push_back(p - x.front());
   return softbody::volume(near, triangles);
 }
 
 RigidMotion rigid_motion(const BodyState& s) {
+  assert(s.x.size() == s.v.size() && !s.x.empty());
   RigidMotion m{.centre = mean(s.x), .velocity = mean(s.v)};
   const double share = 1 / double(s.x.size());
   glm::dmat3 inertia(0.0);

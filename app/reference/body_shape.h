@@ -1,5 +1,5 @@
 #pragma once
-// Measures of one body's shape and motion, in double.
+// Measures of one body's shape and motion, in double. Bodies have at least one particle.
 
 #include <glm/vec3.hpp>
 

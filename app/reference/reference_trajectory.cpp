@@ -18,9 +18,9 @@ constexpr double top_of_arc = 1e-3;  // s: at the top of its arc a body is slow,
 /// Returns the largest speed (m/s) of a particle relative to the body's mean.
 double fastest(const BodyState& s) {
   const glm::dvec3 mean = rigid_motion(s).velocity;
-  double most = 0;
-  for (const glm::dvec3& v : s.v) most = std::max(most, glm::distance(v, mean));
-  return most;
+  double max = 0;
+  for (const glm::dvec3& v : s.v) max = std::max(max, glm::distance(v, mean));
+  return max;
 }
 
 /// Returns the stable step (s), shortened so that no particle moves more than a tenth of the radius: the stable step

@@ -62,11 +62,11 @@ BlowUpMonitor::FrameTotals BlowUpMonitor::totals_of(const std::vector<softbody::
 
 BlowUpMonitor::FrameTotals BlowUpMonitor::recent_maximum() const {
   assert(!recent_.empty());
-  FrameTotals most = recent_.front();
-  for (const FrameTotals& l : recent_)
-    most = {std::max(most.energy, l.energy), std::max(most.active, l.active), std::max(most.speed, l.speed),
-            std::max(most.bounce, l.bounce), false};
-  return most;
+  FrameTotals max = recent_.front();
+  for (const FrameTotals& t : recent_)
+    max = {std::max(max.energy, t.energy), std::max(max.active, t.active), std::max(max.speed, t.speed),
+           std::max(max.bounce, t.bounce), false};
+  return max;
 }
 
 /// Returns the body that has gained most energy since the last check.
@@ -80,8 +80,8 @@ softbody::BodyId BlowUpMonitor::body_with_largest_gain(const std::vector<softbod
 
 std::optional<BlowUp> BlowUpMonitor::find_blow_up(const FrameTotals& now,
                                                   const std::vector<softbody::BodyMeasures>& bodies, int frame) const {
-  const FrameTotals most = recent_maximum();
-  const double reach = max_speed_factor * (most.speed + most.bounce + fall_speed_) + rounding_velocity;
+  const FrameTotals recent = recent_maximum();
+  const double reach = max_speed_factor * (recent.speed + recent.bounce + fall_speed_) + rounding_velocity;
   if (now.speed > reach) {
     const auto fastest = std::ranges::max_element(bodies, {}, &softbody::BodyMeasures::max_speed);
     const auto body = static_cast<softbody::BodyId>(fastest - bodies.begin());
@@ -92,7 +92,7 @@ std::optional<BlowUp> BlowUpMonitor::find_blow_up(const FrameTotals& now,
   if (recent_.back().pushed) return {};
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
   const double energy =
-      most.energy + max_gain * (most.active + fall_energy_) + 0.5 * mass * rounding_velocity * rounding_velocity;
+      recent.energy + max_gain * (recent.active + fall_energy_) + 0.5 * mass * rounding_velocity * rounding_velocity;
   if (now.energy <= energy) return {};
   const softbody::BodyId body = body_with_largest_gain(bodies);
   return BlowUp{body, frame,

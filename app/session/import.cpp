@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cctype>
 #include <cmath>
 #include <cstdio>
@@ -75,6 +76,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
 }
 
 softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh) {
+  assert(mesh.imported);
   const softbody::Scene& scene = world.scene();
   softbody::BodySource body;
   const double radius = softbody::bounding_radius(mesh.imported->mesh);
@@ -85,6 +87,7 @@ softbody::BodySource place_above(const softbody::World& world, softbody::MeshSou
 }
 
 softbody::Material imported_material(double extent) {
+  assert(extent > 0);
   softbody::Material m;
   m.name = "imported";
   m.mass = std::clamp(extent * extent * extent, 0.01, 1000.0);

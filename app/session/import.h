@@ -34,7 +34,8 @@ struct FileReader {
   Answer answer(const Question& question, const std::stop_token& stop) const;
 };
 
-/// Returns a body of this mesh, placed above the middle of the scene, clear of solids and bodies.
+/// Returns a body of this mesh, which must be imported, placed above the middle of the scene, clear of solids and
+/// bodies.
 softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh);
 
 /// Returns the material of an imported body of this extent (m): springs, and shape matching instead of gas, which
