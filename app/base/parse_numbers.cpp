@@ -27,12 +27,11 @@ std::optional<Number> read(std::string_view text) {
 }  // namespace
 
 std::optional<std::int64_t> parse_integer(std::string_view text) { return read<std::int64_t>(text); }
-std::optional<double> parse_real(std::string_view text) { return read<double>(text); }
 
 std::optional<std::vector<double>> parse_reals(std::string_view text, char separator) {
   std::vector<double> numbers;
   for (const std::string_view part : split(text, separator)) {
-    const auto number = parse_real(part);
+    const auto number = read<double>(part);
     if (!number) return std::nullopt;
     numbers.push_back(*number);
   }

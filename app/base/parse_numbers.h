@@ -14,10 +14,7 @@ std::vector<std::string_view> split(std::string_view text, char separator);
 /// Returns nothing if the text is not a whole number, or does not fit.
 std::optional<std::int64_t> parse_integer(std::string_view text);
 
-/// Returns nothing if the text is not a number, or is outside a double's range.
-std::optional<double> parse_real(std::string_view text);
-
-/// Returns the numbers between separators; nothing unless all parts are numbers.
+/// Returns the numbers between separators; nothing unless all parts are numbers within a double's range.
 std::optional<std::vector<double>> parse_reals(std::string_view text, char separator);
 
 }  // namespace app

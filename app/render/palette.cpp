@@ -37,8 +37,8 @@ glm::vec3 between(const std::array<glm::vec3, N>& stops, float t) {
   return glm::mix(stops[i], stops[i + 1], at - static_cast<float>(i));
 }
 
-}  // namespace
-
+/// Converts OKLCH, with the hue in turns, and reduces the chroma until the colour is in sRGB's gamut. Colours of equal
+/// lightness look equally light.
 glm::vec3 oklch(float lightness, float chroma, float hue) {
   glm::vec3 linear = linear_srgb(lightness, chroma, hue);
   while (!inside(linear) && chroma > 0.001f) {
@@ -48,6 +48,8 @@ glm::vec3 oklch(float lightness, float chroma, float hue) {
   linear = glm::clamp(linear, 0.0f, 1.0f);
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
+
+}  // namespace
 
 glm::vec3 body_colour(std::uint32_t number) {
   constexpr std::array<float, 3> lightness{0.70f, 0.58f, 0.80f};

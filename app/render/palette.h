@@ -7,10 +7,6 @@
 
 namespace app {
 
-/// Converts OKLCH, with the hue in turns, and reduces the chroma until the colour is in sRGB's gamut. Colours of equal
-/// lightness look equally light.
-glm::vec3 oklch(float lightness, float chroma, float hue);
-
 /// Returns the colour of body `number`: hues by the golden ratio in three tiers of lightness, so that dozens differ.
 glm::vec3 body_colour(std::uint32_t number);
 
