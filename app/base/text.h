@@ -1,5 +1,5 @@
 #pragma once
-// Putting texts together.
+// Composes texts.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,7 +29,7 @@ std::string joined(const Parts&... parts) {
   return text;
 }
 
-/// "1,234,567"
+/// Returns the number with its digits in groups of three, e.g. "1,234,567".
 inline std::string grouped(std::uint64_t number) {
   std::string text = std::to_string(number);
   for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {

@@ -107,14 +107,14 @@ WorkEstimate CostModel::estimate(const collide::Method& method) const {
   if (method.key == collide::reference_method) return {all_, 0};
   if (!method.uses_hash)
     return {method.uses_levels ? std::min(exact_tests_, in_overlapping_boxes_) : in_overlapping_boxes_, 0};
-  double chances = 64;  // two boxes: eight corners of each, or about as many cells
+  double entry_pairs = 64;  // of two boxes: each has eight corners, or about as many cells
   double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
   if (!method.uses_levels) {
-    chances = cells_of_a_vertex(settings_);
-    if (chances > std::max(64.0, vertices_ / 32)) return {all_, 0};  // VertexGrid::visit_cells: too many cells
-    hashes = vertices_ * (1 + chances);
+    entry_pairs = cells_of_a_vertex(settings_);
+    if (entry_pairs > std::max(64.0, vertices_ / 32)) return {all_, 0};  // VertexGrid::visit_cells: too many cells
+    hashes = vertices_ * (1 + entry_pairs);
   }
-  const double aliased = static_cast<double>(all_) * chances / reachable_buckets();
+  const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();
   return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
 }
 

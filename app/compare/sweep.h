@@ -61,10 +61,11 @@ struct SweepLimits {
   std::uint32_t seed = 1;                // of the random order
 };
 
-/// Runs configurations on one frame. First each runs with a new detector, which checks what it finds and how much
-/// memory it takes. Then come rounds of timed runs, each in a new random order, so that a drift of the machine's speed
-/// favours none. Timed runs of a method share one detector. It forgets all frames before each run, which is preceded by
-/// a run that is not timed: this leaves scratch memory and caches as they are while frames follow each other.
+/// Runs configurations on one frame. First each runs once with a new detector: this checks what it finds and how
+/// much memory it takes. Then come rounds of timed runs, each in a new random order, so that a drift of the machine's
+/// speed favours none. Timed runs of a method share one detector. It forgets all frames before each run, which is
+/// preceded by a run that is not timed: this leaves scratch memory and caches as they are while frames follow each
+/// other.
 class Sweep {
  public:
   /// The frame must be complete. It and the workers must outlive the sweep.

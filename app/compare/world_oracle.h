@@ -27,8 +27,8 @@ class WorldOracle {
   /// added in between are left out, and the first call finds nothing. Call it for one world only.
   std::vector<collide::oracle::Crossing> crossings(const softbody::World& world);
   /// Returns true if a vertex that crossed a face of a closed body in the last call is now inside the body. The
-  /// crossing alone does not say so: only the first one through each face is listed, and one through a rim is listed
-  /// for two.
+  /// crossing alone does not say so: only the first one through each face is listed, and one through the rim of a
+  /// face is listed for both faces.
   bool entered_body(const collide::oracle::Crossing& crossing) const;
 
  private:

@@ -13,7 +13,7 @@ namespace {
 // become too slow by it.
 constexpr std::array levels{1.0f, 0.8f, 0.65f, 0.55f};
 constexpr double growth = 0.6, wanted = 1.0 / 30, too_slow = 1.0 / 29.5;  // s; a screen of 60 Hz can show 30 a second
-constexpr int pictures_per_check = 36;                                    // pictures
+constexpr int pictures_per_check = 36;
 
 GLuint id_of(const engine::Framebuffer& framebuffer) {
   framebuffer.bind();

@@ -50,18 +50,18 @@ void StabilityMonitor::after_step(const softbody::World& world, bool monitored) 
   const bool staggered = taken > 0 && dynamics.used_integrator().staggered;
   const auto bodies = softbody::measure_bodies(world, staggered ? dynamics.last_substep() : 0);
   record(world, bodies);
-  if (!monitored) monitor_.restart();
+  if (!monitored) blow_up_monitor_.restart();
   if (monitored) update_blow_up(world, bodies);
 }
 
 void StabilityMonitor::update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
-  auto found = monitor_.check(world, bodies);
+  auto found = blow_up_monitor_.check(world, bodies);
   if (found) {
     if (recovery_checks_ == 0) blow_up_ = std::move(found);  // a blow-up that continues is one blow-up
     recovery_checks_ = BlowUpMonitor::memory;
   } else if (recovery_checks_ > 0) {
     --recovery_checks_;
-  } else if (monitor_.compared()) {
+  } else if (blow_up_monitor_.compared()) {
     good_frame_ = world.frame();
   }
 }
@@ -91,7 +91,7 @@ void StabilityMonitor::restart(const softbody::World& world) {
 }
 
 void StabilityMonitor::went_back(const softbody::World& world) {
-  monitor_.restart();
+  blow_up_monitor_.restart();
   good_frame_ = std::min(good_frame_, world.frame());
   blow_up_.reset();
   recovery_checks_ = 0;

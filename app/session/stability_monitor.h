@@ -40,7 +40,7 @@ class StabilityMonitor {
   void before_step(const softbody::World& world);
   void after_step(const softbody::World& world, bool monitored);
   /// Tells of a change by the user, which may have added energy.
-  void intervened() { monitor_.restart(); }
+  void intervened() { blow_up_monitor_.restart(); }
   /// Removes the blow_up() once the user continues. Another one is reported only after the world was good for a while.
   void dismiss_blow_up() { blow_up_.reset(); }
   /// Starts anew with another world.
@@ -63,7 +63,7 @@ class StabilityMonitor {
   void update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
 
   Rewind rewind_;
-  BlowUpMonitor monitor_;
+  BlowUpMonitor blow_up_monitor_;
   std::optional<BlowUp> blow_up_;
   std::size_t recovery_checks_ = 0;  // left before the world counts as good again
   int good_frame_ = 0;

@@ -21,7 +21,7 @@ struct Light {
 Light light_of(collide::Coverage coverage);
 /// Green: the step keeps within the bound and its reserve. Amber: within the limit of stability. Red: beyond it.
 Light light_of(const StepMargin& margin);
-/// The step's light with its numbers; below it the alarm, if there is one, and the way back.
+/// The step's light with its numbers; below it the blow-up, if there is one, and the way back.
 void draw_step_light(Widgets& widgets, Session& session);
 
 /// "of the driving method", or whose boxes and buckets are shown instead because the driving method has no table.

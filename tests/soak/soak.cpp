@@ -144,7 +144,7 @@ class Soak {
     if (const GLenum error = glGetError()) fail("OpenGL error " + std::to_string(error));
     if (session.notice().starts_with(app::Session::defect)) fail(session.notice());
     if (session.stability().blow_up()) return recover();
-    if (!softbody::measure(world).finite) fail("not finite, and no alarm");
+    if (!softbody::measure(world).finite) fail("not finite, and no blow-up reported");
   }
 
   /// As the panel offers it. What is chosen too coarse may blow up; what the program chooses by itself may not.
@@ -216,7 +216,8 @@ int run(int seconds, std::vector<std::string> scenes) {
     }
   }
   std::printf(
-      "nothing found; %d times there was more energy or speed than there could be, each time with an alarm, %d of them "
+      "nothing found; %d times there was more energy or speed than there could be, each time reported as a blow-up, %d "
+      "of them "
       "in steps that the program chose; %d seconds ended early, with %d substeps\n",
       soak.explosions(), soak.explosions_by_itself(), soak.impatient(), many_substeps);
   return 0;
