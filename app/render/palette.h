@@ -23,8 +23,8 @@ glm::vec3 sequential_colour(float t);
 glm::vec3 diverging_colour(float t);
 
 // Lights, whose colours are named beside them.
-inline constexpr glm::vec3 light_green{0.00f, 0.62f, 0.35f}, light_amber{0.93f, 0.62f, 0.00f},
-    light_red{0.82f, 0.13f, 0.12f};
+inline constexpr glm::vec3 status_green{0.00f, 0.62f, 0.35f}, status_amber{0.93f, 0.62f, 0.00f},
+    status_red{0.82f, 0.13f, 0.12f};
 
 // Okabe and Ito's set, made for all kinds of colour vision.
 inline constexpr glm::vec3 contact_between_colour{0.835f, 0.369f, 0.000f};  // vermilion

@@ -75,18 +75,18 @@ void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions&
   frame_.translucent.push_back(std::move(set));
 }
 
-/// Bodies that the spotlight does not name are but hinted at, the fainter the more there are to look through; those
+/// Bodies that the highlight does not name are but hinted at, the fainter the more there are to look through; those
 /// that it does may be looked into.
-void SceneView::apply(const Spotlight& spotlight) {
+void SceneView::apply(const Highlight& highlight) {
   const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
-  engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
+  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity},
       others{.meshes = {}, .opacity = hint, .hides = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
-    const bool is_named = std::ranges::count(spotlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
+    const bool is_named = std::ranges::count(highlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
     if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
-    (!is_named ? others.meshes : spotlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+    (!is_named ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
   }
   frame_.meshes = std::move(solid);
   frame_.translucent.push_back(std::move(named));
@@ -129,7 +129,7 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   if (overlays.ghost) gather_ghost(*overlays.ghost, overlays.ghost_positions);
   frame_.positions = positions_;
   frame_.normals = normals_;
-  if (overlays.spotlight) apply(*overlays.spotlight);
+  if (overlays.highlight) apply(*overlays.highlight);
   frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
 
   const softbody::Scene& scene = world.scene();
@@ -140,10 +140,10 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
-  if (overlays.spotlight) {
-    std::ranges::copy(overlays.spotlight->boxes, std::back_inserter(frame_.boxes));
-    std::ranges::copy(overlays.spotlight->lines, std::back_inserter(frame_.lines));
-    std::ranges::copy(overlays.spotlight->points, std::back_inserter(frame_.points));
+  if (overlays.highlight) {
+    std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));
+    std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));
+    std::ranges::copy(overlays.highlight->points, std::back_inserter(frame_.points));
   }
   renderer_.draw(camera, viewport, frame_);
 }

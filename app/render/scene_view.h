@@ -8,8 +8,8 @@
 #include "app/compare/drawn_positions.h"
 #include "app/compare/table_contents.h"
 #include "app/compare/true_surfaces.h"
+#include "app/render/highlight.h"
 #include "app/render/overlays.h"
-#include "app/render/spotlight.h"
 #include "engine/renderer.h"
 #include "softbody/world.h"
 
@@ -26,7 +26,7 @@ struct OverlayRequest {
   const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
   std::span<const softbody::SurfaceTouch> touches;        // the same
   std::span<const SurfaceMark> marks;                     // the same
-  const Spotlight* spotlight = nullptr;                   // shows, and all else steps back
+  const Highlight* highlight = nullptr;                   // shows, and all else steps back
   const softbody::World* ghost = nullptr;                 // another world with the same bodies, to look through
   DrawnPositions ghost_positions;
 };
@@ -74,7 +74,7 @@ class SceneView {
   /// How to draw the bodies whose vertices, gathered last, begin at `first`; their colours are still to be set.
   std::vector<engine::MeshDraw> gather_bodies(const softbody::World& world, std::uint32_t first);
   void gather_ghost(const softbody::World& ghost, const DrawnPositions& positions);
-  void apply(const Spotlight& spotlight);
+  void apply(const Highlight& highlight);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);

@@ -37,14 +37,14 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: the next step", [](Session&, UiState& ui) { ui.tour.next(); }},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods", [](Session& s, UiState&) { s.compare.on = !s.compare.on; }},
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
-    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.table = !ui.table; }},
+    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.take_away.picture_asked = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
              [](Session& s, UiState& ui) {
-               if (ui.list_open) return;  // closes that, and nothing else
+               if (ui.popup_open) return;  // the key closes this list and nothing else
                if (ui.tour.open() && !ui.help) return ui.tour.close(s, ui.overlays);
                ui.help = false;
                s.select_body(std::nullopt);
@@ -54,31 +54,31 @@ constexpr std::array shortcut_table{
 };
 
 constexpr std::array mouse_table{
-    MouseUse{"On a body", "Drag: pull it"},
-    MouseUse{"", "Click: select it"},
-    MouseUse{"", "Double-click: look at it"},
-    MouseUse{"Elsewhere", "Drag: turn"},
-    MouseUse{"Right drag", "Move sideways"},
-    MouseUse{"Wheel", "Closer or further"},
-    MouseUse{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
+    MouseAction{"On a body", "Drag: pull it"},
+    MouseAction{"", "Click: select it"},
+    MouseAction{"", "Double-click: look at it"},
+    MouseAction{"Elsewhere", "Drag: turn"},
+    MouseAction{"Right drag", "Move sideways"},
+    MouseAction{"Wheel", "Closer or further"},
+    MouseAction{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
 };
 
 }  // namespace
 
 std::span<const Shortcut> shortcuts() { return shortcut_table; }
-std::span<const MouseUse> mouse_uses() { return mouse_table; }
+std::span<const MouseAction> mouse_actions() { return mouse_table; }
 
-bool press(int key, bool repeat, Session& session, UiState& ui, int mods) {
-  // Shift alone changes nothing where it means nothing; these do, for their keys are others everywhere.
-  constexpr int others = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
+bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
+  // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.
+  constexpr int other_mods = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
   for (const OverlayRow& row : overlay_table) {
-    if (key != row.shortcut || repeat || mods & others) continue;
+    if (key != row.shortcut || repeat || mods & other_mods) continue;
     ui.overlays.*row.shown = !(ui.overlays.*row.shown);
     return true;
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
-    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & others) continue;
+    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return false;
     shortcut.act(session, ui);
     return true;

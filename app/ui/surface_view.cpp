@@ -22,10 +22,11 @@ void draw_state(Widgets& w, const Session& session) {
     text += "judging";
   else
     text += report.id == session.revision() ? "as shown" : "frame " + std::to_string(report.frame);
-  w.line(text);
-  w.done("Judged frame",
-         "The state that these figures are of, judged exactly on a copy beside the simulation: that of an earlier "
-         "frame while bodies move. Solids are not judged.");
+  w.text_line(text);
+  w.register_item(
+      "Judged frame",
+      "The state that these figures are of, judged exactly on a copy beside the simulation: that of an earlier "
+      "frame while bodies move. Solids are not judged.");
 }
 
 void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
@@ -52,12 +53,13 @@ void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, 
 
 void draw_missed(Widgets& w, const Session& session) {
   const SurfaceReport& report = session.surfaces().report();
-  w.chip(contact_missed_colour, ImGui::GetTextLineHeight());
+  w.swatch(contact_missed_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  w.line("Missed surface contacts");
-  w.done("Missed surface contacts",
-         "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
-         "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
+  w.text_line("Missed surface contacts");
+  w.register_item(
+      "Missed surface contacts",
+      "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
+      "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
   w.figure(
       "  vertices", share(report.missed_penetrations, report.penetrations),
       "Penetrating vertices without a contact with any vertex of the body they are in. One inside two bodies counts "

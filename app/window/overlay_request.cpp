@@ -2,7 +2,7 @@
 
 namespace app {
 
-bool whole_steps(const Session& session, const Overlays& shown) {
+bool shows_present_state(const Session& session, const Overlays& shown) {
   return shown.boxes || shown.cells || shown.areas || session.selected_bucket();
 }
 
@@ -18,11 +18,12 @@ OverlayRequest overlay_request(const Session& session, const UiState& ui) {
   request.missed = session.missed();
   if (request.shown.touches) request.touches = session.touches();
   request.marks = session.surfaces().report().marks;
-  request.spotlight = ui.tour.spotlight();
+  request.highlight = ui.tour.highlight();
   const Ghost* ghost = ui.tour.open() ? nullptr : session.ghost();
   if (ghost && !ghost->blown_up()) {
     request.ghost = &ghost->world();
-    request.ghost_positions = ghost->drawn_positions(whole_steps(session, ui.overlays) ? 1.0f : session.between());
+    request.ghost_positions =
+        ghost->drawn_positions(shows_present_state(session, ui.overlays) ? 1.0f : session.between());
   }
   return request;
 }

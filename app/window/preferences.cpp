@@ -11,23 +11,23 @@ namespace app {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int least_side = 240, most_side = 16384;  // of the window
+constexpr int min_side = 240, max_side = 16384;  // of the window
 
 struct Flag {
   const char* key;
   bool Preferences::*value;
 };
-constexpr std::array flags{Flag{"panel", &Preferences::panel},       //
-                           Flag{"hash_table", &Preferences::table},  //
-                           Flag{"error_time", &Preferences::sweep},  //
-                           Flag{"compare", &Preferences::compare},   //
+constexpr std::array flags{Flag{"panel", &Preferences::panel},            //
+                           Flag{"hash_table", &Preferences::hash_table},  //
+                           Flag{"error_time", &Preferences::sweep},       //
+                           Flag{"compare", &Preferences::compare},        //
                            Flag{"picture_with_panel", &Preferences::picture_with_panel}};
 
-/// Keys of other versions of the program are passed over.
+/// Ignores the keys of other versions of the program.
 Preferences read(softbody::Table root) {
   Preferences p;
-  p.size.x = root.integer("width", p.size.x, least_side, most_side);
-  p.size.y = root.integer("height", p.size.y, least_side, most_side);
+  p.size.x = root.integer("width", p.size.x, min_side, max_side);
+  p.size.y = root.integer("height", p.size.y, min_side, max_side);
   p.slow_factor = root.number("slow_motion", p.slow_factor, Session::slowest, Session::fastest);
   for (const auto& [key, value] : flags) p.*value = root.boolean(key, p.*value);
   softbody::Table shown = root.child("show");
@@ -50,7 +50,7 @@ std::string text_of(const Preferences& p) {
   return out.text();
 }
 
-/// An absolute path from the environment; others are to be ignored, says the XDG specification.
+/// Returns an absolute path from the environment. The XDG specification asks to ignore relative ones.
 fs::path folder_in(const char* variable) {
   const char* value = std::getenv(variable);
   const fs::path folder = value ? value : "";
@@ -61,9 +61,9 @@ fs::path folder_in(const char* variable) {
 
 Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2 size) {
   return {.size = size,
-          .overlays = ui.tour.kept_overlays().value_or(ui.overlays),
+          .overlays = ui.tour.saved_overlays().value_or(ui.overlays),
           .panel = ui.panel,
-          .table = ui.table,
+          .hash_table = ui.hash_table,
           .sweep = ui.sweep,
           .compare = session.compare.on,
           .picture_with_panel = ui.take_away.with_panel,
@@ -76,7 +76,7 @@ void apply(const Preferences& p, Session& session, UiState& ui) {
   session.compare.on = p.compare;
   session.slow_factor = p.slow_factor;
   ui.panel = p.panel;
-  ui.table = p.table;
+  ui.hash_table = p.hash_table;
   ui.sweep = p.sweep;
   ui.take_away.with_panel = p.picture_with_panel;
   ui.sections = p.sections;
@@ -97,29 +97,29 @@ PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
   if (!file_.empty() && fs::exists(file_, error)) {
     try {
       const toml::table table = softbody::read_toml(file_);
-      kept_ = read(softbody::Table(table, file_.string(), ""));
+      stored_ = read(softbody::Table(table, file_.string(), ""));
     } catch (const std::exception& broken) {
       problem_ = std::string(broken.what()) + "; these preferences are ignored";
     }
   }
-  next_ = kept_;
+  pending_ = stored_;
 }
 
-void PreferencesFile::keep(const Preferences& now, double seconds, bool last) {
+void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   if (file_.empty()) return;
-  if (!(now == next_)) {
-    next_ = now;
-    changed_ = seconds;
+  if (!(now == pending_)) {
+    pending_ = now;
+    pending_since_ = seconds;
   }
-  if (next_ == kept_ || (!last && seconds - changed_ < settled)) return;
-  kept_ = next_;  // also if it fails: a problem is told once a change, not once a frame
+  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
+  stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
   write();
 }
 
 void PreferencesFile::write() {
   try {
     fs::create_directories(file_.parent_path());
-    write_file(file_, text_of(kept_));
+    write_file(file_, text_of(stored_));
   } catch (const std::exception& error) {
     problem_ = "preferences cannot be kept: " + std::string(error.what());
   }

@@ -4,7 +4,7 @@
 #include <thread>
 
 #include "app/render/canvas.h"
-#include "app/window/pacer.h"
+#include "app/window/frame_timer.h"
 #include "engine/headless.h"
 
 namespace app {
@@ -24,20 +24,20 @@ float after(int pictures, Fineness& fineness, const Cost& cost) {
   return fineness.value();
 }
 
-TEST(Pacer, HasTimeToSpareWhereNothingHasStirredForASecond) {
-  Pacer pacer;
-  pacer.tick();
-  EXPECT_EQ(pacer.spare(), 0);
+TEST(FrameTimer, WaitsAfterASecondWithoutActivity) {
+  FrameTimer timer;
+  timer.tick();
+  EXPECT_EQ(timer.idle_wait(), 0);
   std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  double most = 0;
-  for (int i = 0; i < 100 && most == 0; ++i) {  // a machine may be busy elsewhere for as long as there is to spare
-    pacer.tick();
-    most = std::max(most, pacer.spare());
+  double longest = 0;
+  for (int i = 0; i < 100 && longest == 0; ++i) {  // a busy machine may use up the time to wait
+    timer.tick();
+    longest = std::max(longest, timer.idle_wait());
   }
-  EXPECT_GT(most, 0);
-  EXPECT_LE(most, 1.0 / 30);
-  pacer.stir();
-  EXPECT_EQ(pacer.spare(), 0);
+  EXPECT_GT(longest, 0);
+  EXPECT_LE(longest, 1.0 / 30);
+  timer.mark_active();
+  EXPECT_EQ(timer.idle_wait(), 0);
 }
 
 TEST(Fineness, IsLessWhereDrawingTakesTooLong) {

@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
@@ -10,17 +8,13 @@
 namespace app {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// Draws until a report meets the condition; the worker takes its time.
+/// Runs frames until the rows of a report meet the condition.
 template <class Condition>
 bool wait_until(PanelRig& rig, const Condition& condition) {
-  for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
-    rig.frame();
+  return rig.frames_until([&] {
     const CompareReport& report = rig.session.comparison();
-    if (!report.rows.empty() && condition(report.rows)) return true;
-  }
-  return false;
+    return !report.rows.empty() && condition(report.rows);
+  });
 }
 
 bool all_timed(const std::vector<CompareRow>& rows) {
@@ -36,11 +30,11 @@ TEST(CompareView, IsOffAtFirstAndSwitchedByPanelAndKey) {
   rig.click("Compare methods");
   EXPECT_TRUE(rig.session.compare.on);
   EXPECT_NE(rig.recorder.find("Drive Grid Hash"), nullptr);
-  press(GLFW_KEY_V, false, rig.session, rig.ui);
+  handle_key(GLFW_KEY_V, false, rig.session, rig.ui);
   EXPECT_FALSE(rig.session.compare.on);
 }
 
-TEST(CompareView, AClickOnANameMakesItTheDriver) {
+TEST(CompareView, MakesTheClickedMethodTheDriver) {
   PanelRig rig;
   rig.session.compare.on = true;
   rig.frames(3);
@@ -50,11 +44,11 @@ TEST(CompareView, AClickOnANameMakesItTheDriver) {
   }
 }
 
-TEST(CompareView, ChoosesWhatRuns) {
+TEST(CompareView, RunsOnlyTheChosenMethods) {
   PanelRig rig;
   rig.session.compare.on = true;
   ASSERT_TRUE(wait_until(rig, all_timed));
-  EXPECT_EQ(rig.recorder.find("Run Brute force"), nullptr);  // the reference is not a matter of choice
+  EXPECT_EQ(rig.recorder.find("Run Brute force"), nullptr);  // the reference always runs
   rig.click("Run Bounding Box");
   const std::size_t method = method_index("bounding-box");
   ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return !rows[method].ms; }));
@@ -64,7 +58,7 @@ TEST(CompareView, ChoosesWhatRuns) {
   EXPECT_TRUE(wait_until(rig, all_timed));
 }
 
-TEST(CompareView, ShowsWhatAnyMethodMisses) {
+TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   PanelRig rig;
   rig.session.paused = true;
   collide::Settings settings = rig.session.world().collision();
@@ -83,7 +77,7 @@ TEST(CompareView, ShowsWhatAnyMethodMisses) {
   EXPECT_TRUE(rig.session.missed()->empty());
 }
 
-TEST(CompareView, NothingMovesWhileItMeasures) {
+TEST(CompareView, KeepsEverythingInPlaceWhileItMeasures) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
     rig.session.compare.on = true;
@@ -91,14 +85,7 @@ TEST(CompareView, NothingMovesWhileItMeasures) {
     const auto before = rig.recorder.widgets;
     ASSERT_TRUE(wait_until(rig, all_timed));
     rig.frames(2);
-    for (const Recorder::Widget& was : before) {
-      const Recorder::Widget is = rig.widget(was.label);
-      if (was.label == "Coverage") continue;  // a sentence of its own length
-      EXPECT_EQ(is.min.x, was.min.x) << was.label;
-      EXPECT_EQ(is.min.y, was.min.y) << was.label;
-      EXPECT_EQ(is.max.x, was.max.x) << was.label;
-      EXPECT_EQ(is.max.y, was.max.y) << was.label;
-    }
+    rig.expect_in_place(before, "Coverage");  // whose sentence changes
   }
 }
 

@@ -1,4 +1,4 @@
-// The panel's sections of files, by mouse and keyboard.
+// The panel's sections for files, used by mouse and keyboard.
 
 #include <algorithm>
 #include <fstream>
@@ -12,13 +12,13 @@ namespace {
 
 using tests::TemporaryFolder;
 
-/// Opens a section and folds those above it, so that it is in sight.
+/// Opens a section and folds those above it, so that it is visible.
 void open_only(PanelRig& rig, std::string_view section) {
   for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
   rig.click(section);
 }
 
-TEST(FilesPanel, LoadsWhatIsNamed) {
+TEST(FilesPanel, LoadsTheNamedFile) {
   const TemporaryFolder folder;
   const auto file = folder.write("lone.toml", "name = \"Lone\"\n[[body]]\n");
   PanelRig rig;
@@ -43,37 +43,37 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
                                  "f 1 2 3\nf 1 3 4\nf 3 2 4\nf 5 4 6\n");
   PanelRig rig;
   open_only(rig, "Files");
-  const auto drop_and_see_if_closed = [&] {
+  const auto import_is_closed = [&] {
     const std::size_t before = rig.session.world().bodies().count();
     rig.ui.import.drop({mesh.string()}, rig.session);
     for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
     return rig.session.world().prototype(rig.session.world().bodies().count() - 1).mesh.closed;
   };
   EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
-  EXPECT_FALSE(drop_and_see_if_closed());
+  EXPECT_FALSE(import_is_closed());
   rig.drag("Weld distance", -2000);
   EXPECT_EQ(rig.ui.import.weld, Import::least_weld);
   rig.drag("Weld distance", 2000);
   EXPECT_EQ(rig.ui.import.weld, Import::most_weld);
   rig.double_click("Weld distance");
   rig.type("2");
-  EXPECT_EQ(rig.ui.import.weld, 0.02) << "a hundredth of what is typed, no more digits";
-  EXPECT_TRUE(drop_and_see_if_closed());
+  EXPECT_EQ(rig.ui.import.weld, 0.02) << "exactly the typed percentage";
+  EXPECT_TRUE(import_is_closed());
 }
 
-TEST(FilesPanel, ShowsTheVerdictOnEveryFileBelowTheStatus) {
+TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);
   rig.ui.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"),
                      rig.session);
   for (int i = 0; i < 40; ++i) rig.frame();
-  EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &Recorder::Widget::label), 20);
-  const float most = rig.widget("Step light").max.y;
-  const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &Recorder::Widget::label);
-  EXPECT_GT(first->min.y, most) << "it scrolls if it has to";
+  EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &WidgetRecorder::Widget::label), 20);
+  const float status_end = rig.widget("Step light").max.y;
+  const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &WidgetRecorder::Widget::label);
+  EXPECT_GT(first->min.y, status_end) << "a long report scrolls";
 }
 
-TEST(FilesPanel, SavesAndSaysWhenItReplaces) {
+TEST(FilesPanel, SavesAndReplacesAScene) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "saved.toml").string();
   PanelRig rig;
@@ -109,7 +109,7 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }
 
-TEST(TakeAwayPanel, AsksForAPictureAndRecords) {
+TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   const TemporaryFolder folder;
   PanelRig rig;
   open_only(rig, "Take away");
@@ -131,7 +131,7 @@ TEST(TakeAwayPanel, AsksForAPictureAndRecords) {
   EXPECT_FALSE(rig.ui.take_away.recording());
 }
 
-TEST(Sections, AreRemembered) {
+TEST(Panel, RemembersItsFoldedSections) {
   PanelRig rig;
   EXPECT_TRUE(rig.ui.sections.at("Numbers"));
   rig.click("Numbers");

@@ -9,16 +9,16 @@ namespace {
 
 TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   PanelRig rig;
-  rig.click("Detection");  // folded, so that all has room
+  rig.click("Detection");  // folds it to make room
   rig.click("Stability");
-  const float at_work = rig.widget("At work").min.y;  // what auto takes, and why
+  const float used_integrator_y = rig.widget("At work").min.y;
   for (const softbody::Integrator& i : softbody::integrators()) {
     if (i.automatic) continue;
     rig.click("Integrator");
     rig.click(i.name);
     EXPECT_EQ(rig.session.world().integrator().key, i.key);
     EXPECT_FALSE(rig.session.world().substeps());
-    EXPECT_EQ(rig.widget("At work").min.y, at_work) << "nothing jumps";
+    EXPECT_EQ(rig.widget("At work").min.y, used_integrator_y) << "nothing moves";
   }
   rig.click("Fixed substeps");
   EXPECT_TRUE(rig.session.world().substeps());
@@ -28,7 +28,7 @@ TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   EXPECT_FALSE(rig.session.world().substeps());
 }
 
-TEST(StabilityPanel, GoingOnTakesTheAlarmAway) {
+TEST(StabilityPanel, DismissesTheAlarmWhenTheWorldResumes) {
   PanelRig rig(1, doomed_pair());
   rig.frames(40);
   ASSERT_TRUE(rig.session.paused);
@@ -36,7 +36,7 @@ TEST(StabilityPanel, GoingOnTakesTheAlarmAway) {
   ASSERT_TRUE(rig.recorder.find("Rewind to the last good frame"));
   rig.session.single_step();
   rig.frames(2);
-  EXPECT_TRUE(rig.recorder.find("Alarm")) << "steps are for looking at it";
+  EXPECT_TRUE(rig.recorder.find("Alarm")) << "a single step keeps it";
   rig.click("Pause");
   rig.frames(2);
   EXPECT_FALSE(rig.session.paused);

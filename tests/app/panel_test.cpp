@@ -1,17 +1,11 @@
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "app/ui/panel/panel.h"
-#include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
-
-#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
-
-using namespace std::chrono_literals;
 
 TEST(Panel, SwitchesEveryOverlay) {
   PanelRig rig;
@@ -24,10 +18,10 @@ TEST(Panel, SwitchesEveryOverlay) {
     EXPECT_EQ(rig.ui.overlays.*row.shown, before) << row.key;
   }
   rig.click("Hash table");
-  EXPECT_FALSE(rig.ui.table);
+  EXPECT_FALSE(rig.ui.hash_table);
 }
 
-TEST(Panel, ChoosesEveryMethodWhileRunning) {
+TEST(DetectionPanel, ChoosesEveryMethodWhileTheWorldRuns) {
   PanelRig rig;
   for (const collide::Method& method : collide::method_table()) {
     rig.click("Method");
@@ -38,7 +32,7 @@ TEST(Panel, ChoosesEveryMethodWhileRunning) {
   }
 }
 
-TEST(Panel, ChoosesEveryContactSurface) {
+TEST(DetectionPanel, ChoosesEveryContactSurface) {
   PanelRig rig;
   const std::vector order{softbody::ContactSurface::surfaces, softbody::ContactSurface::vertices};
   for (const softbody::ContactSurface surface : order) {
@@ -52,29 +46,22 @@ TEST(Panel, ChoosesEveryContactSurface) {
   }
 }
 
-TEST(Panel, TheFiguresOfTheTrueSurfacesComeAndMoveNothing) {
+TEST(SurfaceView, ShowsItsFiguresAndKeepsEverythingInPlace) {
   PanelRig rig;
   EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
   rig.click("True surfaces");
   rig.move(800, 1100);  // nothing there has a tooltip
   const auto before = rig.recorder.widgets;
-  for (const auto end = std::chrono::steady_clock::now() + 60s;
-       rig.session.surfaces().sums().steps < 2 && std::chrono::steady_clock::now() < end;)
-    rig.frame();
-  ASSERT_GE(rig.session.surfaces().sums().steps, 2);
+  ASSERT_TRUE(rig.frames_until([&] { return rig.session.surfaces().sums().steps >= 2; }));
   ASSERT_EQ(rig.recorder.widgets.size(), before.size());
-  for (const Recorder::Widget& was : before) {
-    const Recorder::Widget is = rig.widget(was.label);
-    EXPECT_TRUE(is.min.x == was.min.x && is.min.y == was.min.y && is.max.x == was.max.x && is.max.y == was.max.y)
-        << was.label << " moved";
-  }
+  rig.expect_in_place(before);
   rig.click("True surfaces");
   EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
 }
 
-TEST(Panel, GoesBackByASlider) {
+TEST(StabilityPanel, RewindsByASlider) {
   PanelRig rig;
-  rig.click("Detection");  // folded, so that all has room
+  rig.click("Detection");  // folds it to make room
   rig.click("Numbers");
   rig.click("Stability");
   rig.frames(60);
@@ -91,7 +78,7 @@ TEST(Panel, GoesBackByASlider) {
   EXPECT_FALSE(rig.recorder.find("Alarm"));
 }
 
-TEST(Panel, NamesTheBodyThatExplodesAndRewinds) {
+TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
   PanelRig rig(1, doomed_pair());
   rig.frames(10);
   EXPECT_TRUE(rig.recorder.find("Alarm"));
@@ -101,9 +88,9 @@ TEST(Panel, NamesTheBodyThatExplodesAndRewinds) {
   EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
 }
 
-TEST(Panel, EnablesOnlyWhatTheMethodUses) {
+TEST(DetectionPanel, EnablesOnlyWhatTheMethodUses) {
   PanelRig rig;
-  rig.ui.table = false;
+  rig.ui.hash_table = false;
   for (const collide::Method& method : collide::method_table()) {
     rig.session.set_method(method.key);
     rig.frames(2);
@@ -116,16 +103,16 @@ TEST(Panel, EnablesOnlyWhatTheMethodUses) {
   }
 }
 
-TEST(Panel, EnablesWhatIsShownOrComparedThoughTheMethodHasNoUseForIt) {
+TEST(DetectionPanel, EnablesWhatAViewOrTheComparisonUses) {
   PanelRig rig;
-  rig.ui.table = false;
+  rig.ui.hash_table = false;
   ASSERT_FALSE(rig.session.world().method().uses_hash);
   const auto enabled = [&] {
     rig.frames(2);
     return rig.widget("Buckets").enabled;
   };
   EXPECT_FALSE(enabled());
-  for (bool* shown : {&rig.ui.table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.session.compare.on}) {
+  for (bool* shown : {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.session.compare.on}) {
     *shown = true;
     EXPECT_TRUE(enabled());
     *shown = false;
@@ -133,7 +120,7 @@ TEST(Panel, EnablesWhatIsShownOrComparedThoughTheMethodHasNoUseForIt) {
   }
 }
 
-TEST(Panel, ShowsWhatTheExactMethodSkips) {
+TEST(NumbersPanel, ShowsWhatTheExactMethodSkips) {
   PanelRig rig;
   for (const collide::SkipKind& kind : collide::skip_kinds)
     EXPECT_TRUE(rig.recorder.find("  " + std::string(kind.text))) << kind.key;
@@ -142,7 +129,7 @@ TEST(Panel, ShowsWhatTheExactMethodSkips) {
   EXPECT_FALSE(rig.recorder.find("  " + std::string(collide::skip_kinds[0].text)));
 }
 
-TEST(Panel, DrivesTime) {
+TEST(Panel, PausesStepsResetsAndSlowsTheWorld) {
   PanelRig rig;
   rig.click("Pause");
   EXPECT_TRUE(rig.session.paused);
@@ -163,14 +150,14 @@ TEST(Panel, DrivesTime) {
   EXPECT_NEAR(rig.session.slow_factor, Session::fastest, 1e-6);
 }
 
-TEST(Panel, DropsABody) {
+TEST(BodiesPanel, DropsABody) {
   PanelRig rig;
   const auto before = rig.session.world().bodies().count();
   rig.click("Drop");
   EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
 }
 
-TEST(Panel, DragsEverySliderToItsEnds) {
+TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   PanelRig rig;
   rig.session.set_method("multi-level-sb");
   rig.frames(2);
@@ -187,13 +174,13 @@ TEST(Panel, DragsEverySliderToItsEnds) {
   rig.click("Auto");
   EXPECT_FALSE(rig.session.world().uses_default_cell_size());
   rig.drag("Cell size", -500);
-  EXPECT_NEAR(settings().cell_size.x, least_cell, 1e-5);
+  EXPECT_NEAR(settings().cell_size.x, min_cell, 1e-5);
   rig.drag("Cell size", 500);
-  EXPECT_NEAR(settings().cell_size.y, most_cell, 1e-5);
+  EXPECT_NEAR(settings().cell_size.y, max_cell, 1e-5);
   rig.drag("Tolerance", -500);
-  EXPECT_NEAR(settings().tolerance, tolerance_from, 1e-5);
+  EXPECT_NEAR(settings().tolerance, min_tolerance, 1e-5);
   rig.drag("Tolerance", 500);
-  EXPECT_NEAR(settings().tolerance, tolerance_to, 1e-5);
+  EXPECT_NEAR(settings().tolerance, max_tolerance, 1e-5);
   rig.click("Self-collision");
   EXPECT_FALSE(settings().self_collision);
   rig.click("Scene's settings");
@@ -202,13 +189,13 @@ TEST(Panel, DragsEverySliderToItsEnds) {
   EXPECT_TRUE(rig.session.world().uses_default_cell_size());
 }
 
-TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {
+TEST(DetectionPanel, RunsEveryMethodAtTheEndsOfEverySlider) {
   PanelRig rig;
   for (const collide::Method& method : collide::method_table()) {
     rig.session.set_method(method.key);
     for (const int levels : {0, collide::max_levels}) {
-      for (const float cell : {least_cell, most_cell}) {
-        for (const float tolerance : {tolerance_from, tolerance_to}) {
+      for (const float cell : {min_cell, max_cell}) {
+        for (const float tolerance : {min_tolerance, max_tolerance}) {
           collide::Settings settings = rig.session.world().collision();
           settings.levels = levels;
           settings.cell_size = glm::vec3(cell);
@@ -223,7 +210,7 @@ TEST(Panel, SurvivesEveryMethodAtTheEndsOfEverySlider) {
   }
 }
 
-TEST(Panel, OffersThePapersBucketSizes) {
+TEST(DetectionPanel, OffersThePapersBucketSizes) {
   PanelRig rig;
   for (const char* preset : {"101", "1,001", "1,009"}) {
     rig.click("Bucket presets");
@@ -234,33 +221,33 @@ TEST(Panel, OffersThePapersBucketSizes) {
   }
 }
 
-TEST(Panel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
+TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
   PanelRig rig;
   const auto& primes = [&]() -> const auto& { return rig.session.world().collision().primes; };
   ASSERT_FALSE(rig.recorder.find("Primes warning"));
   rig.type("x prime", "7");
-  rig.type("y prime", "1001");  // as many as there are buckets
+  rig.type("y prime", "1001");  // the number of buckets
   rig.type("z prime", "4294967295");
   EXPECT_EQ(primes(), (std::array<std::uint32_t, 3>{7, 1001, 4294967295}));
   EXPECT_TRUE(rig.recorder.find("Primes warning"));
   EXPECT_TRUE(rig.recorder.find("Buckets warning"));
   rig.session.set_method("bounding-box");
-  rig.ui.table = false;
+  rig.ui.hash_table = false;
   rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "it hashes nothing";
+  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "the method hashes nothing";
   rig.session.set_method("grid-hash");
   rig.frames(2);
   rig.type("y prime", "0");
-  EXPECT_EQ(primes()[1], 1u) << "the least there is";
+  EXPECT_EQ(primes()[1], 1u) << "the smallest allowed";
   rig.click("Default primes");
   EXPECT_EQ(primes(), collide::default_primes);
   EXPECT_FALSE(rig.recorder.find("Primes warning"));
 }
 
-TEST(Panel, AClickOnABucketSelectsItAndAnotherReleasesIt) {
+TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
   PanelRig rig;
-  const HashView& view = rig.interface.hash_view();
-  const HashGrid& grid = view.grid();
+  const HashTableView& view = rig.interface.hash_table_view();
+  const BucketGrid& grid = view.grid();
   const std::uint32_t square = 345;
   const float x = view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side;
   const float y = view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side;
@@ -270,14 +257,14 @@ TEST(Panel, AClickOnABucketSelectsItAndAnotherReleasesIt) {
   EXPECT_FALSE(rig.session.selected_bucket());
 }
 
-TEST(Panel, AClickOnManyBucketsSelectsTheFullest) {
+TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
   PanelRig rig;
   collide::Settings settings = rig.session.world().collision();
   settings.buckets = 1'000'003;
   rig.session.set_collision(settings, true);
   rig.session.paused = true;
   rig.frames(2);
-  const HashView& view = rig.interface.hash_view();
+  const HashTableView& view = rig.interface.hash_table_view();
   ASSERT_GT(view.grid().per_square, 1u);
   const auto loads = rig.session.debug().loads;
   const collide::BucketLoad fullest = *std::ranges::max_element(loads, {}, &collide::BucketLoad::load);
@@ -288,67 +275,6 @@ TEST(Panel, AClickOnManyBucketsSelectsTheFullest) {
   const auto selected = std::ranges::find(loads, *rig.session.selected_bucket(), &collide::BucketLoad::bucket);
   ASSERT_NE(selected, loads.end());
   EXPECT_EQ(selected->load, fullest.load);
-}
-
-TEST(Shortcuts, DoWhatTheHelpSays) {
-  Session session(touching_pair(), {}, 1);
-  UiState ui;
-  const auto tap = [&](int key) { return press(key, false, session, ui); };
-  EXPECT_TRUE(tap(' '));
-  EXPECT_TRUE(session.paused);
-  tap('N');
-  session.advance(0);
-  EXPECT_EQ(session.world().frame(), 1);
-  tap('S');
-  EXPECT_TRUE(session.slow_motion);
-  tap('D');
-  EXPECT_EQ(session.world().bodies().count(), 3u);
-  tap('R');
-  EXPECT_EQ(session.world().bodies().count(), 2u);
-  tap(']');
-  EXPECT_EQ(session.world().collision().levels, 4);
-  for (int i = 0; i < 20; ++i) tap('[');
-  EXPECT_EQ(session.world().collision().levels, 0);
-  tap('F');
-  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
-  tap('F');
-  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::vertices);
-  tap('M');
-  EXPECT_NE(session.world().method().key, collide::default_method);
-  for (const OverlayRow& row : overlay_table) {
-    const bool before = ui.overlays.*row.shown;
-    EXPECT_TRUE(tap(row.shortcut));
-    EXPECT_NE(ui.overlays.*row.shown, before);
-  }
-  tap('H');
-  EXPECT_FALSE(ui.panel);
-  tap('C');
-  EXPECT_TRUE(ui.reset_camera);
-  tap('?');
-  EXPECT_TRUE(ui.help);
-  tap('Q');
-  EXPECT_TRUE(ui.quit);
-  EXPECT_FALSE(tap('Z'));
-  EXPECT_FALSE(tap('/')) << "of the same key as ? on some keyboards only";
-}
-
-TEST(Shortcuts, AreNoneWithAltOrSuper) {
-  Session session(touching_pair(), {}, 1);
-  UiState ui;
-  for (const int mod : {GLFW_MOD_ALT, GLFW_MOD_SUPER}) {
-    for (const Shortcut& shortcut : shortcuts())
-      EXPECT_FALSE(press(shortcut.key, false, session, ui, shortcut.mods | mod)) << shortcut.label;
-    for (const OverlayRow& row : overlay_table) EXPECT_FALSE(press(row.shortcut, false, session, ui, mod)) << row.label;
-  }
-  EXPECT_FALSE(ui.overlays.any());
-}
-
-TEST(Shortcuts, HeldKeysRepeatOnlyWhereThatHelps) {
-  Session session(touching_pair(), {}, 1);
-  UiState ui;
-  EXPECT_FALSE(press(' ', true, session, ui));
-  EXPECT_FALSE(press('1', true, session, ui));
-  EXPECT_TRUE(press('N', true, session, ui));
 }
 
 }  // namespace

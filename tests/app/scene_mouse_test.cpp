@@ -1,4 +1,4 @@
-// What the mouse meets in the scene, and what it does there.
+// Picking with the mouse in the scene, and what its clicks and drags do.
 
 #include <gtest/gtest.h>
 
@@ -27,7 +27,7 @@ glm::vec2 pixel_of(const engine::Camera& camera, const glm::vec3& point) {
   return glm::vec2(*camera.project(point, size));
 }
 
-/// The first of all triangles that the ray meets, by Cramer's rule in double.
+/// The first triangle that the ray hits, found by Cramer's rule in double.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   softbody::BodyId body = 0;
@@ -50,7 +50,7 @@ Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   return nearest;
 }
 
-TEST(Pick, IsWhatBruteForceFinds) {
+TEST(Pick, FindsWhatBruteForceFinds) {
   softbody::World world(without_solids(), {});
   const engine::Camera camera = camera_at({0, 3, 0}, 4);
   std::mt19937 random(1);
@@ -77,7 +77,7 @@ TEST(Pick, IsWhatBruteForceFinds) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(Pick, ASolidHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
+TEST(Pick, IgnoresBodiesBehindASolid) {
   softbody::Scene scene = without_solids();
   softbody::World bare(scene, {});
   const engine::Ray ray{{-0.51f, 3.03f, 10}, {0, 0, -1}};
@@ -90,7 +90,7 @@ TEST(Pick, ASolidHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
   }
 }
 
-TEST(Pick, MeetsBodiesWhereTheyAreDrawn) {
+TEST(Pick, HitsBodiesWhereTheyAreDrawn) {
   softbody::World world(without_solids(), {});
   Positions before;
   before.copy(world.positions());
@@ -100,13 +100,12 @@ TEST(Pick, MeetsBodiesWhereTheyAreDrawn) {
   EXPECT_TRUE(pick(ray, world, {world.positions(), before.x, before.y, before.z, 0.5f}));
 }
 
-/// A session, a camera and a hand on the mouse.
-class Mouse : public testing::Test {
+class SceneMouseTest : public testing::Test {
  protected:
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
-      mouse.follow(input, session, camera, size);
+      mouse.update(input, session, camera, size);
       camera.advance(tick);
       input.moved = {};
       input.double_click = false;
@@ -129,15 +128,15 @@ class Mouse : public testing::Test {
   MouseInput input;
 };
 
-/// Between two frames the camera follows the mouse, and the next frame adds but what is left.
-TEST_F(Mouse, GoesOnTurningBetweenFrames) {
-  const auto turn = [&](bool between) {
+/// Between two frames the camera follows the mouse, and the next frame adds only the rest of the way.
+TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
+  const auto orbit_after_drag = [&](bool between) {
     camera = camera_at({0, 3, 0}, 8);
-    input.at = {5, 5};  // beside all bodies
+    input.at = {5, 5};  // on the background
     button(0, true);
     if (between) {
       const engine::Orbit before = camera.orbit();
-      mouse.turn_on({60, 20}, camera, size);
+      mouse.orbit_between_frames({60, 20}, camera, size);
       camera.settle();
       EXPECT_NE(camera.orbit().azimuth, before.azimuth);
     }
@@ -146,16 +145,16 @@ TEST_F(Mouse, GoesOnTurningBetweenFrames) {
     button(0, false);
     return camera.orbit();
   };
-  const engine::Orbit whole = turn(false), parts = turn(true);
+  const engine::Orbit whole = orbit_after_drag(false), parts = orbit_after_drag(true);
   EXPECT_NEAR(whole.azimuth, parts.azimuth, 1e-5);
   EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
   const engine::Orbit before = camera.orbit();
-  mouse.turn_on({400, 300}, camera, size);  // nobody drags
+  mouse.orbit_between_frames({400, 300}, camera, size);  // there is no drag
   camera.settle();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
 }
 
-TEST_F(Mouse, GrabsPullsAndThrows) {
+TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   move(body_pixel(1));
   EXPECT_TRUE(mouse.on_body());
   EXPECT_FALSE(session.selected_body());
@@ -169,7 +168,7 @@ TEST_F(Mouse, GrabsPullsAndThrows) {
   frame(90);
   const glm::vec3 point(session.world().dynamics().grabbed_point());
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
-  EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // hangs by it
+  EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // the body hangs from the mouse
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
   const glm::dvec3 held(session.world().dynamics().grabbed_point());
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
@@ -177,13 +176,13 @@ TEST_F(Mouse, GrabsPullsAndThrows) {
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));
   button(0, false);
   EXPECT_FALSE(session.world().grabbed());
-  const glm::vec2 let_go = body_pixel(1);
+  const glm::vec2 at_release = body_pixel(1);
   frame(10);
-  EXPECT_LT(body_pixel(1).x, let_go.x - 10);  // it flies on
+  EXPECT_LT(body_pixel(1).x, at_release.x - 10);  // the body flies on
   EXPECT_EQ(session.selected_body(), 1u);
 }
 
-TEST_F(Mouse, BesideAllBodiesTurnsAndAClickSelectsNothing) {
+TEST_F(SceneMouseTest, OrbitsByADragOfTheBackgroundAndDeselectsByAClick) {
   session.select_body(0);
   move({5, 5});
   EXPECT_FALSE(mouse.on_body());
@@ -193,15 +192,15 @@ TEST_F(Mouse, BesideAllBodiesTurnsAndAClickSelectsNothing) {
   button(0, false);
   camera.settle();
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
-  EXPECT_EQ(session.selected_body(), 0u);  // that was no click
+  EXPECT_EQ(session.selected_body(), 0u);  // that was a drag
   move({5, 5});
   button(0, true);
   button(0, false);
   EXPECT_FALSE(session.selected_body());
 }
 
-/// In one slow frame: the way to the place of the press is no drag, and the way from there to the release is one.
-TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
+/// In one slow frame, the way to the place of the press is no drag, but the way from there to the release is one.
+TEST_F(SceneMouseTest, IgnoresTheWayBeforeAPress) {
   const engine::Orbit before = camera.orbit();
   const auto jump = [&](const glm::vec2& to, std::size_t which, bool down) {
     input.moved = to - input.at;
@@ -217,7 +216,7 @@ TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
     EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
     EXPECT_EQ(camera.orbit().target, before.target);
   }
-  EXPECT_FALSE(session.selected_body()) << "that was a click beside all bodies";
+  EXPECT_FALSE(session.selected_body()) << "that was a click on the background";
   session.paused = true;
   jump(body_pixel(1), 0, true);
   jump(input.at, 0, false);
@@ -229,7 +228,7 @@ TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
   EXPECT_EQ(session.selected_body(), 1u) << "that was a drag";
 }
 
-TEST_F(Mouse, WhilePausedSelectsAndTurns) {
+TEST_F(SceneMouseTest, SelectsAndOrbitsWhilePaused) {
   session.paused = true;
   move(body_pixel(0));
   const float azimuth = camera.orbit().azimuth;
@@ -243,7 +242,7 @@ TEST_F(Mouse, WhilePausedSelectsAndTurns) {
   EXPECT_EQ(session.selected_body(), 0u);
 }
 
-TEST_F(Mouse, ADoubleClickLooksAtTheBody) {
+TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
   session.paused = true;
   move(body_pixel(1));
   input.double_click = true;
@@ -255,7 +254,7 @@ TEST_F(Mouse, ADoubleClickLooksAtTheBody) {
   EXPECT_FALSE(session.world().grabbed());
 }
 
-TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
+TEST_F(SceneMouseTest, PansByTheOtherButtonsAndIgnoresThePanelsMouse) {
   move(body_pixel(0));
   const glm::vec3 target = camera.orbit().target;
   button(1, true);
@@ -275,7 +274,7 @@ TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
   EXPECT_FALSE(session.selected_body());
 }
 
-TEST_F(Mouse, ThrowsToWhereItPointsOrToTheMiddle) {
+TEST_F(SceneMouseTest, AimsAtTheMouseOrAtTheMiddle) {
   move({200, 150});
   EXPECT_EQ(mouse.ray(camera, size).direction, camera.pick_ray({200, 150}, size).direction);
   input.over_scene = false;

@@ -75,12 +75,12 @@ TEST(StabilityWatch, WatchesAgainOnceTheWorldWasGoodForAWhile) {
 }
 
 TEST(StepLight, IsGreenAmberAndRed) {
-  EXPECT_STREQ(light_of(StepMargin{}).name, "Green");
-  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1}).name, "Green");
-  EXPECT_STREQ(light_of(StepMargin{9, 10, 0.1, 0.1}).name, "Amber");
-  EXPECT_STREQ(light_of(StepMargin{8, 10, 0.1, 0.1}).name, "Amber");
-  EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
-  EXPECT_STREQ(light_of(StepMargin{4000, 9000, 1e-6, 1e-6, StepMargin::Bound::stable, 0.4}).name, "Amber");
+  EXPECT_STREQ(status_light(StepMargin{}).name, "Green");
+  EXPECT_STREQ(status_light(StepMargin{10, 10, 0.1, 0.1}).name, "Green");
+  EXPECT_STREQ(status_light(StepMargin{9, 10, 0.1, 0.1}).name, "Amber");
+  EXPECT_STREQ(status_light(StepMargin{8, 10, 0.1, 0.1}).name, "Amber");
+  EXPECT_STREQ(status_light(StepMargin{7, 10, 0.1, 0.1}).name, "Red");
+  EXPECT_STREQ(status_light(StepMargin{4000, 9000, 1e-6, 1e-6, StepMargin::Bound::stable, 0.4}).name, "Amber");
 }
 
 TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
@@ -106,10 +106,10 @@ TEST(StepLight, KnowsHowMuchOfAFrameWasSimulated) {
 
 TEST(StepLight, SaysWhatTheBoundOfEachIntegratorMeans) {
   using Bound = StepMargin::Bound;
-  EXPECT_STREQ(light_of(StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
-  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
-  EXPECT_STREQ(light_of(StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
-  EXPECT_STREQ(light_of(StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
+  EXPECT_STREQ(status_light(StepMargin{1, 10, 0.1, 0.01, Bound::unconditional}).name, "Amber");
+  EXPECT_STREQ(status_light(StepMargin{10, 10, 0.1, 0.1, Bound::unconditional}).name, "Green");
+  EXPECT_STREQ(status_light(StepMargin{10, 10, 0.1, 0.1, Bound::by_damping}).name, "Amber");
+  EXPECT_STREQ(status_light(StepMargin{7, 10, 0.1, 0.1, Bound::by_damping}).name, "Red");
   for (const softbody::Integrator& integrator : softbody::integrators()) {
     softbody::World world(touching_pair(), {.integrator = std::string(integrator.key), .substeps = 1});
     StabilityWatch watch;
@@ -134,7 +134,7 @@ TEST(StepLight, ComparesTheStepWithTheBound) {
     world.step();
     watch.after_step(world, true);
     EXPECT_GE(watch.margin().taken, substeps.value_or(needed));
-    EXPECT_STREQ(light_of(watch.margin()).name, substeps ? "Red" : "Green");
+    EXPECT_STREQ(status_light(watch.margin()).name, substeps ? "Red" : "Green");
     EXPECT_DOUBLE_EQ(watch.margin().substep, world.frame_time() / watch.margin().taken);
     EXPECT_EQ(watch.history().total.size(), 1u);
   }

@@ -156,7 +156,7 @@ void resize(DemoRig& demo, Dice& dice) { demo.resize({end_or_between(dice, 1, 90
 void view(DemoRig& demo, Dice& dice) {
   for (const app::OverlayRow& row : app::overlay_table) demo.ui.overlays.*row.shown = dice.pick(4) == 0;
   demo.ui.panel = dice.heads();
-  demo.ui.table = dice.heads();
+  demo.ui.hash_table = dice.heads();
   demo.ui.help = dice.pick(8) == 0;
   demo.ui.sweep = dice.heads();
   demo.session.compare.on = dice.heads();

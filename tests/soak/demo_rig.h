@@ -6,7 +6,7 @@
 
 #include "app/render/canvas.h"
 #include "app/render/scene_view.h"
-#include "app/ui/interface.h"
+#include "app/ui/user_interface.h"
 #include "app/window/scene_mouse.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
@@ -32,7 +32,7 @@ class DemoRig {
   engine::Gui gui_{1.0f};
   app::SceneView view_;
   app::Canvas canvas_{true};
-  app::Interface interface_;
+  app::UserInterface interface_;
   app::SceneMouse mouse_;
   engine::Camera camera_;
 

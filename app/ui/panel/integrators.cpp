@@ -7,8 +7,8 @@
 namespace app {
 namespace {
 
-/// "Auto (Semi-implicit Euler)", or "Runge-Kutta 4, 8 substeps".
-std::string in_words(const softbody::World& world) {
+/// Returns "Auto (Semi-implicit Euler)" or "Runge-Kutta 4, 8 substeps".
+std::string integrator_text(const softbody::World& world) {
   std::string text(world.integrator().name);
   if (world.integrator().automatic) text.append(" (").append(world.dynamics().used_integrator().name).append(")");
   if (const auto substeps = world.substeps())
@@ -26,11 +26,11 @@ std::string distance_text(const Session& session) {
 bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choice, int proposed) {
   const IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
-  w.row("Integrator", w.px(label_column));
-  if (w.begin_choices(joined(name, "Integrator").c_str(), std::string(now.name).c_str(),
-                      std::string(now.summary).c_str())) {
+  w.row_label("Integrator", w.px(label_column));
+  if (w.begin_combo(joined(name, "Integrator").c_str(), std::string(now.name).c_str(),
+                    std::string(now.summary).c_str())) {
     for (const softbody::Integrator& i : softbody::integrators())
-      if (w.choice(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
+      if (w.combo_item(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
     ImGui::EndCombo();
   }
   bool fixed = choice.substeps.has_value();
@@ -39,7 +39,7 @@ bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choi
                  "up. Else as many as the stability bound asks for."))
     choice.substeps = fixed ? std::optional(std::max(1, proposed)) : std::nullopt;
   ImGui::BeginDisabled(!fixed);
-  w.row("Substeps", w.px(label_column));
+  w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
   if (w.slider(joined(name, "Substeps").c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
                "Fewer are faster, until it explodes."))
@@ -65,12 +65,12 @@ void draw_ghost(Widgets& w, Session& session) {
 }
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", in_words(session.world()).c_str());
-  w.done("Legend", nullptr);
-  w.chip(ghost_colour, ImGui::GetTextLineHeight());
+  ImGui::Text("Opaque: %s", integrator_text(session.world()).c_str());
+  w.register_item("Legend", nullptr);
+  w.swatch(ghost_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  ImGui::Text("ghost: %s", in_words(session.ghost()->world()).c_str());
-  w.done("Legend", nullptr);
+  ImGui::Text("ghost: %s", integrator_text(session.ghost()->world()).c_str());
+  w.register_item("Legend", nullptr);
   ImGui::Text("RMS distance: %s", distance_text(session).c_str());
 }
 

@@ -1,4 +1,4 @@
-// The panel's section of counters and timings.
+// The panel's section on counters and timings.
 
 #include <algorithm>
 #include <array>
@@ -39,7 +39,7 @@ void draw_curves(Widgets& w, const Session& session, float fineness) {
   w.curve("Recall", value, history.recall, {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 
-void draw_touches(Widgets& w, const Session& session) {
+void draw_surface_contacts(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) return;
   const auto& touches = session.touches();
   const auto inside = static_cast<std::size_t>(
@@ -50,19 +50,20 @@ void draw_touches(Widgets& w, const Session& session) {
   w.figure("surfaces, inside one body", grouped(inside), "The same within one body.");
 }
 
-/// What the exact method has left out, each kind on a line of its own whether there is any or not: nothing jumps.
+/// Draws the work that the exact method has skipped, a line for each kind even if there is none, so that nothing moves.
 void draw_skipped(Widgets& w, const Session& session) {
   const collide::Method& method = session.world().method();
   if (method.key != collide::default_method) return;
   ImGui::TextDisabled("Skipped in this frame");
-  w.done("Skipped", "Work that this frame did not need. Each kind is left out on a proof: the contacts are the same.");
+  w.register_item("Skipped",
+                  "Work that this frame did not need. Each kind is left out on a proof: the contacts are the same.");
   for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
     w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
   }
 }
 
-/// With what §3 claims of them.
+/// Draws the pair tests beside the claims of §3.
 void draw_pair_tests(Widgets& w, const Session& session) {
   const collide::Counters& counters = session.world().detection().counters;
   const std::uint64_t vertices = session.world().bodies().vertex_count();
@@ -101,7 +102,7 @@ void draw_numbers(Widgets& w, const Session& session, float fineness) {
   w.figure("inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
   w.figure("with solids", grouped(session.world().solid_contacts().size()),
            "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
-  draw_touches(w, session);
+  draw_surface_contacts(w, session);
   draw_pair_tests(w, session);
   draw_hashes(w, session);
   w.figure("Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");

@@ -13,7 +13,7 @@ void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const bool pressed = ImGui::Button("Tour", {width, 0});
   ImGui::PopStyleColor(3);
-  w.done("Tour", "Five steps show how the method works, on this very frame (G).");
+  w.register_item("Tour", "Five steps show how the method works, on this very frame (G).");
   if (pressed) ui.tour.toggle(session, ui.overlays);
 }
 
@@ -21,14 +21,14 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const softbody::Scene& scene = session.world().scene();
   const std::filesystem::path from = session.scene_file().name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
-  w.row("Scene", w.px(62));
+  w.row_label("Scene", w.px(62));
   const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
               gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
-  if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
+  if (w.begin_combo("Scene", shown.c_str(), scene.look_at.c_str())) {
     std::string chosen;
     for (const SceneChoice& choice : session.scenes()) {
-      if (w.choice(choice.name.c_str(), choice.key == session.scene_file().name(), choice.look_at.c_str()))
+      if (w.combo_item(choice.name.c_str(), choice.key == session.scene_file().name(), choice.look_at.c_str()))
         chosen = choice.key;
     }
     ImGui::EndCombo();
@@ -40,7 +40,7 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
-void draw_transport(Widgets& w, Session& session) {
+void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   const char* pause = session.paused ? "Go on###Pause" : "Pause###Pause";
@@ -89,8 +89,8 @@ void draw_progress(Widgets& w, const Session& session) {
   } else if (world.all_at_rest()) {
     right += ", all at rest";
   }
-  w.value(right);
-  w.done(
+  w.right_text(right);
+  w.register_item(
       "Progress",
       session.pace() < 0.95
           ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
@@ -99,21 +99,21 @@ void draw_progress(Widgets& w, const Session& session) {
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {
-  const auto place = [&](std::size_t i) {
+  const auto next_cell = [&](std::size_t i) {
     if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
   };
   std::size_t i = 0;
   for (const OverlayRow& row : overlay_table) {
-    place(i++);
+    next_cell(i++);
     const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
     w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
   }
-  place(i++);
-  w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
-  place(i++);
+  next_cell(i++);
+  w.checkbox("Hash table", ui.hash_table, "The hash table itself, one square a bucket (T).");
+  next_cell(i++);
   w.checkbox("Error vs run time###Error against run time", ui.sweep,
              "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
-  place(i++);
+  next_cell(i++);
   w.checkbox("Compare methods", session.compare.on,
              "All methods on the same frozen frame: what each costs, and what it misses (V).");
 }
@@ -126,24 +126,24 @@ void draw_plan(Widgets& w, const softbody::World& world) {
   for (const auto& [stage, why] : world.plan().left_out) {
     const std::string key(softbody::stage_key(stage));
     ImGui::TextDisabled("without %s: %s", key.c_str(), why.c_str());
-    w.done(key.c_str(), why.c_str());
+    w.register_item(key.c_str(), why.c_str());
   }
 }
 
 }  // namespace
 
-void draw_panel(Widgets& w, Session& session, UiState& ui, const SceneArea& area, bool opaque) {
-  // The same width with and without a scrollbar, so that folding a section moves nothing sideways.
+void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& area, bool opaque) {
+  // The contents keep their width when a scrollbar appears, so that folding a section moves nothing sideways.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
   begin_dock("Panel", area, opaque);
   draw_scene(w, session, ui);
-  draw_transport(w, session);
+  draw_time_controls(w, session);
   draw_progress(w, session);
-  draw_touch(w, session, ui);
+  draw_bodies(w, session, ui);
   ImGui::Spacing();
   if (w.section("Detection", true))
-    draw_detection(w, session, ui.table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
+    draw_detection(w, session, ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("World", false)) draw_world(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session, ui.fineness);

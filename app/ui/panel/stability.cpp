@@ -1,5 +1,5 @@
-// The panel's section on stability: the way back, and how energies, volumes, strains and speeds went. Its light stands
-// in the status.
+// The panel's section on stability: integrator, ghost, rewind, and the curves of energies, volumes, strain and speed.
+// The status light of the step is here, too.
 
 #include <algorithm>
 #include <array>
@@ -12,7 +12,7 @@
 namespace app {
 namespace {
 
-std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
+std::string step_text(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
   if (margin.share < 1) return format("slow motion: %.2g of a frame in %d substeps", margin.share, margin.taken);
@@ -22,11 +22,11 @@ std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
                 margin.bound * 1e3 / (1 - StepMargin::reserve));
 }
 
-/// From the first snapshot to the newest; dragging goes there and pauses.
-void draw_past(Widgets& w, Session& session) {
+/// Draws the slider from the first snapshot to the newest. Dragging it rewinds and pauses.
+void draw_rewind(Widgets& w, Session& session) {
   const auto& past = session.stability().past().snapshots();
   const auto frame = session.world().frame();
-  w.row("Go back to", w.px(label_column));
+  w.row_label("Go back to", w.px(label_column));
   ImGui::BeginDisabled(past.empty());
   int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
   const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
@@ -41,7 +41,7 @@ void draw_past(Widgets& w, Session& session) {
            "Memory is bounded: when it is full, old snapshots are thinned out.");
 }
 
-/// Which integrator, with how many substeps; and which one is at work, if it chooses by itself.
+/// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
 void draw_integrator(Widgets& w, Session& session) {
   const softbody::World& world = session.world();
   IntegratorChoice choice{std::string(world.integrator().key), world.substeps()};
@@ -59,7 +59,7 @@ struct StabilityCurve {
   const char* label;
   Ring StabilityHistory::*ring;
   const char* format;
-  float least;  // length of the axis
+  float least;  // the axis is at least so long
   const char* unit;
   glm::vec3 colour;
 };
@@ -79,39 +79,40 @@ constexpr std::array<StabilityCurve, 9> curves{{
 
 }  // namespace
 
-Light light_of(const StepMargin& margin) {
+StatusLight status_light(const StepMargin& margin) {
   using Bound = StepMargin::Bound;
   if (margin.share < 1)
-    return {light_amber, "Amber", "a frame would take more substeps than there may be, so less of it is simulated."};
+    return {status_amber, "Amber", "a frame would take more substeps than there may be, so less of it is simulated."};
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
-    return {light_amber, "Amber",
+    return {status_amber, "Amber",
             "stable at any step, but bodies this fast near solids, or frames this long, want shorter ones."};
   if (margin.kind == Bound::by_damping && within && margin.taken > 0)
-    return {light_amber, "Amber", "stable where dampers are strong enough: gas and contacts may still gain energy."};
-  if (within) return {light_green, "Green", "the step is within the stability bound."};
+    return {status_amber, "Amber", "stable where dampers are strong enough: gas and contacts may still gain energy."};
+  if (within) return {status_green, "Green", "the step is within the stability bound."};
   if (margin.taken >= (1 - StepMargin::reserve) * margin.needed)
-    return {light_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
-  return {light_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
+    return {status_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
+  return {status_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
 }
 
 void draw_step_light(Widgets& w, Session& session) {
   const StepMargin& margin = session.stability().margin();
-  const Light light = light_of(margin);
+  const StatusLight light = status_light(margin);
   ImGui::BeginGroup();
   w.dot(light.colour);
-  w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
+  w.text_line(std::string(light.name).append(": ").append(step_text(margin, session.world())));
   ImGui::EndGroup();
-  w.done("Step light",
-         format("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
-                margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
-             .c_str());
+  w.register_item(
+      "Step light",
+      format("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
+             margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
+          .c_str());
   if (!session.stability().alarm()) return;
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(status_red)));
   ImGui::TextWrapped("%s (frame %d). Rewind, then take more substeps, Auto or softer springs.",
                      session.stability().alarm()->what.c_str(), session.stability().alarm()->frame);
   ImGui::PopStyleColor();
-  w.done("Alarm", nullptr);
+  w.register_item("Alarm", nullptr);
   if (w.button("Rewind to the last good frame", "The world as it was before; then try other settings, or go on."))
     session.rewind_to(session.stability().last_good_frame());
 }
@@ -122,7 +123,7 @@ void draw_stability(Widgets& w, Session& session) {
   w.checkbox("Pause when a body explodes", session.guarded,
              "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
              "there could give it, and names it.");
-  draw_past(w, session);
+  draw_rewind(w, session);
   const StabilityHistory& history = session.stability().history();
   for (const StabilityCurve& c : curves) {
     const Ring& ring = history.*c.ring;

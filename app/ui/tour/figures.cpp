@@ -22,13 +22,12 @@ std::string with_sign(std::int64_t n) {
   return joined(n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
 }
 
-/// A body, in its colour.
 TourFigure body_figure(const char* label, const softbody::World& world, softbody::BodyId body) {
   return {label, std::to_string(body), "Bodies count from 0. A selected body is taken if it touches another.",
           body_colour(world.body(body).number)};
 }
 
-std::vector<TourFigure> hash_terms(const TourView& v) {
+std::vector<TourFigure> hash_terms(const TourContext& v) {
   constexpr std::array axes{"x", "y", "z"};
   const collide::Settings& settings = v.world.collision();
   const HashedCorner& corner = v.chosen();
@@ -50,15 +49,15 @@ std::vector<TourFigure> hash_terms(const TourView& v) {
   return figures;
 }
 
-/// Beyond it the terms would not fit the sum; such corners are kilometres away.
+/// True if the terms of the hash fit their sum; corners that fail are kilometres away.
 bool can_be_written_out(const HashedCorner& corner) {
-  constexpr std::int64_t most = 500'000'000;
-  return std::ranges::all_of(corner.cell, [](std::int64_t index) { return std::abs(index) < most; });
+  constexpr std::int64_t max_index = 500'000'000;
+  return std::ranges::all_of(corner.cell, [](std::int64_t index) { return std::abs(index) < max_index; });
 }
 
 }  // namespace
 
-std::vector<TourFigure> figures_of_body(const TourView& v) {
+std::vector<TourFigure> figures_of_body(const TourContext& v) {
   const auto& [lo, hi] = v.f.bounds[0];
   const collide::Bodies& bodies = v.world.bodies();
   return {body_figure("Body", v.world, v.f.body),
@@ -68,7 +67,7 @@ std::vector<TourFigure> figures_of_body(const TourView& v) {
           {"Sides", sides(hi - lo), "Of the box."}};
 }
 
-std::vector<TourFigure> figures_of_boxes(const TourView& v) {
+std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.boxes.front()];
   const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
@@ -84,7 +83,7 @@ std::vector<TourFigure> figures_of_boxes(const TourView& v) {
                        : "The box is larger, so that its corners skip cells in between: red.")}};
 }
 
-std::vector<TourFigure> figures_of_corner(const TourView& v) {
+std::vector<TourFigure> figures_of_corner(const TourContext& v) {
   const HashedCorner& corner = v.chosen();
   std::vector<TourFigure> figures{{joined("Corner ", std::to_string(v.corner + 1)), joined(place(corner.at), " m"),
                                    "Of the box that is nearest to the other body. Choose another corner above."}};
@@ -96,8 +95,8 @@ std::vector<TourFigure> figures_of_corner(const TourView& v) {
   return figures;
 }
 
-std::vector<TourFigure> figures_of_bucket(const TourView& v) {
-  constexpr std::size_t most_groups = 3;
+std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
+  constexpr std::size_t max_groups = 3;
   const BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
   std::vector<TourFigure> figures{
       {joined("Bucket ", grouped(bucket.bucket)),
@@ -105,20 +104,20 @@ std::vector<TourFigure> figures_of_bucket(const TourView& v) {
               bucket.groups.size() == 1 ? " cell" : " cells"),
        "What shares the bucket of the chosen corner."}};
   const CellGroup* own = bucket.group(v.chosen().cell);
-  for (std::size_t i = 0; i < std::min(most_groups, bucket.groups.size()); ++i) {
+  for (std::size_t i = 0; i < std::min(max_groups, bucket.groups.size()); ++i) {
     const CellGroup& group = bucket.groups[i];
-    figures.push_back({joined("Cell ", cell_text(group.cell)), bodies_of(group, bucket, v.f.structure, {}),
+    figures.push_back({joined("Cell ", cell_text(group.cell)), bodies_text(group, bucket, v.f.structure, {}),
                        joined("Boxes with a corner in this cell: ", grouped(group.items.size()), "."),
                        &group == own ? same_cell_colour : aliased_colour});
   }
-  const auto meetings = [](const Sharing& s) { return joined(grouped(s.same_cell), " / ", grouped(s.aliased)); };
-  figures.push_back({"Meetings: same cell / aliased", meetings(bucket.sharing),
+  const auto shared_pairs = [](const Sharing& s) { return joined(grouped(s.same_cell), " / ", grouped(s.aliased)); };
+  figures.push_back({"Meetings: same cell / aliased", shared_pairs(bucket.sharing),
                      "Pairs of boxes that meet in this bucket: as neighbours, and by the modulo alone."});
-  figures.push_back({"In the whole table", meetings(v.f.table.sharing()), "The same, summed over all buckets."});
+  figures.push_back({"In the whole table", shared_pairs(v.f.table.sharing()), "The same, summed over all buckets."});
   return figures;
 }
 
-std::vector<TourFigure> figures_of_contact(const TourView& v) {
+std::vector<TourFigure> figures_of_contact(const TourContext& v) {
   const float tolerance = v.world.collision().tolerance;
   const bool self = v.f.body == v.f.other;
   std::vector<TourFigure> figures{body_figure(self ? "Within body" : "Body", v.world, v.f.body)};
@@ -138,7 +137,7 @@ std::vector<TourFigure> figures_of_contact(const TourView& v) {
   return figures;
 }
 
-std::vector<TourFigure> tour_work(const TourView& v) {
+std::vector<TourFigure> figures_of_frame(const TourContext& v) {
   const collide::Bodies& bodies = v.world.bodies();
   const std::uint64_t vertices = bodies.vertex_count();
   const std::uint64_t all = all_pair_tests(bodies, v.world.collision().self_collision);
@@ -149,7 +148,7 @@ std::vector<TourFigure> tour_work(const TourView& v) {
            joined("8 corners a box, against one hash a vertex without boxes: ", ratio(work.hashes, vertices),
                   " a vertex. §3 claims that boxes save hashes; they do while a box holds more than 8 vertices. Both "
                   "grow with the number of bodies.")},
-          {v.f.predicted_tests ? "Pair tests, estimated / all pairs" : "Pair tests / all pairs",
+          {v.f.pair_tests_estimated ? "Pair tests, estimated / all pairs" : "Pair tests / all pairs",
            joined(grouped(work.pair_tests), " / ", grouped(all)),
            joined(ratio(work.pair_tests, vertices),
                   " a vertex. §3 claims O(1) at best, so many a vertex however many "

@@ -1,4 +1,4 @@
-// The panel's part for hands: bodies to drop and to throw, and the selected one.
+// The panel's part for bodies: drop, throw, and the selected body.
 
 #include <array>
 #include <cstdio>
@@ -12,7 +12,7 @@
 namespace app {
 namespace {
 
-void draw_newcomers(Widgets& w, Session& session, UiState& ui) {
+void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
   ImGui::BeginDisabled(!session.can_drop());
@@ -31,48 +31,48 @@ void draw_newcomers(Widgets& w, Session& session, UiState& ui) {
   ImGui::EndDisabled();
 }
 
-const char* state_of(const softbody::World& world, softbody::BodyId id) {
+const char* state_text(const softbody::World& world, softbody::BodyId id) {
   if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
   if (world.body(id).held) return "held in place";
   return world.body(id).asleep ? "asleep" : "awake";
 }
 
-void draw_body(Widgets& w, const softbody::World& world, softbody::BodyId id) {
+void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id) {
   const softbody::BodyMeasures m = softbody::measure(world, id);
-  w.chip(body_colour(world.body(id).number), ImGui::GetTextLineHeight());
+  w.swatch(body_colour(world.body(id).number), ImGui::GetTextLineHeight());
   ImGui::SameLine();
   ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
   ImGui::SameLine();
-  w.value(state_of(world, id));
-  w.done("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
-  std::array<char, 64> figures{};
+  w.right_text(state_text(world, id));
+  w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
+  std::array<char, 64> text{};
   const double speed = glm::length(m.momentum) / world.prototype(id).material.mass;
   if (m.closed)
-    std::snprintf(figures.data(), figures.size(), "%.2f m/s   %.1f %%", speed, 100 * m.volume_ratio);
+    std::snprintf(text.data(), text.size(), "%.2f m/s   %.1f %%", speed, 100 * m.volume_ratio);
   else
-    std::snprintf(figures.data(), figures.size(), "%.2f m/s   open", speed);
-  w.figure("Speed, volume", figures.data(), "Of its centre of mass; of the volume that it started with.");
+    std::snprintf(text.data(), text.size(), "%.2f m/s   open", speed);
+  w.figure("Speed, volume", text.data(), "Of its centre of mass; of the volume that it started with.");
 }
 
-void draw_nobody(Widgets& w) {
+void draw_no_selection(Widgets& w) {
   ImGui::TextDisabled("No body selected: click one in the scene.");
-  w.done("Selected body", "Drag a body to pull it; double-click it to look at it.");
+  w.register_item("Selected body", "Drag a body to pull it; double-click it to look at it.");
   ImGui::TextDisabled("Drag one to pull it.");
 }
 
 }  // namespace
 
-void draw_touch(Widgets& w, Session& session, UiState& ui) {
-  draw_newcomers(w, session, ui);
+void draw_bodies(Widgets& w, Session& session, UiState& ui) {
+  draw_drop_and_throw(w, session, ui);
   const auto& body = session.selected_body();
   if (body)
-    draw_body(w, session.world(), *body);
+    draw_selected(w, session.world(), *body);
   else
-    draw_nobody(w);
+    draw_no_selection(w);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
   ImGui::BeginDisabled(!body);
   if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
-    ui.look_at_body = true;
+    ui.focus_body = true;
   ImGui::SameLine();
   if (w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
     session.remove_selected();

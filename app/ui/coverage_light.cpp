@@ -1,4 +1,4 @@
-#include "app/ui/panel/light.h"
+#include "app/ui/coverage_light.h"
 
 #include <glm/common.hpp>
 
@@ -9,11 +9,11 @@ std::string metres(const glm::vec3& size) {
   return format("%.3f x %.3f x %.3f m", double{size.x}, double{size.y}, double{size.z});
 }
 
-/// A sentence that wraps, with a dot before it.
-void draw_meaning(Widgets& w, collide::Coverage coverage, bool now) {
-  const Light light = light_of(coverage);
+/// Draws the meaning of a colour with its dot; `active`: not in grey.
+void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
+  const StatusLight light = status_light(coverage);
   w.dot(light.colour);
-  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(now ? ImGuiCol_Text : ImGuiCol_TextDisabled));
+  ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(active ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool exact = coverage == collide::Coverage::exact;
   ImGui::TextWrapped("%s: %s%s", light.name, exact ? "" : "the paper's method, and ", light.sentence);
   ImGui::PopStyleColor();
@@ -35,18 +35,18 @@ std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec
   return text.append("Along ").append(beyond).append(" a box is larger: cells between its corners are skipped.");
 }
 
-void draw_light(Widgets& w, const Session& session, bool& explained) {
+void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
   const collide::Coverage now = session.world().detection().coverage;
-  const Light light = light_of(now);
+  const StatusLight light = status_light(now);
   const std::string fit = box_against_cell(session.paper(), session.world().collision().cell_size);
   ImGui::BeginGroup();
   w.dot(light.colour);
   ImGui::TextWrapped("%s: %s", light.name, light.sentence);
   ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();
-  w.done("Coverage", joined("What the method and its settings promise on this frame (§2.2). ", fit,
-                            explained ? " Click: less." : " Click: what the colours mean.")
-                         .c_str());
+  w.register_item("Coverage", joined("What the method and its settings promise on this frame (§2.2). ", fit,
+                                     explained ? " Click: less." : " Click: what the colours mean.")
+                                  .c_str());
   if (clicked) explained = !explained;
   if (!explained) return;
   ImGui::Separator();
@@ -54,7 +54,7 @@ void draw_light(Widgets& w, const Session& session, bool& explained) {
        {collide::Coverage::exact, collide::Coverage::covered, collide::Coverage::exceeded})
     draw_meaning(w, each, each == now);
   ImGui::TextWrapped("%s", fit.c_str());
-  w.done("Coverage explained", nullptr);
+  w.register_item("Coverage explained", nullptr);
   ImGui::Separator();
 }
 

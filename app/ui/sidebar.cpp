@@ -1,4 +1,4 @@
-#include "app/ui/column.h"
+#include "app/ui/sidebar.h"
 
 #include "app/ui/bucket_view.h"
 #include "app/ui/status.h"
@@ -6,18 +6,18 @@
 
 namespace app {
 
-bool has_column(const Session& session, const UiState& ui) {
-  return ui.table || session.bucket() || ui.overlays.true_surfaces || has_legend(session, ui.overlays);
+bool has_sidebar(const Session& session, const UiState& ui) {
+  return ui.hash_table || session.bucket() || ui.overlays.true_surfaces || has_legend(session, ui.overlays);
 }
 
-void draw_column(Widgets& w, Session& session, UiState& ui, HashView& hash_view, const SceneArea& area) {
+void draw_sidebar(Widgets& w, Session& session, UiState& ui, HashTableView& hash_table_view, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  // The same width with and without a scrollbar.
-  ImGui::SetNextWindowContentSize({w.px(column_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
-  begin_dock("Column", area, false);
+  // The contents keep their width when a scrollbar appears.
+  ImGui::SetNextWindowContentSize({w.px(sidebar_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
+  begin_dock("Sidebar", area, false);
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, w.px(2)});
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, w.px(2)});
-  if (ui.table) hash_view.draw(w, session, ui.table);
+  if (ui.hash_table) hash_table_view.draw(w, session, ui.hash_table);
   if (session.bucket()) draw_bucket(w, session);
   const auto separate = [] {
     if (ImGui::GetCursorPosY() == ImGui::GetCursorStartPos().y) return;
@@ -27,7 +27,7 @@ void draw_column(Widgets& w, Session& session, UiState& ui, HashView& hash_view,
   if (has_legend(session, ui.overlays)) {
     separate();
     ImGui::PushTextWrapPos(0);
-    draw_legend(w, session, ui.overlays, !ui.table);
+    draw_legend(w, session, ui.overlays, !ui.hash_table);
     ImGui::PopTextWrapPos();
   }
   if (ui.overlays.true_surfaces) {

@@ -1,10 +1,10 @@
-#include "app/window/screen.h"
+#include "app/window/graphics.h"
 
 #include "app/ui/widgets/dock.h"
 
 namespace app {
 
-void Screen::clear() const {
+void Graphics::clear() const {
   const ImVec4 colour = dock_colour();
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   glClearColor(colour.x, colour.y, colour.z, 1.0f);

@@ -1,4 +1,4 @@
-#include "app/window/opening.h"
+#include "app/window/open_session.h"
 
 #include <chrono>
 #include <cstdlib>
@@ -7,33 +7,34 @@
 
 #include <imgui.h>
 
-#include "app/window/pacer.h"
+#include "app/window/frame_timer.h"
 
 namespace app {
 
-std::unique_ptr<Session> open_session(const DemoOptions& options, Screen& screen) {
+std::unique_ptr<Session> open_session(const DemoOptions& options, Graphics& graphics) {
   std::future<std::unique_ptr<Session>> opening = std::async(std::launch::async, [&] {
     return std::make_unique<Session>(options.scene, options.scene_folder, options.threads, options.scene_name);
   });
   std::future_status status = opening.wait_for(std::chrono::milliseconds(300));
   for (const double began = now(); status != std::future_status::ready;) {
     status = opening.wait_for(std::chrono::milliseconds(30));
-    screen.window.poll();
-    if (!screen.window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing yet that could be lost
-    if (screen.window.minimised()) continue;
+    graphics.window.poll();
+    if (!graphics.window.open()) std::quick_exit(EXIT_SUCCESS);  // there is nothing to lose yet
+    if (graphics.window.minimised()) continue;
     const std::string text =
         "Opening " + options.scene_name + ": " + std::to_string(static_cast<int>(now() - began)) + " s so far";
-    screen.gui.begin_frame();
-    screen.gui.take_key_presses();  // there is nothing yet that they could be meant for
+    graphics.gui.begin_frame();
+    graphics.gui.take_key_presses();  // there is no session yet that they could be for
     const ImVec2 room = ImGui::GetIO().DisplaySize, size = ImGui::CalcTextSize(text.c_str());
     ImGui::GetForegroundDrawList()->AddText({(room.x - size.x) / 2, (room.y - size.y) / 2},
                                             ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
-    screen.gui.end_frame();
-    screen.clear();
-    screen.gui.draw();
-    screen.window.present();
+    graphics.gui.end_frame();
+    graphics.clear();
+    graphics.gui.draw();
+    graphics.window.present();
   }
-  while (screen.window.input_waits()) screen.window.take_input();  // nor is what is left of it for the session
+  while (graphics.window.input_waits())
+    graphics.window.take_input();  // the remaining input is not for the session either
   return opening.get();
 }
 

@@ -1,7 +1,8 @@
-// The widgets of values over time.
+// The widgets that plot values over time.
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <cstdio>
 
@@ -9,21 +10,22 @@
 
 namespace app {
 
-float axis_end(float most, float least) {
-  float end = least;
-  for (int i = 0; end < most; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
+float axis_end(float max, float min_end) {
+  assert(min_end > 0);
+  float end = min_end;
+  for (int i = 0; end < max; ++i) end *= i % 3 == 1 ? 2.5f : 2.0f;
   return end;
 }
 
-Axis axis_around(const Ring& ring, float least) {
-  const float range = axis_end(ring.largest() - ring.smallest(), least), grid = range / 4;
+Axis axis_around(const Ring& ring, float min_length) {
+  const float range = axis_end(ring.largest() - ring.smallest(), min_length), grid = range / 4;
   const float bottom = grid * std::floor(ring.smallest() / grid);
   return {bottom, bottom + range + grid};
 }
 
 namespace {
 
-std::string range_of(const Axis& axis, const char* unit) {
+std::string range_text(const Axis& axis, const char* unit) {
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
                 static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
@@ -34,14 +36,14 @@ std::string range_of(const Axis& axis, const char* unit) {
 
 void Widgets::curve(const char* label, const std::string& text, const Ring& ring, const Axis& axis,
                     const glm::vec3& colour, const char* unit) {
-  constexpr float value_end = 170;  // design pixels: where numbers end and curves begin
+  constexpr float value_end = 170;  // design pixels: right end of the numbers
   const float end = px(value_end), start = ImGui::GetCursorPosX();
   ImGui::BeginGroup();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
   ImGui::EndGroup();
-  explain(label, range_of(axis, unit).c_str());
+  tooltip_if_hovered(label, range_text(axis, unit).c_str());
   ImGui::SameLine(start + end + px(10));
   sparkline(label, ring, axis, colour, unit);
 }
@@ -51,7 +53,7 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(joined("##", label).c_str(), size);
-  done(label, range_of(axis, unit).c_str());
+  register_item(label, range_text(axis, unit).c_str());
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));
@@ -61,11 +63,12 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
     const float x = static_cast<float>(Ring::capacity - ring.size() + i) / static_cast<float>(Ring::capacity - 1);
     const float y = 1.0f - std::clamp((ring[i] - axis.bottom) / (axis.top - axis.bottom), 0.0f, 1.0f);
     const ImVec2 point{at.x + x * size.x, at.y + y * size.y};
+    // The middle one of three points at one height is left out.
     const auto level = [&](int before) { return points[static_cast<std::size_t>(count - before)].y == point.y; };
     if (count >= 2 && level(1) && level(2)) --count;
     points[static_cast<std::size_t>(count++)] = point;
   }
-  // ImGui takes a third of the triangles for lines of whole pixels.
+  // ImGui draws lines of whole pixels with a third of the triangles.
   draw->AddPolyline(points.data(), count, to_imgui(colour), ImDrawFlags_None, std::max(1.0f, std::round(px(1.25f))));
 }
 

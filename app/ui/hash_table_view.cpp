@@ -1,4 +1,4 @@
-#include "app/ui/hash_view.h"
+#include "app/ui/hash_table_view.h"
 
 #include <algorithm>
 #include <bit>
@@ -10,39 +10,39 @@
 namespace app {
 namespace {
 
-constexpr float grid_height = 160, least_square = 4;  // design pixels
+constexpr float grid_height = 160, min_square = 4;  // design pixels
 
-constexpr const char* grid_tooltip_end = "Click: show its boxes in the scene. Click again or Esc: release.";
+constexpr const char* click_tooltip = "Click: show its boxes in the scene. Click again or Esc: release.";
 
 }  // namespace
 
-void HashView::refresh(const Session& session, float room, float height, float least_side) {
+void HashTableView::refresh(const Session& session, float width, float height, float min_side) {
   const collide::DebugGeometry& debug = session.debug();
-  const HashGrid grid = HashGrid::fit(debug.buckets, room, height, least_side);
+  const BucketGrid grid = BucketGrid::fit(debug.buckets, width, height, min_side);
   const bool same = revision_ == session.revision() && grid.side == grid_.side && grid.per_square == grid_.per_square;
   grid_ = grid;
   if (same) return;
   revision_ = session.revision();
   squares_.resize(grid_.squares());
   for (std::uint32_t s = 0; s < grid_.squares(); ++s) squares_[s] = {0, grid_.first_bucket(s)};
-  std::uint32_t most = 0;
+  std::uint32_t max_load = 0;
   for (const auto& [bucket, load] : debug.loads) {
     Square& square = squares_[bucket / grid_.per_square];
     if (load > square.load || (load == square.load && bucket < square.fullest)) square = {load, bucket};
-    most = std::max(most, load);
+    max_load = std::max(max_load, load);
   }
-  full_load_ = std::max(8u, std::bit_ceil(most));
+  max_load_ = std::max(8u, std::bit_ceil(max_load));
 }
 
-glm::vec3 HashView::colour(std::uint32_t load) const {
-  return sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(full_load_)));
+glm::vec3 HashTableView::colour(std::uint32_t load) const {
+  return sequential_colour(std::log2(static_cast<float>(load)) / std::log2(static_cast<float>(max_load_)));
 }
 
-void HashView::draw_squares(Widgets& w, Session& session, float room, float height) {
+void HashTableView::draw_squares(Widgets& w, Session& session, float width, float height) {
   origin_ = ImGui::GetCursorScreenPos();
-  const bool clicked = ImGui::InvisibleButton("##buckets", {room, height});
+  const bool clicked = ImGui::InvisibleButton("##buckets", {width, height});
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  draw->AddRectFilled(origin_, {origin_.x + room, origin_.y + height}, to_imgui(glm::vec3(0.93f)), w.px(3));
+  draw->AddRectFilled(origin_, {origin_.x + width, origin_.y + height}, to_imgui(glm::vec3(0.93f)), w.px(3));
   const float gap = grid_.side >= w.px(6) ? std::max(1.0f, std::floor(w.px(1))) : 0.0f;
   const auto corner = [&](std::uint32_t s) {
     return ImVec2(origin_.x + static_cast<float>(s % grid_.columns) * grid_.side,
@@ -72,20 +72,19 @@ void HashView::draw_squares(Widgets& w, Session& session, float room, float heig
     tooltip = first == last ? "Bucket " + grouped(first) + ", load " + grouped(square.load) + ". "
                             : "Buckets " + grouped(first) + " to " + grouped(last) + "; the fullest is " +
                                   grouped(square.fullest) + " with load " + grouped(square.load) + ". ";
-    tooltip += grid_tooltip_end;
+    tooltip += click_tooltip;
     if (clicked) session.select_bucket(selected == square.fullest ? std::nullopt : std::optional(square.fullest));
   }
-  w.done("Buckets of the table", nullptr);
+  w.register_item("Buckets of the table", nullptr);
   if (under) w.show_tooltip(tooltip.c_str());
 }
 
-void HashView::draw_legend(Widgets& w) const {
-  const float room = ImGui::GetContentRegionAvail().x;
-  const std::string most = grouped(full_load_);
+void HashTableView::draw_legend(Widgets& w) const {
+  const float width = ImGui::GetContentRegionAvail().x;
   ImGui::TextDisabled("Load  1");
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float bar = room * 0.5f, height = ImGui::GetTextLineHeight();
+  const float bar = width * 0.5f, height = ImGui::GetTextLineHeight();
   constexpr int steps = 32;
   for (int i = 0; i < steps; ++i) {
     const float x0 = at.x + bar * static_cast<float>(i) / steps, x1 = at.x + bar * static_cast<float>(i + 1) / steps;
@@ -94,11 +93,11 @@ void HashView::draw_legend(Widgets& w) const {
   }
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
-  w.line(most);
-  w.done("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
+  w.text_line(grouped(max_load_));
+  w.register_item("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
 }
 
-void HashView::draw_summary(const Session& session) const {
+void HashTableView::draw_summary(const Session& session) const {
   std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
   if (std::ranges::all_of(squares_, [](const Square& square) { return square.load == 0; }))
     text += ", none used at this cell size";
@@ -107,20 +106,20 @@ void HashView::draw_summary(const Session& session) const {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
-  ImGui::TextDisabled("%s", whose_structure(session).c_str());
+  ImGui::TextDisabled("%s", shown_method_text(session).c_str());
 }
 
-void HashView::draw(Widgets& w, Session& session, bool& open) {
-  if (w.heading("Hash table", "Closes the hash table (T).")) open = false;
-  const float room = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
+void HashTableView::draw(Widgets& w, Session& session, bool& open) {
+  if (w.closable_heading("Hash table", "Closes the hash table (T).")) open = false;
+  const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.debug().buckets == 0) {
-    ImGui::Dummy({room, 0.4f * height});
+    ImGui::Dummy({width, 0.4f * height});
     ImGui::TextWrapped("%s would take too long here to show its table beside the driving method.",
                        std::string(session.shown_method().name).c_str());
-    ImGui::Dummy({room, 0.4f * height});
+    ImGui::Dummy({width, 0.4f * height});
   } else {
-    refresh(session, room, height, std::floor(w.px(least_square)));
-    draw_squares(w, session, room, height);
+    refresh(session, width, height, std::floor(w.px(min_square)));
+    draw_squares(w, session, width, height);
     draw_legend(w);
     draw_summary(session);
   }

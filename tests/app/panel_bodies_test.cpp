@@ -1,30 +1,27 @@
-// The panel's parts for hands and for what the world is made of.
+// The panel's parts for bodies, gravity, materials and solids.
 
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
-#include "app/ui/shortcuts.h"
 #include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
-
-#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
 
-TEST(PanelTouch, DropsThrowsDeletesAndUndoes) {
+TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
   PanelRig rig;
   EXPECT_FALSE(rig.widget("Undo").enabled);
   EXPECT_FALSE(rig.widget("Delete").enabled);
   rig.click("Drop 20");
   EXPECT_EQ(rig.session.world().bodies().count(), 22u);
   rig.click("Throw");
-  EXPECT_TRUE(rig.ui.throw_body);  // the window does it, from its camera
+  EXPECT_TRUE(rig.ui.throw_body);  // the main loop throws it from its camera
   rig.session.select_body(1);
   rig.frames(2);
   rig.click("Look at it");
-  EXPECT_TRUE(rig.ui.look_at_body);
+  EXPECT_TRUE(rig.ui.focus_body);
   rig.click("Delete");
   EXPECT_EQ(rig.session.world().bodies().count(), 21u);
   EXPECT_FALSE(rig.session.selected_body());
@@ -36,7 +33,7 @@ TEST(PanelTouch, DropsThrowsDeletesAndUndoes) {
   EXPECT_NEAR(rig.session.throw_speed, Session::most_throw, 1e-5);
 }
 
-TEST(PanelTouch, ASelectionMovesNothingOnThePanel) {
+TEST(BodiesPanel, KeepsEverythingInPlaceAtASelection) {
   PanelRig rig;
   const auto before = rig.widget("Tolerance");
   rig.session.select_body(0);
@@ -45,9 +42,9 @@ TEST(PanelTouch, ASelectionMovesNothingOnThePanel) {
   EXPECT_EQ(rig.widget("Tolerance").min.y, before.min.y);
 }
 
-TEST(PanelTouch, DragsEverythingOfTheWorldToItsEndsWhileItRuns) {
+TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
   PanelRig rig;
-  rig.click("Detection");  // folded, so that all has room
+  rig.click("Detection");  // folds it to make room
   rig.click("World");
   const softbody::World& world = rig.session.world();
   for (const char* label :
@@ -69,7 +66,7 @@ TEST(PanelTouch, DragsEverythingOfTheWorldToItsEndsWhileItRuns) {
   EXPECT_FALSE(world.plan().has(softbody::Stage::gravity));
 }
 
-TEST(PanelTouch, ADoubleClickOnASliderTakesItsValueFromTheKeyboard) {
+TEST(Slider, TakesATypedValueAfterADoubleClick) {
   PanelRig rig;
   const std::uint32_t buckets = rig.session.world().collision().buckets;
   rig.double_click("Buckets");
@@ -81,21 +78,21 @@ TEST(PanelTouch, ADoubleClickOnASliderTakesItsValueFromTheKeyboard) {
   const auto gravity = [&] { return glm::length(rig.session.world().scene().gravity); };
   const double before = gravity();
   rig.click("Gravity");
-  EXPECT_NE(gravity(), before) << "a click goes to its place";
+  EXPECT_NE(gravity(), before) << "a click sets the value at its position";
   rig.click("Scene's world");
   rig.double_click("Gravity");
-  EXPECT_NEAR(gravity(), before, 1e-6) << "a double-click leaves the value";
+  EXPECT_NEAR(gravity(), before, 1e-6) << "a double-click keeps the value";
   rig.type("3.5");
   EXPECT_NEAR(gravity(), 3.5, 1e-6);
   rig.double_click("Gravity");
-  EXPECT_NEAR(gravity(), 3.5, 1e-6) << "into its own field";
+  EXPECT_NEAR(gravity(), 3.5, 1e-6) << "in the open field";
   rig.type("99");
-  EXPECT_NEAR(gravity(), 30, 1e-6) << "its end";
+  EXPECT_NEAR(gravity(), 30, 1e-6) << "the upper end";
   rig.double_click("Bend stiffness");
   EXPECT_NEAR(gravity(), 30, 1e-6) << "another slider";
 }
 
-TEST(PanelTouch, SwitchesAndChoosesSolids) {
+TEST(WorldPanel, SwitchesAndChoosesSolids) {
   PanelRig rig;
   rig.click("Detection");
   rig.click("World");
@@ -108,26 +105,6 @@ TEST(PanelTouch, SwitchesAndChoosesSolids) {
   rig.drag("Ground height", 30);
   EXPECT_GT(rig.session.world().scene().ground->height, 0);
   EXPECT_TRUE(rig.session.world().scene().spheres.empty());
-}
-
-TEST(ShortcutsTouch, WithControlShiftAndDelete) {
-  Session session(touching_pair(), {}, 1);
-  UiState ui;
-  EXPECT_TRUE(press('D', false, session, ui, GLFW_MOD_SHIFT));
-  EXPECT_EQ(session.world().bodies().count(), 22u);
-  session.select_body(3);
-  EXPECT_TRUE(press(GLFW_KEY_DELETE, false, session, ui));
-  EXPECT_EQ(session.world().bodies().count(), 21u);
-  EXPECT_FALSE(press('R', false, session, ui, GLFW_MOD_CONTROL)) << "another program's key";
-  EXPECT_TRUE(press('R', false, session, ui));
-  EXPECT_EQ(session.world().bodies().count(), 2u);
-  EXPECT_TRUE(press('Z', false, session, ui, GLFW_MOD_CONTROL));
-  EXPECT_EQ(session.world().bodies().count(), 21u);
-  EXPECT_TRUE(press('B', false, session, ui));
-  EXPECT_TRUE(ui.throw_body);
-  session.select_body(0);
-  EXPECT_TRUE(press(GLFW_KEY_ESCAPE, false, session, ui));
-  EXPECT_FALSE(session.selected_body());
 }
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "app/ui/tour/findings.h"
+#include "app/ui/tour/example.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 
 #include "app/compare/forecast.h"
 #include "app/compare/score.h"
-#include "app/ui/tour/excerpt.h"
+#include "app/ui/tour/body_subset.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods/detectors.h"
 #include "softbody/measures.h"
@@ -23,7 +23,7 @@ using collide::Contact;
 using collide::Index;
 using softbody::BodyId;
 
-constexpr std::uint64_t most_tests = 300'000'000;  // of the paper's method, so that the window does not wait for long
+constexpr std::uint64_t max_pair_tests = 300'000'000;  // of the paper's method: more would keep the window waiting
 
 glm::vec3 vertex(const softbody::World& world, Index v) {
   const collide::Frame f = world.positions();
@@ -45,32 +45,34 @@ Pair pair_of(const softbody::World& world, const Contact& contact) {
   return {a, b};
 }
 
-/// Whether a solid stands between the eye and the middle of a pair's boxes.
-bool hidden(const softbody::World& world, const collide::BodyBoxes& boxes, const Pair& pair, const glm::dvec3& eye) {
-  constexpr int places = 64;
+/// True if a solid stands between the eye and the middle of a pair's boxes.
+bool is_occluded(const softbody::World& world, const collide::BodyBoxes& boxes, const Pair& pair,
+                 const glm::dvec3& eye) {
+  constexpr int samples = 64;
   const collide::Aabb &a = boxes.box[pair.a], &b = boxes.box[pair.b];
   const glm::dvec3 middle = 0.25 * (glm::dvec3(a.lo) + glm::dvec3(a.hi) + glm::dvec3(b.lo) + glm::dvec3(b.hi));
-  for (int i = 0; i < places; ++i)
-    if (softbody::solid_depth(world.scene(), glm::mix(middle, eye, double(i) / places)).depth > 0) return true;
+  for (int i = 0; i < samples; ++i)
+    if (softbody::solid_depth(world.scene(), glm::mix(middle, eye, double(i) / samples)).depth > 0) return true;
   return false;
 }
 
-/// The most telling pair in contact: with the wished body, in sight, of two bodies, with found and missed contacts,
-/// with most.
-std::optional<Pair> most_telling(const softbody::World& world, const collide::BodyBoxes& boxes,
-                                 const std::vector<Contact>& contacts, const std::vector<Contact>& missed,
-                                 std::optional<BodyId> wish, std::optional<glm::dvec3> eye) {
+/// Returns the best example of a pair in contact. In this order it prefers a pair with the preferred body, in sight, of
+/// two bodies, with both found and missed contacts, with more contacts.
+std::optional<Pair> best_pair(const softbody::World& world, const collide::BodyBoxes& boxes,
+                              const std::vector<Contact>& contacts, const std::vector<Contact>& missed,
+                              std::optional<BodyId> preferred, std::optional<glm::dvec3> eye) {
   std::map<Pair, std::pair<std::size_t, std::size_t>> counts;  // missed, all
   for (const Contact& contact : contacts) ++counts[pair_of(world, contact)].second;
   for (const Contact& contact : missed) ++counts[pair_of(world, contact)].first;
   const auto rank = [&](const auto& entry) {
     const auto& [pair, count] = entry;
     const auto [lost, all] = count;
-    return std::tuple(wish && (pair.a == *wish || pair.b == *wish), !eye || !hidden(world, boxes, pair, *eye),
-                      pair.a != pair.b, std::min(lost, all - lost), all);
+    return std::tuple(preferred && (pair.a == *preferred || pair.b == *preferred),
+                      !eye || !is_occluded(world, boxes, pair, *eye), pair.a != pair.b, std::min(lost, all - lost),
+                      all);
   };
   using Rank = decltype(rank(*counts.begin()));
-  std::optional<std::pair<Rank, Pair>> best;  // each is ranked once: it looks along the line of sight
+  std::optional<std::pair<Rank, Pair>> best;  // each pair is ranked once, as the test for occlusion is slow
   for (const auto& entry : counts)
     if (const Rank now = rank(entry); !best || now > best->first) best.emplace(now, entry.first);
   return best ? std::optional(best->second) : std::nullopt;
@@ -80,17 +82,17 @@ float gap(const collide::Aabb& a, const collide::Aabb& b) {
   return glm::length(glm::max(glm::max(a.lo - b.hi, b.lo - a.hi), glm::vec3(0.0f)));
 }
 
-/// Where nothing touches: the wished body, or the first, and the one whose box is nearest to its own.
-std::optional<Pair> nearest(const collide::BodyBoxes& boxes, std::optional<BodyId> wish) {
+/// Returns the preferred body, or the first, and the body whose box is nearest to its own.
+std::optional<Pair> nearest_pair(const collide::BodyBoxes& boxes, std::optional<BodyId> preferred) {
   if (boxes.live.empty()) return std::nullopt;
-  const bool granted = wish && std::ranges::count(boxes.live, *wish) > 0;
-  const BodyId body = granted ? *wish : boxes.live.front();
+  const bool exists = preferred && std::ranges::count(boxes.live, *preferred) > 0;
+  const BodyId body = exists ? *preferred : boxes.live.front();
   BodyId other = body;
-  float least = std::numeric_limits<float>::infinity();
+  float min_gap = std::numeric_limits<float>::infinity();
   for (const BodyId candidate : boxes.live) {
-    const float away = gap(boxes.box[body], boxes.box[candidate]);
-    if (candidate == body || away >= least) continue;
-    least = away;
+    const float distance = gap(boxes.box[body], boxes.box[candidate]);
+    if (candidate == body || distance >= min_gap) continue;
+    min_gap = distance;
     other = candidate;
   }
   return Pair{std::min(body, other), std::max(body, other)};
@@ -106,41 +108,43 @@ std::vector<Contact> detect(collide::Detector& detector, const collide::Frame& f
 }
 
 std::optional<Contact> closest_of(const softbody::World& world, const std::vector<Contact>& contacts) {
-  const auto least =
+  const auto closest =
       std::ranges::min_element(contacts, {}, [&](const Contact& contact) { return distance_of(world, contact); });
-  return least == contacts.end() ? std::nullopt : std::optional(*least);
+  return closest == contacts.end() ? std::nullopt : std::optional(*closest);
 }
 
-/// The two vertices of different bodies that are nearest: found with an ever greater tolerance.
-std::optional<Contact> closest_apart(const softbody::World& world, const Pair& pair, collide::Detector& exact,
-                                     collide::Workers& workers) {
-  const Excerpt excerpt(world, pair.a, pair.b);
+/// Returns the closest vertices of two different bodies, by doubling the tolerance until there are contacts.
+std::optional<Contact> closest_between(const softbody::World& world, const Pair& pair, collide::Detector& exact,
+                                       collide::Workers& workers) {
+  const BodySubset subset(world, pair.a, pair.b);
   collide::Settings settings = world.collision();
   settings.self_collision = false;
-  for (int i = 0; i < 20; ++i) {
-    std::vector<Contact> near = detect(exact, excerpt.frame(), settings, workers);
-    for (Contact& contact : near) contact = excerpt.in_world(contact);
+  constexpr int max_doublings = 20;
+  for (int i = 0; i < max_doublings; ++i) {
+    std::vector<Contact> near = detect(exact, subset.frame(), settings, workers);
+    for (Contact& contact : near) contact = subset.to_world(contact);
     if (!near.empty()) return closest_of(world, near);
     settings.tolerance *= 2;
   }
   return std::nullopt;
 }
 
-/// The body's box that a vertex of it is in: on a cut, the upper one (§2.1).
-Index box_of(const Findings& f, const glm::vec3& at) {
+/// Returns the box of the body that holds one of its vertices: the upper box if the vertex is on a cut (§2.1).
+Index box_of(const TourExample& f, const glm::vec3& at) {
   Index box = f.boxes.front();
-  glm::vec3 least(-std::numeric_limits<float>::infinity());
+  glm::vec3 lower(-std::numeric_limits<float>::infinity());
   for (const Index i : f.boxes) {
     const auto& [lo, hi, body] = f.structure.boxes[i];
     const bool holds = glm::max(lo, at) == at && glm::min(hi, at) == at;
-    if (!holds || glm::max(lo, least) != lo) continue;
-    least = lo;
+    if (!holds || glm::max(lo, lower) != lo) continue;
+    lower = lo;
     box = i;
   }
   return box;
 }
 
-std::array<HashedCorner, 8> hashed(const collide::DebugGeometry::Box& box, const collide::methods::CellHash& hash) {
+std::array<HashedCorner, 8> hash_corners(const collide::DebugGeometry::Box& box,
+                                         const collide::methods::CellHash& hash) {
   std::array<HashedCorner, 8> corners{};
   const auto points = corners_of(box);
   for (std::size_t i = 0; i < corners.size(); ++i) {
@@ -150,34 +154,35 @@ std::array<HashedCorner, 8> hashed(const collide::DebugGeometry::Box& box, const
   return corners;
 }
 
-/// A corner in a cell with boxes of the other body, or else in a bucket with others at all.
-std::size_t telling_corner(const Findings& f) {
+/// Returns the best corner for the tour: one in a cell with a box of another body, in a bucket of several cells; either
+/// if there is none with both.
+std::size_t best_corner(const TourExample& f) {
   std::size_t best = 0;
-  int most = -1;
+  int best_score = -1;
   for (std::size_t i = 0; i < f.corners.size(); ++i) {
     const BucketContents bucket = f.table.bucket(f.corners[i].bucket);
     const CellGroup* group = bucket.group(f.corners[i].cell);
     const auto of_other = [&](Index box) { return f.structure.boxes[box].body != f.body; };
     const int meets = group && std::ranges::any_of(group->items, of_other) ? 2 : 0;
     const int score = meets + (bucket.groups.size() > 1 ? 1 : 0);
-    if (score <= most) continue;
-    most = score;
+    if (score <= best_score) continue;
+    best_score = score;
     best = i;
   }
   return best;
 }
 
-/// Boxes, table and the corners of the box that is nearest to the other body.
-void look_at_structure(const softbody::World& world, Findings& f) {
+/// Fills in the body's boxes and the corners of the box that is nearest to the other body.
+void add_boxes(const softbody::World& world, TourExample& f) {
   const collide::methods::CellHash hash(world.collision());
   for (Index i = 0; i < f.structure.boxes.size(); ++i)
     if (f.structure.boxes[i].body == f.body) f.boxes.push_back(i);
   f.box = box_of(f, vertex(world, f.closest ? f.closest->a : world.bodies().first[f.body]));
-  f.corners = hashed(f.structure.boxes[f.box], hash);
-  f.corner = telling_corner(f);
+  f.corners = hash_corners(f.structure.boxes[f.box], hash);
+  f.corner = best_corner(f);
 }
 
-std::uint64_t predicted_tests(const softbody::World& world, std::size_t method) {
+std::uint64_t estimate_pair_tests(const softbody::World& world, std::size_t method) {
   Forecast forecast;
   forecast.begin(world.positions(), world.collision(), 0);
   return forecast.of(method).pair_tests;
@@ -189,60 +194,60 @@ std::size_t paper_index() {
 
 }  // namespace
 
-Finder::Finder()
+ExampleFinder::ExampleFinder()
     : exact_(collide::find_method(collide::default_method)->make()),
       paper_(collide::find_method(collide::paper_method)->make()) {}
 
-/// Of two bodies the paper's method finds the same whether there are others or not.
-std::optional<std::vector<Contact>> Finder::missed_by_themselves(const softbody::World& world, const Findings& f) {
-  const Excerpt excerpt(world, f.body, f.other);
-  if (all_pair_tests(*excerpt.frame().bodies, world.collision().self_collision) > most_tests) return std::nullopt;
-  std::vector<Contact> found = detect(*paper_, excerpt.frame(), world.collision(), alone_);
-  for (Contact& contact : found) contact = excerpt.in_world(contact);
+/// The paper's method finds the same contacts of two bodies whether there are other bodies or not.
+std::optional<std::vector<Contact>> ExampleFinder::missed_of_pair(const softbody::World& world, const TourExample& f) {
+  const BodySubset subset(world, f.body, f.other);
+  if (all_pair_tests(*subset.frame().bodies, world.collision().self_collision) > max_pair_tests) return std::nullopt;
+  std::vector<Contact> found = detect(*paper_, subset.frame(), world.collision(), one_worker_);
+  for (Contact& contact : found) contact = subset.to_world(contact);
   return score(found, f.contacts).missed;
 }
 
-std::optional<Findings> Finder::find(const softbody::World& world, std::optional<BodyId> wish,
-                                     std::optional<glm::dvec3> eye) {
+std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std::optional<BodyId> preferred,
+                                               std::optional<glm::dvec3> eye) {
   const collide::Frame frame = world.positions();
   const collide::Settings& settings = world.collision();
   collide::BodyBoxes boxes;
   collide::Result unused;
   boxes.build(frame, unused);
 
-  Findings f;
-  const std::vector<Contact> truth = detect(*exact_, frame, settings, alone_);
+  TourExample f;
+  const std::vector<Contact> true_contacts = detect(*exact_, frame, settings, one_worker_);
   std::vector<Contact> missed;
-  const std::uint64_t tests = predicted_tests(world, paper_index());
-  f.predicted_tests = tests > most_tests;
-  if (f.predicted_tests) {
-    f.structure = collide::methods::make_paper_structure()(frame, settings, alone_);
+  const std::uint64_t tests = estimate_pair_tests(world, paper_index());
+  f.pair_tests_estimated = tests > max_pair_tests;
+  if (f.pair_tests_estimated) {
+    f.structure = collide::methods::make_paper_structure()(frame, settings, one_worker_);
     f.work = {.hashes = 8 * f.structure.boxes.size(), .boxes = f.structure.boxes.size(), .pair_tests = tests};
   } else {
-    missed = score(detect(*paper_, frame, settings, alone_, &f.work), truth).missed;
+    missed = score(detect(*paper_, frame, settings, one_worker_, &f.work), true_contacts).missed;
     f.structure = paper_->debug();
   }
-  const auto in_touch = most_telling(world, boxes, truth, missed, wish, eye);
-  const auto pair = in_touch ? in_touch : nearest(boxes, wish);
+  const auto in_contact = best_pair(world, boxes, true_contacts, missed, preferred, eye);
+  const auto pair = in_contact ? in_contact : nearest_pair(boxes, preferred);
   if (!pair) return std::nullopt;
   f.body = pair->a;
   f.other = pair->b;
-  f.touching = in_touch.has_value();
+  f.touching = in_contact.has_value();
   f.bounds = {boxes.box[f.body], boxes.box[f.other]};
   const auto is_of_pair = [&](const Contact& contact) { return pair_of(world, contact) == *pair; };
-  std::ranges::copy_if(truth, std::back_inserter(f.contacts), is_of_pair);
-  if (!f.predicted_tests) {
+  std::ranges::copy_if(true_contacts, std::back_inserter(f.contacts), is_of_pair);
+  if (!f.pair_tests_estimated) {
     f.missed.emplace();
     std::ranges::copy_if(missed, std::back_inserter(*f.missed), is_of_pair);
   } else if (f.touching) {
-    f.missed = missed_by_themselves(world, f);
+    f.missed = missed_of_pair(world, f);
   }
   f.closest = f.touching          ? closest_of(world, f.contacts)
-              : f.body != f.other ? closest_apart(world, *pair, *exact_, alone_)
+              : f.body != f.other ? closest_between(world, *pair, *exact_, one_worker_)
                                   : std::nullopt;
   if (f.closest) f.distance = distance_of(world, *f.closest);
   f.table = TableContents(f.structure, frame, settings);
-  look_at_structure(world, f);
+  add_boxes(world, f);
   return f;
 }
 

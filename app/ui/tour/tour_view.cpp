@@ -1,4 +1,4 @@
-#include "app/ui/tour/card.h"
+#include "app/ui/tour/tour_view.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,26 +6,27 @@
 #include <vector>
 
 #include "app/render/palette.h"
+#include "app/ui/tour/figures.h"
 
 namespace app {
 namespace {
 
 void draw_figure(Widgets& w, const TourFigure& figure) {
   if (figure.colour) {
-    w.chip(*figure.colour, ImGui::GetTextLineHeight());
+    w.swatch(*figure.colour, ImGui::GetTextLineHeight());
     ImGui::SameLine();
   }
   w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
 }
 
-void draw_corners(Widgets& w, Tour& tour, const TourView& view) {
+void draw_corners(Widgets& w, Tour& tour, const TourContext& context) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Corner");
   const float gap = w.px(3), left = w.px(58);
   const float width = (ImGui::GetContentRegionMax().x - left - 7 * gap) / 8;
-  for (std::size_t i = 0; i < view.f.corners.size(); ++i) {
+  for (std::size_t i = 0; i < context.f.corners.size(); ++i) {
     ImGui::SameLine(left + static_cast<float>(i) * (width + gap));
-    const bool chosen = i == view.corner;
+    const bool chosen = i == context.corner;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string number = std::to_string(i + 1);
     if (w.button(joined(number, "###Corner ", number).c_str(), "Shows the hash of this corner point of the box.",
@@ -35,18 +36,19 @@ void draw_corners(Widgets& w, Tour& tour, const TourView& view) {
   }
 }
 
-void draw_step(Widgets& w, Tour& tour, const TourView& view) {
+void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
   const TourStep& step = tour_steps()[tour.step()];
   ImGui::PushTextWrapPos(0);
   ImGui::TextUnformatted(step.text.data(), step.text.data() + step.text.size());
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
-  if (step.corners) draw_corners(w, tour, view);
-  for (const TourFigure& figure : step.figures(view)) draw_figure(w, figure);
+  if (step.corners) draw_corners(w, tour, context);
+  for (const TourFigure& figure : step.figures(context)) draw_figure(w, figure);
   ImGui::Spacing();
   ImGui::TextDisabled("The paper's method on the whole frame (§3)");
-  w.done("Tour claims", "What the step before you belongs to: the work of all bodies, beside what the paper claims.");
-  for (const TourFigure& figure : tour_work(view)) draw_figure(w, figure);
+  w.register_item("Tour claims",
+                  "What the step before you belongs to: the work of all bodies, beside what the paper claims.");
+  for (const TourFigure& figure : figures_of_frame(context)) draw_figure(w, figure);
 }
 
 void draw_buttons(Widgets& w, Session& session, Tour& tour, Overlays& shown) {
@@ -66,13 +68,13 @@ void draw_buttons(Widgets& w, Session& session, Tour& tour, Overlays& shown) {
 
 }  // namespace
 
-void draw_tour(Widgets& w, Session& session, Tour& tour, Overlays& shown, const SceneArea& area) {
+void draw_tour(Widgets& w, Session& session, Tour& tour, Overlays& shown, const ScreenRect& area) {
   ImGui::SetNextWindowPos(area.min);
   ImGui::SetNextWindowSize({area.max.x - area.min.x, area.max.y - area.min.y});
   ImGui::SetNextWindowBgAlpha(1);  // nothing is drawn behind it
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowBorderSize, 0);
-  ImGui::Begin("Tour", nullptr, plate);
+  ImGui::Begin("Tour", nullptr, frameless_window);
   ImGui::PopStyleVar(2);
   const TourStep& step = tour_steps()[tour.step()];
   ImGui::TextDisabled("Tour %zu of %zu", tour.step() + 1, tour_steps().size());
@@ -82,11 +84,11 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, Overlays& shown, const 
   ImGui::Separator();
   const float buttons = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
   ImGui::BeginChild("Step", {0, -buttons});
-  if (const auto view = tour.view(session)) {
-    draw_step(w, tour, *view);
+  if (const auto context = tour.context(session)) {
+    draw_step(w, tour, *context);
   } else {
     ImGui::TextWrapped("%s", tour.problem().c_str());
-    w.done("Tour problem", nullptr);
+    w.register_item("Tour problem", nullptr);
   }
   if (!session.notice().empty()) ImGui::TextWrapped("%s", session.notice().c_str());
   ImGui::EndChild();
@@ -97,44 +99,44 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, Overlays& shown, const 
 
 namespace {
 
-bool overlap(const SceneArea& a, const SceneArea& b) {
+bool overlap(const ScreenRect& a, const ScreenRect& b) {
   return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
 }
 
-/// A box for a label beside a point: above it to the right, or in the first other corner, then further up or down,
-/// where it lies within the area and on none of those that are there. Where all is full it stays in the first place.
-SceneArea place_beside(const ImVec2& point, const ImVec2& size, const SceneArea& area, std::span<const SceneArea> taken,
-                       float scale) {
+/// Returns a free place for a label within the area. It tries above the point to the right, then the other three
+/// corners, then further up and down; if none is free, it takes the first.
+ScreenRect place_beside(const ImVec2& point, const ImVec2& size, const ScreenRect& area,
+                        std::span<const ScreenRect> taken, float scale) {
   const auto label_at = [&](bool right, bool above, int rows) {
     const float x = right ? point.x + 5 * scale : point.x - 5 * scale - size.x;
     const float gap = 2 * scale + static_cast<float>(rows) * (size.y + scale);
     const float y = above ? point.y - gap - size.y : point.y + gap;
-    return SceneArea{{std::floor(x), std::floor(y)}, {std::floor(x) + size.x, std::floor(y) + size.y}};
+    return ScreenRect{{std::floor(x), std::floor(y)}, {std::floor(x) + size.x, std::floor(y) + size.y}};
   };
-  const auto is_free = [&](const SceneArea& box) {
+  const auto is_free = [&](const ScreenRect& box) {
     return box.min.x >= area.min.x && box.min.y >= area.min.y && box.max.x <= area.max.x && box.max.y <= area.max.y &&
-           std::ranges::none_of(taken, [&](const SceneArea& t) { return overlap(t, box); });
+           std::ranges::none_of(taken, [&](const ScreenRect& t) { return overlap(t, box); });
   };
   for (int rows = 0; rows < 3; ++rows)
     for (const auto& [right, above] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}})
-      if (const SceneArea box = label_at(right, above, rows); is_free(box)) return box;
+      if (const ScreenRect box = label_at(right, above, rows); is_free(box)) return box;
   return label_at(true, true, 0);
 }
 
 }  // namespace
 
 void draw_labels(std::span<const SceneLabel> labels, const engine::Camera& camera, glm::ivec2 size,
-                 const SceneArea& area, float scale) {
+                 const ScreenRect& area, float scale) {
   ImDrawList* draw = ImGui::GetBackgroundDrawList();
   const glm::vec2 ratio = glm::vec2(area.max.x - area.min.x, area.max.y - area.min.y) / glm::vec2(glm::max(size, 1));
   const ImVec2 pad{4 * scale, 1 * scale};
-  std::vector<SceneArea> taken;
+  std::vector<ScreenRect> taken;
   for (const SceneLabel& label : labels) {
     const auto pixel = camera.project(label.at, size);
     if (!pixel) continue;
     const ImVec2 text = ImGui::CalcTextSize(label.text.c_str());
-    const SceneArea box = place_beside({area.min.x + pixel->x * ratio.x, area.min.y + pixel->y * ratio.y},
-                                       {text.x + 2 * pad.x, text.y + 2 * pad.y}, area, taken, scale);
+    const ScreenRect box = place_beside({area.min.x + pixel->x * ratio.x, area.min.y + pixel->y * ratio.y},
+                                        {text.x + 2 * pad.x, text.y + 2 * pad.y}, area, taken, scale);
     taken.push_back(box);
     draw->AddRectFilled(box.min, box.max, to_imgui(glm::vec3(1.0f), 0.85f), 4 * scale);
     draw->AddText({box.min.x + pad.x, box.min.y + pad.y}, to_imgui(glm::vec3(0.1f)), label.text.c_str());

@@ -1,5 +1,5 @@
 #pragma once
-// What stands out of the scene, while all else steps back: for a step of the guided tour.
+// What stands out in the scene at a step of the guided tour, while everything else fades.
 
 #include <string>
 #include <vector>
@@ -14,14 +14,14 @@ struct SceneLabel {
   std::string text;
 };
 
-struct Spotlight {
-  std::vector<softbody::BodyId> bodies;  // in their colours; all others are but hinted at
-  float opacity = 1;                     // of these: below 1 one sees what is in them
+struct Highlight {
+  std::vector<softbody::BodyId> bodies;  // drawn in their colours; all others are drawn faintly
+  float opacity = 1;                     // of these bodies: below 1 their insides can be seen
   std::vector<engine::BoxSet> boxes;
   std::vector<engine::LineSet> lines;
   std::vector<engine::PointSet> points;
   std::vector<SceneLabel> labels;
-  // A sphere that the camera should frame.
+  // The sphere that the camera should frame.
   glm::vec3 centre{0.0f};
   float radius = 1;  // m
 };

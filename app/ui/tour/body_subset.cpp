@@ -1,8 +1,11 @@
-#include "app/ui/tour/excerpt.h"
+#include "app/ui/tour/body_subset.h"
+
+#include <cassert>
 
 namespace app {
 
-Excerpt::Excerpt(const softbody::World& world, softbody::BodyId a, softbody::BodyId b) {
+BodySubset::BodySubset(const softbody::World& world, softbody::BodyId a, softbody::BodyId b) {
+  assert(a <= b);
   const collide::Frame all = world.positions();
   const auto copy = [&](std::span<const float> from, std::vector<float>& to, softbody::BodyId body) {
     const auto part = from.subspan(all.bodies->first[body], all.bodies->size(body));
@@ -18,13 +21,13 @@ Excerpt::Excerpt(const softbody::World& world, softbody::BodyId a, softbody::Bod
   }
 }
 
-collide::Index Excerpt::in_world(collide::Index vertex) const {
+collide::Index BodySubset::to_world(collide::Index vertex) const {
   const bool second = vertex >= bodies_.first[1];
   return first_[second] + vertex - bodies_.first[second];
 }
 
-collide::Contact Excerpt::in_world(const collide::Contact& contact) const {
-  return {in_world(contact.a), in_world(contact.b)};
+collide::Contact BodySubset::to_world(const collide::Contact& contact) const {
+  return {to_world(contact.a), to_world(contact.b)};
 }
 
 }  // namespace app

@@ -1,15 +1,15 @@
 #include <gtest/gtest.h>
 
-#include "app/ui/widgets/hash_grid.h"
+#include "app/ui/widgets/bucket_grid.h"
 #include "collide/core/detector.h"
 
 namespace app {
 namespace {
 
-class HashGridOf : public testing::TestWithParam<std::uint32_t> {};
+class BucketGridTest : public testing::TestWithParam<std::uint32_t> {};
 
-TEST_P(HashGridOf, HoldsEveryBucketOnceInsideItsArea) {
-  const HashGrid grid = HashGrid::fit(GetParam(), 250, 170, 4);
+TEST_P(BucketGridTest, HoldsEveryBucketOnceInsideItsArea) {
+  const BucketGrid grid = BucketGrid::fit(GetParam(), 250, 170, 4);
   EXPECT_GE(grid.side, 4);
   EXPECT_LE(static_cast<float>(grid.columns) * grid.side, 250);
   EXPECT_LE(static_cast<float>(grid.rows) * grid.side, 170);
@@ -19,8 +19,8 @@ TEST_P(HashGridOf, HoldsEveryBucketOnceInsideItsArea) {
   for (std::uint32_t s = 1; s < grid.squares(); ++s) ASSERT_EQ(grid.first_bucket(s), grid.last_bucket(s - 1) + 1);
 }
 
-TEST_P(HashGridOf, FindsTheSquareUnderThePointer) {
-  const HashGrid grid = HashGrid::fit(GetParam(), 250, 170, 4);
+TEST_P(BucketGridTest, FindsTheSquareUnderTheMouse) {
+  const BucketGrid grid = BucketGrid::fit(GetParam(), 250, 170, 4);
   for (std::uint32_t s = 0; s < grid.squares(); ++s) {
     const float x = (static_cast<float>(s % grid.columns) + 0.5f) * grid.side;
     const float y = (static_cast<float>(s / grid.columns) + 0.5f) * grid.side;
@@ -30,12 +30,12 @@ TEST_P(HashGridOf, FindsTheSquareUnderThePointer) {
   EXPECT_EQ(grid.square_at(3, 1e9f), std::nullopt);
 }
 
-INSTANTIATE_TEST_SUITE_P(Counts, HashGridOf,
+INSTANTIATE_TEST_SUITE_P(Counts, BucketGridTest,
                          testing::Values(1u, 2u, 3u, 101u, 499u, 1001u, 2604u, 2605u, 100'003u, collide::max_buckets));
 
-TEST(HashGrid, SharesSquaresOnlyWhenBucketsAreTooMany) {
-  EXPECT_EQ(HashGrid::fit(1001, 250, 170, 4).per_square, 1u);
-  EXPECT_GT(HashGrid::fit(collide::max_buckets, 250, 170, 4).per_square, 1u);
+TEST(BucketGrid, SharesSquaresOnlyWhenBucketsAreTooMany) {
+  EXPECT_EQ(BucketGrid::fit(1001, 250, 170, 4).per_square, 1u);
+  EXPECT_GT(BucketGrid::fit(collide::max_buckets, 250, 170, 4).per_square, 1u);
 }
 
 }  // namespace

@@ -1,0 +1,77 @@
+#include "app/ui/bucket_view.h"
+#include "tests/app/panel_rig.h"
+#include "tests/bucket_loads.h"
+
+namespace app {
+namespace {
+
+std::uint32_t fullest_bucket(const Session& session) {
+  return std::ranges::max_element(session.debug().loads, {}, &collide::BucketLoad::load)->bucket;
+}
+
+TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
+  PanelRig rig;
+  collide::Settings settings = rig.session.world().collision();
+  settings.buckets = 7;  // few, so that cells share
+  rig.session.set_collision(settings, true);
+  rig.session.paused = true;
+  EXPECT_FALSE(rig.recorder.find("Same cell / aliased"));
+  rig.session.select_bucket(fullest_bucket(rig.session));
+  rig.frames(3);
+  EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
+  EXPECT_TRUE(rig.recorder.find("Whole table"));
+  ASSERT_GT(rig.session.bucket()->groups.size(), 1u);
+  const Cell second = rig.session.bucket()->groups[1].cell;
+  rig.click("Cell " + cell_text(second));
+  EXPECT_EQ(rig.session.selected_cell(), second);
+}
+
+TEST(BucketView, SelectsABucketByItsNumber) {
+  PanelRig rig;
+  rig.session.paused = true;
+  rig.session.select_bucket(3);
+  rig.frames(2);
+  rig.type("Bucket number", "622");
+  EXPECT_EQ(rig.session.selected_bucket(), 622u);
+  rig.type("Bucket number", "5000");
+  EXPECT_EQ(rig.session.selected_bucket(), rig.session.world().collision().buckets - 1) << "the last one";
+  rig.click("Close Bucket");
+  EXPECT_EQ(rig.session.bucket(), nullptr);
+}
+
+TEST(BucketView, ShowsVerticesIfTheMethodHashesThem) {
+  PanelRig rig;
+  rig.session.set_method("grid-hash");
+  rig.session.select_bucket(fullest_bucket(rig.session));
+  rig.frames(2);
+  EXPECT_TRUE(rig.session.bucket()->vertices);
+  EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
+}
+
+TEST(BucketView, ShowsThePresentStateUntilTheBucketIsDeselected) {
+  PanelRig rig;
+  rig.session.select_bucket(5);
+  ASSERT_NE(rig.session.bucket(), nullptr);
+  const auto revision = rig.session.revision();
+  rig.frames(2);
+  EXPECT_NE(rig.session.revision(), revision);
+  EXPECT_EQ(rig.session.bucket()->items, tests::bucket_loads(rig.session.debug())[5]);
+  rig.session.select_bucket(std::nullopt);
+  EXPECT_EQ(rig.session.bucket(), nullptr);
+}
+
+TEST(BucketView, AbbreviatesListsOfBodies) {
+  collide::DebugGeometry debug;
+  for (collide::Index body : {4u, 1u, 1u, 9u, 12u}) debug.boxes.push_back({{}, {}, body});
+  const auto text = [&](std::vector<collide::Index> items) {
+    return bodies_text({{}, std::move(items)}, {}, debug, {});
+  };
+  EXPECT_EQ(text({0}), "body 4");
+  EXPECT_EQ(text({1, 2}), "body 1");
+  EXPECT_EQ(text({0, 1}), "bodies 1 and 4");
+  EXPECT_EQ(text({0, 1, 2, 3}), "bodies 1, 4 and 9");
+  EXPECT_EQ(text({0, 1, 3, 4}), "bodies 1, 4 and 2 more");
+}
+
+}  // namespace
+}  // namespace app
