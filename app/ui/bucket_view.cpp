@@ -30,14 +30,14 @@ void draw_group(Widgets& w, Session& session, const BucketContents& bucket, cons
   if (clicked) session.select_cell(group.cell);
 }
 
-void draw_shared_pairs(Widgets& w, const char* label, const Sharing& sharing, const char* tooltip) {
-  w.figure(label, joined(grouped(sharing.same_cell), " / ", grouped(sharing.aliased)), tooltip);
-}
-
 }  // namespace
 
 std::string cell_text(const Cell& cell) {
   return joined("(", std::to_string(cell[0]), ", ", std::to_string(cell[1]), ", ", std::to_string(cell[2]), ")");
+}
+
+std::string sharing_text(const Sharing& sharing) {
+  return joined(grouped(sharing.same_cell), " / ", grouped(sharing.aliased));
 }
 
 std::string bodies_text(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,
@@ -74,11 +74,10 @@ void draw_bucket(Widgets& w, Session& session) {
   const CellGroup* chosen = bucket->group(session.selected_cell());
   for (const CellGroup& group : bucket->groups) draw_group(w, session, *bucket, group, &group == chosen);
   ImGui::EndChild();
-  draw_shared_pairs(
-      w, "Same cell / aliased", bucket->sharing,
-      "Pairs that meet in this bucket: in one cell, as neighbours should, and of different cells, which the "
-      "modulo put together. Aliased pairs cost tests and find nothing that is near (§2.2).");
-  draw_shared_pairs(w, "Whole table", session.table().sharing(), "The same, summed over all buckets.");
+  w.figure("Same cell / aliased", sharing_text(bucket->sharing),
+           "Pairs that meet in this bucket: in one cell, as neighbours should, and of different cells, which the "
+           "modulo put together. Aliased pairs cost tests and find nothing that is near (§2.2).");
+  w.figure("Whole table", sharing_text(session.table().sharing()), "The same, summed over all buckets.");
   if (close)
     session.select_bucket(std::nullopt);
   else if (another)

@@ -16,4 +16,7 @@ std::string bodies_text(const CellGroup& group, const BucketContents& bucket, co
 /// "(0, -1, 2)"
 std::string cell_text(const Cell& cell);
 
+/// "12 / 3": the pairs in the same cell, and the aliased ones.
+std::string sharing_text(const Sharing& sharing);
+
 }  // namespace app

@@ -44,7 +44,7 @@ constexpr std::array<Column, column_count> columns{{
 constexpr float min_plot_width = 70, column_gap = 10;
 constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
 
-/// Returns the width of all columns, in design pixels.
+/// Returns the smallest width that all columns need, in design pixels.
 float min_content_width() {
   float width = min_plot_width;
   for (const Column& column : columns) width += column.width;

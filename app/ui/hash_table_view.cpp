@@ -85,12 +85,7 @@ void HashTableView::draw_legend(Widgets& w) const {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float bar = width * 0.5f, height = ImGui::GetTextLineHeight();
-  constexpr int steps = 32;
-  for (int i = 0; i < steps; ++i) {
-    const float x0 = at.x + bar * static_cast<float>(i) / steps, x1 = at.x + bar * static_cast<float>(i + 1) / steps;
-    const glm::vec3 fill = sequential_colour((static_cast<float>(i) + 0.5f) / steps);
-    ImGui::GetWindowDrawList()->AddRectFilled({x0, at.y + 0.25f * height}, {x1, at.y + 0.8f * height}, to_imgui(fill));
-  }
+  draw_colour_scale({at.x, at.y + 0.25f * height}, {at.x + bar, at.y + 0.8f * height}, 32, sequential_colour);
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
   w.text_line(grouped(max_load_));

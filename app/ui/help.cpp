@@ -64,7 +64,7 @@ void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
   ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * display.y};
   if (area.max.x - area.min.x < needed) middle.x = 0.5f * display.x;
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // then it scrolls
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // a higher text scrolls
   ImGui::SetNextWindowBgAlpha(1.0f);  // the hash table's squares would make it hard to read
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |

@@ -102,13 +102,8 @@ void draw_strain_scale(const Widgets& w) {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
-  constexpr int steps = 30;
-  for (int i = 0; i < steps; ++i) {
-    const float x0 = at.x + width * static_cast<float>(i) / steps,
-                x1 = at.x + width * static_cast<float>(i + 1) / steps;
-    const float t = 2 * (static_cast<float>(i) + 0.5f) / steps - 1;
-    ImGui::GetWindowDrawList()->AddRectFilled({x0, top}, {x1, top + height}, to_imgui(diverging_colour(t)));
-  }
+  draw_colour_scale({at.x, top}, {at.x + width, top + height}, 30,
+                    [](float share) { return diverging_colour(2 * share - 1); });
   ImGui::Dummy({width, height});
   ImGui::SameLine();
   ImGui::TextDisabled("+20 %%");

@@ -78,8 +78,8 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
   }
 }
 
-// Uses the buttons of the last frame: a button that goes down or up does so at the end of the frame's way, so the way
-// to the press is no drag, and the way to the release is one.
+// A button goes down or up at the end of a frame. With the buttons of the last frame, the way to a press is no drag,
+// and the way to a release is one.
 void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
   drag_length_ += glm::length(in.moved);
   const auto& held = session.world().grabbed();

@@ -17,7 +17,8 @@ void method(DemoRig& demo, Dice& dice) {
 
 void contact_surface(DemoRig& demo, Dice&) { demo.session.next_contact_surface(); }
 
-/// With steps that may be far too few: then it blows up, and the demo must say so. Implicit ones are a solve each.
+/// The substeps may be far too few: then the bodies explode, and the demo must say so. Implicit substeps are fewer, as
+/// each is a solve.
 void integrator(DemoRig& demo, Dice& dice) {
   const auto all = softbody::integrators();
   const softbody::Integrator& one = all[dice.pick(all.size())];
@@ -29,12 +30,12 @@ void automatic_integrator(DemoRig& demo, Dice&) {
   demo.session.set_integrator(softbody::default_integrator, std::nullopt);
 }
 
-/// Its ends, and what is in between.
+/// Returns an end of the range every other time, else a value in between.
 template <class T>
-T end_or_between(Dice& dice, T least, T most) {
+T end_or_between(Dice& dice, T min, T max) {
   const std::size_t which = dice.pick(4);
-  if (which == 0) return least;
-  return which == 1 ? most : static_cast<T>(dice.between(double(least), double(most)));
+  if (which == 0) return min;
+  return which == 1 ? max : static_cast<T>(dice.between(double(min), double(max)));
 }
 
 void detection(DemoRig& demo, Dice& dice) {
@@ -63,7 +64,7 @@ void drop(DemoRig& demo, Dice& dice) { demo.session.drop(dice.heads() ? 1 : app:
 
 void throw_body(DemoRig& demo, Dice& dice) {
   demo.session.throw_speed = end_or_between(dice, Session::least_throw, Session::most_throw);
-  const engine::Ray ray = demo.middle();
+  const engine::Ray ray = demo.centre_ray();
   demo.session.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
 }
 
@@ -73,7 +74,7 @@ void remove(DemoRig& demo, Dice& dice) {
   demo.session.remove_selected();
 }
 
-/// Wherever it is: on a body, beside all, on the panel.
+/// Anywhere: on a body, on the background, on the panel.
 void mouse(DemoRig& demo, Dice& dice) {
   const glm::vec2 size(demo.input.display_size);
   demo.input.mouse = {float(dice.between(0, size.x)), float(dice.between(0, size.y))};
@@ -115,7 +116,7 @@ void solids(DemoRig& demo, Dice& dice) {
   demo.session.set_solids(list);
 }
 
-/// But the large one, of which a frame takes as long as a second of others.
+/// Any scene but the large one, of which one frame takes as long as a second of the others.
 void scene(DemoRig& demo, Dice& dice) {
   std::vector<app::SceneChoice> small = demo.session.scenes();
   std::erase_if(small, [](const app::SceneChoice& choice) { return choice.key == "drop-3000"; });
@@ -124,7 +125,7 @@ void scene(DemoRig& demo, Dice& dice) {
 
 void reset(DemoRig& demo, Dice&) { demo.session.reset(); }
 void undo(DemoRig& demo, Dice&) { demo.session.undo(); }
-void as_the_scene_has_it(DemoRig& demo, Dice&) {
+void restore_settings(DemoRig& demo, Dice&) {
   demo.session.restore_settings();
   demo.session.restore_world_settings();
 }
@@ -140,7 +141,7 @@ void save(DemoRig& demo, Dice&) { demo.session.save_scene(demo.ui.save_as, demo.
 void picture(DemoRig& demo, Dice&) { demo.ui.take_away.picture_asked = true; }
 void curves(DemoRig& demo, Dice&) { demo.ui.take_away.write_curves(demo.session); }
 
-/// A tetrahedron of any size; every other time something is wrong with the file.
+/// Imports a tetrahedron of any size; every other file is broken.
 void import_mesh(DemoRig& demo, Dice& dice) {
   constexpr std::array faces{"f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", "f 1 2 9\n", "f 1 2 3\nf 1 2 4\nf 1 2 4\n",
                              "f 1 2\n", "f 1 2 3\nv nan 0 0\n"};
@@ -179,7 +180,7 @@ constexpr std::array table{Action{"method", method},
                            Action{"scene", scene},
                            Action{"reset", reset},
                            Action{"undo", undo},
-                           Action{"as the scene has it", as_the_scene_has_it},
+                           Action{"as the scene has it", restore_settings},
                            Action{"rewind", rewind},
                            Action{"save", save},
                            Action{"picture", picture},

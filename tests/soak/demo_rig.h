@@ -1,6 +1,5 @@
 #pragma once
-// The demo without a window: what its main loop does in a frame, drawn off screen, with a mouse that is told what to
-// do.
+// The demo without a window: the work of its main loop, drawn off screen, with a simulated mouse.
 
 #include <filesystem>
 
@@ -16,14 +15,14 @@ namespace soak {
 
 class DemoRig {
  public:
-  /// Works in `folder`, where all goes that the demo writes.
+  /// Everything that the demo writes goes to `folder`.
   DemoRig(const std::filesystem::path& scenes, const std::filesystem::path& folder);
 
-  /// A 60th of a second; `draw`: with the scene's picture.
+  /// Runs one frame, a 60th of a second. `draw`: it draws the scene too.
   void frame(bool draw);
   void resize(glm::ivec2 size);
-  /// From the eye through the middle of the picture.
-  engine::Ray middle() const { return mouse_.ray(camera_, input.display_size); }
+  /// Returns the ray from the eye through the middle of the picture.
+  engine::Ray centre_ray() const { return mouse_.ray(camera_, input.display_size); }
   void restart_camera() { camera_ = view_.camera(session.world().scene(), input.display_size); }
 
  private:

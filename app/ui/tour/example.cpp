@@ -154,8 +154,7 @@ std::array<HashedCorner, 8> hash_corners(const collide::DebugGeometry::Box& box,
   return corners;
 }
 
-/// Returns the best corner for the tour: one in a cell with a box of another body, in a bucket of several cells; either
-/// if there is none with both.
+/// Returns the best corner for the tour. It prefers a cell with a box of another body, then a bucket of several cells.
 std::size_t best_corner(const TourExample& f) {
   std::size_t best = 0;
   int best_score = -1;

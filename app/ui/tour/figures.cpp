@@ -110,10 +110,9 @@ std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
                        joined("Boxes with a corner in this cell: ", grouped(group.items.size()), "."),
                        &group == own ? same_cell_colour : aliased_colour});
   }
-  const auto shared_pairs = [](const Sharing& s) { return joined(grouped(s.same_cell), " / ", grouped(s.aliased)); };
-  figures.push_back({"Meetings: same cell / aliased", shared_pairs(bucket.sharing),
+  figures.push_back({"Meetings: same cell / aliased", sharing_text(bucket.sharing),
                      "Pairs of boxes that meet in this bucket: as neighbours, and by the modulo alone."});
-  figures.push_back({"In the whole table", shared_pairs(v.f.table.sharing()), "The same, summed over all buckets."});
+  figures.push_back({"In the whole table", sharing_text(v.f.table.sharing()), "The same, summed over all buckets."});
   return figures;
 }
 

@@ -17,6 +17,7 @@ glm::dvec3 eye_position(const softbody::View& view) {
 }  // namespace
 
 void Tour::start(Session& session, Overlays& shown) {
+  assert(!open());
   finder_ = std::make_unique<ExampleFinder>();
   was_paused_ = session.paused;
   session.paused = true;

@@ -10,7 +10,7 @@ namespace app {
 class Tour {
  public:
   bool open() const { return finder_ != nullptr; }
-  /// Pauses the world, saves and clears the overlays, and shows the first step.
+  /// Pauses the world, saves and clears the overlays, and shows the first step. The tour must be closed.
   void start(Session& session, Overlays& shown);
   /// Resumes the world if the tour paused it, and restores the overlays.
   void close(Session& session, Overlays& shown);

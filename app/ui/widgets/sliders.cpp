@@ -43,7 +43,7 @@ float relative_position(double value, double min, double max, bool logarithmic) 
 /// slider has no steps.
 void draw_grab(float position, float steps, float bar) {
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-  constexpr float border = 2;  // where ImGui's grab ends
+  constexpr float border = 2;  // as that of ImGui's grab
   const float room = max.x - min.x - 2 * border;
   const float grab = std::min(room, std::max(ImGui::GetStyle().GrabMinSize, steps > 0 ? room / (steps + 1) : 0));
   const float left = min.x + border + position * (room - grab);

@@ -27,6 +27,16 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
 }
 
+void draw_colour_scale(ImVec2 min, ImVec2 max, int steps, glm::vec3 (*colour)(float)) {
+  const float width = max.x - min.x, count = static_cast<float>(steps);
+  for (int i = 0; i < steps; ++i) {
+    const float x0 = min.x + width * static_cast<float>(i) / count,
+                x1 = min.x + width * static_cast<float>(i + 1) / count;
+    const glm::vec3 fill = colour((static_cast<float>(i) + 0.5f) / count);
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, min.y}, {x1, max.y}, to_imgui(fill));
+  }
+}
+
 void Widgets::register_item(const char* label, const char* tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
