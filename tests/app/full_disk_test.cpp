@@ -1,4 +1,4 @@
-// A full disk under the demo: it says so, goes on, and what was saved before is as it was.
+// The demo on a full disk: it reports the failure and goes on, and files saved before stay as they were.
 
 #include "tests/full_disk.h"
 
@@ -19,7 +19,7 @@ class FullDisk : public testing::Test {
  protected:
   static constexpr rlim_t too_little = 16;  // bytes
 
-  /// The folder holds what it held, and nothing else.
+  /// Expects that the folder still has only this file, with this text.
   void expect_unchanged(const std::string& name, const std::string& text) {
     std::ostringstream now;
     now << std::ifstream(folder.path() / name).rdbuf();
@@ -51,7 +51,7 @@ TEST_F(FullDisk, KeepsThePreferences) {
   expect_unchanged("preferences.toml", saved);
 }
 
-TEST_F(FullDisk, IsSaidOfPicturesAndCurves) {
+TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   folder.write("curves_0001.csv", "saved before");
   TakeAway take_away;
   take_away.folder = folder.path().string();

@@ -6,7 +6,7 @@
 namespace app {
 namespace {
 
-constexpr std::array steps{
+constexpr std::array step_table{
     TourStep{"A box round each body (§2.1)",
              "Every frame begins with a body's axis-aligned bounding box: the least and the greatest x, y and z of its "
              "vertices. From here on a few numbers stand for all of them.",
@@ -36,6 +36,6 @@ constexpr std::array steps{
 
 }  // namespace
 
-std::span<const TourStep> tour_steps() { return steps; }
+std::span<const TourStep> tour_steps() { return step_table; }
 
 }  // namespace app
