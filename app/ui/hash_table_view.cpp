@@ -85,7 +85,7 @@ void HashTableView::draw_legend(Widgets& w) const {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float bar = width * 0.5f, height = ImGui::GetTextLineHeight();
-  draw_colour_scale({at.x, at.y + 0.25f * height}, {at.x + bar, at.y + 0.8f * height}, 32, sequential_colour);
+  draw_colour_scale({at.x, at.y + 0.25f * height}, bar, at.y + 0.8f * height, 32, sequential_colour);
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
   w.text_line(grouped(max_load_));

@@ -102,8 +102,7 @@ void draw_strain_scale(const Widgets& w) {
   ImGui::SameLine();
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float width = w.px(120), top = at.y + w.px(4), height = w.px(8);
-  draw_colour_scale({at.x, top}, {at.x + width, top + height}, 30,
-                    [](float share) { return diverging_colour(2 * share - 1); });
+  draw_colour_scale({at.x, top}, width, top + height, 30, [](float share) { return diverging_colour(2 * share - 1); });
   ImGui::Dummy({width, height});
   ImGui::SameLine();
   ImGui::TextDisabled("+20 %%");

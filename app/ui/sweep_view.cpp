@@ -13,7 +13,7 @@ constexpr std::size_t max_reasons = 8;
 bool was_run(const SweepRow& row) { return row.not_run.empty(); }
 
 /// Returns "Multi-Level SB, level 3, 1,001 buckets, cells x 0.5", with only the settings that the method uses.
-std::string in_words(const Configuration& c) {
+std::string configuration_text(const Configuration& c) {
   const collide::Method& method = collide::method_table()[c.method];
   std::string text(method.name);
   if (method.uses_levels) text += format(", level %d", c.settings.levels);
@@ -21,8 +21,8 @@ std::string in_words(const Configuration& c) {
   return text;
 }
 
-std::string tooltip(const SweepRow& row) {
-  std::string text = in_words(row.configuration);
+std::string point_tooltip(const SweepRow& row) {
+  std::string text = configuration_text(row.configuration);
   const glm::vec3& cell = row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
     text += format("\nCells of %.3g x %.3g x %.3g m", double{cell.x}, double{cell.y}, double{cell.z});
@@ -39,7 +39,7 @@ std::string tooltip(const SweepRow& row) {
 }
 
 /// Lists what was not run and why, at most max_reasons of them.
-std::string reasons(const SweepReport& report) {
+std::string not_run_text(const SweepReport& report) {
   std::string text;
   std::size_t listed = 0, more = 0;
   for (const SweepRow& row : report.rows) {
@@ -48,7 +48,7 @@ std::string reasons(const SweepReport& report) {
       ++more;
       continue;
     }
-    text += joined(listed++ ? "\n" : "", in_words(row.configuration), ": ", row.not_run);
+    text += joined(listed++ ? "\n" : "", configuration_text(row.configuration), ": ", row.not_run);
   }
   if (more) text += joined("\nand ", grouped(more), " more.");
   return text.empty() ? "All settings fit the budget." : text;
@@ -160,7 +160,7 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.text_line(count_text(state_));
-  w.register_item("Sweep counts", reasons(state_.report).c_str());
+  w.register_item("Sweep counts", not_run_text(state_.report).c_str());
 }
 
 void SweepView::draw_legend(Widgets& w) {
@@ -198,7 +198,7 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
   const SweepRow& row = state_.report.rows[under->row];
-  w.show_tooltip(tooltip(row).c_str());
+  w.show_tooltip(point_tooltip(row).c_str());
   if (clicked) apply(row.configuration, session);
 }
 
@@ -210,8 +210,8 @@ void SweepView::draw_footer(Widgets& w) const {
 }
 
 void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
-  if (auto news = worker_.take()) {
-    state_ = std::move(*news);
+  if (auto state = worker_.take()) {
+    state_ = std::move(*state);
     plot_.set(state_.report);
   }
   const float margin = w.px(margin_width), room = area.max.y - area.min.y - 2 * margin;

@@ -98,7 +98,7 @@ class Demo {
   }
 
   /// Begins a frame of the Gui and handles the input of mouse and keyboard.
-  void take_input(double elapsed) {
+  void handle_input(double elapsed) {
     graphics_->gui.begin_frame();
     handle_keys();
     interface_.draw(session_, ui_, graphics_->gui.scale(), seconds_);
@@ -113,10 +113,10 @@ class Demo {
     if (graphics_->window.input_waits() || ui_.take_away.recording()) timer_.mark_active();
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
-    take_input(elapsed);
+    handle_input(elapsed);
     while (graphics_->window.input_waits()) {
       graphics_->gui.end_frame();
-      take_input(0);
+      handle_input(0);
     }
     const engine::Viewport viewport = scene_viewport();
     double drawing = timed([&] { draw_scene(viewport); });

@@ -86,11 +86,11 @@ class PanelRig {
     if (!found) ADD_FAILURE() << "no widget '" << label << "'";
     return found ? *found : WidgetRecorder::Widget{};
   }
-  /// Expects that each widget recorded before is where it was; `except`: the label of one that may change.
+  /// Expects that each widget recorded before is where it was; `except`: the label of one that may move.
   void expect_in_place(const std::vector<WidgetRecorder::Widget>& before, std::string_view except = "") const {
     for (const WidgetRecorder::Widget& was : before) {
-      if (was.label == except) continue;
       const WidgetRecorder::Widget is = widget(was.label);
+      if (was.label == except) continue;
       EXPECT_TRUE(is.min.x == was.min.x && is.min.y == was.min.y && is.max.x == was.max.x && is.max.y == was.max.y)
           << was.label << " moved";
     }

@@ -26,8 +26,8 @@ using softbody::BodyId;
 constexpr std::uint64_t max_pair_tests = 300'000'000;  // of the paper's method: more would keep the window waiting
 
 glm::vec3 vertex(const softbody::World& world, Index v) {
-  const collide::Frame f = world.positions();
-  return {f.x[v], f.y[v], f.z[v]};
+  const collide::Frame frame = world.positions();
+  return {frame.x[v], frame.y[v], frame.z[v]};
 }
 
 float distance_of(const softbody::World& world, const Contact& contact) {
@@ -66,10 +66,10 @@ std::optional<Pair> best_pair(const softbody::World& world, const collide::BodyB
   for (const Contact& contact : missed) ++counts[pair_of(world, contact)].first;
   const auto rank = [&](const auto& entry) {
     const auto& [pair, count] = entry;
-    const auto [lost, all] = count;
+    const auto [missed_count, all] = count;
     return std::tuple(preferred && (pair.a == *preferred || pair.b == *preferred),
-                      !eye || !is_occluded(world, boxes, pair, *eye), pair.a != pair.b, std::min(lost, all - lost),
-                      all);
+                      !eye || !is_occluded(world, boxes, pair, *eye), pair.a != pair.b,
+                      std::min(missed_count, all - missed_count), all);
   };
   using Rank = decltype(rank(*counts.begin()));
   std::optional<std::pair<Rank, Pair>> best;  // each pair is ranked once, as the test for occlusion is slow
@@ -130,11 +130,11 @@ std::optional<Contact> closest_between(const softbody::World& world, const Pair&
 }
 
 /// Returns the box of the body that holds one of its vertices: the upper box if the vertex is on a cut (§2.1).
-Index box_of(const TourExample& f, const glm::vec3& at) {
-  Index box = f.boxes.front();
+Index box_of(const TourExample& example, const glm::vec3& at) {
+  Index box = example.boxes.front();
   glm::vec3 lower(-std::numeric_limits<float>::infinity());
-  for (const Index i : f.boxes) {
-    const auto& [lo, hi, body] = f.structure.boxes[i];
+  for (const Index i : example.boxes) {
+    const auto& [lo, hi, body] = example.structure.boxes[i];
     const bool holds = glm::max(lo, at) == at && glm::min(hi, at) == at;
     if (!holds || glm::max(lo, lower) != lo) continue;
     lower = lo;
@@ -155,15 +155,15 @@ std::array<HashedCorner, 8> hash_corners(const collide::DebugGeometry::Box& box,
 }
 
 /// Returns the best corner for the tour. It prefers a cell with a box of another body, then a bucket of several cells.
-std::size_t best_corner(const TourExample& f) {
+std::size_t best_corner(const TourExample& example) {
   std::size_t best = 0;
   int best_score = -1;
-  for (std::size_t i = 0; i < f.corners.size(); ++i) {
-    const BucketContents bucket = f.table.bucket(f.corners[i].bucket);
-    const CellGroup* group = bucket.group(f.corners[i].cell);
-    const auto of_other = [&](Index box) { return f.structure.boxes[box].body != f.body; };
-    const int meets = group && std::ranges::any_of(group->items, of_other) ? 2 : 0;
-    const int score = meets + (bucket.groups.size() > 1 ? 1 : 0);
+  for (std::size_t i = 0; i < example.corners.size(); ++i) {
+    const BucketContents bucket = example.table.bucket(example.corners[i].bucket);
+    const CellGroup* group = bucket.group(example.corners[i].cell);
+    const auto of_other = [&](Index box) { return example.structure.boxes[box].body != example.body; };
+    const int shares_cell = group && std::ranges::any_of(group->items, of_other) ? 2 : 0;
+    const int score = shares_cell + (bucket.groups.size() > 1 ? 1 : 0);
     if (score <= best_score) continue;
     best_score = score;
     best = i;
@@ -172,13 +172,14 @@ std::size_t best_corner(const TourExample& f) {
 }
 
 /// Fills in the body's boxes and the corners of the box that is nearest to the other body.
-void add_boxes(const softbody::World& world, TourExample& f) {
+void add_boxes(const softbody::World& world, TourExample& example) {
   const collide::methods::CellHash hash(world.collision());
-  for (Index i = 0; i < f.structure.boxes.size(); ++i)
-    if (f.structure.boxes[i].body == f.body) f.boxes.push_back(i);
-  f.box = box_of(f, vertex(world, f.closest ? f.closest->a : world.bodies().first[f.body]));
-  f.corners = hash_corners(f.structure.boxes[f.box], hash);
-  f.corner = best_corner(f);
+  for (Index i = 0; i < example.structure.boxes.size(); ++i)
+    if (example.structure.boxes[i].body == example.body) example.boxes.push_back(i);
+  example.box =
+      box_of(example, vertex(world, example.closest ? example.closest->a : world.bodies().first[example.body]));
+  example.corners = hash_corners(example.structure.boxes[example.box], hash);
+  example.corner = best_corner(example);
 }
 
 std::uint64_t estimate_pair_tests(const softbody::World& world, std::size_t method) {
@@ -198,12 +199,13 @@ ExampleFinder::ExampleFinder()
       paper_(collide::find_method(collide::paper_method)->make()) {}
 
 /// The paper's method finds the same contacts of two bodies whether there are other bodies or not.
-std::optional<std::vector<Contact>> ExampleFinder::missed_of_pair(const softbody::World& world, const TourExample& f) {
-  const BodySubset subset(world, f.body, f.other);
+std::optional<std::vector<Contact>> ExampleFinder::missed_of_pair(const softbody::World& world,
+                                                                  const TourExample& example) {
+  const BodySubset subset(world, example.body, example.other);
   if (all_pair_tests(*subset.frame().bodies, world.collision().self_collision) > max_pair_tests) return std::nullopt;
   std::vector<Contact> found = detect(*paper_, subset.frame(), world.collision(), one_worker_);
   for (Contact& contact : found) contact = subset.to_world(contact);
-  return score(found, f.contacts).missed;
+  return score(found, example.contacts).missed;
 }
 
 std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std::optional<BodyId> preferred,
@@ -214,40 +216,41 @@ std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std
   collide::Result unused;
   boxes.build(frame, unused);
 
-  TourExample f;
+  TourExample example;
   const std::vector<Contact> true_contacts = detect(*exact_, frame, settings, one_worker_);
   std::vector<Contact> missed;
   const std::uint64_t tests = estimate_pair_tests(world, paper_index());
-  f.pair_tests_estimated = tests > max_pair_tests;
-  if (f.pair_tests_estimated) {
-    f.structure = collide::methods::make_paper_structure()(frame, settings, one_worker_);
-    f.work = {.hashes = 8 * f.structure.boxes.size(), .boxes = f.structure.boxes.size(), .pair_tests = tests};
+  example.pair_tests_estimated = tests > max_pair_tests;
+  if (example.pair_tests_estimated) {
+    example.structure = collide::methods::make_paper_structure()(frame, settings, one_worker_);
+    example.work = {
+        .hashes = 8 * example.structure.boxes.size(), .boxes = example.structure.boxes.size(), .pair_tests = tests};
   } else {
-    missed = score(detect(*paper_, frame, settings, one_worker_, &f.work), true_contacts).missed;
-    f.structure = paper_->debug();
+    missed = score(detect(*paper_, frame, settings, one_worker_, &example.work), true_contacts).missed;
+    example.structure = paper_->debug();
   }
   const auto in_contact = best_pair(world, boxes, true_contacts, missed, preferred, eye);
   const auto pair = in_contact ? in_contact : nearest_pair(boxes, preferred);
   if (!pair) return std::nullopt;
-  f.body = pair->a;
-  f.other = pair->b;
-  f.touching = in_contact.has_value();
-  f.bounds = {boxes.box[f.body], boxes.box[f.other]};
+  example.body = pair->a;
+  example.other = pair->b;
+  example.touching = in_contact.has_value();
+  example.bounds = {boxes.box[example.body], boxes.box[example.other]};
   const auto is_of_pair = [&](const Contact& contact) { return pair_of(world, contact) == *pair; };
-  std::ranges::copy_if(true_contacts, std::back_inserter(f.contacts), is_of_pair);
-  if (!f.pair_tests_estimated) {
-    f.missed.emplace();
-    std::ranges::copy_if(missed, std::back_inserter(*f.missed), is_of_pair);
-  } else if (f.touching) {
-    f.missed = missed_of_pair(world, f);
+  std::ranges::copy_if(true_contacts, std::back_inserter(example.contacts), is_of_pair);
+  if (!example.pair_tests_estimated) {
+    example.missed.emplace();
+    std::ranges::copy_if(missed, std::back_inserter(*example.missed), is_of_pair);
+  } else if (example.touching) {
+    example.missed = missed_of_pair(world, example);
   }
-  f.closest = f.touching          ? closest_of(world, f.contacts)
-              : f.body != f.other ? closest_between(world, *pair, *exact_, one_worker_)
-                                  : std::nullopt;
-  if (f.closest) f.distance = distance_of(world, *f.closest);
-  f.table = TableContents(f.structure, frame, settings);
-  add_boxes(world, f);
-  return f;
+  example.closest = example.touching                ? closest_of(world, example.contacts)
+                    : example.body != example.other ? closest_between(world, *pair, *exact_, one_worker_)
+                                                    : std::nullopt;
+  if (example.closest) example.distance = distance_of(world, *example.closest);
+  example.table = TableContents(example.structure, frame, settings);
+  add_boxes(world, example);
+  return example;
 }
 
 }  // namespace app

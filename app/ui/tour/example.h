@@ -52,7 +52,7 @@ class ExampleFinder {
                                   std::optional<glm::dvec3> eye = std::nullopt);
 
  private:
-  std::optional<std::vector<collide::Contact>> missed_of_pair(const softbody::World& world, const TourExample& f);
+  std::optional<std::vector<collide::Contact>> missed_of_pair(const softbody::World& world, const TourExample& example);
 
   std::unique_ptr<collide::Detector> exact_, paper_;
   collide::Workers one_worker_{1};

@@ -27,13 +27,13 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
 }
 
-void draw_colour_scale(ImVec2 min, ImVec2 max, int steps, glm::vec3 (*colour)(float)) {
-  const float width = max.x - min.x, count = static_cast<float>(steps);
+void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::vec3 (*colour)(float)) {
+  const float count = static_cast<float>(steps);
   for (int i = 0; i < steps; ++i) {
     const float x0 = min.x + width * static_cast<float>(i) / count,
                 x1 = min.x + width * static_cast<float>(i + 1) / count;
     const glm::vec3 fill = colour((static_cast<float>(i) + 0.5f) / count);
-    ImGui::GetWindowDrawList()->AddRectFilled({x0, min.y}, {x1, max.y}, to_imgui(fill));
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, min.y}, {x1, bottom}, to_imgui(fill));
   }
 }
 
@@ -115,8 +115,8 @@ bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
-  if (const auto kept = sections_.find(label); kept != sections_.end())
-    ImGui::SetNextItemOpen(kept->second, ImGuiCond_Once);
+  if (const auto stored = sections_.find(label); stored != sections_.end())
+    ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   sections_[label] = open;
   register_item(label, nullptr);

@@ -44,8 +44,9 @@ inline constexpr float label_column = 108;
 
 ImU32 to_imgui(const glm::vec3& colour, float alpha = 1.0f);
 
-/// Draws a colour scale from left to right in `steps` steps. colour(0 .. 1) returns their colours.
-void draw_colour_scale(ImVec2 min, ImVec2 max, int steps, glm::vec3 (*colour)(float));
+/// Draws a colour scale in `steps` steps, whose colours colour(0 .. 1) returns. `min`: the upper left corner; `bottom`:
+/// the lower end (y).
+void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::vec3 (*colour)(float));
 
 /// Returns the first of 1, 2, 5, 10, ... times `min_end` that is not below `max`, so that an axis rarely changes.
 /// min_end > 0.
