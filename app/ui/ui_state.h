@@ -20,12 +20,13 @@ struct UiState {
   bool sweep = false;  // the window "Error against run time"
   bool help = false;
   bool coverage_explained = false;  // below the coverage light
+  bool popup_open = false;          // a list to choose from, in the last frame
+  bool quit = false;
   // Requests to the main loop, which clears them.
   bool reset_camera = false;
   bool focus_body = false;  // moves the camera to the selected body
   bool throw_body = false;
-  bool popup_open = false;  // a list to choose from, in the last frame
-  bool quit = false;
+
   float fineness = 1;                    // of the scene's picture, see Canvas
   std::map<std::string, bool> sections;  // of the panel: whether they are open, by label
   softbody::View view;                   // the camera, as a scene file describes it

@@ -1,12 +1,10 @@
-// Where things stand: tooltips, lists, folded sections, small windows and high-density screens.
+// Where the parts of the user interface stand, in small and large windows.
 
 #include <algorithm>
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
-
-#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
@@ -30,20 +28,6 @@ TEST(Tooltip, StandsAboveTheComparison) {
   rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
   rig.frames(40);
   EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
-}
-
-TEST(Panel, ClosesOnlyTheOpenListAtEscape) {
-  PanelRig rig;
-  rig.click("Method");
-  EXPECT_TRUE(rig.ui.popup_open);
-  rig.session.select_body(0);
-  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
-  rig.press_escape();
-  EXPECT_FALSE(rig.ui.popup_open);
-  EXPECT_TRUE(rig.session.selected_body());
-  EXPECT_EQ(rig.session.world().method().key, collide::default_method);
-  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
-  EXPECT_FALSE(rig.session.selected_body());
 }
 
 TEST(Layout, NamesThePartsThatHaveNoRoom) {
@@ -145,49 +129,6 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
       EXPECT_TRUE(beside || at_the_top) << label << " covers the scene";
     }
   }
-}
-
-TEST(Panel, KeepsEverythingInPlaceWhileNumbersChange) {
-  PanelRig rig;
-  rig.frames(5);
-  const auto before = rig.recorder.widgets;
-  for (int i = 0; i < 90; ++i) {
-    rig.frame();
-    ASSERT_EQ(rig.recorder.widgets.size(), before.size());
-    for (std::size_t w = 0; w < before.size(); ++w) {
-      const auto &then = before[w], &now = rig.recorder.widgets[w];
-      ASSERT_EQ(now.label, then.label);
-      ASSERT_TRUE(now.min.x == then.min.x && now.min.y == then.min.y && now.max.x == then.max.x &&
-                  now.max.y == then.max.y)
-          << now.label << " moved";
-    }
-  }
-  EXPECT_GT(rig.session.world().frame(), 90);
-}
-
-TEST(Panel, FoldsItsSections) {
-  PanelRig rig;
-  ASSERT_TRUE(rig.recorder.find("Tolerance"));
-  rig.click("Detection");
-  EXPECT_FALSE(rig.recorder.find("Tolerance"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));  // the status light stays
-}
-
-TEST(Panel, KeepsTheStatusWhenItIsHidden) {
-  PanelRig rig;
-  rig.ui.panel = false;
-  rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Pause"));
-  EXPECT_TRUE(rig.recorder.find("Coverage"));
-  EXPECT_TRUE(rig.recorder.find("Live recall"));
-  EXPECT_LT(rig.widget("Coverage").min.x, 100);
-}
-
-TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
-  const ImVec2 one = PanelRig().widget("Pause").max;
-  const ImVec2 two = PanelRig(2).widget("Pause").max;
-  EXPECT_NEAR(two.x, 2 * one.x, 8);
-  EXPECT_NEAR(two.y, 2 * one.y, 8);
 }
 
 TEST(Help, OpensAndCloses) {

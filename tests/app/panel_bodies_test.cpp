@@ -1,7 +1,5 @@
 // The panel's parts for bodies, gravity, materials and solids.
 
-#include <cmath>
-
 #include <glm/geometric.hpp>
 
 #include "softbody/measures.h"
@@ -105,6 +103,13 @@ TEST(WorldPanel, SwitchesAndChoosesSolids) {
   rig.drag("Ground height", 30);
   EXPECT_GT(rig.session.world().scene().ground->height, 0);
   EXPECT_TRUE(rig.session.world().scene().spheres.empty());
+}
+
+TEST(BodiesPanel, DropsABody) {
+  PanelRig rig;
+  const auto before = rig.session.world().bodies().count();
+  rig.click("Drop");
+  EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
 }
 
 }  // namespace

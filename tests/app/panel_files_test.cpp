@@ -131,12 +131,5 @@ TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   EXPECT_FALSE(rig.ui.take_away.recording());
 }
 
-TEST(Panel, RemembersItsFoldedSections) {
-  PanelRig rig;
-  EXPECT_TRUE(rig.ui.sections.at("Numbers"));
-  rig.click("Numbers");
-  EXPECT_FALSE(rig.ui.sections.at("Numbers"));
-}
-
 }  // namespace
 }  // namespace app

@@ -1,7 +1,6 @@
-// The panel's choice of integrator and substeps.
+// The panel's section on stability.
 
-#include <gtest/gtest.h>
-
+#include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {
@@ -42,6 +41,35 @@ TEST(StabilityPanel, DismissesTheAlarmWhenTheWorldResumes) {
   EXPECT_FALSE(rig.session.paused);
   EXPECT_FALSE(rig.recorder.find("Alarm"));
   EXPECT_FALSE(rig.recorder.find("Rewind to the last good frame"));
+}
+
+TEST(StabilityPanel, RewindsByASlider) {
+  PanelRig rig;
+  rig.click("Detection");  // folds it to make room
+  rig.click("Numbers");
+  rig.click("Stability");
+  rig.frames(60);
+  const int frame = rig.session.world().frame();
+  rig.drag("Go back to", -400);
+  EXPECT_EQ(rig.session.world().frame(), 0);
+  EXPECT_TRUE(rig.session.paused);
+  rig.drag("Go back to", 400);
+  EXPECT_GE(rig.session.world().frame(), frame);
+  rig.click("Pause when a body explodes");
+  EXPECT_FALSE(rig.session.guarded);
+  EXPECT_TRUE(rig.recorder.find("Total"));
+  EXPECT_TRUE(rig.recorder.find("Step light"));
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+}
+
+TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
+  PanelRig rig(1, doomed_pair());
+  rig.frames(10);
+  EXPECT_TRUE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(rig.session.paused);
+  rig.click("Rewind to the last good frame");
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
 }
 
 }  // namespace

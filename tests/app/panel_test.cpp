@@ -1,8 +1,8 @@
-#include <algorithm>
-#include <cmath>
-
 #include "app/ui/panel/panel.h"
+#include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
+
+#include <GLFW/glfw3.h>
 
 namespace app {
 namespace {
@@ -21,31 +21,6 @@ TEST(Panel, SwitchesEveryOverlay) {
   EXPECT_FALSE(rig.ui.hash_table);
 }
 
-TEST(DetectionPanel, ChoosesEveryMethodWhileTheWorldRuns) {
-  PanelRig rig;
-  for (const collide::Method& method : collide::method_table()) {
-    rig.click("Method");
-    rig.click(method.name);
-    EXPECT_EQ(rig.session.world().method().key, method.key);
-    rig.frames(5);
-    EXPECT_TRUE(rig.session.notice().empty()) << rig.session.notice();
-  }
-}
-
-TEST(DetectionPanel, ChoosesEveryContactSurface) {
-  PanelRig rig;
-  const std::vector order{softbody::ContactSurface::surfaces, softbody::ContactSurface::vertices};
-  for (const softbody::ContactSurface surface : order) {
-    const auto& all = softbody::contact_surfaces;
-    rig.click("Contact surface");
-    rig.click(std::ranges::find(all, surface, &softbody::ContactSurfaceInfo::value)->name);
-    EXPECT_EQ(rig.session.world().scene().contact_surface, surface);
-    rig.frames(3);
-    const bool counted = rig.recorder.find("surfaces, between bodies") != nullptr;
-    EXPECT_EQ(counted, surface == softbody::ContactSurface::surfaces);
-  }
-}
-
 TEST(SurfaceView, ShowsItsFiguresAndKeepsEverythingInPlace) {
   PanelRig rig;
   EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
@@ -57,67 +32,6 @@ TEST(SurfaceView, ShowsItsFiguresAndKeepsEverythingInPlace) {
   rig.expect_in_place(before);
   rig.click("True surfaces");
   EXPECT_FALSE(rig.recorder.find("Penetrating vertices"));
-}
-
-TEST(StabilityPanel, RewindsByASlider) {
-  PanelRig rig;
-  rig.click("Detection");  // folds it to make room
-  rig.click("Numbers");
-  rig.click("Stability");
-  rig.frames(60);
-  const int frame = rig.session.world().frame();
-  rig.drag("Go back to", -400);
-  EXPECT_EQ(rig.session.world().frame(), 0);
-  EXPECT_TRUE(rig.session.paused);
-  rig.drag("Go back to", 400);
-  EXPECT_GE(rig.session.world().frame(), frame);
-  rig.click("Pause when a body explodes");
-  EXPECT_FALSE(rig.session.guarded);
-  EXPECT_TRUE(rig.recorder.find("Total"));
-  EXPECT_TRUE(rig.recorder.find("Step light"));
-  EXPECT_FALSE(rig.recorder.find("Alarm"));
-}
-
-TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
-  PanelRig rig(1, doomed_pair());
-  rig.frames(10);
-  EXPECT_TRUE(rig.recorder.find("Alarm"));
-  EXPECT_TRUE(rig.session.paused);
-  rig.click("Rewind to the last good frame");
-  EXPECT_FALSE(rig.recorder.find("Alarm"));
-  EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
-}
-
-TEST(DetectionPanel, EnablesOnlyWhatTheMethodUses) {
-  PanelRig rig;
-  rig.ui.hash_table = false;
-  for (const collide::Method& method : collide::method_table()) {
-    rig.session.set_method(method.key);
-    rig.frames(2);
-    EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
-    EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
-    EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
-    for (const char* label : {"x prime", "y prime", "z prime", "Default primes"})
-      EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
-    EXPECT_TRUE(rig.widget("Tolerance").enabled);
-  }
-}
-
-TEST(DetectionPanel, EnablesWhatAViewOrTheComparisonUses) {
-  PanelRig rig;
-  rig.ui.hash_table = false;
-  ASSERT_FALSE(rig.session.world().method().uses_hash);
-  const auto enabled = [&] {
-    rig.frames(2);
-    return rig.widget("Buckets").enabled;
-  };
-  EXPECT_FALSE(enabled());
-  for (bool* shown : {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.session.compare.on}) {
-    *shown = true;
-    EXPECT_TRUE(enabled());
-    *shown = false;
-    EXPECT_FALSE(enabled());
-  }
 }
 
 TEST(NumbersPanel, ShowsWhatTheExactMethodSkips) {
@@ -150,131 +64,68 @@ TEST(Panel, PausesStepsResetsAndSlowsTheWorld) {
   EXPECT_NEAR(rig.session.slow_factor, Session::fastest, 1e-6);
 }
 
-TEST(BodiesPanel, DropsABody) {
+TEST(Panel, ClosesOnlyTheOpenListAtEscape) {
   PanelRig rig;
-  const auto before = rig.session.world().bodies().count();
-  rig.click("Drop");
-  EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
-}
-
-TEST(DetectionPanel, DragsEverySliderToItsEnds) {
-  PanelRig rig;
-  rig.session.set_method("multi-level-sb");
-  rig.frames(2);
-  const auto& settings = [&]() -> const collide::Settings& { return rig.session.world().collision(); };
-  rig.drag("Subdivision level", -500);
-  EXPECT_EQ(settings().levels, 0);
-  rig.drag("Subdivision level", 500);
-  EXPECT_EQ(settings().levels, collide::max_levels);
-  rig.drag("Buckets", -500);
-  EXPECT_EQ(settings().buckets, 1u);
-  rig.drag("Buckets", 500);
-  EXPECT_EQ(settings().buckets, collide::max_buckets);
-  rig.drag("Buckets", -500);
-  rig.click("Auto");
-  EXPECT_FALSE(rig.session.world().uses_default_cell_size());
-  rig.drag("Cell size", -500);
-  EXPECT_NEAR(settings().cell_size.x, min_cell, 1e-5);
-  rig.drag("Cell size", 500);
-  EXPECT_NEAR(settings().cell_size.y, max_cell, 1e-5);
-  rig.drag("Tolerance", -500);
-  EXPECT_NEAR(settings().tolerance, min_tolerance, 1e-5);
-  rig.drag("Tolerance", 500);
-  EXPECT_NEAR(settings().tolerance, max_tolerance, 1e-5);
-  rig.click("Self-collision");
-  EXPECT_FALSE(settings().self_collision);
-  rig.click("Scene's settings");
+  rig.click("Method");
+  EXPECT_TRUE(rig.ui.popup_open);
+  rig.session.select_body(0);
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  rig.press_escape();
+  EXPECT_FALSE(rig.ui.popup_open);
+  EXPECT_TRUE(rig.session.selected_body());
   EXPECT_EQ(rig.session.world().method().key, collide::default_method);
-  EXPECT_EQ(settings().levels, 3);
-  EXPECT_TRUE(rig.session.world().uses_default_cell_size());
+  handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  EXPECT_FALSE(rig.session.selected_body());
 }
 
-TEST(DetectionPanel, RunsEveryMethodAtTheEndsOfEverySlider) {
+TEST(Panel, KeepsEverythingInPlaceWhileNumbersChange) {
   PanelRig rig;
-  for (const collide::Method& method : collide::method_table()) {
-    rig.session.set_method(method.key);
-    for (const int levels : {0, collide::max_levels}) {
-      for (const float cell : {min_cell, max_cell}) {
-        for (const float tolerance : {min_tolerance, max_tolerance}) {
-          collide::Settings settings = rig.session.world().collision();
-          settings.levels = levels;
-          settings.cell_size = glm::vec3(cell);
-          settings.tolerance = tolerance;
-          settings.buckets = 1;
-          rig.session.set_collision(settings, false);
-          rig.frames(2);
-          EXPECT_FALSE(rig.session.paused) << method.key << ": " << rig.session.notice();
-        }
-      }
+  rig.frames(5);
+  const auto before = rig.recorder.widgets;
+  for (int i = 0; i < 90; ++i) {
+    rig.frame();
+    ASSERT_EQ(rig.recorder.widgets.size(), before.size());
+    for (std::size_t w = 0; w < before.size(); ++w) {
+      const auto &then = before[w], &now = rig.recorder.widgets[w];
+      ASSERT_EQ(now.label, then.label);
+      ASSERT_TRUE(now.min.x == then.min.x && now.min.y == then.min.y && now.max.x == then.max.x &&
+                  now.max.y == then.max.y)
+          << now.label << " moved";
     }
   }
+  EXPECT_GT(rig.session.world().frame(), 90);
 }
 
-TEST(DetectionPanel, OffersThePapersBucketSizes) {
+TEST(Panel, FoldsItsSections) {
   PanelRig rig;
-  for (const char* preset : {"101", "1,001", "1,009"}) {
-    rig.click("Bucket presets");
-    rig.click(preset);
-    std::string digits(preset);
-    std::erase(digits, ',');
-    EXPECT_EQ(std::to_string(rig.session.world().collision().buckets), digits);
-  }
+  ASSERT_TRUE(rig.recorder.find("Tolerance"));
+  rig.click("Detection");
+  EXPECT_FALSE(rig.recorder.find("Tolerance"));
+  EXPECT_TRUE(rig.recorder.find("Coverage"));  // the status light stays
 }
 
-TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
+TEST(Panel, KeepsTheStatusWhenItIsHidden) {
   PanelRig rig;
-  const auto& primes = [&]() -> const auto& { return rig.session.world().collision().primes; };
-  ASSERT_FALSE(rig.recorder.find("Primes warning"));
-  rig.type("x prime", "7");
-  rig.type("y prime", "1001");  // the number of buckets
-  rig.type("z prime", "4294967295");
-  EXPECT_EQ(primes(), (std::array<std::uint32_t, 3>{7, 1001, 4294967295}));
-  EXPECT_TRUE(rig.recorder.find("Primes warning"));
-  EXPECT_TRUE(rig.recorder.find("Buckets warning"));
-  rig.session.set_method("bounding-box");
-  rig.ui.hash_table = false;
+  rig.ui.panel = false;
   rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "the method hashes nothing";
-  rig.session.set_method("grid-hash");
-  rig.frames(2);
-  rig.type("y prime", "0");
-  EXPECT_EQ(primes()[1], 1u) << "the smallest allowed";
-  rig.click("Default primes");
-  EXPECT_EQ(primes(), collide::default_primes);
-  EXPECT_FALSE(rig.recorder.find("Primes warning"));
+  EXPECT_FALSE(rig.recorder.find("Pause"));
+  EXPECT_TRUE(rig.recorder.find("Coverage"));
+  EXPECT_TRUE(rig.recorder.find("Live recall"));
+  EXPECT_LT(rig.widget("Coverage").min.x, 100);
 }
 
-TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
-  PanelRig rig;
-  const HashTableView& view = rig.interface.hash_table_view();
-  const BucketGrid& grid = view.grid();
-  const std::uint32_t square = 345;
-  const float x = view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side;
-  const float y = view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side;
-  rig.click_at(x, y);
-  EXPECT_EQ(rig.session.selected_bucket(), 345u);
-  rig.click_at(x, y);
-  EXPECT_FALSE(rig.session.selected_bucket());
+TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
+  const ImVec2 one = PanelRig().widget("Pause").max;
+  const ImVec2 two = PanelRig(2).widget("Pause").max;
+  EXPECT_NEAR(two.x, 2 * one.x, 8);
+  EXPECT_NEAR(two.y, 2 * one.y, 8);
 }
 
-TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
+TEST(Panel, RemembersItsFoldedSections) {
   PanelRig rig;
-  collide::Settings settings = rig.session.world().collision();
-  settings.buckets = 1'000'003;
-  rig.session.set_collision(settings, true);
-  rig.session.paused = true;
-  rig.frames(2);
-  const HashTableView& view = rig.interface.hash_table_view();
-  ASSERT_GT(view.grid().per_square, 1u);
-  const auto loads = rig.session.debug().loads;
-  const collide::BucketLoad fullest = *std::ranges::max_element(loads, {}, &collide::BucketLoad::load);
-  const std::uint32_t square = fullest.bucket / view.grid().per_square;
-  rig.click_at(view.grid_origin().x + (static_cast<float>(square % view.grid().columns) + 0.5f) * view.grid().side,
-               view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
-  ASSERT_TRUE(rig.session.selected_bucket());
-  const auto selected = std::ranges::find(loads, *rig.session.selected_bucket(), &collide::BucketLoad::bucket);
-  ASSERT_NE(selected, loads.end());
-  EXPECT_EQ(selected->load, fullest.load);
+  EXPECT_TRUE(rig.ui.sections.at("Numbers"));
+  rig.click("Numbers");
+  EXPECT_FALSE(rig.ui.sections.at("Numbers"));
 }
 
 }  // namespace

@@ -1,3 +1,9 @@
+// The views of the hash table and of a bucket.
+
+#include "app/ui/hash_table_view.h"
+
+#include <algorithm>
+
 #include "app/ui/bucket_view.h"
 #include "tests/app/panel_rig.h"
 #include "tests/bucket_loads.h"
@@ -71,6 +77,39 @@ TEST(BucketView, AbbreviatesListsOfBodies) {
   EXPECT_EQ(text({0, 1}), "bodies 1 and 4");
   EXPECT_EQ(text({0, 1, 2, 3}), "bodies 1, 4 and 9");
   EXPECT_EQ(text({0, 1, 3, 4}), "bodies 1, 4 and 2 more");
+}
+
+TEST(HashTableView, SelectsTheClickedBucketAndDeselectsItAtASecondClick) {
+  PanelRig rig;
+  const HashTableView& view = rig.interface.hash_table_view();
+  const BucketGrid& grid = view.grid();
+  const std::uint32_t square = 345;
+  const float x = view.grid_origin().x + (static_cast<float>(square % grid.columns) + 0.5f) * grid.side;
+  const float y = view.grid_origin().y + (static_cast<float>(square / grid.columns) + 0.5f) * grid.side;
+  rig.click_at(x, y);
+  EXPECT_EQ(rig.session.selected_bucket(), 345u);
+  rig.click_at(x, y);
+  EXPECT_FALSE(rig.session.selected_bucket());
+}
+
+TEST(HashTableView, SelectsTheFullestBucketOfTheClickedSquare) {
+  PanelRig rig;
+  collide::Settings settings = rig.session.world().collision();
+  settings.buckets = 1'000'003;
+  rig.session.set_collision(settings, true);
+  rig.session.paused = true;
+  rig.frames(2);
+  const HashTableView& view = rig.interface.hash_table_view();
+  ASSERT_GT(view.grid().per_square, 1u);
+  const auto loads = rig.session.debug().loads;
+  const collide::BucketLoad fullest = *std::ranges::max_element(loads, {}, &collide::BucketLoad::load);
+  const std::uint32_t square = fullest.bucket / view.grid().per_square;
+  rig.click_at(view.grid_origin().x + (static_cast<float>(square % view.grid().columns) + 0.5f) * view.grid().side,
+               view.grid_origin().y + (static_cast<float>(square / view.grid().columns) + 0.5f) * view.grid().side);
+  ASSERT_TRUE(rig.session.selected_bucket());
+  const auto selected = std::ranges::find(loads, *rig.session.selected_bucket(), &collide::BucketLoad::bucket);
+  ASSERT_NE(selected, loads.end());
+  EXPECT_EQ(selected->load, fullest.load);
 }
 
 }  // namespace
