@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
 
 namespace app {
 
@@ -28,7 +28,7 @@ class CsvLine {
     for (const char c : field) text_.append(c == '"' ? 2 : 1, c);
     text_ += '"';
   }
-  void add(double number) { add(std::string_view(format("%.9g", number))); }
+  void add(double number) { add(std::string_view(fmt::format("{:.9g}", number))); }
   void add(std::uint64_t number) { add(std::string_view(std::to_string(number))); }
   /// The number if it means something, else an empty field.
   template <class Number>

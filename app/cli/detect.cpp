@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <iterator>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/base/times.h"
@@ -165,17 +165,15 @@ void print_json(const Options& options, const collide::Method& method, const std
 
 void print_table(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
                  const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
-  std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
-              *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
-  for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
-  std::printf("%7s %10s %10s %10s %10s %14s %12s %10s\n", "frame", "ms min", "ms median", "contacts", "self",
-              "pair tests", "hashes", "boxes");
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+  std::cout << fmt::format("{}, tolerance {:g} m, threads {}, bodies {}, vertices {}\n", method.name,
+                           *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
+  for (const std::string& note : notes) std::cout << "note: " << note << '\n';
+  std::cout << "  frame     ms min  ms median   contacts       self     pair tests       hashes      boxes\n";
   for (std::size_t f = 0; f < rows.size(); ++f) {
     const MethodRow& r = rows[f];
-    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.least(), r.times.median(),
-                r.contacts, number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
-                number(r.counters.boxes));
+    std::cout << fmt::format("{:7} {:10.3f} {:10.3f} {:10} {:10} {:14} {:12} {:10}\n", f, r.times.least(),
+                             r.times.median(), r.contacts, r.self_contacts, r.counters.pair_tests, r.counters.hashes,
+                             r.counters.boxes);
   }
 }
 

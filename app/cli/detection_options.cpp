@@ -2,10 +2,10 @@
 
 #include <limits>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "app/base/number_text.h"
-#include "app/base/text.h"
 #include "app/cli/options.h"
 #include "app/cli/whole_number_option.h"
 
@@ -74,7 +74,7 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
   if (options.buckets) settings.buckets = *options.buckets;
   if (options.tolerance) {
     settings.tolerance = static_cast<float>(*options.tolerance);
-    check(format("--tolerance %.9g", *options.tolerance));
+    check(fmt::format("--tolerance {:.9g}", *options.tolerance));
   }
   if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
   check("--cell-size");

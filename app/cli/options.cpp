@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <thread>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
 #include "app/base/number_text.h"
-#include "app/base/text.h"
 #include "app/cli/whole_number_option.h"
 #include "app/files/scene_folder.h"
 #include "softbody/limits.h"
@@ -193,7 +193,8 @@ void check(const Options& options) {
 /// Of what scene files take: a scene that is saved is to be read again.
 void require_length(const std::string& option, float metres, double most) {
   if (!(metres >= static_cast<float>(softbody::least_length) && metres <= static_cast<float>(most)))
-    throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
+    throw UsageError(option +
+                     fmt::format(": must be a number of metres from {:g} to {:.0f}", softbody::least_length, most));
 }
 
 }  // namespace
@@ -260,7 +261,8 @@ softbody::Scene load_scene(const Options& options) {
   softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance)
-    require_length(format("--tolerance %.9g", *tolerance), static_cast<float>(*tolerance), softbody::most_tolerance);
+    require_length(fmt::format("--tolerance {:.9g}", *tolerance), static_cast<float>(*tolerance),
+                   softbody::most_tolerance);
   apply(options.detection, scene.collision);
   if (!automatic_cell_size(options.detection, true))
     for (int axis = 0; axis < 3; ++axis)

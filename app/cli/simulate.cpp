@@ -8,6 +8,7 @@
 #include <iostream>
 #include <set>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/compare/world_oracle.h"
@@ -88,11 +89,7 @@ Json to_json_integrator(const softbody::World& world) {
           {"why", world.dynamics().why_integrator()}};
 }
 
-std::string hex(std::uint64_t value) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
+std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
@@ -108,44 +105,39 @@ void print_json(const softbody::World& world, const std::vector<FrameRow>& rows)
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
-  char text[32] = "-";
-  if (measures.has_volume) std::snprintf(text, sizeof text, "%.3f", ratio);
-  return text;
+  return measures.has_volume ? fmt::format("{:.3f}", ratio) : "-";
 }
 
 /// About twenty lines, however many frames.
 void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
-  std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
-              world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
-              world.bodies().vertex_count());
+  std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
+                           world.scene().name, world.method().name, world.bodies().count(),
+                           world.bodies().vertex_count());
   for (const std::string& warning : warnings(world.method(), world.collision()))
-    std::printf("note: %s\n", warning.c_str());
-  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "between",
-              "inside", "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
+    std::cout << "note: " << warning << '\n';
+  std::cout
+      << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
   const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
     const FrameRow& r = rows[i];
     const softbody::Measures& m = r.measures;
-    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
-                r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
-                static_cast<unsigned long long>(r.solid), m.energy, ratio_text(m, m.volume_ratio_min).c_str(),
-                ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
-                m.finite ? "" : "  NOT FINITE");
+    std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
+                             r.frame, r.profile.detect_ms, r.profile.solve_ms, r.bodies, r.self, r.solid, m.energy,
+                             ratio_text(m, m.volume_ratio_min), ratio_text(m, m.volume_ratio_max),
+                             m.deepest_penetration, m.max_speed, m.finite ? "" : "  NOT FINITE");
   }
-  std::printf("integrator: %s", std::string(world.dynamics().used_integrator().name).c_str());
-  if (const std::string why(world.dynamics().why_integrator()); !why.empty()) std::printf(", for %s", why.c_str());
-  std::printf("\nstages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
+  std::cout << "integrator: " << world.dynamics().used_integrator().name;
+  if (const auto why = world.dynamics().why_integrator(); !why.empty()) std::cout << ", for " << why;
+  std::cout << "\nstages left out:" << (world.plan().left_out.empty() ? " none" : "") << '\n';
   for (const softbody::LeftOut& l : world.plan().left_out)
-    std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
-  std::printf("state hash %s\n", hex(world.state_hash()).c_str());
+    std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
+  std::cout << "state hash " << hex(world.state_hash()) << '\n';
 }
 
 /// A result of one frame: PREFIX_0012ENDING in the folder for results, four digits or more.
 std::filesystem::path result_file(const Options& options, const char* prefix, int frame, const char* ending) {
-  char number[16];
-  std::snprintf(number, sizeof number, "_%04d", frame);
-  return options.out / std::string(prefix).append(number).append(ending);
+  return options.out / fmt::format("{}_{:04}{}", prefix, frame, ending);
 }
 
 /// Writes the pictures that were asked for; without graphics it refuses before anything runs.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <iterator>
+
+#include <fmt/core.h>
 
 namespace app {
 namespace {
@@ -66,14 +68,10 @@ bool MovingBodies::are_those_of(const softbody::World& world) const { return pro
 
 std::string MovingBodies::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
   std::string text;
-  std::array<char, 64> line;
   for (std::size_t b = 0; b < faces_.size(); ++b) {
-    text.append("o body_").append(std::to_string(b)).append(1, '\n');
-    for (std::size_t i = first_[b]; i < first_[b + 1]; ++i) {
-      const int length = std::snprintf(line.data(), line.size(), "v %.9g %.9g %.9g\n", static_cast<double>(x[i]),
-                                       static_cast<double>(y[i]), static_cast<double>(z[i]));
-      text.append(line.data(), static_cast<std::size_t>(length));
-    }
+    fmt::format_to(std::back_inserter(text), "o body_{}\n", b);
+    for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
+      fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[i], y[i], z[i]);
     text += faces_[b];
   }
   return text;

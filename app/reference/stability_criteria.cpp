@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
 
 namespace app {
 
@@ -31,23 +31,23 @@ void StabilityJudge::add(const StabilitySample& s) {
 
 std::vector<std::string> failures(const StabilityFigures& f) {
   constexpr StabilityBounds b = stability_bounds;
-  if (!f.refused.empty()) return {joined("refused: ", f.refused)};
+  if (!f.refused.empty()) return {fmt::format("refused: {}", f.refused)};
   std::vector<std::string> all;
   const auto check = [&](bool good, const std::string& text) {
     if (!good) all.push_back(text);
   };
   check(f.finite, "not finite");
-  check(f.energy <= b.energy, format("energy + %.2g", f.energy));
-  check(f.speed <= b.speed, format("speed %.2g of what energy can give", f.speed));
-  check(f.extent <= b.extent, format("box %.2g of what energy can draw", f.extent));
-  check(f.transient <= b.transient, format("%.2g R deep in a solid", f.transient));
-  check(f.steady <= b.steady, format("%.2g R deep in a solid in the end", f.steady));
-  check(f.through == 0, format("through a solid: %zu", f.through));
-  if (f.blew_up > 0) all.push_back(format("gave up at %.3g s", f.blew_up));
+  check(f.energy <= b.energy, fmt::format("energy + {:.2g}", f.energy));
+  check(f.speed <= b.speed, fmt::format("speed {:.2g} of what energy can give", f.speed));
+  check(f.extent <= b.extent, fmt::format("box {:.2g} of what energy can draw", f.extent));
+  check(f.transient <= b.transient, fmt::format("{:.2g} R deep in a solid", f.transient));
+  check(f.steady <= b.steady, fmt::format("{:.2g} R deep in a solid in the end", f.steady));
+  check(f.through == 0, fmt::format("through a solid: {}", f.through));
+  if (f.blew_up > 0) all.push_back(fmt::format("gave up at {:.3g} s", f.blew_up));
   if (!f.reference || f.blew_up > 0) return all;
-  check(f.reference->shape <= b.shape, format("shape off by %.2g R", f.reference->shape));
-  check(f.reference->volume <= b.volume, format("volume off by %.2g %%", 100 * f.reference->volume));
-  check(f.reference->rest <= b.rest, format("moves by %.2g m/s too fast", f.reference->rest));
+  check(f.reference->shape <= b.shape, fmt::format("shape off by {:.2g} R", f.reference->shape));
+  check(f.reference->volume <= b.volume, fmt::format("volume off by {:.2g} %", 100 * f.reference->volume));
+  check(f.reference->rest <= b.rest, fmt::format("moves by {:.2g} m/s too fast", f.reference->rest));
   return all;
 }
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
 
 namespace app {
 
@@ -14,7 +14,7 @@ std::string literal(std::string_view text) {
 
 std::string colour(const collide::Method& method) {
   const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
-  return format("'#%02x%02x%02x'", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
+  return fmt::format("'#{:02x}{:02x}{:02x}'", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
 }
 
 }  // namespace app

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <numeric>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
-
-#include "app/base/text.h"
 
 namespace app {
 
@@ -81,9 +80,9 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
   if (now.speed > reach) {
     const auto fastest = std::ranges::max_element(bodies, {}, &softbody::BodyMeasures::max_speed);
     const auto body = static_cast<softbody::BodyId>(fastest - bodies.begin());
-    return Alarm{
-        body, frame,
-        format("Body %u moves at %.3g m/s, and %.3g m/s is all that could be reached", body, now.speed, reach)};
+    return Alarm{body, frame,
+                 fmt::format("Body {} moves at {:.3g} m/s, and {:.3g} m/s is all that could be reached", body,
+                             now.speed, reach)};
   }
   if (looks_.back().pushed) return {};
   const double mass = std::accumulate(mass_.begin(), mass_.end(), 0.0);
@@ -91,15 +90,15 @@ std::optional<Alarm> Guard::judge(const Look& now, const std::vector<softbody::B
   if (now.energy <= energy) return {};
   const softbody::BodyId body = culprit(bodies);
   return Alarm{body, frame,
-               format("Body %u gained energy from nothing: all bodies have %.3g J more than there can be", body,
-                      now.energy - energy)};
+               fmt::format("Body {} gained energy from nothing: all bodies have {:.3g} J more than there can be", body,
+                           now.energy - energy)};
 }
 
 std::optional<Alarm> Guard::look(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
   const auto lost = std::ranges::find(bodies, false, &softbody::BodyMeasures::finite);
   if (lost != bodies.end()) {
     const auto body = static_cast<softbody::BodyId>(lost - bodies.begin());
-    return Alarm{body, world.frame(), format("Body %u is no longer finite", body)};
+    return Alarm{body, world.frame(), fmt::format("Body {} is no longer finite", body)};
   }
   std::size_t held = 0;
   for (softbody::BodyId b = 0; b < bodies.size(); ++b) held += world.body(b).held;

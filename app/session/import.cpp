@@ -1,12 +1,11 @@
 #include "app/session/import.h"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
+#include <fmt/core.h>
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
@@ -35,12 +34,10 @@ double clear_height(const softbody::World& world, glm::dvec3 at, double radius) 
 std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::World& world) {
   const softbody::MeshSource& mesh = read.mesh;
   const softbody::ImportFindings& f = mesh.imported->findings;
-  std::array<char, 96> scale{};
-  std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
-  std::vector<std::string> lines{mesh.file.path.filename().string() + ": " +
-                                     grouped(mesh.imported->mesh.vertices.size()) + " vertices, " +
-                                     grouped(mesh.imported->mesh.triangles.size()) + " triangles",
-                                 scale.data()};
+  std::vector<std::string> lines{
+      fmt::format("{}: {} vertices, {} triangles", mesh.file.path.filename().string(),
+                  grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
+      fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
   const std::string changed = softbody::remarks(f);
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
 namespace app {
@@ -10,8 +12,8 @@ namespace {
 constexpr int list_lines = 4;  // of the list: it scrolls, so that the window keeps its height
 
 std::string count_of(std::size_t n, const BucketContents& bucket) {
-  return joined(grouped(n), bucket.vertices ? " vert" : " box",
-                n == 1 ? (bucket.vertices ? "ex" : "") : (bucket.vertices ? "ices" : "es"));
+  return fmt::format("{}{}{}", grouped(n), bucket.vertices ? " vert" : " box",
+                     n == 1 ? (bucket.vertices ? "ex" : "") : (bucket.vertices ? "ices" : "es"));
 }
 
 void draw_group(Widgets& w, Session& session, const BucketContents& bucket, const CellGroup& group, bool chosen) {
@@ -19,25 +21,24 @@ void draw_group(Widgets& w, Session& session, const BucketContents& bucket, cons
   w.chip(chosen ? same_cell_colour : aliased_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   const std::string bodies = bodies_of(group, bucket, session.debug(), session.world().vertex_body());
-  const std::string text = joined(cell, "  ", count_of(group.items.size(), bucket), ", ", bodies, "###Cell ", cell);
-  const std::string tooltip = joined(
-      "Cell ", cell, ": ", count_of(group.items.size(), bucket), " of ", bodies,
-      ". Click: what shares this cell turns blue; all else is in this bucket only because the modulo gave both cells "
-      "one number (§2.2).");
+  const std::string text =
+      fmt::format("{}  {}, {}###Cell {}", cell, count_of(group.items.size(), bucket), bodies, cell);
+  const std::string tooltip = fmt::format(
+      "Cell {}: {} of {}. Click: what shares this cell turns blue; all else is in this bucket only because the modulo "
+      "gave both cells one number (§2.2).",
+      cell, count_of(group.items.size(), bucket), bodies);
   const bool clicked = ImGui::Selectable(text.c_str(), chosen);
   w.done(text.c_str(), tooltip.c_str());
   if (clicked) session.select_cell(group.cell);
 }
 
 void draw_meetings(Widgets& w, const char* label, const Sharing& sharing, const char* tooltip) {
-  w.figure(label, joined(grouped(sharing.same_cell), " / ", grouped(sharing.aliased)), tooltip);
+  w.figure(label, fmt::format("{} / {}", grouped(sharing.same_cell), grouped(sharing.aliased)), tooltip);
 }
 
 }  // namespace
 
-std::string cell_text(const Cell& cell) {
-  return joined("(", std::to_string(cell[0]), ", ", std::to_string(cell[1]), ", ", std::to_string(cell[2]), ")");
-}
+std::string cell_text(const Cell& cell) { return fmt::format("({}, {}, {})", cell[0], cell[1], cell[2]); }
 
 std::string bodies_of(const CellGroup& group, const BucketContents& bucket, const collide::DebugGeometry& debug,
                       std::span<const softbody::BodyId> vertex_body) {
@@ -59,14 +60,14 @@ std::string bodies_of(const CellGroup& group, const BucketContents& bucket, cons
 
 void draw_bucket(Widgets& w, Session& session) {
   const BucketContents* bucket = session.bucket();
-  const std::string title = joined("Bucket ", grouped(bucket->bucket), "###Bucket");
+  const std::string title = fmt::format("Bucket {}###Bucket", grouped(bucket->bucket));
   const bool close = w.heading(title.c_str(), "Releases the bucket (Esc).");
   std::uint32_t number = bucket->bucket;
   w.row("Number", w.px(70));
   const bool another = w.number("Bucket number", number, 0, session.world().collision().buckets - 1,
                                 "Type the number of another bucket: from 0, below the number of buckets (§2.2).");
   const std::size_t cells = bucket->groups.size();
-  w.figure(count_of(bucket->items, *bucket).c_str(), joined(std::to_string(cells), cells == 1 ? " cell" : " cells"),
+  w.figure(count_of(bucket->items, *bucket).c_str(), fmt::format("{}{}", cells, cells == 1 ? " cell" : " cells"),
            "What is in the bucket, and the different cells that it comes from (§2.2).");
   ImGui::BeginChild("Cells", {0, static_cast<float>(list_lines) * ImGui::GetTextLineHeightWithSpacing()});
   const CellGroup* chosen = bucket->group(session.selected_cell());

@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
 namespace app {
@@ -151,7 +153,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   if (times.size() == 0) {
     const bool reference = row.is_reference && row.scored();
     if (reference)
-      grid.text(time, format("%.2f ms", session.comparison().reference_ms), true);
+      grid.text(time, fmt::format("{:.2f} ms", session.comparison().reference_ms), true);
     else if (row.scored())
       grid.text(time, "not timed", true);
     return;
@@ -162,7 +164,7 @@ void draw_time(const Widgets& w, const Session& session, const Grid& grid, const
   ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
                                             {grid.left(time) + length, grid.top() + grid.height() - inset},
                                             to_imgui(row.method.colour, 0.45f), w.px(2));
-  grid.text(time, format("%.2f ms", static_cast<double>(median)));
+  grid.text(time, fmt::format("{:.2f} ms", median));
 }
 
 void draw_score(Widgets& w, const Grid& grid, const Row& row) {
@@ -178,9 +180,9 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   } else {
     const bool misses_some = found.recall < 1;
     if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
-    grid.text(recall, format("%.4f", rounded_down(found.recall)));
+    grid.text(recall, fmt::format("{:.4f}", rounded_down(found.recall)));
     if (misses_some) ImGui::PopStyleColor();
-    grid.text(precision, format("%.4f", rounded_down(found.precision)));
+    grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.name) + ": " + light.sentence +
                           " Missed now: " + grouped(found.missed.size()) +
@@ -238,8 +240,8 @@ std::string footing(const Session& session) {
   std::string text = reference_sentence(report) + ".";
   if (report.reference) text.append(" ").append(grouped(report.true_contacts)).append(" true contacts.");
   const collide::Bodies& bodies = session.world().bodies();
-  return joined(text, "  N = ", grouped(bodies.vertex_count()), " vertices, ",
-                grouped(all_pair_tests(bodies, session.world().collision().self_collision)), " pairs.");
+  return fmt::format("{}  N = {} vertices, {} pairs.", text, grouped(bodies.vertex_count()),
+                     grouped(all_pair_tests(bodies, session.world().collision().self_collision)));
 }
 
 }  // namespace

@@ -4,6 +4,8 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "app/ui/shortcuts.h"
 
 namespace app {
@@ -48,7 +50,7 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
     ImGui::TextUnformatted(e.what.data(), e.what.data() + e.what.size());
     ImGui::PopStyleColor();
-    w.done(joined("Help ", e.what).c_str(), nullptr);
+    w.done(fmt::format("Help {}", e.what).c_str(), nullptr);
   }
   ImGui::EndGroup();
 }

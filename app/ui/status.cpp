@@ -1,9 +1,9 @@
 #include "app/ui/status.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/core.h>
 
 #include "app/render/palette.h"
 #include "app/ui/panel/integrators.h"
@@ -19,12 +19,10 @@ std::string recall_sentence(const Session& session) {
   if (report.id != 0 && !report.reference) return "Recall not measured: " + report.stands_in;
   const CompareRow* row = session.driver_row();
   if (!row) return "Recall: measuring";
-  std::array<char, 32> number{};
-  std::snprintf(number.data(), number.size(), "Recall %.4f   ", rounded_down(row->recall));
-  std::string text = number.data();
+  std::string text = fmt::format("Recall {:.4f}   ", rounded_down(row->recall));
   text += report.true_contacts == 0 ? "no contacts in the frame last measured"
-                                    : grouped(row->missed.size()) + " of " + grouped(report.true_contacts) +
-                                          " contacts missed when last measured";
+                                    : fmt::format("{} of {} contacts missed when last measured",
+                                                  grouped(row->missed.size()), grouped(report.true_contacts));
   if (!report.stands_in.empty()) text += " (see Compare: V)";
   return text;
 }

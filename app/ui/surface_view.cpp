@@ -1,11 +1,13 @@
 #include "app/ui/surface_view.h"
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
 namespace app {
 namespace {
 
-std::string millimetres(double metres) { return format("%.2f mm", metres * 1e3); }
+std::string millimetres(double metres) { return fmt::format("{:.2f} mm", metres * 1e3); }
 
 std::string vertices_and_edges(std::size_t vertices, std::size_t edge_pairs) {
   return grouped(vertices) + " + " + grouped(edge_pairs);

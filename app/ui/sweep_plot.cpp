@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "collide/methods.h"
 
 namespace app {
@@ -20,7 +22,7 @@ void pale_text(ImVec2 at, float place, const char* text) {
 }
 
 /// "0.01", "1", "100".
-std::string power_of_ten(int exponent) { return format("%g", std::pow(10.0, exponent)); }
+std::string power_of_ten(int exponent) { return fmt::format("{:g}", std::pow(10.0, exponent)); }
 
 int exponent_below(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 

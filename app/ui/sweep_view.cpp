@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 
 namespace app {
@@ -16,8 +18,8 @@ bool was_run(const SweepRow& row) { return row.not_run.empty(); }
 std::string in_words(const Configuration& c) {
   const collide::Method& method = collide::method_table()[c.method];
   std::string text(method.name);
-  if (method.uses_levels) text += format(", level %d", c.settings.levels);
-  if (method.uses_hash) text += joined(", ", grouped(c.settings.buckets), format(" buckets, cells x %g", c.cell));
+  if (method.uses_levels) text += fmt::format(", level {}", c.settings.levels);
+  if (method.uses_hash) text += fmt::format(", {} buckets, cells x {:g}", grouped(c.settings.buckets), c.cell);
   return text;
 }
 
@@ -25,16 +27,17 @@ std::string tooltip(const SweepRow& row) {
   std::string text = in_words(row.configuration);
   const glm::vec3& cell = row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
-    text += format("\nCells of %.3g x %.3g x %.3g m", double{cell.x}, double{cell.y}, double{cell.z});
-    text += format(", %g of the automatic size", row.configuration.cell);
+    text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
+    text += fmt::format(", {:g} of the automatic size", row.configuration.cell);
   }
-  text += format("\n%.4g ms: median of %zu, least %.4g", row.times.median(), row.times.ms.size(), row.times.least());
-  text += format("\nRecall %.4f, precision %.4f; ", rounded_down(row.recall), rounded_down(row.precision));
-  text += joined(grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
-  text += joined("\n", grouped(row.counters.pair_tests), " pair tests, ", grouped(row.counters.hashes), " hashes");
-  text += joined("\nAbout ", grouped(row.memory / 1024), " KiB of memory");
+  text += fmt::format("\n{:.4g} ms: median of {}, least {:.4g}", row.times.median(), row.times.ms.size(),
+                      row.times.least());
+  text += fmt::format("\nRecall {:.4f}, precision {:.4f}; ", rounded_down(row.recall), rounded_down(row.precision));
+  text += fmt::format("{}{}", grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
+  text += fmt::format("\n{} pair tests, {} hashes", grouped(row.counters.pair_tests), grouped(row.counters.hashes));
+  text += fmt::format("\nAbout {} KiB of memory", grouped(row.memory / 1024));
   const Light light = light_of(row.coverage);
-  text += joined("\n", light.name, ": ", light.sentence);
+  text += fmt::format("\n{}: {}", light.name, light.sentence);
   return text + "\nClick: the bodies go on with this.";
 }
 
@@ -48,9 +51,9 @@ std::string reasons(const SweepReport& report) {
       ++more;
       continue;
     }
-    text += joined(listed++ ? "\n" : "", in_words(row.configuration), ": ", row.not_run);
+    text += fmt::format("{}{}: {}", listed++ ? "\n" : "", in_words(row.configuration), row.not_run);
   }
-  if (more) text += joined("\nand ", grouped(more), " more.");
+  if (more) text += fmt::format("\nand {} more.", grouped(more));
   return text.empty() ? "All settings fit the budget." : text;
 }
 
@@ -84,22 +87,22 @@ std::string counts(const SweepState& state) {
   const auto checked = static_cast<std::size_t>(std::ranges::count(rows, true, &SweepRow::checked));
   const auto timed =
       static_cast<std::size_t>(std::ranges::count_if(rows, [](const SweepRow& row) { return !row.times.ms.empty(); }));
-  std::string text = joined(grouped(checked < all ? checked : timed), " of ", grouped(all));
+  std::string text = fmt::format("{} of {}", grouped(checked < all ? checked : timed), grouped(all));
   text += checked < all ? " checked" : state.progress < 1 ? " timed once" : " timed";
-  if (all < rows.size()) text += joined(", ", grouped(rows.size() - all), " not run");
+  if (all < rows.size()) text += fmt::format(", {} not run", grouped(rows.size() - all));
   return text;
 }
 
 std::string footing(const SweepState& state) {
   if (state.scene.empty()) return "Nothing swept yet.";
-  std::string text = joined(state.scene, ", frame ", std::to_string(state.frame), ". ");
+  std::string text = fmt::format("{}, frame {}. ", state.scene, state.frame);
   const SweepReport& report = state.report;
   if (report.reference) {
-    text += joined(grouped(report.true_contacts), " true contacts by ",
-                   collide::method_table()[report.reference->method].name,
-                   report.stands_in.empty() ? "." : ", which stands in for brute force.");
+    text += fmt::format("{} true contacts by {}{}", grouped(report.true_contacts),
+                        collide::method_table()[report.reference->method].name,
+                        report.stands_in.empty() ? "." : ", which stands in for brute force.");
   } else if (!report.stands_in.empty()) {
-    text += joined("No true contacts: ", report.stands_in, ".");
+    text += fmt::format("No true contacts: {}.", report.stands_in);
   }
   return text;
 }
@@ -113,13 +116,13 @@ void legend_entry(Widgets& w, const std::string& text, const char* tip, bool fir
   if (!first && ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0, gap);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, line});
-  w.done(joined("Legend ", text).c_str(), tip);
+  w.done(fmt::format("Legend {}", text).c_str(), tip);
   draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
   ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 void draw_progress(Widgets& w, const SweepState& state, float width) {
-  const std::string text = state.broken_off.empty() ? format("%.0f %%", 100 * state.progress) : state.broken_off;
+  const std::string text = state.broken_off.empty() ? fmt::format("{:.0f} %", 100 * state.progress) : state.broken_off;
   ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
   colour.w = 0.35f;  // pale: the text stands on it
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
@@ -172,7 +175,7 @@ void SweepView::draw_legend(Widgets& w) {
   }
   for (std::size_t level = 0; level < sweep_levels.size(); ++level) {
     legend_entry(
-        w, format("level %d", sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
+        w, fmt::format("level {}", sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
         [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
   }
   legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {

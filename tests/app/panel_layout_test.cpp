@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/ui/panel/panel.h"
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
@@ -205,12 +207,12 @@ TEST(Panel, TheColumnsOfTheHelpStandApart) {
     rig.frames(3);
     float first_ends = 0;
     for (const Shortcut& shortcut : shortcuts())
-      first_ends = std::max(first_ends, rig.widget(joined("Help ", shortcut.what)).max.x);
+      first_ends = std::max(first_ends, rig.widget(fmt::format("Help {}", shortcut.what)).max.x);
     const float keys =
-        rig.widget(joined("Help ", shortcuts()[0].what)).min.x;  // a key stands as far left of what it does
+        rig.widget(fmt::format("Help {}", shortcuts()[0].what)).min.x;  // a key stands as far left of what it does
     const float width = keys - rig.widget("Close").min.x;
     for (const OverlayRow& row : overlay_table)
-      EXPECT_GT(rig.widget(joined("Help ", row.label)).min.x - width, first_ends) << row.label;
+      EXPECT_GT(rig.widget(fmt::format("Help {}", row.label)).min.x - width, first_ends) << row.label;
   }
 }
 

@@ -1,11 +1,11 @@
 #include "tests/soak/resources.h"
 
 #include <GL/glew.h>
+#include <fmt/core.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -41,10 +41,7 @@ Resources resources() {
 }
 
 std::string describe(const Resources& held) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%.0f MiB, %d descriptors, %d GL objects", held.megabytes, held.descriptors,
-                held.gl_objects);
-  return text;
+  return fmt::format("{:.0f} MiB, {} descriptors, {} GL objects", held.megabytes, held.descriptors, held.gl_objects);
 }
 
 }  // namespace soak

@@ -1,3 +1,5 @@
+#include <fmt/core.h>
+
 #include "app/base/csv_line.h"
 #include "app/report/contact/results.h"
 
@@ -84,7 +86,7 @@ void add_row(std::string& text, const ContactCase& c, const ContactTrial& t) {
   add_measured(line, t);
   std::string failures;
   if (t.not_run.empty())
-    for (const std::string& f : t.failures()) failures += joined(failures.empty() ? "" : "; ", f);
+    for (const std::string& f : t.failures()) failures += fmt::format("{}{}", failures.empty() ? "" : "; ", f);
   line.add(failures);
 }
 

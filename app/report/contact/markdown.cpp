@@ -1,5 +1,7 @@
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/report/contact/results.h"
 #include "app/report/table.h"
 
@@ -7,15 +9,17 @@ namespace app {
 
 std::string choice_name(const ContactChoice& choice) {
   if (choice.surface == softbody::ContactSurface::surfaces) return "Surface";
-  return joined("Vertex-vertex, ", choice.method == collide::paper_method ? "literal" : "exact",
-                format(", x %g", choice.tolerance));
+  return fmt::format("Vertex-vertex, {}, x {:g}", choice.method == collide::paper_method ? "literal" : "exact",
+                     choice.tolerance);
 }
 
 namespace {
 
 std::string introduction(const ContactResults& r) {
-  std::string text = joined("# Contact: how true it is, and what it costs\n\n`", r.command,
-                            "` makes this report. All figures but the times are the same on every machine.\n\n");
+  std::string text = fmt::format(
+      "# Contact: how true it is, and what it costs\n\n`{}` makes this report. All figures but the times are the same "
+      "on every machine.\n\n",
+      r.command);
   text +=
       "- Every scene, and spheres thrown at 1 to 1,000 m/s, run with surface contact and with the paper's "
       "vertex-vertex "
@@ -24,8 +28,8 @@ std::string introduction(const ContactResults& r) {
       "- Vertex-vertex contact runs with the literal method and with one of the exact ones. All others are exact: they "
       "find the same contacts, so the bodies move alike; `report detection` says what each costs. Surface contact has "
       "one search of its own, which is exact; detector and tolerance do not change what it does: one row.\n";
-  text += format(
-      "- Overlaps are looked for every %d frames (impacts: every frame). Penetrating: vertices inside another body, a "
+  text += fmt::format(
+      "- Overlaps are looked for every {} frames (impacts: every frame). Penetrating: vertices inside another body, a "
       "look. Missed: the share that no contact of the detector joins to that body. R: radius of the smallest closed "
       "body.\n",
       r.limits.stride);
@@ -37,14 +41,14 @@ std::string introduction(const ContactResults& r) {
       "solid: bodies whose middle went through one.\n"
       "- Jitter: RMS speed over the last second of the particles whose bodies do not sleep.\n"
       "- ms: processor time of a step on one thread, mean over the frames until all bodies slept.\n";
-  text += joined("- Fails: not finite; anything passed or went through a solid; a body pierces itself at the end; ",
-                 format("deeper than %g R", ContactTrial::depth_bound),
-                 " at the end, or ever in a solid; in scenes with gravity also: not asleep at the end, ",
-                 format("%d frames.\n", r.limits.frames));
-  text +=
-      joined("- Budget: scenes with more than ", whole(static_cast<double>(r.vertex_frames)),
-             format(" vertices times frames, and runs of more than %g s of processor time, are listed as over it.\n",
-                    r.limits.seconds));
+  text += fmt::format(
+      "- Fails: not finite; anything passed or went through a solid; a body pierces itself at the end; deeper than "
+      "{:g} R at the end, or ever in a solid; in scenes with gravity also: not asleep at the end, {} frames.\n",
+      ContactTrial::depth_bound, r.limits.frames);
+  text += fmt::format(
+      "- Budget: scenes with more than {} vertices times frames, and runs of more than {:g} s of processor time, are "
+      "listed as over it.\n",
+      whole(static_cast<double>(r.vertex_frames)), r.limits.seconds);
   text += "- `contact.csv` has every figure.\n";
   if (r.quick) text += "- This is the quick report: fewer scenes, frames, speeds and tolerances.\n";
   return text + "\n";
@@ -54,12 +58,12 @@ std::string in_radii(double depth, const ContactTrial& t) { return t.radius > 0 
 
 std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {
   if (choice.surface == softbody::ContactSurface::surfaces || penetrations == 0) return "";
-  return format("%.1f %%", 100 * static_cast<double>(missed) / static_cast<double>(penetrations));
+  return fmt::format("{:.1f} %", 100 * static_cast<double>(missed) / static_cast<double>(penetrations));
 }
 
 std::string verdict(const ContactTrial& t) {
   std::string text;
-  for (const std::string& f : t.failures()) text += joined(text.empty() ? "" : "; ", f);
+  for (const std::string& f : t.failures()) text += fmt::format("{}{}", text.empty() ? "" : "; ", f);
   return text.empty() ? "ok" : text;
 }
 
@@ -89,10 +93,9 @@ struct Total {
 };
 
 std::string overview(const ContactResults& r) {
-  std::string text = joined(
+  std::string text = fmt::format(
       "## All scenes\n\nOver the scenes that were run with every choice: sums, and for depths at the end and jitter "
-      "the "
-      "worst.\n\n",
+      "the worst.\n\n{}",
       heading({"contact", "scenes that fail", "penetrating", "missed", "deepest, R", "mean, R", "at the end, R",
                "passed", "through a solid", "awake", "jitter, mm/s", "ms"},
               1));
@@ -103,7 +106,7 @@ std::string overview(const ContactResults& r) {
       if (!c.impact && run) total.add(c.trials[i]);
     }
     const double count = static_cast<double>(std::max<std::size_t>(total.penetrations, 1));
-    text += line({choice_name(r.choices[i]), format("%zu of %zu", total.failing, total.run),
+    text += line({choice_name(r.choices[i]), fmt::format("{} of {}", total.failing, total.run),
                   whole(static_cast<double>(total.penetrations)),
                   missed_share(total.missed, total.penetrations, r.choices[i]), brief(total.deepest),
                   brief(total.mean_depth / count), brief(total.end_depth), whole(static_cast<double>(total.passed)),
@@ -117,8 +120,8 @@ std::string overview(const ContactResults& r) {
 
 std::string scene_section(const ContactCase& c, const std::vector<Plot>& plots) {
   const bool none = std::ranges::none_of(c.trials, [](const ContactTrial& t) { return t.not_run.empty(); });
-  std::string text = joined("### ", c.name, "\n\n");
-  if (none) return joined(text, "Not run: ", c.trials.front().not_run, ".\n\n");
+  std::string text = fmt::format("### {}\n\n", c.name);
+  if (none) return fmt::format("{}Not run: {}.\n\n", text, c.trials.front().not_run);
   text += heading({"contact", "penetrating", "missed", "deepest, R", "mean, R", "at the end, R", "passed",
                    "solid depth, mm", "jitter, mm/s", "ms", "verdict"},
                   1);
@@ -132,7 +135,7 @@ std::string scene_section(const ContactCase& c, const std::vector<Plot>& plots) 
                   in_radii(t.end_depth, t), whole(static_cast<double>(t.passed)), brief(1e3 * t.solid_depth),
                   brief(1e3 * t.jitter), brief(t.cpu_ms), verdict(t)});
   }
-  return joined(text, picture(plots, contact_plot_name(c)), "\n");
+  return fmt::format("{}{}\n", text, picture(plots, contact_plot_name(c)));
 }
 
 // ---- impacts ----
@@ -140,14 +143,14 @@ std::string scene_section(const ContactCase& c, const std::vector<Plot>& plots) 
 /// A row a choice, a column a speed.
 std::string impact_section(std::span<const ContactCase> cases, const std::vector<Plot>& plots) {
   Cells names{"contact"};
-  for (const ContactCase& c : cases) names.push_back(format("%g m/s", c.speed));
-  std::string text = joined("### ", cases.front().name, "\n\n", heading(names, names.size()));
+  for (const ContactCase& c : cases) names.push_back(fmt::format("{:g} m/s", c.speed));
+  std::string text = fmt::format("### {}\n\n{}", cases.front().name, heading(names, names.size()));
   for (std::size_t i = 0; i < cases.front().trials.size(); ++i) {
     Cells cells{choice_name(cases.front().trials[i].choice)};
     for (const ContactCase& c : cases) cells.push_back(verdict(c.trials[i]));
     text += line(cells);
   }
-  return joined(text, picture(plots, contact_plot_name(cases.front())), "\n");
+  return fmt::format("{}{}\n", text, picture(plots, contact_plot_name(cases.front())));
 }
 
 }  // namespace

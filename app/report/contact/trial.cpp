@@ -5,9 +5,9 @@
 #include <map>
 #include <set>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
 #include "app/base/usage_error.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/scene_folder.h"
@@ -45,7 +45,7 @@ class Trial {
     while (world_.frame() < limits_.frames && result_.finite && !world_.all_at_rest()) {
       step();
       if (thread_seconds() - start > limits_.seconds) {
-        result_.not_run = format("over the budget of %g s after %d frames", limits_.seconds, world_.frame());
+        result_.not_run = fmt::format("over the budget of {:g} s after {} frames", limits_.seconds, world_.frame());
         return;
       }
     }
@@ -241,12 +241,12 @@ std::vector<std::string> ContactTrial::failures() const {
   std::vector<std::string> all;
   if (!not_run.empty()) return {not_run};
   if (!finite) all.push_back("not finite");
-  if (through_solids > 0) all.push_back(format("through a solid: %zu", through_solids));
+  if (through_solids > 0) all.push_back(fmt::format("through a solid: {}", through_solids));
   if (radius > 0 && solid_depth > depth_bound * radius)
-    all.push_back(format("%.2g R deep in a solid", solid_depth / radius));
-  if (passed > 0) all.push_back(format("passed: %zu", passed));
-  if (end_depth > depth_bound * radius) all.push_back(format("%.2g R deep at the end", end_depth / radius));
-  if (self_intersecting > 0) all.push_back(format("pierce themselves: %zu", self_intersecting));
+    all.push_back(fmt::format("{:.2g} R deep in a solid", solid_depth / radius));
+  if (passed > 0) all.push_back(fmt::format("passed: {}", passed));
+  if (end_depth > depth_bound * radius) all.push_back(fmt::format("{:.2g} R deep at the end", end_depth / radius));
+  if (self_intersecting > 0) all.push_back(fmt::format("pierce themselves: {}", self_intersecting));
   if (settles && !asleep) all.push_back("awake");
   return all;
 }

@@ -5,6 +5,8 @@
 #include <map>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 #include "app/report/table.h"
 
@@ -13,7 +15,7 @@ namespace {
 
 /// "1,264 (0.52)": hashes, and their share of the vertices.
 std::string of_vertices(double hashes, double vertices) {
-  return joined(whole(hashes), format(" (%.2f)", hashes / vertices));
+  return fmt::format("{} ({:.2f})", whole(hashes), hashes / vertices);
 }
 
 /// Hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
@@ -38,12 +40,12 @@ Cells hash_row(const SceneResult& scene) {
 
 std::string hash_counts(const DetectionResults& r) {
   Cells names{"scene", "N", "Grid Hash"};
-  for (const int level : sweep_levels) names.push_back(format("8 corners a box, level %d", level));
-  std::string text = joined(
+  for (const int level : sweep_levels) names.push_back(fmt::format("8 corners a box, level {}", level));
+  std::string text = fmt::format(
       "### Hashes: N vertices against 8 corners a box\n\nHash evaluations a frame, automatic cell size, means over the "
       "states, in brackets as a share of the N vertices. A vertex hash fills its table with N of them; the rest are "
       "the look-ups of all cells within the tolerance, without which it would miss contacts. The eight corners of the "
-      "boxes save hashes only where a body has more than eight vertices a box.\n\n",
+      "boxes save hashes only where a body has more than eight vertices a box.\n\n{}",
       heading(names, 1));
   for (const SceneResult& scene : r.scenes) text += line(hash_row(scene));
   return text + "\n";
@@ -81,18 +83,18 @@ std::string range(const SceneResult& growth, std::optional<double> Exponents::*w
     least = std::min(least.value_or(*p), *p);
     most = std::max(most.value_or(*p), *p);
   }
-  return least ? format("%.2f to %.2f", *least, *most) : "not known";
+  return least ? fmt::format("{:.2f} to {:.2f}", *least, *most) : "not known";
 }
 
 std::string cost(const SweepRow& row, collide::Index vertices) {
   if (!row.not_run.empty()) return "over budget";
   const double ms = row.times.median();
-  return joined(brief(ms), " (", brief(1e6 * ms / std::max(1.0, static_cast<double>(vertices))), ")");
+  return fmt::format("{} ({})", brief(ms), brief(1e6 * ms / std::max(1.0, static_cast<double>(vertices))));
 }
 
 std::string growth_table(const SceneResult& growth) {
   Cells names{"method", "buckets"};
-  for (const StateResult& s : growth.states) names.push_back(joined(grouped(s.bodies), " bodies"));
+  for (const StateResult& s : growth.states) names.push_back(fmt::format("{} bodies", grouped(s.bodies)));
   names.insert(names.end(), {"p of hashes", "p of pair tests", "p of ms"});
   std::string text = heading(names, 1);
   const std::vector<SweepRow>& rows = growth.states.front().sweep.rows;
@@ -101,7 +103,8 @@ std::string growth_table(const SceneResult& growth) {
     Cells cells{std::string(method_of(c).name), buckets_of(c)};
     for (const StateResult& s : growth.states) cells.push_back(cost(s.sweep.rows[i], s.vertices));
     const Exponents p = exponents(growth, i);
-    for (const auto& value : {p.hashes, p.pair_tests, p.ms}) cells.push_back(value ? format("%.2f", *value) : "");
+    for (const auto& value : {p.hashes, p.pair_tests, p.ms})
+      cells.push_back(value ? fmt::format("{:.2f}", *value) : "");
     text += line(cells);
   }
   return text;
@@ -111,22 +114,23 @@ std::string growth_table(const SceneResult& growth) {
 
 std::string growth_markdown(const DetectionResults& results, const std::vector<Plot>& plots) {
   const SceneResult& growth = results.growth;
-  std::string text = joined(
+  std::string text = fmt::format(
       "## What §3 of the paper claims, by counts\n\nIt claims O(1) at best and O(N²) at worst, and O(log_n N) hashing "
-      "with boxes against O(N) without.\n\n",
+      "with boxes against O(N) without.\n\n{}",
       hash_counts(results));
   if (growth.states.empty()) return text;
-  text += joined("### Growth with the number of bodies\n\nThe bodies nearest to the middle of `", growth.scene,
-                 "`, frame ", std::to_string(growth.states.back().frame),
-                 ", the first one recorded, where the middle is as dense as the rest; level 3, automatic cell size: "
-                 "median ms a frame, in brackets ns a vertex. p: a cost grows as "
-                 "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 quadratic.\n\n");
-  text += joined(
-      "Every body brings boxes of its own, so that hashing is linear in the number of bodies, whatever the "
-      "level: p of hashes is ",
-      range(growth, &Exponents::hashes), ". Pair tests, p ", range(growth, &Exponents::pair_tests),
-      ", are quadratic by brute force and where the buckets do not grow with the bodies.\n\n");
-  return joined(text, growth_table(growth), picture(plots, growth_plot_name));
+  text += fmt::format(
+      "### Growth with the number of bodies\n\nThe bodies nearest to the middle of `{}`, frame {}, the first one "
+      "recorded, where the middle is as dense as the rest; level 3, automatic cell size: median ms a frame, in "
+      "brackets ns a vertex. p: a cost grows as bodies^p between the last two columns that were run; 0 would be O(1), "
+      "1 is linear, 2 quadratic.\n\n",
+      growth.scene, growth.states.back().frame);
+  text += fmt::format(
+      "Every body brings boxes of its own, so that hashing is linear in the number of bodies, whatever the level: p of "
+      "hashes is {}. Pair tests, p {}, are quadratic by brute force and where the buckets do not grow with the "
+      "bodies.\n\n",
+      range(growth, &Exponents::hashes), range(growth, &Exponents::pair_tests));
+  return fmt::format("{}{}{}", text, growth_table(growth), picture(plots, growth_plot_name));
 }
 
 }  // namespace app

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 #include "app/report/detection/growth.h"
 #include "app/report/table.h"
@@ -13,8 +15,8 @@ namespace {
 
 std::string in_words(const Configuration& c) {
   std::string text(method_of(c).name);
-  if (method_of(c).uses_levels) text += joined(", level ", levels_of(c));
-  if (method_of(c).uses_hash) text += joined(", ", buckets_of(c), " buckets, cell ", cell_of(c));
+  if (method_of(c).uses_levels) text += fmt::format(", level {}", levels_of(c));
+  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell {}", buckets_of(c), cell_of(c));
   return text;
 }
 
@@ -22,24 +24,24 @@ std::string in_words(const Configuration& c) {
 
 std::string introduction(const DetectionResults& r) {
   const SweepLimits& l = r.limits;
-  std::string text = joined(
-      "# Collision detection: what every method costs, and what it misses\n\n"
-      "`",
-      r.command,
-      "` makes this report. Its times are of the machine that it ran on: compare them with one another. Contacts, "
-      "hashes and boxes are the same on every machine, as are pair tests, but those of the exact method.\n\n");
+  std::string text = fmt::format(
+      "# Collision detection: what every method costs, and what it misses\n\n`{}` makes this report. Its times are of "
+      "the machine that it ran on: compare them with one another. Contacts, hashes and boxes are the same on every "
+      "machine, as are pair tests, but those of the exact method.\n\n",
+      r.command);
   text +=
       "- Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell "
       "sizes, as far as it has use for them. A cell size is given in units of the automatic one: the largest box of "
       "its level at rest + the tolerance.\n";
-  text +=
-      joined("- Detectors run on ", format(r.threads == 1 ? "%d thread" : "%d threads", r.threads),
-             ", from scratch: what they learnt from earlier frames is forgotten before each run. All configurations "
-             "run once to be checked and at most ",
-             std::to_string(l.repetitions), " times to be timed, in rounds of shuffled order; what has taken ",
-             format("%g ms", l.repeat_ms), " is left out of further rounds.\n");
-  text += joined("- Budget: a configuration that is predicted to take more than ", grouped(l.budget),
-                 " pair tests, a hash evaluation counted as 32, is not run.\n");
+  text += fmt::format(
+      "- Detectors run on {} thread{}, from scratch: what they learnt from earlier frames is forgotten before each "
+      "run. All configurations run once to be checked and at most {} times to be timed, in rounds of shuffled order; "
+      "what has taken {:g} ms is left out of further rounds.\n",
+      r.threads, r.threads == 1 ? "" : "s", l.repetitions, l.repeat_ms);
+  text += fmt::format(
+      "- Budget: a configuration that is predicted to take more than {} pair tests, a hash evaluation counted as 32, "
+      "is not run.\n",
+      grouped(l.budget));
   text +=
       "- Memory is what a fresh detector and its list of contacts hold after a frame, true to some KiB. Detectors "
       "keep their scratch memory, so that it is their peak from then on.\n"
@@ -64,7 +66,7 @@ const Mean* with_papers_settings(const std::vector<Mean>& means, const SceneResu
 std::string detections_per_second(const Mean* m) {
   if (!m) return "not run";
   const std::string rate = whole(1000 / m->ms);
-  return m->error() > 0 ? joined(rate, format(" (recall %.4f)", 1 - m->error())) : rate;
+  return m->error() > 0 ? fmt::format("{} (recall {:.4f})", rate, 1 - m->error()) : rate;
 }
 
 std::string table_1(const DetectionResults& r) {
@@ -75,12 +77,12 @@ std::string table_1(const DetectionResults& r) {
     if (std::ranges::count(paper_scenes, s.scene) == 0) continue;
     columns.push_back(&s);
     all.push_back(means(s));
-    names.push_back(joined(s.scene, format(": %u bodies, %u buckets", s.states.back().bodies, s.buckets)));
+    names.push_back(fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies, s.buckets));
   }
   if (columns.empty()) return {};
-  std::string text = joined(
+  std::string text = fmt::format(
       "## Table 1: frames per second\n\nIn the form of the paper's Table 1, measured: detection alone, 1 / its mean "
-      "time on the recorded states; level 3, automatic cell size.\n\n",
+      "time on the recorded states; level 3, automatic cell size.\n\n{}",
       heading(names, 1));
   for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
     if (collide::method_table()[method].key == collide::reference_method) continue;
@@ -120,9 +122,9 @@ std::string best_table(const std::vector<Mean>& all) {
     const Mean& m = all[i];
     const Configuration& c = m.configuration;
     text += line({std::string(method_of(c).name), levels_of(c), buckets_of(c), cell_of(c), brief(m.ms),
-                  brief(m.least_ms), m.error() > 0 ? format("%.5f", 1 - m.error()) : "1", format("%g", m.precision()),
-                  whole(m.pair_tests), whole(m.hashes), whole(m.boxes), whole(static_cast<double>(m.memory) / 1024),
-                  std::ranges::count(front, i) ? "yes" : ""});
+                  brief(m.least_ms), m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1",
+                  fmt::format("{:g}", m.precision()), whole(m.pair_tests), whole(m.hashes), whole(m.boxes),
+                  whole(static_cast<double>(m.memory) / 1024), std::ranges::count(front, i) ? "yes" : ""});
   }
   return text;
 }
@@ -130,13 +132,13 @@ std::string best_table(const std::vector<Mean>& all) {
 /// What is in the scene, in which states, and what they are held against.
 std::string scene_facts(const SceneResult& scene) {
   const StateResult& last = scene.states.back();
-  std::string text = joined("Bodies: ", grouped(last.bodies), ", vertices: ", grouped(last.vertices));
+  std::string text = fmt::format("Bodies: {}, vertices: {}", grouped(last.bodies), grouped(last.vertices));
   for (const StateResult& s : scene.states)
-    text += joined(format("; frame %d: ", s.frame), grouped(s.sweep.true_contacts), " contacts");
+    text += fmt::format("; frame {}: {} contacts", s.frame, grouped(s.sweep.true_contacts));
   if (!last.sweep.reference)
-    return joined(text, ". No method could find the true contacts: ", last.sweep.stands_in, ".\n");
-  text += joined(". True contacts by ", in_words(*last.sweep.reference));
-  return joined(text, last.sweep.stands_in.empty() ? "" : ", since ", last.sweep.stands_in, ".\n");
+    return fmt::format("{}. No method could find the true contacts: {}.\n", text, last.sweep.stands_in);
+  text += fmt::format(". True contacts by {}", in_words(*last.sweep.reference));
+  return fmt::format("{}{}{}.\n", text, last.sweep.stands_in.empty() ? "" : ", since ", last.sweep.stands_in);
 }
 
 std::string not_run(const std::vector<Mean>& means) {
@@ -148,26 +150,27 @@ std::string not_run(const std::vector<Mean>& means) {
   std::string text;
   for (const auto& [method, n] : count) {
     if (n.first == 0) continue;
-    text +=
-        joined(text.empty() ? "" : "; ", collide::method_table()[method].name, format(": %d of %d", n.first, n.second));
+    text += fmt::format("{}{}: {} of {}", text.empty() ? "" : "; ", collide::method_table()[method].name, n.first,
+                        n.second);
   }
   if (text.empty()) return "Nothing was over budget.\n";
-  return joined("Over budget in one state or more: ", text, " configurations.\n");
+  return fmt::format("Over budget in one state or more: {} configurations.\n", text);
 }
 
 std::string scene_section(const SceneResult& scene, const std::vector<Plot>& plots) {
   const std::vector<Mean> all = means(scene);
-  return joined("### ", scene.name, "\n\n", scene_facts(scene), "\n", best_table(all), "\n", not_run(all),
-                picture(plots, error_plot_name(scene)), "\n");
+  return fmt::format("### {}\n\n{}\n{}\n{}{}\n", scene.name, scene_facts(scene), best_table(all), not_run(all),
+                     picture(plots, error_plot_name(scene)));
 }
 
 }  // namespace
 
 std::string detection_markdown(const DetectionResults& results, const std::vector<Plot>& plots) {
-  std::string text = joined(introduction(results), table_1(results),
-                            "## Scenes: the best of every method\n\nOf each method the fastest configuration, and the "
-                            "fastest of those that miss least if that is another one. Front: no other is as fast and "
-                            "as good. Means over the states; recall and precision over all their contacts.\n\n");
+  std::string text = fmt::format(
+      "{}{}## Scenes: the best of every method\n\nOf each method the fastest configuration, and the fastest of those "
+      "that miss least if that is another one. Front: no other is as fast and as good. Means over the states; recall "
+      "and precision over all their contacts.\n\n",
+      introduction(results), table_1(results));
   for (const SceneResult& scene : results.scenes) text += scene_section(scene, plots);
   return text + growth_markdown(results, plots);
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <optional>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 
 namespace app {
@@ -32,19 +34,20 @@ class Floor {
 };
 
 std::string error_axis(const Floor& floor) {
-  std::string script = format("set yrange [%g:1.5]\n", floor.bottom());
-  script += format(
-      "set object 1 rectangle from graph 0, first %g to graph 1, first %g behind fillcolor '#eef4ee' "
-      "fillstyle solid noborder\n",
+  std::string script = fmt::format("set yrange [{:g}:1.5]\n", floor.bottom());
+  script += fmt::format(
+      "set object 1 rectangle from graph 0, first {:g} to graph 1, first {:g} behind fillcolor '#eef4ee' fillstyle "
+      "solid noborder\n",
       floor.bottom(), floor.top());
   script += "set ytics (";
-  for (double tick = 1; tick > 0.99 * floor.top(); tick /= 10) script += format("'%g' %g, ", tick, tick);
-  return script + format("'0' %g)\n", floor.middle());
+  for (double tick = 1; tick > 0.99 * floor.top(); tick /= 10) script += fmt::format("'{:g}' {:g}, ", tick, tick);
+  return script + fmt::format("'0' {:g})\n", floor.middle());
 }
 
 void add_front(std::string& script, const std::vector<Mean>& means, const Floor& floor) {
   script += "$front << EOD\n";
-  for (const std::size_t i : pareto_front(means)) script += format("%.9g %.9g\n", means[i].ms, floor.height(means[i]));
+  for (const std::size_t i : pareto_front(means))
+    script += fmt::format("{:.9g} {:.9g}\n", means[i].ms, floor.height(means[i]));
   script += "EOD\n";
 }
 
@@ -56,7 +59,7 @@ struct Marker {
   bool covers(const Configuration& c) const { return c.method == method && (!level || c.settings.levels == *level); }
   std::string title() const {
     const std::string_view name = collide::method_table()[method].name;
-    return level ? joined(name, format(", level %d", *level)) : std::string(name);
+    return level ? fmt::format("{}, level {}", name, *level) : std::string(name);
   }
   /// Disc, square, triangle, triangle upside down.
   int shape() const {
@@ -84,13 +87,14 @@ std::string add_points(std::string& script, const std::vector<Mean>& means, cons
   for (const Marker& marker : markers()) {
     std::string points;
     for (const Mean& m : means) {
-      if (marker.covers(m.configuration) && m.not_run.empty()) points += format("%.9g %.9g\n", m.ms, floor.height(m));
+      if (marker.covers(m.configuration) && m.not_run.empty())
+        points += fmt::format("{:.9g} {:.9g}\n", m.ms, floor.height(m));
     }
     if (points.empty()) continue;
-    const std::string block = format("$m%d", number++);
-    script += joined(block, " << EOD\n", points, "EOD\n");
-    plots += joined(", ", block, format(" with points pointtype %d pointsize 0.9 linecolor rgb ", marker.shape()),
-                    colour(collide::method_table()[marker.method]), " title ", literal(marker.title()));
+    const std::string block = fmt::format("$m{}", number++);
+    script += fmt::format("{} << EOD\n{}EOD\n", block, points);
+    plots += fmt::format(", {} with points pointtype {} pointsize 0.9 linecolor rgb {} title {}", block, marker.shape(),
+                         colour(collide::method_table()[marker.method]), literal(marker.title()));
   }
   return plots;
 }
@@ -99,7 +103,7 @@ Plot error_against_time(const SceneResult& scene) {
   const std::vector<Mean> all = means(scene);
   const Floor floor(all);
   std::string script = plot_style + error_axis(floor);
-  script += joined("set title ", literal(joined(scene.name, ": error against run time")), "\n");
+  script += fmt::format("set title {}\n", literal(fmt::format("{}: error against run time", scene.name)));
   script += "set xlabel 'detection from scratch, ms a frame'\nset ylabel 'missed share of the true contacts'\n";
   add_front(script, all, floor);
   const std::string points = add_points(script, all, floor);
@@ -123,7 +127,7 @@ std::vector<GrowthSeries> growth_series(const SceneResult& growth) {
   for (const StateResult& state : growth.states) {
     for (std::size_t i = 0; i < all.size(); ++i) {
       const SweepRow& row = state.sweep.rows[i];
-      if (row.not_run.empty()) all[i].points += format("%u %.9g\n", state.bodies, row.times.median());
+      if (row.not_run.empty()) all[i].points += fmt::format("{} {:.9g}\n", state.bodies, row.times.median());
     }
   }
   std::erase_if(all, [](const GrowthSeries& s) { return s.points.empty(); });
@@ -132,7 +136,7 @@ std::vector<GrowthSeries> growth_series(const SceneResult& growth) {
 
 std::string title(const Configuration& c) {
   const collide::Method& method = method_of(c);
-  return method.uses_hash ? joined(method.name, ", ", grouped(c.settings.buckets), " buckets")
+  return method.uses_hash ? fmt::format("{}, {} buckets", method.name, grouped(c.settings.buckets))
                           : std::string(method.name);
 }
 
@@ -145,10 +149,10 @@ Plot cost_against_bodies(const SceneResult& growth) {
   for (const GrowthSeries& s : growth_series(growth)) {
     const bool dashed =
         method_of(s.configuration).uses_hash && s.configuration.settings.buckets == sweep_buckets.back();
-    script += format("$s%zu << EOD\n", number) + s.points + "EOD\n";
+    script += fmt::format("$s{} << EOD\n", number) + s.points + "EOD\n";
     plots +=
-        format("%s$s%zu with linespoints pointtype 7 pointsize 0.7 linewidth 2 dashtype %d linecolor rgb %s title ",
-               number ? ", " : "plot ", number, dashed ? 2 : 1, colour(method_of(s.configuration)).c_str());
+        fmt::format("{}$s{} with linespoints pointtype 7 pointsize 0.7 linewidth 2 dashtype {} linecolor rgb {} title ",
+                    number ? ", " : "plot ", number, dashed ? 2 : 1, colour(method_of(s.configuration)));
     plots += literal(title(s.configuration));
     ++number;
   }
@@ -159,7 +163,7 @@ Plot cost_against_bodies(const SceneResult& growth) {
 
 }  // namespace
 
-std::string error_plot_name(const SceneResult& scene) { return joined("error-time-", scene.scene); }
+std::string error_plot_name(const SceneResult& scene) { return fmt::format("error-time-{}", scene.scene); }
 
 std::vector<Plot> detection_plots(const DetectionResults& results) {
   std::vector<Plot> plots;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 
 namespace app {
@@ -58,6 +60,6 @@ std::string levels_of(const Configuration& c) {
   return method_of(c).uses_levels ? std::to_string(c.settings.levels) : "";
 }
 std::string buckets_of(const Configuration& c) { return method_of(c).uses_hash ? grouped(c.settings.buckets) : ""; }
-std::string cell_of(const Configuration& c) { return method_of(c).uses_hash ? format("x %g", c.cell) : ""; }
+std::string cell_of(const Configuration& c) { return method_of(c).uses_hash ? fmt::format("x {:g}", c.cell) : ""; }
 
 }  // namespace app

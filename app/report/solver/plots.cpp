@@ -1,7 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
+
 #include "app/report/integrator_colours.h"
 #include "app/report/solver/results.h"
 
@@ -16,23 +17,23 @@ class Diagram {
   /// bound: R, of the references' change.
   Diagram(const SolverCase& c, double bound) {
     const double known = c.known(bound);
-    script =
-        joined(plot_style, "set title ",
-               literal(joined(c.name, format(": error against run time (a disturbance grows %.3g times)", c.growth))),
-               format("\nset yrange [*:%g]\nset ytics 1e-9, 10, 10 format '%%g'\nset label 'blew up:' at graph 0.01, "
-                      "graph 0.97\n",
-                      row(c.curves.size())),
-               "set xlabel 'processor time, ms a simulated second a body'\nset ylabel 'error in position, RMS / R'\n");
-    script += format(
-        "set arrow from graph 0, first %g to graph 1, first %g nohead dashtype 2 linecolor rgb '#666666'\n"
-        "set label 'uncertainty of the reference' at graph 0.01, first %g offset 0,0.5 font ',8' textcolor rgb "
+    script = fmt::format(
+        "{}set title {}\nset yrange [*:{:g}]\nset ytics 1e-9, 10, 10 format '%g'\nset label 'blew up:' at graph 0.01, "
+        "graph 0.97\nset xlabel 'processor time, ms a simulated second a body'\nset ylabel 'error in position, RMS / "
+        "R'\n",
+        plot_style,
+        literal(fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.name, c.growth)),
+        row(c.curves.size()));
+    script += fmt::format(
+        "set arrow from graph 0, first {:g} to graph 1, first {:g} nohead dashtype 2 linecolor rgb '#666666'\nset "
+        "label 'uncertainty of the reference' at graph 0.01, first {:g} offset 0,0.5 font ',8' textcolor rgb "
         "'#666666'\n",
         known, known, known);
     for (std::size_t i = 0; i < c.curves.size(); ++i) add(c.curves[i], i, c.order(c.curves[i], bound));
     for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(c.curves[i], i);
   }
 
-  std::string finished() const { return plot_.empty() ? "" : joined(script, plot_, "\n"); }
+  std::string finished() const { return plot_.empty() ? "" : fmt::format("{}{}\n", script, plot_); }
 
  private:
   /// Above the errors, a row a method, so that crosses do not lie upon each other.
@@ -43,19 +44,20 @@ class Diagram {
     bool chooses = false;
     for (const WorkPoint& p : curve.points) {
       if (p.blew_up) continue;
-      good += format("%.9g %.9g %s\n", cost(p), std::max(p.error, 1e-9), steps_text(p).c_str());
+      good += fmt::format("{:.9g} {:.9g} {}\n", cost(p), std::max(p.error, 1e-9), steps_text(p));
       chooses = p.substeps == 0;
     }
     if (good.empty()) return;
     const char* colour = integrator_colour(number);
-    script += joined(format("$g%zu << EOD\n", number), good, "EOD\n");
+    script += fmt::format("$g{} << EOD\n{}EOD\n", number, good);
     // A single point under others' curves: a large open diamond shows around them.
     const char* style = chooses ? "points pointtype 12 pointsize 2.2" : "linespoints pointtype 7 pointsize 0.8";
-    plot_ += joined(separator(), format("$g%zu with %s linewidth 2", number, style), " linecolor rgb '", colour,
-                    "' title ", literal(joined(curve.integrator->name, order ? format(" (order %.1f)", *order) : "")));
+    plot_ += fmt::format(
+        "{}$g{} with {} linewidth 2 linecolor rgb '{}' title {}", separator(), number, style, colour,
+        literal(fmt::format("{}{}", curve.integrator->name, order ? fmt::format(" (order {:.1f})", *order) : "")));
     if (!chooses)
-      plot_ +=
-          format(", $g%zu using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '%s' notitle", number, colour);
+      plot_ += fmt::format(", $g{} using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '{}' notitle", number,
+                           colour);
   }
 
   void add_crosses(const WorkCurve& curve, std::size_t number) {
@@ -65,12 +67,12 @@ class Diagram {
     for (const WorkPoint& p : curve.points) {
       const double whole =
           good == curve.points.end() || good->substeps == 0 ? p.cpu_alone : cost(*good) * p.substeps / good->substeps;
-      if (p.blew_up) crosses += format("%.9g %g\n", whole, row(number));
+      if (p.blew_up) crosses += fmt::format("{:.9g} {:g}\n", whole, row(number));
     }
     if (crosses.empty()) return;
-    script += joined(format("$b%zu << EOD\n", number), crosses, "EOD\n");
-    plot_ += joined(separator(), format("$b%zu with points pointtype 2 pointsize 1 linewidth 2", number),
-                    " linecolor rgb '", integrator_colour(number), "' notitle");
+    script += fmt::format("$b{} << EOD\n{}EOD\n", number, crosses);
+    plot_ += fmt::format("{}$b{} with points pointtype 2 pointsize 1 linewidth 2 linecolor rgb '{}' notitle",
+                         separator(), number, integrator_colour(number));
   }
 
   const char* separator() const { return plot_.empty() ? "plot " : ", "; }
@@ -80,13 +82,13 @@ class Diagram {
 
 Plot plot_of(const SolverCase& c, double bound) {
   return {solver_plot_name(c),
-          joined(c.name, ": left is cheaper, down is truer; numbers are steps a frame, crosses above blew up."),
+          fmt::format("{}: left is cheaper, down is truer; numbers are steps a frame, crosses above blew up.", c.name),
           Diagram(c, bound).finished()};
 }
 
 }  // namespace
 
-std::string solver_plot_name(const SolverCase& c) { return joined("solver-", c.key); }
+std::string solver_plot_name(const SolverCase& c) { return fmt::format("solver-{}", c.key); }
 
 std::vector<Plot> solver_plots(const SolverResults& results) {
   std::vector<Plot> plots;

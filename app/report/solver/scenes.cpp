@@ -1,8 +1,7 @@
 #include "app/report/solver/scenes.h"
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
-
-#include "app/base/text.h"
 
 namespace app {
 namespace {
@@ -11,7 +10,7 @@ using glm::dvec3;
 
 /// A ball whose gas has a tenth more pressure than it was in balance with, so that it breathes, flies and turns.
 SolverScene free_flight(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = format("Free flight, k = %g N/m", stiffness)};
+  SolverScene s{.key = key, .name = fmt::format("Free flight, k = {:g} N/m", stiffness)};
   softbody::Material calm = ball_material(stiffness, 0.02);
   s.scene = lone_scene(calm);
   Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
@@ -33,7 +32,7 @@ SolverScene on_the_ground() {
 }
 
 SolverScene equilibrium(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = format("Equilibrium, k = %g N/m", stiffness), .at_rest = true};
+  SolverScene s{.key = key, .name = fmt::format("Equilibrium, k = {:g} N/m", stiffness), .at_rest = true};
   s.scene = lone_scene(ball_material(stiffness, 0.02));
   return s;
 }

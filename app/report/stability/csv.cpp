@@ -1,5 +1,7 @@
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/base/csv_line.h"
 #include "app/report/stability/results.h"
 
@@ -52,7 +54,7 @@ void add_cell(std::string& text, const StabilityResults& results, const Stabilit
   line.add(row.stiffness);
   line.add(static_cast<std::uint64_t>(cell.passes()));
   std::string why;
-  for (const std::string& f : failures(cell.figures)) why += joined(why.empty() ? "" : "; ", f);
+  for (const std::string& f : failures(cell.figures)) why += fmt::format("{}{}", why.empty() ? "" : "; ", f);
   line.add(why);
   line.add(row.untold);
   add_figures(line, cell.figures);

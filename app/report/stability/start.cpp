@@ -5,9 +5,9 @@
 #include <limits>
 #include <queue>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
 #include "softbody/measures.h"
 #include "softbody/snapshot.h"
 
@@ -122,9 +122,9 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
 
 void find_truth(StabilityStart& start, std::uint64_t steps) {
   World world(start.scene, {.substeps = 1});
-  const auto no = [&](const std::string& why) { start.untold = joined("the reference ", why); };
+  const auto no = [&](const std::string& why) { start.untold = fmt::format("the reference {}", why); };
   if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
-    return no(joined("does not model ", missing));
+    return no(fmt::format("does not model {}", missing));
   world.set_particles(0, start.particles[0]);
   const ReferenceBody body(world.prototype(0), world.scene());
   const auto flown = [&](const BodyState& from, double fraction, std::uint64_t most) {

@@ -1,19 +1,12 @@
 #include "app/session/export/frame_writers.h"
 
-#include <array>
-#include <cstdio>
+#include <fmt/core.h>
 
 #include "app/files/output_file.h"
 
 namespace app {
 namespace fs = std::filesystem;
 namespace {
-
-std::string numbered(const char* format, int number) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), format, number);
-  return text.data();
-}
 
 fs::path new_folder(const fs::path& parent, const std::string& prefix) {
   fs::path folder = next_free(parent, prefix, "");
@@ -25,7 +18,7 @@ class PictureWriter : public FrameWriter {
  public:
   explicit PictureWriter(const fs::path& parent) : folder_(new_folder(parent, "pictures")) {}
   void write(const RecordedFrame& frame) override {
-    write_file(folder_ / numbered("picture_%05d.png", ++count_), engine::encode_png(frame.picture));
+    write_file(folder_ / fmt::format("picture_{:05}.png", ++count_), engine::encode_png(frame.picture));
   }
   std::string name() const override { return folder_.string(); }
 
@@ -41,7 +34,7 @@ class MotionWriter : public FrameWriter {
   void write(const RecordedFrame& frame) override {
     if (frame.bodies != bodies_) begin(frame);
     const Positions& p = frame.positions;
-    write_file(folder_ / numbered("frame_%05d.obj", frame.number), frame.bodies->frame(p.x, p.y, p.z));
+    write_file(folder_ / fmt::format("frame_{:05}.obj", frame.number), frame.bodies->frame(p.x, p.y, p.z));
   }
   std::string name() const override { return folder_.string(); }
 

@@ -1,8 +1,9 @@
 // The panel's section of the method and its settings.
 
 #include <array>
-#include <cstdio>
 #include <limits>
+
+#include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
 
@@ -59,9 +60,8 @@ void draw_contact_surface(Widgets& w, Session& session) {
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::BeginDisabled(!used);
   w.row("Subdivision", w.px(label_column));
-  std::array<char, 48> format{};
-  std::snprintf(format.data(), format.size(), "%%d  (%s boxes a body)", grouped(1ull << settings.levels).c_str());
-  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.data(),
+  const std::string format = fmt::format("%d  ({} boxes a body)", grouped(1ull << settings.levels));
+  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.c_str(),
                                 "Level n cuts a body's box at midpoints into 2^n boxes (§2.1; the paper uses 3). "
                                 "Empty boxes are not hashed. Keys [ and ].");
   ImGui::EndDisabled();

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
 namespace app {
@@ -18,7 +20,7 @@ std::string in_words(const softbody::World& world) {
 
 std::string distance_text(const Session& session) {
   if (session.ghost()->blown_up()) return "has blown up";
-  return format("%.3g R", static_cast<double>(session.history().ghost.latest()));
+  return fmt::format("{:.3g} R", session.history().ghost.latest());
 }
 
 }  // namespace
@@ -27,21 +29,21 @@ bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choi
   const IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
   w.row("Integrator", w.px(label_column));
-  if (w.begin_choices(joined(name, "Integrator").c_str(), std::string(now.name).c_str(),
+  if (w.begin_choices(fmt::format("{}Integrator", name).c_str(), std::string(now.name).c_str(),
                       std::string(now.summary).c_str())) {
     for (const softbody::Integrator& i : softbody::integrators())
       if (w.choice(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
     ImGui::EndCombo();
   }
   bool fixed = choice.substeps.has_value();
-  if (w.checkbox(joined("Fixed substeps###", name, "Fixed substeps").c_str(), fixed,
+  if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name).c_str(), fixed,
                  "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
                  "up. Else as many as the stability bound asks for."))
     choice.substeps = fixed ? std::optional(std::max(1, proposed)) : std::nullopt;
   ImGui::BeginDisabled(!fixed);
   w.row("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
-  if (w.slider(joined(name, "Substeps").c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
+  if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
                "Fewer are faster, until it explodes."))
     choice.substeps = substeps;
   ImGui::EndDisabled();

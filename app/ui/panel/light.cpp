@@ -1,13 +1,12 @@
 #include "app/ui/panel/light.h"
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 
 namespace app {
 namespace {
 
-std::string metres(const glm::vec3& size) {
-  return format("%.3f x %.3f x %.3f m", double{size.x}, double{size.y}, double{size.z});
-}
+std::string metres(const glm::vec3& size) { return fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z); }
 
 /// A sentence that wraps, with a dot before it.
 void draw_meaning(Widgets& w, collide::Coverage coverage, bool now) {
@@ -25,7 +24,7 @@ std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec
   if (paper.boxes.empty()) return "No boxes are known for this picture: pause to see them.";
   glm::vec3 largest(0.0f);
   for (const auto& [lo, hi, body] : paper.boxes) largest = glm::max(largest, hi - lo);
-  std::string text = joined("Largest box in this frame: ", metres(largest), "; cell: ", metres(cell), ". ");
+  std::string text = fmt::format("Largest box in this frame: {}; cell: {}. ", metres(largest), metres(cell));
   std::string beyond;
   for (int axis = 0; axis < 3; ++axis) {
     if (largest[axis] <= cell[axis]) continue;
@@ -44,8 +43,8 @@ void draw_light(Widgets& w, const Session& session, bool& explained) {
   ImGui::TextWrapped("%s: %s", light.name, light.sentence);
   ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();
-  w.done("Coverage", joined("What the method and its settings promise on this frame (§2.2). ", fit,
-                            explained ? " Click: less." : " Click: what the colours mean.")
+  w.done("Coverage", fmt::format("What the method and its settings promise on this frame (§2.2). {}{}", fit,
+                                 explained ? " Click: less." : " Click: what the colours mean.")
                          .c_str());
   if (clicked) explained = !explained;
   if (!explained) return;

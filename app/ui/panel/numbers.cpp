@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/status.h"
@@ -23,19 +25,19 @@ void draw_curves(Widgets& w, const Session& session, float fineness) {
   const History& history = session.history();
   const softbody::Profile& profile = session.world().profile();
   const float ms = axis_end(std::max(history.detect_ms.largest(), history.solve_ms.largest()), 1.0f);
-  w.curve("Detect", format("%.2f ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", format("%.2f ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
-  w.curve("Picture", format("%.1f ms", double(history.frame_ms.latest())), history.frame_ms,
+  w.curve("Detect", fmt::format("{:.2f} ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
+  w.curve("Solve", fmt::format("{:.2f} ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Picture", fmt::format("{:.1f} ms", history.frame_ms.latest()), history.frame_ms,
           {0, axis_end(history.frame_ms.largest(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
-      "drawn at", format("%.0f %%", 100 * double(fineness)),
+      "drawn at", fmt::format("{:.0f} %", 100 * double(fineness)),
       "Of the pixels along each side, the scene's picture has so many. Less than 100 % only while it moves, "
       "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
       "taken away, has them all.");
   w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
           {0, axis_end(history.contacts.largest(), 10.0f)}, glm::vec3(0.45f), "contacts");
   const CompareRow* driver = session.driver_row();
-  const std::string value = driver ? format("%.4f", rounded_down(driver->recall)) : "-";
+  const std::string value = driver ? fmt::format("{:.4f}", rounded_down(driver->recall)) : "-";
   w.curve("Recall", value, history.recall, {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
 }
 
@@ -70,10 +72,10 @@ void draw_pair_tests(Widgets& w, const Session& session) {
   w.figure("Pair tests", grouped(counters.pair_tests),
            "Distances evaluated in this frame; brute force evaluates all (§2.3).");
   w.figure("  a vertex; of all pairs",
-           joined(ratio(counters.pair_tests, vertices), "; ", ratio(100 * counters.pair_tests, all), " %"),
-           joined("Pair tests of this frame over its ", grouped(vertices), " vertices, and over all ", grouped(all),
-                  " pairs. §3 claims O(1) at best: as many a vertex, however many bodies there are; and O(N^2) at "
-                  "worst: all pairs.")
+           fmt::format("{}; {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
+           fmt::format("Pair tests of this frame over its {} vertices, and over all {} pairs. §3 claims O(1) at best: "
+                       "as many a vertex, however many bodies there are; and O(N^2) at worst: all pairs.",
+                       grouped(vertices), grouped(all))
                .c_str());
 }
 
@@ -82,11 +84,11 @@ void draw_hashes(Widgets& w, const Session& session) {
   const std::uint64_t corners = 8 * session.paper().boxes.size();
   w.figure("Hash evaluations", grouped(session.world().detection().counters.hashes),
            "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
-  w.figure("  corners / vertices", joined(grouped(corners), " / ", grouped(vertices)),
-           joined("What the paper's method hashes, eight corners a box, against what a vertex hash does: ",
-                  ratio(corners, vertices),
-                  " a vertex. §3 claims that boxes save hashes: true while a box holds more than eight vertices. Both "
-                  "grow with the number of bodies.")
+  w.figure("  corners / vertices", fmt::format("{} / {}", grouped(corners), grouped(vertices)),
+           fmt::format("What the paper's method hashes, eight corners a box, against what a vertex hash does: {} a "
+                       "vertex. §3 claims that boxes save hashes: true while a box holds more than eight vertices. "
+                       "Both grow with the number of bodies.",
+                       ratio(corners, vertices))
                .c_str());
 }
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 #include "app/ui/panel/integrators.h"
 #include "app/ui/panel/panel.h"
@@ -15,11 +17,11 @@ namespace {
 std::string in_numbers(const StepMargin& margin, const softbody::World& world) {
   if (margin.taken == 0)
     return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
-  if (margin.share < 1) return format("slow motion: %.2g of a frame in %d substeps", margin.share, margin.taken);
+  if (margin.share < 1) return fmt::format("slow motion: {:.2g} of a frame in {} substeps", margin.share, margin.taken);
   if (margin.kind == StepMargin::Bound::unconditional)
-    return format("substeps of %.2f ms, stable at any length", margin.substep * 1e3);
-  return format("substeps of %.2f ms, stable up to %.2f ms", margin.substep * 1e3,
-                margin.bound * 1e3 / (1 - StepMargin::reserve));
+    return fmt::format("substeps of {:.2f} ms, stable at any length", margin.substep * 1e3);
+  return fmt::format("substeps of {:.2f} ms, stable up to {:.2f} ms", margin.substep * 1e3,
+                     margin.bound * 1e3 / (1 - StepMargin::reserve));
 }
 
 /// From the first snapshot to the newest; dragging goes there and pauses.
@@ -30,14 +32,14 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::BeginDisabled(past.empty());
   int place = past.empty() ? 0 : static_cast<int>(session.stability().past().at(frame));
   const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
-  const std::string shown = format("frame %d, %.2f s", frame, session.world().time());
+  const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().time());
   if (w.slider("Go back to", place, 0, last, shown.c_str(),
                "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
                "the settings in use. Snapshots are dense lately and sparse long ago."))
     session.rewind_to(past[static_cast<std::size_t>(place)].frame);
   ImGui::EndDisabled();
   const double mebi = static_cast<double>(session.stability().past().bytes()) / (1 << 20);
-  w.figure("Snapshots", format("%zu, %.1f of %zu MiB", past.size(), mebi, Rewind::most_bytes >> 20),
+  w.figure("Snapshots", fmt::format("{}, {:.1f} of {} MiB", past.size(), mebi, Rewind::most_bytes >> 20),
            "Memory is bounded: when it is full, old snapshots are thinned out.");
 }
 
@@ -58,23 +60,24 @@ void draw_integrator(Widgets& w, Session& session) {
 struct StabilityCurve {
   const char* label;
   Ring StabilityHistory::*ring;
-  const char* format;
+  fmt::format_string<float> format;
   float least;  // length of the axis
   const char* unit;
   glm::vec3 colour;
 };
 constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
 constexpr std::array<StabilityCurve, 9> curves{{
-    {"Kinetic", &StabilityHistory::kinetic, "%.3g J", 1, "J of motion", energy_colour},
-    {"Elastic", &StabilityHistory::elastic, "%.3g J", 1, "J in springs and kept shapes, against the start",
+    {"Kinetic", &StabilityHistory::kinetic, "{:.3g} J", 1, "J of motion", energy_colour},
+    {"Elastic", &StabilityHistory::elastic, "{:.3g} J", 1, "J in springs and kept shapes, against the start",
      energy_colour},
-    {"Gas", &StabilityHistory::gas, "%.3g J", 1, "J in the gas and the air outside, against the start", energy_colour},
-    {"Gravity", &StabilityHistory::gravity, "%.4g J", 1, "J above or below the world's origin", energy_colour},
-    {"Total", &StabilityHistory::total, "%.4g J", 1, "J, but for what contacts store", energy_colour},
-    {"Least volume", &StabilityHistory::least_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
-    {"Most volume", &StabilityHistory::most_volume, "%.3f", 0.1f, "of the volume at the start", shape_colour},
-    {"Strain", &StabilityHistory::strain, "%.3f", 0.1f, "of a spring's resting length, the largest", shape_colour},
-    {"Speed", &StabilityHistory::speed, "%.2f m/s", 1, "m/s of the fastest particle", plain},
+    {"Gas", &StabilityHistory::gas, "{:.3g} J", 1, "J in the gas and the air outside, against the start",
+     energy_colour},
+    {"Gravity", &StabilityHistory::gravity, "{:.4g} J", 1, "J above or below the world's origin", energy_colour},
+    {"Total", &StabilityHistory::total, "{:.4g} J", 1, "J, but for what contacts store", energy_colour},
+    {"Least volume", &StabilityHistory::least_volume, "{:.3f}", 0.1f, "of the volume at the start", shape_colour},
+    {"Most volume", &StabilityHistory::most_volume, "{:.3f}", 0.1f, "of the volume at the start", shape_colour},
+    {"Strain", &StabilityHistory::strain, "{:.3f}", 0.1f, "of a spring's resting length, the largest", shape_colour},
+    {"Speed", &StabilityHistory::speed, "{:.2f} m/s", 1, "m/s of the fastest particle", plain},
 }};
 
 }  // namespace
@@ -102,10 +105,10 @@ void draw_step_light(Widgets& w, Session& session) {
   w.dot(light.colour);
   w.line(std::string(light.name).append(": ").append(in_numbers(margin, session.world())));
   ImGui::EndGroup();
-  w.done("Step light",
-         format("%s: %s Taken: %d substeps a frame; needed: %d%s.", light.name, light.sentence, margin.taken,
-                margin.needed, margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
-             .c_str());
+  w.done("Step light", fmt::format("{}: {} Taken: {} substeps a frame; needed: {}{}.", light.name, light.sentence,
+                                   margin.taken, margin.needed,
+                                   margin.kind == StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
+                           .c_str());
   if (!session.stability().alarm()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(light_red)));
   ImGui::TextWrapped("%s (frame %d). Rewind, then take more substeps, Auto or softer springs.",
@@ -126,8 +129,7 @@ void draw_stability(Widgets& w, Session& session) {
   const StabilityHistory& history = session.stability().history();
   for (const StabilityCurve& c : curves) {
     const Ring& ring = history.*c.ring;
-    w.curve(c.label, format(c.format, static_cast<double>(ring.latest())), ring, axis_around(ring, c.least), c.colour,
-            c.unit);
+    w.curve(c.label, fmt::format(c.format, ring.latest()), ring, axis_around(ring, c.least), c.colour, c.unit);
   }
 }
 

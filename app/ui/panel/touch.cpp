@@ -1,8 +1,6 @@
 // The panel's part for hands: bodies to drop and to throw, and the selected one.
 
-#include <array>
-#include <cstdio>
-
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
@@ -45,13 +43,10 @@ void draw_body(Widgets& w, const softbody::World& world, softbody::BodyId id) {
   ImGui::SameLine();
   w.value(state_of(world, id));
   w.done("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
-  std::array<char, 64> figures{};
   const double speed = glm::length(m.momentum) / world.prototype(id).material.mass;
-  if (m.closed)
-    std::snprintf(figures.data(), figures.size(), "%.2f m/s   %.1f %%", speed, 100 * m.volume_ratio);
-  else
-    std::snprintf(figures.data(), figures.size(), "%.2f m/s   open", speed);
-  w.figure("Speed, volume", figures.data(), "Of its centre of mass; of the volume that it started with.");
+  const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
+  w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
+           "Of its centre of mass; of the volume that it started with.");
 }
 
 void draw_nobody(Widgets& w) {

@@ -5,6 +5,8 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
 namespace app {
@@ -28,8 +30,8 @@ void draw_corners(Widgets& w, Tour& tour, const TourView& view) {
     const bool chosen = i == view.corner;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string number = std::to_string(i + 1);
-    if (w.button(joined(number, "###Corner ", number).c_str(), "Shows the hash of this corner point of the box.",
-                 width))
+    if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
+                 "Shows the hash of this corner point of the box.", width))
       tour.choose_corner(i);
     if (chosen) ImGui::PopStyleColor();
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
@@ -131,7 +132,7 @@ void show_contact(const TourView& v, Spotlight& light) {
   if (v.f.closest) {
     add_contacts(v, {*v.f.closest}, hand_colour, 3.5f, light);
     light.labels = {
-        {0.5f * (vertex(v, v.f.closest->a) + vertex(v, v.f.closest->b)), format("d = %.3f m", double{v.f.distance})}};
+        {0.5f * (vertex(v, v.f.closest->a) + vertex(v, v.f.closest->b)), fmt::format("d = {:.3f} m", v.f.distance)}};
   }
   frame_pair(v, light);
 }

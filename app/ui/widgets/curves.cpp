@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
+
+#include <fmt/core.h>
 
 #include "app/ui/widgets/widgets.h"
 
@@ -24,10 +25,7 @@ Axis axis_around(const Ring& ring, float least) {
 namespace {
 
 std::string range_of(const Axis& axis, const char* unit) {
-  std::array<char, 96> text{};
-  std::snprintf(text.data(), text.size(), "The last %zu values, from %g to %g %s.", Ring::capacity,
-                static_cast<double>(axis.bottom), static_cast<double>(axis.top), unit);
-  return text.data();
+  return fmt::format("The last {} values, from {:g} to {:g} {}.", Ring::capacity, axis.bottom, axis.top, unit);
 }
 
 }  // namespace
@@ -50,7 +48,7 @@ void Widgets::sparkline(const char* label, const Ring& ring, const Axis& axis, c
                         const char* unit, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
-  ImGui::InvisibleButton(joined("##", label).c_str(), size);
+  ImGui::InvisibleButton(fmt::format("##{}", label).c_str(), size);
   done(label, range_of(axis, unit).c_str());
 
   ImDrawList* draw = ImGui::GetWindowDrawList();

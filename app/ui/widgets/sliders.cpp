@@ -1,5 +1,6 @@
 // The widgets of numbers that are dragged.
 
+#include <fmt/core.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
@@ -18,7 +19,7 @@ void Widgets::done_with_number(const char* label, const char* tooltip) {
     field->SelectedAllMouseLock = true;  // until the button is up
   }
   constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
-  done(label, tooltip ? joined(tooltip, "\n", how).c_str() : how);
+  done(label, tooltip ? fmt::format("{}\n{}", tooltip, how).c_str() : how);
 }
 
 namespace {
@@ -89,7 +90,7 @@ bool Widgets::slide(const char* label, Value& value, const Show& show) {
 
 bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
   const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderInt(joined("##", label).c_str(), &value, least, most, format, kept_inside);
+    return ImGui::SliderInt(fmt::format("##{}", label).c_str(), &value, least, most, format, kept_inside);
   });
   mark_slider(place_of(value, least, most, false), static_cast<float>(most - least), px(slider_bar));
   done_with_number(label, tooltip);
@@ -100,7 +101,7 @@ bool Widgets::slider(const char* label, float& value, float least, float most, c
                      bool logarithmic) {
   const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderFloat(joined("##", label).c_str(), &value, least, most, format, flags);
+    return ImGui::SliderFloat(fmt::format("##{}", label).c_str(), &value, least, most, format, flags);
   });
   // ImGui's logarithmic sliders begin where the shown digits do, if at 0.
   const double begin = logarithmic ? std::max(double{least}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : least;
@@ -112,8 +113,8 @@ bool Widgets::slider(const char* label, float& value, float least, float most, c
 bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
   const bool changed = slide(label, value, [&](bool typed) {
-    return ImGui::SliderScalar(joined("##", label).c_str(), ImGuiDataType_U32, &value, &least, &most, typed ? "%u" : "",
-                               kept_inside | ImGuiSliderFlags_Logarithmic);
+    return ImGui::SliderScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value, &least, &most,
+                               typed ? "%u" : "", kept_inside | ImGuiSliderFlags_Logarithmic);
   });
   mark_slider(place_of(value, least, most, true), 0, px(slider_bar));
   done_with_number(label, tooltip);
@@ -123,8 +124,8 @@ bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t leas
 bool Widgets::drag(const char* label, glm::dvec3& value, float least, float most, const char* tooltip) {
   constexpr float metres_a_pixel = 0.01f;
   std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
-  const bool changed =
-      ImGui::DragFloat3(joined("##", label).c_str(), shown.data(), metres_a_pixel, least, most, "%.2f", kept_inside);
+  const bool changed = ImGui::DragFloat3(fmt::format("##{}", label).c_str(), shown.data(), metres_a_pixel, least, most,
+                                         "%.2f", kept_inside);
   done_with_number(label, tooltip);
   const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
   if (usable) value = {shown[0], shown[1], shown[2]};

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstring>
 
+#include <fmt/core.h>
+
 namespace app {
 namespace {
 
@@ -114,7 +116,7 @@ bool Widgets::section(const char* label, bool open_at_first) {
 
 bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
                      const char* tooltip) {
-  const bool changed = ImGui::InputScalar(joined("##", label).c_str(), ImGuiDataType_U32, &value);
+  const bool changed = ImGui::InputScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value);
   value = std::clamp(value, least, most);
   done(label, tooltip);
   return changed;
@@ -123,7 +125,7 @@ bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t leas
 bool Widgets::text(const char* label, std::string& value, const char* hint, const char* tooltip) {
   std::array<char, 4096> typed{};  // as long as a path may be
   value.copy(typed.data(), typed.size() - 1);
-  if (ImGui::InputTextWithHint(joined("##", label).c_str(), hint, typed.data(), typed.size(),
+  if (ImGui::InputTextWithHint(fmt::format("##{}", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
     value = typed.data();
   const bool entered = ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter);
@@ -132,7 +134,7 @@ bool Widgets::text(const char* label, std::string& value, const char* hint, cons
 }
 
 bool Widgets::begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
-  const bool open = ImGui::BeginCombo(joined("##", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
   // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
   if (!open) done(label, tooltip);
   if (open && is_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
@@ -152,7 +154,7 @@ bool Widgets::heading(const char* label, const char* tooltip) {
   ImGui::TextUnformatted(label, id);
   const float side = ImGui::GetFrameHeight();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - side);
-  return button(joined("x###Close ", id ? id + 3 : label).c_str(), tooltip, side);
+  return button(fmt::format("x###Close {}", id ? id + 3 : label).c_str(), tooltip, side);
 }
 
 void Widgets::row(const char* label, float column) {
