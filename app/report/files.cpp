@@ -12,13 +12,13 @@
 namespace app {
 namespace {
 
-/// File names and contents; empty if they cannot be drawn.
+/// Returns file names and contents; nothing if gnuplot cannot draw them.
 std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
   std::vector<std::pair<std::string, std::string>> pictures;
   try {
     for (const Plot& plot : plots) {
-      pictures.emplace_back(plot.name + ".svg", draw(plot.script, Picture::svg));
-      pictures.emplace_back(plot.name + ".png", draw(plot.script, Picture::png));
+      pictures.emplace_back(plot.name + ".svg", draw(script(plot), Picture::svg));
+      pictures.emplace_back(plot.name + ".png", draw(script(plot), Picture::png));
     }
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
@@ -54,16 +54,17 @@ std::string command_of(const ReportOptions& o) {
   return text + " --out DIR";
 }
 
-void write_report(const std::filesystem::path& folder, const ReportFiles& files) {
+void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
+                  std::string_view page_name, const Page& page) {
   const bool watched = isatty(STDERR_FILENO) != 0;
   if (watched) std::fprintf(stderr, "\r%60s\r", "");
-  const auto pictures = draw_all(files.plots);
-  for (const auto& [name, bytes] : pictures) require_no_input(folder / name);
-  for (const std::string& name : {files.csv_name, files.markdown_name}) require_no_input(folder / name);
-  write_file(folder / files.csv_name, files.csv);
-  for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
-  write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
-  if (watched) std::fprintf(stderr, "written: %s\n", (folder / files.markdown_name).c_str());
+  auto files = draw_all(page.plots());
+  const std::string text = page.markdown(!files.empty());
+  files.emplace(files.begin(), csv_name, figures.csv());
+  files.emplace_back(page_name, text);
+  for (const auto& [name, bytes] : files) require_no_input(folder / name);
+  for (const auto& [name, bytes] : files) write_file(folder / name, bytes);
+  if (watched) std::fprintf(stderr, "written: %s\n", (folder / page_name).c_str());
 }
 
 }  // namespace app

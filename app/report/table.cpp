@@ -1,36 +1,59 @@
 #include "app/report/table.h"
 
-#include <algorithm>
+#include <cassert>
 #include <cmath>
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include "app/base/csv_line.h"
 #include "app/base/text.h"
 
 namespace app {
 
-std::string line(const Cells& cells) {
-  std::string text = "|";
-  for (const std::string& cell : cells) text += fmt::format(" {} |", cell);
-  return text + "\n";
+TableCell::TableCell(double number) : text(fmt::format("{:.9g}", number)) {}
+
+void Table::add(const TableRow& row) {
+  if (rows_.empty()) {
+    rows_.emplace_back();
+    for (const NamedCell& named : row) rows_[0].push_back(named.column);
+  }
+  std::vector<std::string> texts;
+  auto next = row.begin();
+  for (const std::string& column : rows_[0])
+    texts.push_back(next != row.end() && next->column == column ? (next++)->cell.text : "");
+  assert(next == row.end());
+  rows_.push_back(std::move(texts));
 }
 
-std::string heading(const Cells& cells, std::size_t left) {
-  std::string text = fmt::format("{}|", line(cells));
-  for (std::size_t i = 0; i < cells.size(); ++i) text += i < left ? "---|" : "--:|";
-  return text + "\n";
+std::string Table::csv() const {
+  std::string text;
+  for (const auto& row : rows_) {
+    CsvLine line(text);
+    for (const std::string& cell : row) line.add(cell);
+  }
+  return text;
 }
 
-std::string brief(double value) {
-  if (value >= 100) return whole(value);
-  return value >= 10 ? fmt::format("{:.1f}", value) : fmt::format("{:#.3g}", value);
+std::string Table::markdown(std::size_t text_columns) const {
+  std::string text;
+  for (const auto& row : rows_) {
+    text += '|';
+    for (const std::string& cell : row) text += fmt::format("{}{} |", cell.empty() ? "" : " ", cell);
+    text += '\n';
+    if (&row != &rows_.front()) continue;
+    text += '|';
+    for (std::size_t i = 0; i < row.size(); ++i) text += i < text_columns ? "---|" : "--:|";
+    text += '\n';
+  }
+  return text;
+}
+
+std::string brief(double value, int digits) {
+  assert(digits >= 2);
+  if (value >= std::pow(10, digits - 1)) return whole(value);
+  return value >= 10 ? fmt::format("{:.{}f}", value, digits - 2) : fmt::format("{:#.{}g}", value, digits);
 }
 
 std::string whole(double value) { return grouped(static_cast<std::uint64_t>(std::llround(value))); }
-
-std::string picture(const std::vector<Plot>& plots, std::string_view name) {
-  const auto plot = std::ranges::find(plots, name, &Plot::name);
-  return plot == plots.end() ? "" : fmt::format("\n![{}](<{}.svg>)\n", plot->caption, plot->name);
-}
 
 }  // namespace app

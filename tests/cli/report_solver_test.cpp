@@ -63,7 +63,7 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   const std::string text = read_file(out_ / "solver.md");
   EXPECT_NE(text.find("RK4 in double"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
-  EXPECT_NE(text.find(cut_short ? "as runs took longer than" : "All curves end"), std::string::npos);
+  EXPECT_NE(text.find(cut_short ? "since runs took longer than" : "All curves end"), std::string::npos);
 }
 
 TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {

@@ -58,17 +58,17 @@ TEST(SolverOrder, IsNoneWhereErrorsDoNotFallAndWhereNothingMoves) {
 /// What the report says of curves that end early, each of one error after so many steps.
 std::string left_out(const std::vector<int>& ends) {
   SolverResults r;
-  r.bound = bound, r.longest_run = 0.5, r.most_substeps = 64;
+  r.bound = bound, r.max_run_seconds = 0.5, r.max_substeps = 64;
   SolverCase& c = r.cases.emplace_back(SolverCase{.key = "ball", .name = "Ball", .reference = ""});
   for (const int n : ends)
     c.curves.push_back({softbody::find_integrator("rk4"), {{.substeps = n, .error = n == 1 ? 1e-6 : 1e-2}}});
-  const std::string text = solver_markdown(r, {});
+  const std::string text = solver_page(r).markdown(false);
   const std::size_t at = text.find("Left out");
   return at == std::string::npos ? "" : text.substr(at, text.find("With the fewest") - at);
 }
 
 TEST(SolverReportText, SaysWhyCurvesEnd) {
-  const std::string known = "Left out, short of the 2e-05 R to which the reference is known, as ";
+  const std::string known = "Left out, above the reference's uncertainty of 2e-05 R, since ";
   const std::string long_runs = known + "runs took longer than 0.5 s: Runge-Kutta 4 beyond 16 steps a frame.\n\n";
   const std::string most = known + "no more steps were tried: Runge-Kutta 4 beyond 64 steps a frame.\n\n";
   EXPECT_EQ(left_out({16, 1}), long_runs);

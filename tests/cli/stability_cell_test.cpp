@@ -33,7 +33,7 @@ softbody::BodySource joiner(int appear, const glm::dvec3& position, const glm::d
 
 StabilityFigures run(const softbody::Scene& scene, std::string_view integrator, int frames) {
   StabilityStart start = prepare({.scene = scene}, frames * dt);
-  start.untold = "bodies join";
+  start.not_judged = "bodies join";
   const StabilityFigures figures = run_cell(start, *softbody::find_integrator(integrator), dt);
   EXPECT_EQ(figures.refused, "");
   return figures;
@@ -146,7 +146,7 @@ TEST(StabilityCell, AHitWith1000MetresASecondTakesNoMoreStepsThanThereMayBe) {
   ASSERT_NE(hit, all.end());
   for (const double stiffness : {1e6, 1e8}) {
     StabilityStart start = prepare(hit->make(stiffness), 2);
-    start.untold = "only what needs no reference";
+    start.not_judged = "only what needs no reference";
     const StabilityFigures figures = run_cell(start, *softbody::find_integrator("auto"), dt);
     EXPECT_EQ(figures.refused, "");
     EXPECT_LE(figures.energy, stability_bounds.energy) << stiffness << " N/m";

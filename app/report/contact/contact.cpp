@@ -114,12 +114,7 @@ void report_contact(const ReportOptions& options) {
   }
   if (!options.scene) add_impacts(plan, options.quick);
   plan.run();
-  const ContactResults& results = plan.results;
-  write_report(options.out, {.csv_name = "contact.csv",
-                             .csv = contact_csv(results),
-                             .markdown_name = "contact.md",
-                             .plots = contact_plots(results),
-                             .markdown = [&](const auto& drawn) { return contact_markdown(results, drawn); }});
+  write_report(options.out, "contact.csv", contact_table(plan.results), "contact.md", contact_page(plan.results));
 }
 
 }  // namespace app

@@ -1,11 +1,12 @@
 #pragma once
-// What `report contact` has measured, and what it is written as.
+// What `report contact` measures, and its table, page and plots.
 
+#include <span>
 #include <string>
 #include <vector>
 
 #include "app/report/contact/trial.h"
-#include "app/report/plot.h"
+#include "app/report/page.h"
 
 namespace app {
 
@@ -26,17 +27,17 @@ struct ContactResults {
   std::vector<ContactCase> cases;      // scenes, then impacts, of each kind by speed
 };
 
-/// "Surface", or "Vertex-vertex, exact, x 0.4".
+/// Returns "Surface", or "Vertex-vertex, exact, x 0.4".
 std::string choice_name(const ContactChoice& choice);
 
-/// A row a case and choice, with a header line. What has no meaning or was not run is empty.
-std::string contact_csv(const ContactResults& results);
+/// Returns contact.csv: a row per case and choice. What has no meaning or was not run is empty.
+Table contact_table(const ContactResults& results);
 
-/// The deepest penetration against run time for each scene; against speed, how much passed through, for each impact.
-std::vector<Plot> contact_plots(const ContactResults& results);
-std::string contact_plot_name(const ContactCase& c);
+Page contact_page(const ContactResults& results);
 
-/// plots: those that lie beside it as NAME.svg and NAME.png.
-std::string contact_markdown(const ContactResults& results, const std::vector<Plot>& plots);
+/// Returns the plot of a scene: the deepest penetration against run time.
+Plot depth_against_time(const ContactCase& c);
+/// Returns the plot of one impact at several speeds: how much passed through.
+Plot passed_against_speed(std::span<const ContactCase> cases);
 
 }  // namespace app

@@ -3,10 +3,8 @@
 #include <algorithm>
 
 #include "app/files/output_file.h"
-#include "app/report/detection/csv.h"
-#include "app/report/detection/markdown.h"
-#include "app/report/detection/plots.h"
 #include "app/report/detection/recording.h"
+#include "app/report/detection/results.h"
 #include "app/report/files.h"
 
 namespace app {
@@ -89,11 +87,7 @@ void report_detection(const ReportOptions& options) {
   const std::vector<softbody::Scene> scenes = chosen_scenes(options);
   prepare_folder(options.out);
   const DetectionResults results = measure(options, scenes);
-  write_report(options.out, {.csv_name = "detection.csv",
-                             .csv = detection_csv(results),
-                             .markdown_name = "report.md",
-                             .plots = detection_plots(results),
-                             .markdown = [&](const auto& drawn) { return detection_markdown(results, drawn); }});
+  write_report(options.out, "detection.csv", detection_table(results), "report.md", detection_page(results));
 }
 
 }  // namespace app

@@ -17,7 +17,7 @@ void add(Mean& mean, const SweepRow& row, std::size_t true_contacts, double weig
   if (!row.not_run.empty()) mean.not_run = row.not_run;
   if (!mean.not_run.empty()) return;
   mean.ms += weight * row.times.median();
-  mean.least_ms += weight * row.times.least();
+  mean.min_ms += weight * row.times.least();
   mean.pair_tests += weight * static_cast<double>(row.counters.pair_tests);
   mean.hashes += weight * static_cast<double>(row.counters.hashes);
   mean.boxes += weight * static_cast<double>(row.counters.boxes);

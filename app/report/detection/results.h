@@ -1,10 +1,11 @@
 #pragma once
-// What `report detection` measures, before it is written as CSV, Markdown and plots.
+// What `report detection` measures, and its table, page and plots.
 
 #include <string>
 #include <vector>
 
 #include "app/compare/sweep.h"
+#include "app/report/page.h"
 
 namespace app {
 
@@ -35,7 +36,7 @@ struct DetectionResults {
 struct Mean {
   Configuration configuration;
   std::string not_run;                           // why it was not run on one of them, else empty: then all of these
-  double ms = 0, least_ms = 0;                   // means of the states' medians and minima
+  double ms = 0, min_ms = 0;                     // means of the states' medians and minima
   double pair_tests = 0, hashes = 0, boxes = 0;  // means
   std::size_t contacts = 0, missed = 0, true_contacts = 0;  // sums
   std::size_t memory = 0;                                   // the most
@@ -60,5 +61,16 @@ inline const collide::Method& method_of(const Configuration& c) { return collide
 std::string levels_of(const Configuration& c);
 std::string buckets_of(const Configuration& c);
 std::string cell_of(const Configuration& c);
+
+/// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
+Table detection_table(const DetectionResults& results);
+
+Page detection_page(const DetectionResults& results);
+/// Adds the part on what §3 of the paper claims: hashes by level, and growth with the number of bodies.
+void add_growth(Page& page, const DetectionResults& results);
+
+Plot error_against_time(const SceneResult& scene);
+/// The growth has a state.
+Plot cost_against_bodies(const SceneResult& growth);
 
 }  // namespace app

@@ -1,42 +1,33 @@
-#include "app/base/csv_line.h"
 #include "app/report/solver/results.h"
 
 namespace app {
 
-std::string solver_csv(const SolverResults& results) {
-  std::string text;
-  {
-    CsvLine line(text);
-    for (const char* name :
-         {"scene", "integrator", "substeps", "steps_per_second", "cpu_ms_alone", "cpu_ms_batch", "blew_up", "error",
-          "energy_error", "linear_error", "angular_error", "volume_error", "internal_speed", "observed_order",
-          "reference_step", "reference_change", "reference_converged", "perturbation_growth"})
-      line.add(std::string_view(name));
-  }
+Table solver_table(const SolverResults& results) {
+  Table table;
   for (const SolverCase& c : results.cases)
     for (const WorkCurve& curve : c.curves)
       for (const WorkPoint& p : curve.points) {
-        CsvLine line(text);
-        line.add(c.key);
-        line.add(curve.integrator->key);
-        line.add_if(p.substeps > 0, static_cast<std::uint64_t>(p.substeps));
-        line.add_if(p.substeps > 0, p.substeps * curve.integrator->substeps / results.frame_time);
-        line.add(p.cpu_alone);
-        line.add_if(p.cpu_batch.has_value(), p.cpu_batch.value_or(0));
-        line.add(static_cast<std::uint64_t>(p.blew_up));
-        line.add_if(!p.blew_up, p.error);
-        line.add_if(!p.blew_up, p.energy);
-        for (const auto& value : {p.linear, p.angular, p.volume})
-          line.add_if(!p.blew_up && value.has_value(), value.value_or(0));
-        line.add_if(!p.blew_up, p.speed);
-        const auto order = c.order(curve, results.bound);
-        line.add_if(order.has_value(), order.value_or(0));
-        line.add(c.step);
-        line.add(c.change);
-        line.add(static_cast<std::uint64_t>(c.converged));
-        line.add(c.growth);
+        const bool fixed = p.substeps > 0, good = !p.blew_up;
+        table.add({{"scene", c.key},
+                   {"integrator", curve.integrator->key},
+                   {"substeps", when(fixed, p.substeps)},
+                   {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps / results.frame_time)},
+                   {"cpu_ms_alone", p.cpu_alone},
+                   {"cpu_ms_batch", p.cpu_batch},
+                   {"blew_up", p.blew_up},
+                   {"error", when(good, p.error)},
+                   {"energy_error", when(good, p.energy)},
+                   {"linear_error", when(good, p.linear)},
+                   {"angular_error", when(good, p.angular)},
+                   {"volume_error", when(good, p.volume)},
+                   {"internal_speed", when(good, p.speed)},
+                   {"observed_order", c.order(curve, results.bound)},
+                   {"reference_step", c.step},
+                   {"reference_change", c.change},
+                   {"reference_converged", c.converged},
+                   {"perturbation_growth", c.growth}});
       }
-  return text;
+  return table;
 }
 
 }  // namespace app

@@ -1,6 +1,5 @@
 #include "app/report/solver/scenes.h"
 
-#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 namespace app {
@@ -9,8 +8,8 @@ namespace {
 using glm::dvec3;
 
 /// A ball whose gas has a tenth more pressure than it was in balance with, so that it breathes, flies and turns.
-SolverScene free_flight(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = fmt::format("Free flight, k = {:g} N/m", stiffness)};
+SolverScene free_flight(double stiffness, const std::string& in_words) {
+  SolverScene s{.key = "free-" + in_words, .name = "Free flight, " + in_words + " N/m"};
   softbody::Material calm = ball_material(stiffness, 0.02);
   s.scene = lone_scene(calm);
   Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
@@ -21,7 +20,7 @@ SolverScene free_flight(double stiffness, const std::string& key) {
 
 /// From rest, a millimetre over the ground: a ball that hit it would be as hard to follow as a thrown die.
 SolverScene on_the_ground() {
-  SolverScene s{.key = "contact-1e3", .name = "Ball let down on the ground, k = 1000 N/m"};
+  SolverScene s{.key = "contact-1e3", .name = "On the ground, 1e3 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));
   const softbody::Particle lowest =
       particles_of(softbody::World(s.scene, {.substeps = 1}), 0)[0];  // an icosphere's extent is that of any corner
@@ -31,8 +30,8 @@ SolverScene on_the_ground() {
   return s;
 }
 
-SolverScene equilibrium(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = fmt::format("Equilibrium, k = {:g} N/m", stiffness), .at_rest = true};
+SolverScene in_balance(double stiffness, const std::string& in_words) {
+  SolverScene s{.key = "rest-" + in_words, .name = "In balance, " + in_words + " N/m", .at_rest = true};
   s.scene = lone_scene(ball_material(stiffness, 0.02));
   return s;
 }
@@ -85,8 +84,8 @@ Particles particles_of(const softbody::World& world, softbody::BodyId body) {
 }
 
 std::vector<SolverScene> solver_scenes() {
-  return {free_flight(1e3, "free-1e3"), free_flight(1e6, "free-1e6"), on_the_ground(),
-          equilibrium(1e3, "rest-1e3"), equilibrium(1e6, "rest-1e6"), cloth()};
+  return {free_flight(1e3, "1e3"), free_flight(1e6, "1e6"), on_the_ground(),
+          in_balance(1e3, "1e3"),  in_balance(1e6, "1e6"),  cloth()};
 }
 
 }  // namespace app

@@ -65,14 +65,14 @@ double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b
 }
 
 /// Where the reference does not have the scene's model: the world's own rk4, in floats.
-Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
+SolverReference world_reference(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
   World world = make_world(scene, run, rk4(), 1, 1);
   int substeps = world.dynamics().substeps(run.frame_time);
   const auto outcome = [&](const SolverScene& s, int n) {
     World w = make_world(s, run, rk4(), n, 1);
     return advance(w, run.frames);
   };
-  Truth t{};
+  SolverReference t{};
   Outcome best = outcome(scene, substeps);
   while (!t.converged && std::uint64_t(2 * substeps) * std::uint64_t(run.frames) <= steps) {
     substeps *= 2;
@@ -96,10 +96,10 @@ Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, 
   return t;
 }
 
-Truth body_truth(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
+SolverReference body_reference(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
   const ReferenceBody body(world.prototype(0), world.scene());
   Reference r = find_reference(body, state_of(world, 0), bound, {.seconds = run.seconds(), .steps = steps});
-  Truth t{};
+  SolverReference t{};
   t.energy = body.energy(r.end);
   t.bodies.push_back(std::move(r.end));
   t.step = r.step, t.change = r.change, t.growth = r.growth, t.converged = r.converged;
@@ -132,22 +132,23 @@ double energy_scale(const World& world, BodyId id) {
   return std::max(energy - body.energy(now), p.material.mass * 9.81 * p.radius);
 }
 
-Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
+SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
+                                      std::uint64_t steps) {
   const World world = make_world(scene, run, rk4(), 1, 1);
-  Truth t = ReferenceBody::missing(world).empty() ? body_truth(world, run, bound, steps)
-                                                  : world_truth(scene, run, bound, steps);
+  SolverReference t = ReferenceBody::missing(world).empty() ? body_reference(world, run, bound, steps)
+                                                            : world_reference(scene, run, bound, steps);
   for (BodyId b = 0; b < world.bodies().count(); ++b) t.energy_scale += energy_scale(world, b);
   return t;
 }
 
-WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) {
+WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReference& reference) {
   WorkPoint p;
   const World world(scene.scene, {.substeps = 1});
   p.blew_up = !o.finite;
   if (p.blew_up) return p;
-  p.error = error_of(o.bodies, truth.bodies, world);
+  p.error = error_of(o.bodies, reference.bodies, world);
   p.blew_up = p.error > 10;  // R
-  p.energy = std::abs(o.energy - truth.energy) / truth.energy_scale;
+  p.energy = std::abs(o.energy - reference.energy) / reference.energy_scale;
   double square_sum = 0, volume = 0;
   bool closed = false;
   for (BodyId b = 0; b < o.bodies.size(); ++b) {
@@ -156,12 +157,12 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) 
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;
     closed = true;
-    const double right = volume_of(truth.bodies[b].x, mesh.triangles);
+    const double right = volume_of(reference.bodies[b].x, mesh.triangles);
     volume = std::max(volume, std::abs(volume_of(o.bodies[b].x, mesh.triangles) / right - 1));
   }
   p.speed = std::sqrt(square_sum);
   if (closed) p.volume = volume;
-  const RigidMotion is = rigid_motion(o.bodies[0]), should = rigid_motion(truth.bodies[0]);
+  const RigidMotion is = rigid_motion(o.bodies[0]), should = rigid_motion(reference.bodies[0]);
   const bool alone = o.bodies.size() == 1 && scene.scene.gravity == glm::dvec3(0.0);
   if (alone && glm::length(should.velocity) > 1e-6) p.linear = relative(is.velocity, should.velocity);
   if (alone && glm::length(should.momentum) > 1e-6) p.angular = relative(is.momentum, should.momentum);

@@ -25,7 +25,7 @@ Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbod
                    int copies);
 
 /// What outcomes are held against.
-struct Truth {
+struct SolverReference {
   std::vector<BodyState> bodies;
   double energy;        // J
   double energy_scale;  // J
@@ -35,12 +35,13 @@ struct Truth {
 };
 /// bound: R, of the change when the step is halved; steps: at most. The reference's own model where it is the scene's;
 /// else the world's rk4.
-Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps);
+SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
+                                      std::uint64_t steps);
 
 /// J a body: what an error in energy is held against, the larger of its energy above balance and m g R.
 double energy_scale(const softbody::World& world, softbody::BodyId body);
 
 /// All but substeps and times.
-WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const Truth& truth);
+WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const SolverReference& reference);
 
 }  // namespace app

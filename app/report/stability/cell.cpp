@@ -153,10 +153,10 @@ class Run {
 AgainstReference compare(const World& world, const StabilityStart& start) {
   const softbody::Prototype& p = world.prototype(0);
   const BodyState end = state_of(world, 0);
-  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius,
-                     .rest = std::max(0.0, internal_speed(end) - internal_speed(start.truth))};
+  AgainstReference r{.shape = shape_distance(end.x, start.reference.x) / p.radius,
+                     .rest = std::max(0.0, internal_speed(end) - internal_speed(start.reference))};
   if (p.mesh.closed)
-    r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.truth.x, p.mesh.triangles) - 1);
+    r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.reference.x, p.mesh.triangles) - 1);
   return r;
 }
 
@@ -175,7 +175,7 @@ StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrato
     World world = run.make(dt, integrator, particles);
     while (!run.lost() && run.time() < start.limits.seconds - dt / 2) run.step(world);
     StabilityFigures figures = run.figures();
-    if (start.untold.empty() && !run.lost()) figures.reference = compare(world, start);
+    if (start.not_judged.empty() && !run.lost()) figures.reference = compare(world, start);
     return figures;
   } catch (const softbody::SceneError& error) {
     return {.refused = error.what()};

@@ -1,11 +1,11 @@
 #pragma once
-// What `report stability` has found, and what it is written as.
+// What `report stability` measures, and its table, page and plot.
 
 #include <string>
 #include <vector>
 
 #include "app/reference/stability_criteria.h"
-#include "app/report/plot.h"
+#include "app/report/page.h"
 #include "app/report/stability/step_map.h"
 
 namespace app {
@@ -18,8 +18,8 @@ struct StabilityCell {
 
 /// A case at one stiffness.
 struct StabilityRow {
-  double stiffness;    // N/m; of a scene from a file the factor to its own
-  std::string untold;  // why shape, volume and rest are not judged; empty: they are
+  double stiffness;        // N/m; of a scene from a file the factor to its own
+  std::string not_judged;  // why shape, volume and rest are not judged; empty: they are
   std::vector<StabilityCell> cells;
 };
 
@@ -39,12 +39,10 @@ struct StabilityResults {
   std::vector<std::vector<StableStep>> steps;  // an integrator; empty if not asked for
 };
 
-/// A row a cell and a row a point of the map, with a header line. What has no meaning is empty.
-std::string stability_csv(const StabilityResults& results);
-/// The map of the largest stable step.
-std::vector<Plot> stability_plots(const StabilityResults& results);
-inline constexpr std::string_view stable_step_plot = "stability-steps";
-/// plots: those that lie beside it as NAME.svg and NAME.png.
-std::string stability_markdown(const StabilityResults& results, const std::vector<Plot>& plots);
+/// Returns stability.csv: a row per cell and a row per point of the map of steps. What has no meaning is empty.
+Table stability_table(const StabilityResults& results);
+Page stability_page(const StabilityResults& results);
+/// Returns the map of the largest stable step; a plot without a series if there are no steps.
+Plot step_against_stiffness(const StabilityResults& results);
 
 }  // namespace app

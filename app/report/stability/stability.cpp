@@ -22,8 +22,8 @@ constexpr std::array quick_factors{1e-1, 1e0, 1e3};
 constexpr std::array quick_cases{"rest", "flattened", "impact-100"};
 
 struct Effort {
-  double seconds;             // simulated
-  std::uint64_t truth_steps;  // at most
+  double seconds;                 // simulated
+  std::uint64_t reference_steps;  // at most
 };
 
 /// What is to be run: a case, or the user's scene, at one stiffness.
@@ -89,11 +89,11 @@ class StabilityReport {
     StabilityRow& row = row_of(job);
     try {
       job.start = prepare(job.make(), effort_.seconds);
-      find_truth(job.start, effort_.truth_steps);
+      find_reference(job.start, effort_.reference_steps);
     } catch (const softbody::SceneError& error) {
       for (StabilityCell& cell : row.cells) cell.figures.refused = error.what();
     }
-    row.untold = job.start.untold;
+    row.not_judged = job.start.not_judged;
   }
 
   void run_one(const Job& job, std::size_t index) {
@@ -132,12 +132,8 @@ void report_stability(const ReportOptions& options) {
   prepare_folder(options.out);
   collide::Workers workers(options.threads.value_or(options.cores));
   report.run(workers);
-  const StabilityResults& results = report.results;
-  write_report(options.out, {.csv_name = "stability.csv",
-                             .csv = stability_csv(results),
-                             .markdown_name = "stability.md",
-                             .plots = stability_plots(results),
-                             .markdown = [&](const auto& drawn) { return stability_markdown(results, drawn); }});
+  write_report(options.out, "stability.csv", stability_table(report.results), "stability.md",
+               stability_page(report.results));
 }
 
 }  // namespace app

@@ -120,9 +120,9 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   return s;
 }
 
-void find_truth(StabilityStart& start, std::uint64_t steps) {
+void find_reference(StabilityStart& start, std::uint64_t steps) {
   World world(start.scene, {.substeps = 1});
-  const auto no = [&](const std::string& why) { start.untold = fmt::format("the reference {}", why); };
+  const auto no = [&](const std::string& why) { start.not_judged = fmt::format("the reference {}", why); };
   if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
     return no(fmt::format("does not model {}", missing));
   world.set_particles(0, start.particles[0]);
@@ -145,7 +145,7 @@ void find_truth(StabilityStart& start, std::uint64_t steps) {
   const Flight beside = flown(disturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
   if (!beside.complete || !settled(beside) || !alike(body, beside.end, finer.end))
     return no("comes to rest later or elsewhere after a disturbance by the last digits of a float");
-  start.truth = std::move(finer.end);
+  start.reference = std::move(finer.end);
 }
 
 }  // namespace app

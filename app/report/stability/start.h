@@ -30,15 +30,15 @@ struct StabilityStart {
   double above_balance = 0;            // J, E0 - E_eq of those that begin
   std::vector<Member> members{};       // the bodies of the scene
   std::vector<glm::dvec3> balanced{};  // m, the first body's shape in balance
-  BodyState truth{};                   // the reference's end, if untold is empty
-  std::string untold{};                // why no reference judges shape, volume and rest
+  BodyState reference{};               // the reference's end, if not_judged is empty
+  std::string not_judged{};            // why no reference judges shape, volume and rest
 };
 
 /// seconds: simulated. Throws SceneError if the scene cannot be.
 StabilityStart prepare(const StabilityScene& scene, double seconds);
 
-/// Fills in truth or untold; steps: of the reference, at most.
-void find_truth(StabilityStart& start, std::uint64_t steps);
+/// Fills in reference or not_judged; steps: of the reference, at most.
+void find_reference(StabilityStart& start, std::uint64_t steps);
 
 std::vector<Particles> all_particles(const softbody::World& world);
 /// J, of gravity on one body, 0 at the origin.

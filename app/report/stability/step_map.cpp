@@ -60,9 +60,9 @@ class DisturbedBall {
 
 StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness) {
   const DisturbedBall ball(stiffness);
-  StableStep s{.stiffness = stiffness, .found = longest_step_tried, .predicted = ball.predicted(integrator)};
-  if (ball.stable(integrator, longest_step_tried)) return s;
-  double good = 1e-8, bad = longest_step_tried;
+  StableStep s{.stiffness = stiffness, .found = max_step_tried, .predicted = ball.predicted(integrator)};
+  if (ball.stable(integrator, max_step_tried)) return s;
+  double good = 1e-8, bad = max_step_tried;
   while (bad / good > 1.1) {
     const double middle = std::sqrt(good * bad);
     (ball.stable(integrator, middle) ? good : bad) = middle;

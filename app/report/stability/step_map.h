@@ -10,7 +10,7 @@ struct StableStep {
   double found = 0;
   double predicted = 0;  // the integrator's own bound, safety included; infinite for what has none
 };
-inline constexpr double longest_step_tried = 0.1;  // s
+inline constexpr double max_step_tried = 0.1;  // s
 
 StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness);
 

@@ -1,0 +1,37 @@
+#pragma once
+// A report's page of Markdown, part by part.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/report/plot.h"
+#include "app/report/table.h"
+
+namespace app {
+
+class Page {
+ public:
+  /// Adds a heading or a paragraph.
+  template <class... Values>
+  void text(fmt::format_string<Values...> pattern, Values&&... values) {
+    parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
+  }
+  void list(const std::vector<std::string>& items);
+  /// Adds a table. Its first `text_columns` hold text, the others numbers.
+  void table(const Table& table, std::size_t text_columns = 1) { parts_.push_back(table.markdown(text_columns)); }
+  /// Adds a plot. A plot without a series is left out.
+  void plot(Plot plot);
+
+  const std::vector<Plot>& plots() const { return plots_; }
+  /// Returns the text. With plots it shows each plot, which lies beside it as NAME.svg.
+  std::string markdown(bool with_plots) const;
+
+ private:
+  std::vector<std::string> parts_;  // empty: the next plot
+  std::vector<Plot> plots_;
+};
+
+}  // namespace app
