@@ -1,7 +1,6 @@
 #pragma once
 // CSV, RFC 4180 but for the line ends, which are "\n".
 
-#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -29,12 +28,8 @@ class CsvLine {
     text_ += '"';
   }
   void add(double number) { add(std::string_view(fmt::format("{:.9g}", number))); }
-  void add(std::uint64_t number) { add(std::string_view(std::to_string(number))); }
-  /// The number if it means something, else an empty field.
-  template <class Number>
-  void add_if(bool known, Number number) {
-    known ? add(number) : add(std::string_view());
-  }
+  /// Adds the number, or an empty field if it is not known.
+  void add_if(bool known, double number) { known ? add(number) : add(std::string_view()); }
 
  private:
   std::string& text_;

@@ -1,11 +1,20 @@
 #pragma once
-// Repeated measurements of one duration.
+// Processor time, and repeated measurements of one duration.
+
+#include <time.h>
 
 #include <algorithm>
 #include <numeric>
 #include <vector>
 
 namespace app {
+
+/// Returns the processor time of this thread (s).
+inline double thread_seconds() {
+  timespec t{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
 
 /// In milliseconds; least() and median() need at least one.
 struct Times {

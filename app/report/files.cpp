@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 
 #include "app/files/inputs.h"
@@ -31,6 +32,17 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
 
 void say(const std::string& what, double progress) {
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
+}
+
+void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
+                     const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next{0};
+  workers.run([&](int thread) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      if (thread == 0) say(what(i), static_cast<double>(i) / static_cast<double>(count));
+      task(i);
+    }
+  });
 }
 
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {

@@ -1,18 +1,24 @@
 #pragma once
 // What all reports share: the scenes that they run, the line that shows progress, the files that they write.
 
+#include <functional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "app/report/page.h"
 #include "app/report/report.h"
+#include "collide/core/workers.h"
 #include "softbody/scene.h"
 
 namespace app {
 
 /// Shows in the last line of a terminal what is going on. `progress`: from 0 to 1.
 void say(const std::string& what, double progress);
+
+/// Calls `task(i)` for each i below `count`, on all workers side by side, and shows `what(i)` meanwhile.
+void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
+                     const std::function<void(std::size_t)>& task);
 
 /// Returns the scene that is asked for, or all. Throws SceneError.
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);

@@ -1,5 +1,5 @@
 #pragma once
-// Pictures drawn by gnuplot, a program of its own (package gnuplot-nox) that is there or not.
+// Pictures drawn by gnuplot, a separate program (package gnuplot-nox) that may be missing.
 
 #include <string>
 

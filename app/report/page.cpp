@@ -2,11 +2,6 @@
 
 namespace app {
 
-void Page::list(const std::vector<std::string>& items) {
-  std::string& text = parts_.emplace_back();
-  for (const std::string& item : items) text += fmt::format("- {}\n", item);
-}
-
 void Page::plot(Plot plot) {
   if (plot.series.empty()) return;
   plots_.push_back(std::move(plot));

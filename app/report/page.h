@@ -19,7 +19,15 @@ class Page {
   void text(fmt::format_string<Values...> pattern, Values&&... values) {
     parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
   }
-  void list(const std::vector<std::string>& items);
+  /// Adds an item of a list.
+  template <class... Values>
+  void item(fmt::format_string<Values...> pattern, Values&&... values) {
+    const std::string text = fmt::format("- {}\n", fmt::format(pattern, std::forward<Values>(values)...));
+    if (!parts_.empty() && parts_.back().starts_with("- "))
+      parts_.back() += text;
+    else
+      parts_.push_back(text);
+  }
   /// Adds a table. Its first `text_columns` hold text, the others numbers.
   void table(const Table& table, std::size_t text_columns = 1) { parts_.push_back(table.markdown(text_columns)); }
   /// Adds a plot. A plot without a series is left out.

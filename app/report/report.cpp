@@ -5,10 +5,6 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
-#include "app/report/contact/contact.h"
-#include "app/report/detection/detection.h"
-#include "app/report/solver/solver.h"
-#include "app/report/stability/stability.h"
 
 namespace app {
 namespace {
@@ -18,7 +14,6 @@ struct Report {
   void (*make)(const ReportOptions& options);
 };
 
-/// All there are.
 constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
                              Report{"solver", report_solver}, Report{"stability", report_stability}};
 

@@ -32,7 +32,7 @@ bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from,
   return false;
 }
 
-bool SolidPassages::look(const softbody::World& world) {
+bool SolidPassages::observe(const softbody::World& world) {
   bool finite = true;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
     const softbody::Prototype& p = world.prototype(b);

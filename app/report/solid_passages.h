@@ -1,4 +1,5 @@
 #pragma once
+// Bodies that pass through solids.
 
 #include <vector>
 
@@ -6,15 +7,16 @@
 
 namespace app {
 
-/// m, world, the mean of a body's vertices.
+/// Returns the mean of a body's vertices (m, in the world).
 glm::dvec3 middle_of(const softbody::World& world, collide::Index body);
 
-/// Counts how often a closed body has gone through a solid: its middle has, straight from where it was outside last.
-/// That of one wrapped around a solid may lie inside for a while, but comes out again on the side that it went in.
+/// Counts how often a closed body has gone through a solid: its middle has, on a straight line from where it was
+/// outside last. The middle of a body that is wrapped around a solid may be inside for a while, but comes out on the
+/// same side.
 class SolidPassages {
  public:
-  /// Once before the first step and after each. Returns false if some middle is not finite.
-  bool look(const softbody::World& world);
+  /// Call it once before the first step and after each step. Returns false if some middle is not finite.
+  bool observe(const softbody::World& world);
   std::size_t count() const { return count_; }
 
  private:

@@ -1,4 +1,4 @@
-// `report solver`: the files that it leaves, and that its figures say what is known beforehand.
+// `report solver`: its files, and figures that are known beforehand.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace cli::test {
 namespace {
 
-/// Of one integrator, the rows in order.
+/// Returns the rows of each integrator, in order.
 std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& csv) {
   std::map<std::string, std::vector<Row>> curves;
   for (Row& row : read_csv(csv)) curves[row["integrator"]].push_back(row);
@@ -17,7 +17,7 @@ std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& c
 
 class SolverReport : public testing::Test {
  protected:
-  /// A small ball that falls, for the time of the report, without meeting anything.
+  /// Makes a report on a small ball that falls freely.
   void make(const std::string& more = "") {
     const auto scene = folder_.write(
         "ball.toml",
@@ -66,7 +66,7 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   EXPECT_NE(text.find(cut_short ? "since runs took longer than" : "All curves end"), std::string::npos);
 }
 
-TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
+TEST_F(SolverReport, SaysThatTheReferenceDoesNotModelAScene) {
   make("internal_damping = 5\n");
   EXPECT_NE(read_file(out_ / "solver.md").find("rk4 in floats"), std::string::npos);
   for (auto& [key, curve] : curves_of(out_ / "solver.csv")) {
@@ -74,7 +74,7 @@ TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
   }
 }
 
-TEST(SolverReportErrors, AreSaidBeforeAnythingRuns) {
+TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
   const Outcome none = run({"report", "solver", "--quick", "--scene", empty, "--out", folder.path() / "out"});

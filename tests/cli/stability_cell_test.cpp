@@ -1,4 +1,5 @@
-// Cells of `report stability` in which bodies join a world that is under way: what they bring is theirs, and no more.
+// Cells of `report stability` in which bodies join a running world: they are credited with what they bring, and no
+// more.
 
 #include "app/report/stability/cell.h"
 
@@ -8,14 +9,13 @@
 #include <cmath>
 
 #include "app/report/stability/cases.h"
-#include "app/report/stability/joiners.h"
 
 namespace app::test {
 namespace {
 
 constexpr double dt = 1.0 / 30;  // s
 
-/// Balls in balance, R = 0.5 m, that join one after another; no gravity, no solids, no sleep.
+/// Returns balls in balance, R = 0.5 m, that join one after another, without gravity, solids and sleep.
 softbody::Scene balls(std::initializer_list<softbody::BodySource> sources, double stiffness = 1e3) {
   softbody::Scene scene = lone_scene(ball_material(stiffness, 0.1));
   const softbody::MeshSource mesh = scene.bodies[0].mesh;
@@ -40,7 +40,7 @@ StabilityFigures run(const softbody::Scene& scene, std::string_view integrator, 
 }
 
 /// An explicit Euler step adds 1/2 m (g dt)^2 to a body that begins to fall, a Verlet step nothing.
-TEST(StabilityCell, WhatAJoinerGainsInItsFirstFrameIsAGain) {
+TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
   constexpr int appear = 5;
   for (const double height : {-40.0, 40.0}) {  // m: also one whose energy is negative
     softbody::Scene scene = balls({joiner(0, {9, 0, 0}), joiner(appear, {0, height, 0}, {0, 3, 0})});
@@ -55,7 +55,7 @@ TEST(StabilityCell, WhatAJoinerGainsInItsFirstFrameIsAGain) {
   }
 }
 
-/// A stiff shield around a ball, and a second one that joins.
+/// Returns a ball with a stiff shield, and a second ball that joins.
 softbody::Scene joined_by(const softbody::BodySource& second) {
   softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
   scene.materials[0].contact_stiffness = 1e8;
@@ -63,14 +63,14 @@ softbody::Scene joined_by(const softbody::BodySource& second) {
   return scene;
 }
 
-TEST(StabilityCell, JoinersHaveWhatPairsHoldWhereTheyJoin) {
+TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
   softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
   scene.materials[0].contact_stiffness = 1e3;
   EXPECT_LE(run(scene, "auto", 12).energy, stability_bounds.energy);
 }
 
-/// It flies into the other one from afar: in that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
-TEST(StabilityCell, WhatAJoinersFirstFrameLeadsIntoIsNotItsOwn) {
+/// It flies into the other ball from afar. In that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
+TEST(StabilityCell, DoesNotCreditWhatAJoinersFirstFrameCarriesItInto) {
   constexpr int appear = 3;
   constexpr double speed = 100, g = speed / dt;  // m/s, m/s^2
   softbody::Scene scene = joined_by(joiner(appear, {0.7 + speed * dt, 0.01, 0.02}, {-speed, 0, 0}));
@@ -83,7 +83,7 @@ TEST(StabilityCell, WhatAJoinersFirstFrameLeadsIntoIsNotItsOwn) {
   EXPECT_NEAR(run(scene, "explicit-euler", appear + 1).energy, 1, 1e-3);
 }
 
-TEST(StabilityCell, AskingWhatJoinersHoldLeavesTheWorldAsItWas) {
+TEST(StabilityCell, LeavesTheWorldAsItWasWhenAskedWhatJoinersHold) {
   for (const char* integrator : {"auto", "implicit", "velocity-verlet"}) {
     softbody::Scene scene = balls({joiner(0, {0, 0, 0}), joiner(0, {1.22, 0, 0}, {-1, 0, 0})});
     const softbody::World::Options options{.integrator = integrator};
@@ -100,8 +100,8 @@ TEST(StabilityCell, AskingWhatJoinersHoldLeavesTheWorldAsItWas) {
   }
 }
 
-/// Nobody is there at the start: what may be gained and how deep a solid may be entered is known all the same.
-TEST(StabilityCell, ASceneWhoseBodiesAllJoinLaterIsJudged) {
+/// No body is there at the start. The bounds of energy and depth are known all the same.
+TEST(StabilityCell, JudgesASceneWhoseBodiesAllJoinLater) {
   softbody::Scene falling = balls({joiner(2, {0, 40, 0})});
   falling.gravity = {0, -9.81, 0};
   EXPECT_NEAR(prepare({.scene = falling}, 1).limits.radius, 0.5, 0.01);
@@ -117,8 +117,8 @@ TEST(StabilityCell, ASceneWhoseBodiesAllJoinLaterIsJudged) {
   EXPECT_GT(run(stiff, "explicit-euler", 20).energy, stability_bounds.energy);
 }
 
-/// Explicit Euler gains with every frame; what a heavy body will bring, which is not there yet, allows it no more.
-TEST(StabilityCell, WhoIsYetToJoinLoosensNothing) {
+/// Explicit Euler gains energy in every frame. A heavy body that is still to join must not allow it more.
+TEST(StabilityCell, AllowsNoMoreForBodiesThatAreStillToJoin) {
   softbody::Scene lone = balls({joiner(0, {0, 0, 0})}), awaiting = balls({joiner(0, {0, 0, 0}), joiner(5, {9, 0, 0})});
   for (softbody::Scene* scene : {&lone, &awaiting}) scene->gravity = {0, -98.1, 0};
   awaiting.materials.push_back(ball_material(1e3, 0.1));
@@ -129,8 +129,8 @@ TEST(StabilityCell, WhoIsYetToJoinLoosensNothing) {
   EXPECT_DOUBLE_EQ(run(awaiting, "explicit-euler", 1).energy, gain);
 }
 
-/// Joining order is not the file's.
-TEST(StabilityCell, BodiesAreToldApartByWhenTheyJoin) {
+/// Bodies join in another order than that of the file.
+TEST(StabilityCell, TellsBodiesApartByWhenTheyJoin) {
   softbody::Scene scene = balls({joiner(4, {9, -30, 0}), joiner(0, {0, 0, 0}), joiner(2, {0, 50, 0}, {0, 20, 0})});
   scene.gravity = {0, -9.81, 0};
   scene.materials.push_back(ball_material(1e3, 0.1));
@@ -139,8 +139,8 @@ TEST(StabilityCell, BodiesAreToldApartByWhenTheyJoin) {
   EXPECT_NEAR(run(scene, "auto", 8).energy, 0, 1e-3);
 }
 
-/// The hardest of the report's own cases: frames of 1/30 s, in which a stiff ball flies 33 m.
-TEST(StabilityCell, AHitWith1000MetresASecondTakesNoMoreStepsThanThereMayBe) {
+/// The hardest case of the report: frames of 1/30 s, in which a stiff ball flies 33 m.
+TEST(StabilityCell, RunsAHitWith1000MetresASecondWithinTheAllowedSteps) {
   const auto all = stability_cases();
   const auto hit = std::ranges::find(all, "impact-1000", &StabilityCase::key);
   ASSERT_NE(hit, all.end());

@@ -1,4 +1,6 @@
 #include <algorithm>
+#include <cassert>
+#include <span>
 
 #include <fmt/ranges.h>
 
@@ -13,40 +15,149 @@ std::string choice_name(const ContactChoice& choice) {
                      choice.tolerance);
 }
 
+// ---- the table of figures ----
+
 namespace {
+
+std::string_view key_of(softbody::ContactSurface surface) {
+  return std::ranges::find(softbody::contact_surfaces, surface, &softbody::ContactSurfaceInfo::value)->key;
+}
+
+TableRow row_of(const ContactCase& c, const ContactTrial& t) {
+  const bool run = t.not_run.empty();
+  const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
+  return {
+      {"part", c.impact ? "impact" : "scene"},
+      {"scene", c.key},
+      {"speed", when(c.impact, c.speed)},
+      {"contact_surface", key_of(t.choice.surface)},
+      {"method", when(vertices, t.choice.method)},
+      {"tolerance_ratio", when(vertices, t.choice.tolerance)},
+      {"tolerance", when(vertices && run, t.tolerance)},
+      {"not_run", t.not_run},
+      {"radius", when(run && t.radius > 0, t.radius)},
+      {"bodies", when(run, t.bodies)},
+      {"vertices", when(run, t.vertices)},
+      {"frames", when(run, t.frames)},
+      {"looks", when(run, t.looks)},
+      {"cpu_ms", when(run, t.cpu_ms)},
+      {"detect_ms", when(run, t.detect_ms)},
+      {"solve_ms", when(run, t.solve_ms)},
+      {"penetrations", when(run, t.penetrations)},
+      {"missed", when(run && vertices, t.missed)},
+      {"deepest", when(run, t.deepest)},
+      {"mean_depth", when(run, t.mean_depth)},
+      {"solid_depth", when(run, t.solid_depth)},
+      {"crossed_vertices", when(run, t.crossed_vertices)},
+      {"edge_crossings", when(run, t.edge_crossings)},
+      {"passed", when(run, t.passed)},
+      {"through_solids", when(run, t.through_solids)},
+      {"finite", when(run, t.finite)},
+      {"asleep", when(run, t.asleep)},
+      {"end_depth", when(run, t.end_depth)},
+      {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
+      {"end_self_intersecting", when(run, t.self_intersecting)},
+      {"jitter", when(run, t.jitter)},
+      {"failures", when(run, fmt::format("{}", fmt::join(t.failures(), "; ")))},
+  };
+}
+
+}  // namespace
+
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+constexpr const char* axis_from_zero =
+    "unset logscale y\nset yrange [0:*]\nset offsets graph 0, graph 0, graph 0.05, graph 0\n";
+
+/// Series have the methods' colours, black for surface contact, and a shape per tolerance.
+Series series(const ContactChoice& choice, std::string_view lines, std::vector<Point> points) {
+  const bool surface = choice.surface == softbody::ContactSurface::surfaces;
+  const double x = choice.tolerance;
+  const int shape = surface ? 7 : x < 0.5 ? 9 : x < 1 ? 11 : x > 1 ? 13 : 5;
+  return {choice_name(choice), surface ? "#000000" : colour(*collide::find_method(choice.method)),
+          fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
+}
+
+Plot depth_against_time(const ContactCase& c) {
+  Plot plot{.name = "contact-time-" + c.key,
+            .caption = c.name + ": left is cheaper, down is more accurate.",
+            .title = c.name + ": the deepest penetration against run time",
+            .x = "a frame, ms of processor time",
+            .y = "deepest penetration, R",
+            .settings = axis_from_zero};
+  for (const ContactTrial& t : c.trials)
+    if (t.not_run.empty() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
+  return plot;
+}
+
+Plot passed_against_speed(std::span<const ContactCase> cases) {
+  assert(!cases.empty());
+  const ContactCase& first = cases.front();
+  const bool solid = first.key == "solid";
+  Plot plot{.name = "contact-impact-" + first.key,
+            .caption = first.name + ": 0 is right.",
+            .title = first.name + ": what passed through",
+            .x = "speed, m/s",
+            .y = solid ? "bodies that went through the solid" : "vertices that passed through",
+            .settings = axis_from_zero};
+  for (std::size_t i = 0; i < first.trials.size(); ++i) {
+    std::vector<Point> points;
+    for (const ContactCase& c : cases) {
+      const ContactTrial& t = c.trials[i];
+      if (t.not_run.empty()) points.push_back({c.speed, static_cast<double>(solid ? t.through_solids : t.passed)});
+    }
+    plot.add(series(first.trials[i].choice, "linespoints", std::move(points)));
+  }
+  return plot;
+}
+
+// ---- the page ----
 
 void add_introduction(Page& page, const ContactResults& r) {
   page.text("# Contact: how accurate it is, and what it costs");
   page.text("`{}` makes this report. All figures except times are the same on every machine.", r.command);
-  std::vector<std::string> items{
+  page.item(
       "Every scene, and spheres thrown at 1 to 1,000 m/s, run with surface contact and with the paper's vertex-vertex "
       "contact at several tolerances. \"x 1\" is the scene's own tolerance (0.2 R for the spheres). An oracle judges "
-      "them. It shares no code with the detectors and the contact response.",
+      "them. It shares no code with the detectors and the contact response.");
+  page.item(
       "Vertex-vertex contact runs with the literal method and with one of the exact methods. All other methods are "
       "exact, too: they find the same contacts, so the bodies move alike. `report detection` says what each costs. "
       "Surface contact has one search of its own, which is exact. Detector and tolerance do not change what it does, "
-      "so it has one row.",
-      fmt::format("The oracle looks for overlaps every {} frames (impacts: every frame). Penetrating: vertices inside "
-                  "another body, per look. Missed: the share of them that no contact of the detector joins to that "
-                  "body. R: radius of the smallest closed body.",
-                  r.limits.stride),
+      "so it has one row.");
+  page.item(
+      "The oracle looks for overlaps every {} frames (impacts: every frame). Penetrating: vertices inside another "
+      "body, per look. Missed: the share of them that no contact of the detector joins to that body. R: radius of the "
+      "smallest closed body.",
+      r.limits.stride);
+  page.item(
       "Passed: vertices that came to the other side of a surface from one frame to the next (where bodies are slow, "
       "from one centimetre of motion to the next), summed. The path of a vertex is taken as a straight line, which "
       "cuts the corners of a curved path. So a vertex that went in and out counts only if its bodies passed each other "
       "by more than R. `contact.csv` also has all passages of vertices through faces and of edges through edges. "
-      "Through a solid: bodies whose middle went through one.",
-      "Jitter: RMS speed over the last second of the particles whose bodies do not sleep.",
-      "ms: processor time of a step on one thread, mean over the frames until all bodies slept.",
-      fmt::format("A scene fails if: something is not finite; anything passed or went through a solid; a body pierces "
-                  "itself at the end; something is deeper than {:g} R at the end, or in a solid at any time; in scenes "
-                  "with gravity also if not all bodies sleep after {} frames.",
-                  ContactTrial::depth_bound, r.limits.frames),
-      fmt::format("Budget: scenes with more than {} vertices times frames, and runs of more than {:g} s of processor "
-                  "time, are listed as over budget.",
-                  whole(static_cast<double>(r.vertex_frames)), r.limits.seconds),
-      "`contact.csv` has every figure."};
-  if (r.quick) items.push_back("This is the quick report: fewer scenes, frames, speeds and tolerances.");
-  page.list(items);
+      "Through a solid: bodies whose middle went through one.");
+  page.item("Jitter: RMS speed over the last second of the particles whose bodies do not sleep.");
+  page.item("ms: processor time of a step on one thread, mean over the frames until all bodies slept.");
+  page.item(
+      "A scene fails if: something is not finite; anything passed or went through a solid; a body pierces itself at "
+      "the end; something is deeper than {:g} R at the end, or in a solid at any time; in scenes with gravity also if "
+      "not all bodies sleep after {} frames.",
+      ContactTrial::depth_bound, r.limits.frames);
+  page.item(
+      "Budget: scenes with more than {} vertices times frames, and runs of more than {:g} s of processor time, are "
+      "listed as over budget.",
+      whole(static_cast<double>(r.vertex_frames)), r.limits.seconds);
+  page.item("`contact.csv` has every figure.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, frames, speeds and tolerances.");
 }
 
 std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {

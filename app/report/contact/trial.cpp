@@ -8,12 +8,12 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "app/base/times.h"
 #include "app/base/usage_error.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/scene_folder.h"
-#include "app/report/cpu_clock.h"
-#include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
 
 namespace app {
@@ -28,7 +28,7 @@ double smallest_closed_radius(const softbody::World& world) {
   return radius;
 }
 
-/// A run, and what is seen on the way.
+/// A run, and what is measured on the way.
 class Trial {
  public:
   Trial(softbody::Scene scene, const TrialLimits& limits, ContactTrial& result)
@@ -37,7 +37,7 @@ class Trial {
     result_.tolerance = double{world_.collision().tolerance};
     oracle_.crossings(world_);
     remember_middles();
-    passages_.look(world_);
+    passages_.observe(world_);
   }
 
   void run() {
@@ -85,9 +85,9 @@ class Trial {
     if (awake_particles_ > 0 && !result_.asleep) result_.jitter = std::sqrt(squares_ / awake_particles_);
   }
 
-  /// Unless no vertex has gone so far (m) since the last look.
-  void look_for_passages(double way) {
-    if (oracle_.moved(world_) < way) return;
+  /// Looks for passages if a vertex has moved by `min_way` (m) since the last look.
+  void look_for_passages(double min_way) {
+    if (oracle_.moved(world_) < min_way) return;
     const std::vector<collide::oracle::Crossing> crossings = oracle_.crossings(world_);
     const auto figures = collide::oracle::figures_of(world_.positions(), {}, crossings);
     result_.passed += passed(crossings);
@@ -96,9 +96,9 @@ class Trial {
     remember_middles();
   }
 
-  /// Vertices that came to be inside a closed body, or on the other side of an open or their own surface. The straight
-  /// way from one look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for
-  /// having stayed outside, unless the two bodies passed each other by more than the smallest body's radius meanwhile.
+  /// Counts vertices that came to be inside a closed body, or on the other side of an open surface or their own. The
+  /// straight line from one look to the next cuts the corners of a curved path. So a vertex that went in and out again
+  /// counts as having stayed outside, unless the two bodies passed each other by more than the smallest body's radius.
   std::size_t passed(const std::vector<collide::oracle::Crossing>& crossings) const {
     std::map<std::pair<collide::Index, collide::Index>, int> balance;  // by vertex and the other body
     std::set<collide::Index> vertices;
@@ -116,7 +116,7 @@ class Trial {
     return vertices.size();
   }
 
-  /// Of a body's middle, since the last look for passages.
+  /// Returns the way of a body's middle since the last look for passages.
   glm::dvec3 way_of(collide::Index body) const {
     return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
   }
@@ -157,14 +157,13 @@ class Trial {
   }
 
   void look_into_solids() {
-    if (!passages_.look(world_)) result_.finite = false;
+    if (!passages_.observe(world_)) result_.finite = false;
     result_.through_solids = passages_.count();
   }
 
   static constexpr int last_second = 60;  // frames
-  // m, of a vertex between two looks for passages: what it goes in substeps before they are looked at is still
-  // straight, a tenth of the scenes' spheres' radius; what it must have gone at the end of a frame, their bound of
-  // depth.
+  // The way (m) of a vertex from which on passages are looked for. After a substep: a way that is still straight, a
+  // tenth of the radius of the scenes' spheres. After a frame: the bound of their depth.
   static constexpr double straight_way = 0.05, rest_way = 0.01;
 
   const TrialLimits& limits_;
@@ -180,7 +179,7 @@ class Trial {
 
 constexpr double ball_radius = 0.5, gap = 0.3;  // m
 
-/// The scene, without gravity and bodies; its first material is what they are made of.
+/// Returns the scene A without gravity, solids and bodies. Its first material is that of the balls.
 softbody::Scene empty_scene(const std::string& key) {
   softbody::Scene scene = softbody::find_scene("A", scene_folder());
   scene.gravity = glm::dvec3(0.0);
@@ -191,7 +190,7 @@ softbody::Scene empty_scene(const std::string& key) {
   return scene;
 }
 
-/// A ball flies down towards the origin, a little off the middle; `top`: of what is there.
+/// Adds a ball that flies down to the origin, a little off the middle. `top`: height of what is there.
 void add_ball(softbody::Scene& scene, double top, double speed) {
   softbody::BodySource ball;
   ball.mesh.radius = ball_radius;
@@ -251,7 +250,7 @@ std::vector<std::string> ContactTrial::failures() const {
   return all;
 }
 
-ContactTrial try_contact(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits) {
+ContactTrial run_contact_trial(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits) {
   ContactTrial result{.choice = choice};
   scene.contact_surface = choice.surface;
   scene.method = choice.method;

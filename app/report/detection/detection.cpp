@@ -1,5 +1,3 @@
-#include "app/report/detection/detection.h"
-
 #include <algorithm>
 
 #include "app/files/output_file.h"
@@ -33,7 +31,8 @@ SceneResult sweep_scene(const Recording& recording, const DetectionResults& resu
   return scene;
 }
 
-/// The paper's level and the automatic cell, with its 1001 buckets and with the most of the sweep.
+/// Returns those with the paper's level and the automatic cell, with its 1001 buckets and with the sweep's largest
+/// number.
 std::vector<Configuration> growth_configurations(std::vector<Configuration> all) {
   std::erase_if(all, [](const Configuration& c) {
     const collide::Method& method = method_of(c);
@@ -47,7 +46,7 @@ std::vector<Configuration> growth_configurations(std::vector<Configuration> all)
 
 SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
   SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
-  const RecordedState& all = recording.states.front();  // not piled up yet: the middle is as dense as the rest
+  const RecordedState& all = recording.states.front();  // no pile yet: the middle is as dense as the rest
   const auto configurations = growth_configurations(recording.configurations);
   const auto add = [&](const RecordedState& state) {
     const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
@@ -68,9 +67,9 @@ DetectionResults measure(const ReportOptions& options, const std::vector<softbod
   results.command = command_of(options);
   collide::Workers workers(results.threads);
   const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
-  const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
+  const std::size_t max_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
-    const bool largest = bodies(scene) == most_bodies;
+    const bool largest = bodies(scene) == max_bodies;
     const bool swept = !options.quick || options.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);

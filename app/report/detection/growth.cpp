@@ -41,11 +41,9 @@ void add_hash_counts(Page& page, const DetectionResults& r) {
   page.text("### Hashes: N vertices against 8 corners a box");
   page.text(
       "Hash evaluations a frame, automatic cell size, means over the states; in brackets as a share of the N vertices. "
-      "A "
-      "vertex hash fills its table with N of them. The others are the look-ups of all cells within the tolerance, "
+      "A vertex hash fills its table with N of them. The others are the look-ups of all cells within the tolerance, "
       "without which it would miss contacts. The eight corners of the boxes save hashes only where a body has more "
-      "than "
-      "eight vertices a box.");
+      "than eight vertices a box.");
   page.table(table);
 }
 
@@ -104,6 +102,28 @@ Table growth_table(const SceneResult& growth) {
   return table;
 }
 
+Plot cost_against_bodies(const SceneResult& growth) {
+  Plot plot{.name = "cost-bodies",
+            .caption = "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
+            .title = "Cost of a frame against the number of bodies",
+            .x = "bodies",
+            .y = "detection from scratch, ms a frame",
+            .settings = "set ytics format '%g'\n"};
+  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
+    const Configuration& c = growth.states.front().sweep.rows[i].configuration;
+    const collide::Method& method = method_of(c);
+    const bool dashed = method.uses_hash && c.settings.buckets == sweep_buckets.back();
+    Series series{std::string(method.name) + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""),
+                  colour(method),
+                  fmt::format("linespoints pointtype 7 pointsize 0.7 linewidth 2 dashtype {}", dashed ? 2 : 1)};
+    for (const StateResult& state : growth.states)
+      if (const SweepRow& row = state.sweep.rows[i]; row.not_run.empty())
+        series.points.push_back({static_cast<double>(state.bodies), row.times.median()});
+    plot.add(std::move(series));
+  }
+  return plot;
+}
+
 }  // namespace
 
 void add_growth(Page& page, const DetectionResults& results) {
@@ -115,8 +135,7 @@ void add_growth(Page& page, const DetectionResults& results) {
   page.text("### Growth with the number of bodies");
   page.text(
       "The bodies nearest to the middle of `{}`, in frame {}, the first one recorded, where the middle is as dense as "
-      "the "
-      "rest; level 3, automatic cell size: median ms a frame, in brackets ns a vertex. p: a cost grows as bodies^p "
+      "the rest; level 3, automatic cell size: median ms a frame, in brackets ns a vertex. p: a cost grows as bodies^p "
       "between the last two columns that were run; 0 would be O(1), 1 is linear, 2 is quadratic.",
       growth.scene, growth.states.back().frame);
   page.text(

@@ -1,5 +1,8 @@
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <map>
+#include <optional>
 
 #include <fmt/ranges.h>
 
@@ -7,7 +10,134 @@
 #include "app/report/detection/results.h"
 
 namespace app {
+
+// ---- the table of figures ----
+
 namespace {
+
+constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
+
+TableRow row_of(std::string_view part, const SceneResult& scene, const StateResult& state, const SweepRow& r) {
+  const Configuration& c = r.configuration;
+  const collide::Method& method = method_of(c);
+  const glm::vec3 cell = c.settings.cell_size;
+  const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
+  TableRow row{{"part", part},
+               {"scene", scene.scene},
+               {"frame", state.frame},
+               {"bodies", state.bodies},
+               {"vertices", state.vertices},
+               {"method", method.key},
+               {"levels", when(method.uses_levels, c.settings.levels)},
+               {"buckets", when(method.uses_hash, c.settings.buckets)},
+               {"cell", when(method.uses_hash, c.cell)},
+               {"cell_x", when(method.uses_hash, cell.x)},
+               {"cell_y", when(method.uses_hash, cell.y)},
+               {"cell_z", when(method.uses_hash, cell.z)},
+               {"not_run", r.not_run},
+               {"repetitions", r.times.ms.size()},
+               {"ms_median", run ? r.times.median() : TableCell()},
+               {"ms_min", run ? r.times.least() : TableCell()},
+               {"contacts", when(run, r.contacts)},
+               {"true_contacts", when(known, state.sweep.true_contacts)},
+               {"missed", when(scored, r.missed)},
+               {"recall", when(scored, r.recall)},
+               {"precision", when(scored, r.precision)},
+               {"pair_tests", when(run, r.counters.pair_tests)},
+               {"hashes", when(run, r.counters.hashes)},
+               {"boxes", when(run, r.counters.boxes)},
+               {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
+               {"memory_bytes", when(run, r.memory)}};
+  for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
+    row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
+  row.push_back({"reference", known ? method_of(*state.sweep.reference).key : TableCell()});
+  return row;
+}
+
+}  // namespace
+
+Table detection_table(const DetectionResults& results) {
+  Table table;
+  const auto add = [&](std::string_view part, const SceneResult& scene) {
+    for (const StateResult& state : scene.states)
+      for (const SweepRow& row : state.sweep.rows) table.add(row_of(part, scene, state, row));
+  };
+  for (const SceneResult& scene : results.scenes) add("sweep", scene);
+  add("growth", results.growth);
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+/// Places points without any error on the logarithmic axis of errors, which has no 0: in a band below all others, with
+/// a lane per method, so that they do not hide each other.
+class ZeroBand {
+ public:
+  explicit ZeroBand(const std::vector<Mean>& means) {
+    double min = 0.1;
+    for (const Mean& m : means)
+      if (m.not_run.empty() && m.error() > 0) min = std::min(min, m.error());
+    top_ = std::pow(10, std::floor(std::log10(min)));
+  }
+  Point point(const Mean& m) const { return {m.ms, m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
+  /// Returns the axis as gnuplot commands.
+  std::string axis() const {
+    const double bottom = lane(collide::method_table().size());
+    std::string ticks;
+    for (double tick = 1; tick > 0.99 * top_; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
+    return fmt::format(
+        "set yrange [{0:g}:1.5]\n"
+        "set object 1 rectangle from graph 0, first {0:g} to graph 1, first {1:g} behind fillcolor '#eef4ee' fillstyle "
+        "solid noborder\n"
+        "set ytics ({2}'0' {3:g})\n",
+        bottom, top_, ticks, std::sqrt(top_ * bottom));
+  }
+
+ private:
+  double lane(std::size_t number) const { return top_ * std::pow(0.7, static_cast<double>(number) + 1); }
+
+  double top_;  // the smallest error that the axis shows
+};
+
+/// Returns the points of a method, or of one of its levels. Shapes: disc, square, triangle, triangle upside down.
+Series series(const std::vector<Mean>& means, const ZeroBand& band, std::size_t method, std::optional<int> level) {
+  constexpr std::array shapes{7, 5, 9, 11};
+  const collide::Method& row = collide::method_table()[method];
+  const auto shape = level ? std::ranges::find(sweep_levels, *level) - sweep_levels.begin() : 0;
+  Series series{std::string(row.name) + (level ? fmt::format(", level {}", *level) : ""), colour(row),
+                fmt::format("points pointtype {} pointsize 0.9", shapes.at(static_cast<std::size_t>(shape)))};
+  for (const Mean& m : means)
+    if (m.not_run.empty() && m.configuration.method == method && (!level || m.configuration.settings.levels == *level))
+      series.points.push_back(band.point(m));
+  return series;
+}
+
+Plot error_against_time(const SceneResult& scene) {
+  const std::vector<Mean> all = means(scene);
+  const ZeroBand band(all);
+  Plot plot{.name = "error-time-" + scene.scene,
+            .caption = "Every configuration that ran on all states of " + scene.name +
+                       "; down and left is better, the shaded band holds those that miss nothing.",
+            .title = scene.name + ": error against run time",
+            .x = "detection from scratch, ms a frame",
+            .y = "missed share of the true contacts",
+            .settings = band.axis()};
+  std::vector<Point> front;
+  for (const std::size_t i : pareto_front(all)) front.push_back(band.point(all[i]));
+  plot.add({"Pareto front", "#000000", "steps linewidth 1.5", front});
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+    if (!collide::method_table()[m].uses_levels)
+      plot.add(series(all, band, m, {}));
+    else
+      for (const int level : sweep_levels) plot.add(series(all, band, m, level));
+  }
+  plot.add({"", "#000000", "points pointtype 6 pointsize 1.5 linewidth 1.5", front});
+  return plot;
+}
+
+// ---- the page ----
 
 std::string in_words(const Configuration& c) {
   std::string text(method_of(c).name);
@@ -24,24 +154,24 @@ void add_introduction(Page& page, const DetectionResults& r) {
       "Contacts, hashes and boxes are the same on every machine, and so are pair tests, except those of the exact "
       "method.",
       r.command);
-  std::vector<std::string> items{
+  page.item(
       "Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell sizes, "
-      "as "
-      "far as it uses them. A cell size is given in units of the automatic one: the largest box of its level at rest + "
-      "the tolerance.",
-      fmt::format(
-          "Detectors run on {} thread{}, from scratch: they forget before each run what they learnt from earlier "
-          "frames. All configurations run once to be checked and at most {} times to be timed, in rounds of "
-          "shuffled order. A configuration that has taken {:g} ms is left out of further rounds.",
-          r.threads, r.threads == 1 ? "" : "s", l.repetitions, l.repeat_ms),
-      fmt::format("Budget: a configuration that is predicted to take more than {} pair tests is not run. A hash "
-                  "evaluation counts as 32.",
-                  grouped(l.budget)),
+      "as far as it uses them. A cell size is given in units of the automatic one: the largest box of its level at "
+      "rest + the tolerance.");
+  page.item(
+      "Detectors run on {} thread{}, from scratch: they forget before each run what they learnt from earlier frames. "
+      "All configurations run once to be checked and at most {} times to be timed, in rounds of shuffled order. A "
+      "configuration that has taken {:g} ms is left out of further rounds.",
+      r.threads, r.threads == 1 ? "" : "s", l.repetitions, l.repeat_ms);
+  page.item(
+      "Budget: a configuration that is predicted to take more than {} pair tests is not run. A hash evaluation counts "
+      "as 32.",
+      grouped(l.budget));
+  page.item(
       "Memory is what a new detector and its list of contacts hold after a frame, correct to some KiB. Detectors keep "
-      "their scratch memory, so this is their peak from then on.",
-      "`detection.csv` has every row of every state."};
-  if (r.quick) items.push_back("This is the quick report: fewer scenes, frames, states and repetitions.");
-  page.list(items);
+      "their scratch memory, so this is their peak from then on.");
+  page.item("`detection.csv` has every row of every state.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, frames, states and repetitions.");
 }
 
 // ---- Table 1 ----
@@ -82,8 +212,7 @@ void add_table_1(Page& page, const DetectionResults& r) {
   page.text("## Table 1: frames per second");
   page.text(
       "In the form of the paper's Table 1, measured: detection alone, 1 / its mean time on the recorded states; level "
-      "3, "
-      "automatic cell size.");
+      "3, automatic cell size.");
   page.table(table);
   page.text("The first four are the paper's methods. A method without a recall in brackets misses nothing.");
 }
@@ -169,8 +298,7 @@ Page detection_page(const DetectionResults& results) {
   page.text("## Scenes: the best of every method");
   page.text(
       "Of each method the fastest configuration, and the fastest of those that miss least if that is another one. "
-      "Front: "
-      "no other is as fast and as good. Means over the states; recall and precision over all their contacts.");
+      "Front: no other is as fast and as good. Means over the states; recall and precision over all their contacts.");
   for (const SceneResult& scene : results.scenes) {
     const std::vector<Mean> all = means(scene);
     page.text("### {}", scene.name);

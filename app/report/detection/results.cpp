@@ -1,6 +1,7 @@
 #include "app/report/detection/results.h"
 
 #include <algorithm>
+#include <cassert>
 
 #include <fmt/core.h>
 
@@ -34,6 +35,7 @@ double Mean::error() const { return share(missed, true_contacts); }
 double Mean::precision() const { return 1 - share(contacts - (true_contacts - missed), contacts); }
 
 std::vector<Mean> means(const SceneResult& scene) {
+  assert(!scene.states.empty());
   std::vector<Mean> all;
   for (const SweepRow& row : scene.states.front().sweep.rows) all.emplace_back().configuration = row.configuration;
   const double weight = 1.0 / static_cast<double>(scene.states.size());

@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include <fmt/core.h>
@@ -7,51 +8,133 @@
 #include "app/report/solver/results.h"
 
 namespace app {
+
+// ---- the table of figures ----
+
+Table solver_table(const SolverResults& results) {
+  Table table;
+  for (const SolverCase& c : results.cases)
+    for (const WorkCurve& curve : c.curves)
+      for (const WorkPoint& p : curve.points) {
+        const bool fixed = p.substeps > 0, good = !p.blew_up;
+        table.add({{"scene", c.key},
+                   {"integrator", curve.integrator->key},
+                   {"substeps", when(fixed, p.substeps)},
+                   {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps / results.frame_time)},
+                   {"cpu_ms_alone", p.cpu_alone},
+                   {"cpu_ms_batch", p.cpu_batch},
+                   {"blew_up", p.blew_up},
+                   {"error", when(good, p.error)},
+                   {"energy_error", when(good, p.energy)},
+                   {"linear_error", when(good, p.linear)},
+                   {"angular_error", when(good, p.angular)},
+                   {"volume_error", when(good, p.volume)},
+                   {"internal_speed", when(good, p.speed)},
+                   {"observed_order", c.order(curve, results.bound)},
+                   {"reference_step", c.step},
+                   {"reference_change", c.change},
+                   {"reference_converged", c.converged},
+                   {"perturbation_growth", c.growth}});
+      }
+  return table;
+}
+
 namespace {
+
+// ---- plots ----
+
+/// Returns the height (R) of the crosses of curve `number`. Each curve has a row above all errors, so that crosses do
+/// not hide each other.
+double cross_height(std::size_t number) { return 20 * std::pow(1.6, static_cast<double>(number)); }
+
+void add_errors(Plot& plot, const WorkCurve& curve, std::size_t number, std::optional<double> order) {
+  // The single point of an integrator that chooses its steps lies under others' curves: a large open diamond shows
+  // around them.
+  const bool automatic = curve.integrator->automatic;
+  Series series{fmt::format("{}{}", curve.integrator->name, order ? fmt::format(" (order {:.1f})", *order) : ""),
+                integrator_colour(number),
+                automatic ? "points pointtype 12 pointsize 2.2 linewidth 2"
+                          : "linespoints pointtype 7 pointsize 0.8 linewidth 2"};
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up) series.points.push_back({p.cost(), std::max(p.error, 1e-9), automatic ? "" : steps_text(p)});
+  plot.add(std::move(series));
+}
+
+void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
+  // Runs that blow up end early: they would have cost what their steps cost elsewhere on the curve.
+  const auto good = std::ranges::find(curve.points, false, &WorkPoint::blew_up);
+  const bool known = good != curve.points.end() && good->substeps > 0;
+  Series series{"", integrator_colour(number), "points pointtype 2 pointsize 1 linewidth 2"};
+  for (const WorkPoint& p : curve.points)
+    if (p.blew_up)
+      series.points.push_back({known ? good->cost() * p.substeps / good->substeps : p.cpu_alone, cross_height(number)});
+  plot.add(std::move(series));
+}
+
+Plot error_against_time(const SolverCase& c, double bound) {
+  Plot plot{
+      .name = "solver-" + c.key,
+      .caption = c.name + ": left is cheaper, down is more accurate; numbers are steps a frame, crosses blew up.",
+      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.name, c.growth),
+      .x = "processor time, ms a simulated second a body",
+      .y = "error in position, RMS / R",
+      .settings = fmt::format(
+          "set yrange [*:{0:g}]\n"
+          "set ytics 1e-9, 10, 10 format '%g'\n"
+          "set label 'blew up:' at graph 0.01, graph 0.97\n"
+          "set arrow from graph 0, first {1:g} to graph 1, first {1:g} nohead dashtype 2 linecolor rgb '#666666'\n"
+          "set label 'uncertainty of the reference' at graph 0.01, first {1:g} offset 0,0.5 font ',8' textcolor rgb "
+          "'#666666'\n",
+          cross_height(c.curves.size()), c.uncertainty(bound))};
+  for (std::size_t i = 0; i < c.curves.size(); ++i) add_errors(plot, c.curves[i], i, c.order(c.curves[i], bound));
+  for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(plot, c.curves[i], i);
+  return plot;
+}
+
+// ---- the page ----
 
 constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
 
 void add_introduction(Page& page, const SolverResults& r) {
   page.text("# Solvers: error against run time");
   page.text("`{}` makes this report.", r.command);
-  std::vector<std::string> items{
-      fmt::format(
-          "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps "
-          "a frame (each step of XPBD has 20 substeps; `auto` chooses its own steps). Error: RMS over the "
-          "particles of the difference to the reference, in radii R, at the end.",
-          r.seconds, 1 / r.frame_time),
-      fmt::format(
-          "ms: processor time of the thread for whole steps, per simulated second; the median of {} repetitions "
-          "that take turns, or of fewer where these took {:g} s. Bodies of one mesh and material are solved "
-          "side by side, one per SIMD lane. \"Batch\" is the cost per body when eight are solved side by side. "
-          "\"Alone\" is the cost of a lone body, which leaves seven lanes empty. Plots show the batch. Scenes "
-          "from files have the bodies that they have; their cost stands under \"alone\".",
-          r.repetitions, r.max_run_seconds),
-      fmt::format("Reference: RK4 in double, written apart from the solvers, at a step that was halved until the "
-                  "positions changed by less than {:g} R. Scenes with parts that it does not model are compared with "
-                  "the world's rk4 in floats.",
-                  r.bound),
-      fmt::format("A curve ends with the first error that is not above the reference's own uncertainty, with the first "
-                  "run that takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps a frame. "
-                  "Each table is followed by which. Runs are timed: on another machine a curve may end elsewhere.",
-                  r.max_run_seconds, r.seconds, r.max_substeps),
+  page.item(
+      "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps a frame "
+      "(each step of XPBD has 20 substeps; `auto` chooses its own steps). Error: RMS over the particles of the "
+      "difference to the reference, in radii R, at the end.",
+      r.seconds, 1 / r.frame_time);
+  page.item(
+      "ms: processor time of the thread for whole steps, per simulated second; the median of {} repetitions that take "
+      "turns, or of fewer where these took {:g} s. Bodies of one mesh and material are solved side by side, one per "
+      "SIMD lane. \"Batch\" is the cost per body when eight are solved side by side. \"Alone\" is the cost of a lone "
+      "body, which leaves seven lanes empty. Plots show the batch. Scenes from files have the bodies that they have; "
+      "their cost stands under \"alone\".",
+      r.repetitions, r.max_run_seconds);
+  page.item(
+      "Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions changed "
+      "by less than {:g} R. Scenes with parts that it does not model are compared with the world's rk4 in floats.",
+      r.bound);
+  page.item(
+      "A curve ends with the first error that is not above the reference's own uncertainty, with the first run that "
+      "takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps a frame. Each table is followed "
+      "by which. Runs are timed: on another machine a curve may end elsewhere.",
+      r.max_run_seconds, r.seconds, r.max_substeps);
+  page.item(
       "Growth: the factor by which a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No "
-      "solver is nearer to the reference than this growth times its rounding.",
+      "solver is nearer to the reference than this growth times its rounding.");
+  page.item(
       "Energy: difference to the reference's, divided by the energy above balance at the start or by m g R, whichever "
       "is larger. Momentum: difference, divided by the body's own; only where nothing acts from outside. Inner speed: "
-      "RMS of all motion except that of the body as a whole. Where a body starts in balance, this is jitter.",
-      fmt::format(
-          "Order: order of the error, observed from each number of steps to its double. It is the median (of an "
-          "even number the mean of the middle two) over the longest row of errors, from {:g} R on, each of "
-          "which is less than {:g} times the one before. Of rows of the same length the one with the most "
-          "steps counts. A row has at least two falls, or one that reaches the reference's uncertainty. Since "
-          "smaller falls are left out, the order is rather too high than too low, and no order below {:.1f} is "
-          "seen.",
-          SolverCase::max_order_error, SolverCase::clear_fall, -std::log2(SolverCase::clear_fall)),
-      "`solver.csv` has every figure."};
-  if (r.quick)
-    items.push_back("This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.");
-  page.list(items);
+      "RMS of all motion except that of the body as a whole. Where a body starts in balance, this is jitter.");
+  page.item(
+      "Order: order of the error, observed from each number of steps to its double. It is the median (of an even "
+      "number the mean of the middle two) over the longest row of errors, from {:g} R on, each of which is less than "
+      "{:g} times the one before. Of rows of the same length the one with the most steps counts. A row has at least "
+      "two falls, or one that reaches the reference's uncertainty. Since smaller falls are left out, the order is "
+      "rather too high than too low, and no order below {:.1f} is seen.",
+      SolverCase::max_order_error, SolverCase::clear_fall, -std::log2(SolverCase::clear_fall));
+  page.item("`solver.csv` has every figure.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.");
 }
 
 std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
@@ -76,6 +159,7 @@ std::string cheapest(const WorkCurve& curve, double error) {
 /// All scenes at one error.
 void add_overview(Page& page, const SolverResults& r) {
   constexpr double bound = 2e-3;  // R
+  assert(!r.cases.empty());
   Table table;
   for (std::size_t i = 0; i < r.cases.front().curves.size(); ++i) {
     TableRow row{{"integrator", r.cases.front().curves[i].integrator->name}};
@@ -89,8 +173,7 @@ void add_overview(Page& page, const SolverResults& r) {
   page.text("## All scenes");
   page.text(
       "ms per simulated second and body, in a batch where there is one, for an error of at most {:g} R. In brackets "
-      "the "
-      "steps a frame (`auto` chooses its own), or instead the least error seen:",
+      "the steps a frame (`auto` chooses its own), or instead the least error seen:",
       bound);
   page.table(table);
 }

@@ -43,15 +43,15 @@ struct SolverCase {
   bool converged = false;  // change is within the bound
   double growth = 0;       // of a disturbance
   std::vector<WorkCurve> curves{};
-  /// R: how well the reference is known, if its change is to be within `bound`. Smaller errors say nothing: with the
-  /// first of them a curve ends.
+  /// Returns the uncertainty (R) of the reference if its change is to be within `bound`. Smaller errors say nothing. A
+  /// curve ends with the first of them.
   double uncertainty(double bound) const { return std::max(bound, change); }
-  static constexpr double max_order_error = 0.3;  // R: larger errors tell no order
-  static constexpr double clear_fall = 0.8;       // of the error before: what has fallen less may be rounding
-  /// Observed, of a curve's error; none: its errors do not show one. The median over the longest row of errors that
-  /// clearly fall, of rows as long as each other that of the most steps: what lies beside it is rounding, or too coarse
-  /// to tell. A row takes two falls at least, or one that leads as far as the reference is known. What starts in
-  /// balance has nothing but rounding to show.
+  static constexpr double max_order_error = 0.3;  // R: larger errors show no order
+  static constexpr double clear_fall = 0.8;       // of the error before; a smaller fall may be rounding
+  /// Returns the observed order of a curve's error; nothing if its errors do not show one. It is the median over the
+  /// longest row of errors that clearly fall, of rows of the same length over the one with the most steps. Other errors
+  /// are rounding, or too coarse. A row has at least two falls, or one that reaches the uncertainty. The errors of a
+  /// body that starts in balance are only rounding.
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
@@ -61,15 +61,13 @@ struct SolverResults {
   double seconds = 0, frame_time = 0;  // simulated
   double bound = 0;                    // R, of the reference's change
   int repetitions = 0;
-  double max_run_seconds = 0;  // s of processor time: a curve ends with the first run that takes longer ...
-  int max_substeps = 0;        // ... or with so many a frame
+  double max_run_seconds = 0;  // of processor time: a curve ends with the first run that takes longer ...
+  int max_substeps = 0;        // ... or with this many steps a frame
   std::vector<SolverCase> cases;
 };
 
 /// Returns solver.csv: a row per point. What has no meaning is empty.
 Table solver_table(const SolverResults& results);
 Page solver_page(const SolverResults& results);
-/// Returns the plot of a case. `bound`: R, of the reference's change.
-Plot error_against_time(const SolverCase& c, double bound);
 
 }  // namespace app

@@ -7,7 +7,7 @@ namespace {
 
 using glm::dvec3;
 
-/// A ball whose gas has a tenth more pressure than it was in balance with, so that it breathes, flies and turns.
+/// A ball that flies and turns. Its gas has a tenth more pressure than in balance, so that it pulsates.
 SolverScene free_flight(double stiffness, const std::string& in_words) {
   SolverScene s{.key = "free-" + in_words, .name = "Free flight, " + in_words + " N/m"};
   softbody::Material calm = ball_material(stiffness, 0.02);
@@ -18,7 +18,7 @@ SolverScene free_flight(double stiffness, const std::string& in_words) {
   return s;
 }
 
-/// From rest, a millimetre over the ground: a ball that hit it would be as hard to follow as a thrown die.
+/// A ball falls from rest, a millimetre over the ground. The motion of a ball that hits it fast would be chaotic.
 SolverScene on_the_ground() {
   SolverScene s{.key = "contact-1e3", .name = "On the ground, 1e3 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));

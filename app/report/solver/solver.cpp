@@ -1,16 +1,13 @@
-#include "app/report/solver/solver.h"
-
 #include <algorithm>
 #include <array>
 
-#include "app/base/text.h"
 #include "app/base/times.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
-#include "app/report/own_steps.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/trial.h"
+#include "app/report/steps.h"
 
 namespace app {
 namespace {
@@ -18,13 +15,13 @@ namespace {
 constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"};
 
 struct Effort {
-  double seconds;                 // of processor time: the steps of a frame are doubled until a run takes longer
-  int repetitions;                // whose median counts, unless fewer already took those seconds
+  double seconds;                 // of processor time: the steps a frame are doubled until a run takes longer
+  int repetitions;                // of each point; fewer if these took those seconds
   std::uint64_t reference_steps;  // at most, of the reference
   int max_substeps = 1 << 14;     // a frame
 };
 
-/// A point and what it takes to measure it again.
+/// A point and its times.
 struct TimedPoint {
   std::size_t scene, curve, point;  // indices
   int substeps;
@@ -47,7 +44,7 @@ class SolverReport {
 
   void run() {
     for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
-    // One repetition of all after the other: what disturbs the machine for a while disturbs all alike.
+    // One repetition of all points after the other: what disturbs the machine for a while disturbs all alike.
     for (int r = 0; r < effort_.repetitions; ++r) {
       say("repetition " + std::to_string(r + 1), double(r) / effort_.repetitions);
       for (TimedPoint& point : points_) repeat(point);
@@ -68,12 +65,13 @@ class SolverReport {
       say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
       WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
       double took = 0;
-      const int most = chooses_steps(integrator) ? 1 : effort_.max_substeps;
-      for (int n = 1; n <= most && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound)); n *= 2) {
+      const int max_steps = integrator.automatic ? 1 : effort_.max_substeps;
+      for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound));
+           n *= 2) {
         const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
         took = outcome.finite ? outcome.cpu : 0;
         WorkPoint point = judge(scene, outcome, reference);
-        if (!chooses_steps(integrator)) point.substeps = n;
+        if (!integrator.automatic) point.substeps = n;
         if (!point.blew_up) points_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
         point.cpu_alone = 1e3 * outcome.cpu / run_.seconds() / double(outcome.bodies.size());
         curve.points.push_back(point);
@@ -86,7 +84,7 @@ class SolverReport {
     const SolverScene& scene = scenes_[p.scene];
     const softbody::Integrator& integrator = *results.cases[p.scene].curves[p.curve].integrator;
     const auto time = [&](Times& times, int copies) {
-      if (times.total() > 1e3 * effort_.seconds) return;  // a long run's time is less chance's than a short one's
+      if (times.total() > 1e3 * effort_.seconds) return;  // the time of a long run depends less on chance
       times.ms.push_back(1e3 * run_solver(scene, run_, integrator, p.substeps, copies).cpu);
     };
     time(p.alone, 1);

@@ -5,9 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
-#include "app/report/cpu_clock.h"
-#include "app/report/own_steps.h"
+#include "app/base/times.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
 
 namespace app {
@@ -20,7 +19,7 @@ const softbody::Integrator& rk4() { return *softbody::find_integrator("rk4"); }
 
 constexpr double spacing = 4;  // m, between copies
 
-/// The scene `copies` times side by side.
+/// Returns a world of `copies` of the scene side by side.
 World make_world(const SolverScene& of, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                  int copies) {
   softbody::Scene scene = of.scene;
@@ -54,7 +53,7 @@ Outcome advance(World& world, int frames) {
   return o;
 }
 
-/// R, of all bodies.
+/// Returns the RMS error (R) over all bodies.
 double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b, const World& world) {
   double square_sum = 0;
   for (BodyId id = 0; id < b.size(); ++id) {
@@ -64,7 +63,7 @@ double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b
   return std::sqrt(square_sum);
 }
 
-/// Where the reference does not have the scene's model: the world's own rk4, in floats.
+/// Returns the outcome of the world's own rk4 in floats, for scenes that ReferenceBody does not model.
 SolverReference world_reference(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
   World world = make_world(scene, run, rk4(), 1, 1);
   int substeps = world.dynamics().substeps(run.frame_time);
@@ -107,7 +106,7 @@ SolverReference body_reference(const World& world, const SolverRun& run, double 
   return t;
 }
 
-/// How much of the reference's a difference is.
+/// Returns the distance as a share of the length of `b`.
 double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) / glm::length(b); }
 
 }  // namespace
@@ -157,15 +156,15 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReferenc
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;
     closed = true;
-    const double right = volume_of(reference.bodies[b].x, mesh.triangles);
-    volume = std::max(volume, std::abs(volume_of(o.bodies[b].x, mesh.triangles) / right - 1));
+    const double expected = volume_of(reference.bodies[b].x, mesh.triangles);
+    volume = std::max(volume, std::abs(volume_of(o.bodies[b].x, mesh.triangles) / expected - 1));
   }
   p.speed = std::sqrt(square_sum);
   if (closed) p.volume = volume;
-  const RigidMotion is = rigid_motion(o.bodies[0]), should = rigid_motion(reference.bodies[0]);
+  const RigidMotion actual = rigid_motion(o.bodies[0]), expected = rigid_motion(reference.bodies[0]);
   const bool alone = o.bodies.size() == 1 && scene.scene.gravity == glm::dvec3(0.0);
-  if (alone && glm::length(should.velocity) > 1e-6) p.linear = relative(is.velocity, should.velocity);
-  if (alone && glm::length(should.momentum) > 1e-6) p.angular = relative(is.momentum, should.momentum);
+  if (alone && glm::length(expected.velocity) > 1e-6) p.linear = relative(actual.velocity, expected.velocity);
+  if (alone && glm::length(expected.momentum) > 1e-6) p.angular = relative(actual.momentum, expected.momentum);
   return p;
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// One scene, run to its end by one integrator, and held against a reference.
+// One scene, run to its end by one integrator and compared with a reference.
 
 #include "app/reference/reference_run.h"
 #include "app/report/solver/results.h"
@@ -20,11 +20,12 @@ struct Outcome {
   double energy = 0;  // J
 };
 
-/// copies: of the scene, side by side. Ends with the first frame that is not finite.
+/// Runs `copies` of the scene side by side, with `substeps` a frame unless the integrator chooses its steps. Ends with
+/// the first frame that is not finite.
 Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                    int copies);
 
-/// What outcomes are held against.
+/// What outcomes are compared with.
 struct SolverReference {
   std::vector<BodyState> bodies;
   double energy;        // J
@@ -33,15 +34,15 @@ struct SolverReference {
   double step, change, growth;
   bool converged;
 };
-/// bound: R, of the change when the step is halved; steps: at most. The reference's own model where it is the scene's;
-/// else the world's rk4.
+/// Halves the step until the positions change by less than `bound` (R), with at most `steps` steps. The reference is
+/// ReferenceBody where it models the scene, else the world's rk4.
 SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
                                       std::uint64_t steps);
 
-/// J a body: what an error in energy is held against, the larger of its energy above balance and m g R.
+/// Returns the scale (J) of a body's error in energy: the larger of its energy above balance and m g R.
 double energy_scale(const softbody::World& world, softbody::BodyId body);
 
-/// All but substeps and times.
+/// Returns the point without its substeps and times.
 WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const SolverReference& reference);
 
 }  // namespace app

@@ -1,6 +1,7 @@
 #include "app/report/stability/cell.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -8,10 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/shield_account.h"
-#include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
-#include "app/report/stability/joiners.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/snapshot.h"
 
 namespace app {
 namespace {
@@ -27,8 +28,9 @@ double gas_energy(const softbody::Prototype& p, const Particles& particles) {
   return p.gas.energy(volume_of(x, p.mesh.triangles));
 }
 
-/// m, the longest side of the particles' box.
+/// Returns the longest side (m) of the particles' box.
 double extent_of(const Particles& particles) {
+  assert(!particles.empty());
   dvec3 lo = particles[0].position, hi = lo;
   for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
@@ -45,9 +47,9 @@ class Run {
         {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_for(integrator, 1)});
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
-      passages_.look(world);
+      passages_.observe(world);
       shields_.join(world.shield_energies(), 0);
-      while (bodies_ < world.bodies().count()) take_in();
+      while (bodies_ < world.bodies().count()) add_body();
     }
     return world;
   }
@@ -59,8 +61,8 @@ class Run {
     ++frame_;
     time_ += world.frame_time();
     require_whole_frame(world);
-    if (bodies_ == 0) return;  // nobody to judge
-    passages_.look(world);
+    if (bodies_ == 0) return;  // there is no body to judge
+    passages_.observe(world);
     shields_.frame(world.last_shield_energies(), world.shield_energies());
     const softbody::Measures m = softbody::measure(world);
     StabilitySample s{.time = time_,
@@ -93,18 +95,18 @@ class Run {
       gas += gas_energy(world.prototype(b), particles);
       extents.push_back(extent_of(particles));
     }
-    const double least = 1e-9 * s.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
+    const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
+    s.speed_reach = std::sqrt(2 * std::max(available - balance_, min_energy) / lightest_);
     s.extent_reach = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
-      const auto& [length, stiffness] = start_.members[b].leash;
-      const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
+      const auto& [length, stiffness] = start_.members[b].chain;
+      const double reach = length + std::sqrt(2 * std::max(available - gas, min_energy) / stiffness);
       if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
     }
   }
 
-  /// The next body is at hand.
-  const StabilityStart::Member& take_in() {
+  /// Counts the next body as present and returns it.
+  const StabilityStart::Member& add_body() {
     const StabilityStart::Member& member = start_.members[bodies_++];
     balance_ += member.balance;
     weight_ += member.weight();
@@ -112,13 +114,13 @@ class Run {
     return member;
   }
 
-  /// Bodies that join in the coming step bring their energy along, be it negative, and what their pairs hold where they
-  /// join: not what their first frame makes of it.
+  /// Credits bodies that join in the coming step with their energy, which may be negative, and with what their pairs
+  /// hold where they join; not with what their first frame makes of it.
   void join(World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
     const BodyId first = bodies_;
     while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) {
-      const StabilityStart::Member& member = take_in();
+      const StabilityStart::Member& member = add_body();
       work_ += member.energy();
       above_balance_ += member.kinetic;
     }
@@ -127,7 +129,7 @@ class Run {
     work_ += shields_.join(shield_energies_with(world, joiners), world.bodies().vertex_count());
   }
 
-  /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse.
+  /// Solids push out what is inside them with up to 1 m/s. So their work is at most that times the impulse.
   void add_work(const World& world, double depth_before) {
     constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
@@ -138,8 +140,8 @@ class Run {
 
   const StabilityStart& start_;
   StabilityJudge judge_;
-  double above_balance_;                                       // J, that the bodies at hand began or joined with
-  BodyId bodies_ = 0;                                          // at hand
+  double above_balance_;                                       // J, that the present bodies started or joined with
+  BodyId bodies_ = 0;                                          // that are present
   double balance_ = 0;                                         // J, their springs and gas in balance
   double weight_ = 0;                                          // J, their m g R
   double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
@@ -161,6 +163,16 @@ AgainstReference compare(const World& world, const StabilityStart& start) {
 }
 
 }  // namespace
+
+std::vector<softbody::PairEnergy> shield_energies_with(softbody::World& world,
+                                                       std::span<const softbody::BodySource> joiners) {
+  if (!world.plan().has(softbody::Stage::contact_response)) return {};
+  const softbody::Snapshot before = world.snapshot();
+  for (const softbody::BodySource& joiner : joiners) world.add(joiner);
+  std::vector<softbody::PairEnergy> pairs = world.shield_energies();
+  world.restore(before);
+  return pairs;
+}
 
 StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
   try {

@@ -7,45 +7,112 @@
 #include "app/report/stability/results.h"
 
 namespace app {
+
+// ---- the table of figures ----
+
+Table stability_table(const StabilityResults& results) {
+  Table table;
+  for (const StabilitySection& section : results.sections)
+    for (const StabilityRow& row : section.rows)
+      for (const StabilityCell& cell : row.cells) {
+        const StabilityFigures& f = cell.figures;
+        const bool ran = f.refused.empty(), compared = f.reference.has_value();
+        const AgainstReference end = f.reference.value_or(AgainstReference{});
+        table.add({{"part", "cell"},
+                   {"case", section.key},
+                   {"integrator", results.integrators[cell.integrator]->key},
+                   {"dt", results.dts[cell.dt]},
+                   {"stiffness", row.stiffness},
+                   {"passes", cell.passes()},
+                   {"failures", fmt::format("{}", fmt::join(failures(f), "; "))},
+                   {"not_judged", row.not_judged},
+                   {"finite", when(ran, f.finite)},
+                   {"energy_excess", when(ran, f.energy)},
+                   {"speed_ratio", when(ran, f.speed)},
+                   {"extent_ratio", when(ran, f.extent)},
+                   {"transient_depth", when(ran, f.transient)},
+                   {"steady_depth", when(ran, f.steady)},
+                   {"through_solids", when(ran, f.through)},
+                   {"shape", when(compared, end.shape)},
+                   {"volume", when(compared, end.volume)},
+                   {"rest", when(compared, end.rest)},
+                   {"blew_up", when(ran && f.blew_up > 0, f.blew_up)},
+                   {"stable_step", ""},
+                   {"predicted_step", ""}});
+      }
+  for (std::size_t i = 0; i < results.steps.size(); ++i)
+    for (const StableStep& step : results.steps[i])
+      table.add({{"part", "step"},
+                 {"integrator", results.integrators[i]->key},
+                 {"stiffness", step.stiffness},
+                 {"stable_step", step.found},
+                 {"predicted_step", when(std::isfinite(step.predicted), step.predicted)}});
+  return table;
+}
+
 namespace {
+
+// ---- plots ----
+
+Plot step_against_stiffness(const StabilityResults& results) {
+  Plot plot{.name = "stability-steps",
+            .caption = fmt::format("The largest step that keeps the energy of a disturbed ball (tried up to {:g} s); "
+                                   "dashed: the bound that the solver relies on, with its safety factor.",
+                                   max_step_tried),
+            .title = "Largest stable step against stiffness",
+            .x = "stiffness of a spring, N/m",
+            .y = "step, s",
+            .settings = fmt::format("set yrange [*:{:g}]\nset format xy '%g'\n", 2 * max_step_tried)};
+  for (std::size_t i = 0; i < results.steps.size(); ++i) {
+    Series found{std::string(results.integrators[i]->name), integrator_colour(i),
+                 "linespoints pointtype 7 linewidth 2"};
+    Series predicted{"", integrator_colour(i), "lines dashtype 2 linewidth 1.5"};
+    for (const StableStep& s : results.steps[i]) {
+      found.points.push_back({s.stiffness, s.found});
+      if (std::isfinite(s.predicted)) predicted.points.push_back({s.stiffness, s.predicted});
+    }
+    plot.add(std::move(found));
+    plot.add(std::move(predicted));
+  }
+  return plot;
+}
+
+// ---- the page ----
 
 void add_introduction(Page& page, const StabilityResults& r) {
   constexpr StabilityBounds b = stability_bounds;
   page.text("# Stability: extreme cases");
   page.text("`{}` makes this report. All figures are the same on every machine.", r.command);
-  std::vector<std::string> items{
-      fmt::format(
-          "Every case runs for {:g} s, by every integrator, in frames of 1/30, 1/60 and 1/240 s, {}. Named "
-          "integrators take exactly one step of their own a frame (a step of XPBD has 20 substeps), so that the "
-          "report shows where they blow up. Only `auto` chooses its steps.",
-          r.seconds,
-          r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
-                      : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)"),
-      fmt::format(
-          "A cell passes if: everything is finite; the energy of motion, springs, gas and gravity, and what bodies "
-          "have "
-          "put into the penalty contacts between them, never exceeds that of the start and work from outside by more "
-          "than {:g} max(E0 - E_eq, m g R); the fastest particle and the longest box stay within what this energy can "
-          "give; no particle is ever deeper than {:g} R in a solid (after 10 frames where it began inside), nor deeper "
-          "than {:g} R in the last quarter; no body goes through a solid; and at the end shape (RMS, moved and turned "
-          "to fit) is within {:g} R, volume within {:g} %, and motion within the body no more than {:g} m/s above a "
-          "reference's.",
-          b.energy, b.transient, b.steady, b.shape, 100 * b.volume, b.rest),
+  page.item(
+      "Every case runs for {:g} s, by every integrator, in frames of 1/30, 1/60 and 1/240 s, {}. Named integrators "
+      "take exactly one step of their own a frame (a step of XPBD has 20 substeps), so that the report shows where "
+      "they blow up. Only `auto` chooses its steps.",
+      r.seconds,
+      r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
+                  : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)");
+  page.item(
+      "A cell passes if: everything is finite; the energy of motion, springs, gas and gravity, and what bodies have "
+      "put into the penalty contacts between them, never exceeds that of the start and work from outside by more than "
+      "{:g} max(E0 - E_eq, m g R); the fastest particle and the longest box stay within what this energy can give; no "
+      "particle is ever deeper than {:g} R in a solid (after 10 frames where it began inside), nor deeper than {:g} R "
+      "in the last quarter; no body goes through a solid; and at the end shape (RMS, moved and turned to fit) is "
+      "within {:g} R, volume within {:g} %, and motion within the body no more than {:g} m/s above a reference's.",
+      b.energy, b.transient, b.steady, b.shape, 100 * b.volume, b.rest);
+  page.item(
       "Reference: RK4 in double, written apart from the solvers. It must have settled, be back in its shape (where "
       "nothing but springs and gas acts), and change by less than 0.1 % when its step is halved or its start is "
       "disturbed by 1e-7 R. A case without a reference is marked *, with the reason below its table, and judged on the "
-      "rest.",
+      "rest.");
+  page.item(
       "Where bodies start or join, they have their own energy and all that the pairs of the penalty contact hold "
-      "there. "
-      "What the first frame of a joining body adds to it, or carries it into, is not credited. E0 - E_eq and m g R are "
-      "those of all bodies that have started or joined by then.",
+      "there. What the first frame of a joining body adds to it, or carries it into, is not credited. E0 - E_eq and m "
+      "g R are those of all bodies that have started or joined by then.");
+  page.item(
       "Penalty contacts push out what they find behind a surface. The potential of such a pair appears when the pair "
-      "is "
-      "found. It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by pressing "
-      "it further is their energy.",
-      "`stability.csv` has every figure of every cell."};
-  if (r.quick) items.push_back("This is the quick report: fewer cases and stiffnesses, and half the time.");
-  page.list(items);
+      "is found. It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by "
+      "pressing it further is their energy.");
+  page.item("`stability.csv` has every figure of every cell.");
+  if (r.quick) page.item("This is the quick report: fewer cases and stiffnesses, and half the time.");
 }
 
 /// Returns "1/60".

@@ -31,18 +31,16 @@ struct StabilitySection {
 struct StabilityResults {
   std::string command;
   bool quick = false;
-  bool from_file = false;   // a scene of the user's
+  bool from_file = false;   // the scene is the user's
   double seconds = 0;       // simulated
   std::vector<double> dts;  // s
   std::vector<const softbody::Integrator*> integrators;
   std::vector<StabilitySection> sections;
-  std::vector<std::vector<StableStep>> steps;  // an integrator; empty if not asked for
+  std::vector<std::vector<StableStep>> steps;  // by integrator; empty if not measured
 };
 
 /// Returns stability.csv: a row per cell and a row per point of the map of steps. What has no meaning is empty.
 Table stability_table(const StabilityResults& results);
 Page stability_page(const StabilityResults& results);
-/// Returns the map of the largest stable step; a plot without a series if there are no steps.
-Plot step_against_stiffness(const StabilityResults& results);
 
 }  // namespace app

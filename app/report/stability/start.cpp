@@ -20,26 +20,25 @@ using softbody::World;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Any two particles are joined by a chain of so many springs at most: twice those from one particle to the farthest.
-/// None if some cannot be reached.
+/// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
+/// Returns nothing if springs do not join all particles.
 std::optional<int> longest_chain(const softbody::Prototype& p) {
   std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
   for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
-  std::vector<int> far(next.size(), -1);
+  std::vector<int> distance(next.size(), -1);
   std::queue<softbody::Index> open;
-  far[0] = 0, open.push(0);
+  distance[0] = 0, open.push(0);
   while (!open.empty()) {
     const softbody::Index i = open.front();
     open.pop();
     for (const softbody::Index j : next[i])
-      if (far[j] < 0) far[j] = far[i] + 1, open.push(j);
+      if (distance[j] < 0) distance[j] = distance[i] + 1, open.push(j);
   }
-  const auto [least, most] = std::ranges::minmax(far);
-  return least < 0 ? std::nullopt : std::optional(2 * most);
+  const auto [min, max] = std::ranges::minmax(distance);
+  return min < 0 ? std::nullopt : std::optional(2 * max);
 }
 
-/// How far the body's springs let it be drawn.
-StabilityStart::Leash leash_of(const softbody::Prototype& p) {
+StabilityStart::SpringChain spring_chain_of(const softbody::Prototype& p) {
   const auto chain = longest_chain(p);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
@@ -48,17 +47,17 @@ StabilityStart::Leash leash_of(const softbody::Prototype& p) {
   return {*chain * longest, softest / *chain};
 }
 
-/// The world with its bodies where the case wants them.
+/// Returns the world with its bodies where the case places them.
 World placed(const StabilityScene& from) {
   World world(from.scene, {.substeps = 1});
   for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
   return world;
 }
 
-/// As it begins or joins: in its starting shape.
+/// Returns the body as it starts or joins: in its starting shape.
 StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::BodySource& source,
                                  const dvec3& gravity) {
-  StabilityStart::Member m{.leash = leash_of(p),
+  StabilityStart::Member m{.chain = spring_chain_of(p),
                            .radius = p.radius,
                            .mass = p.material.mass,
                            .particle_mass = p.particle_mass,
@@ -71,17 +70,17 @@ StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::B
 
 StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
   const softbody::Measures m = softbody::measure(world);
-  double smallest = infinite;
-  for (const StabilityStart::Member& member : start.members) smallest = std::min(smallest, member.radius);
+  double min_radius = infinite;
+  for (const StabilityStart::Member& member : start.members) min_radius = std::min(min_radius, member.radius);
   return {.energy = m.energy + softbody::total(world.shield_energies()),
           .seconds = start.first_frame + seconds,
-          .radius = smallest,
+          .radius = min_radius,
           .begins_inside = m.deepest_penetration > 0};
 }
 
-/// By shape and volume.
+/// True if shape and volume agree.
 bool alike(const ReferenceBody& body, const BodyState& a, const BodyState& b) {
-  constexpr double close = 1e-3;  // R, of volume: a tenth of what is asked of solvers
+  constexpr double close = 1e-3;  // R; of the volume. A tenth of what solvers are allowed
   const softbody::Prototype& p = body.prototype();
   if (!(shape_distance(a.x, b.x) <= close * p.radius)) return false;
   return !p.mesh.closed || std::abs(volume_of(a.x, p.mesh.triangles) / volume_of(b.x, p.mesh.triangles) - 1) <= close;
@@ -112,9 +111,9 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
     s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
-  if (!s.particles.empty()) s.balanced = world.prototype(0).start;
+  if (!s.particles.empty()) s.balance_shape = world.prototype(0).start;
   s.limits = limits_of(world, s, seconds);
-  // The bodies are where they start: no cell has to look for their balance again, unless some come later.
+  // The bodies are where they start. So no cell has to find their balance again, unless some join later.
   if (s.particles.size() == from.scene.bodies.size())
     for (softbody::Material& m : s.scene.materials) m.start_in_equilibrium = false;
   return s;
@@ -127,8 +126,8 @@ void find_reference(StabilityStart& start, std::uint64_t steps) {
     return no(fmt::format("does not model {}", missing));
   world.set_particles(0, start.particles[0]);
   const ReferenceBody body(world.prototype(0), world.scene());
-  const auto flown = [&](const BodyState& from, double fraction, std::uint64_t most) {
-    return fly(body, from, fraction, {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
+  const auto flown = [&](const BodyState& from, double fraction, std::uint64_t max_steps) {
+    return fly(body, from, fraction, {.seconds = start.limits.seconds, .steps = max_steps, .settled_speed = 1e-4});
   };
   const auto settled = [&](const Flight& f) { return restless_speed(body, f.end) <= stability_bounds.rest; };
   const BodyState first = state_of(world, 0);
@@ -137,11 +136,12 @@ void find_reference(StabilityStart& start, std::uint64_t steps) {
   if (!std::isfinite(internal_speed(flight.end))) return no("does not stay finite");
   if (!settled(flight)) return no("has not settled by then");
   const bool free = world.scene().gravity == dvec3(0.0);
-  if (free && shape_distance(flight.end.x, start.balanced) > stability_bounds.shape * body.prototype().radius)
+  if (free && shape_distance(flight.end.x, start.balance_shape) > stability_bounds.shape * body.prototype().radius)
     return no("does not recover");
   Flight finer = flown(first, 0.25, 2 * steps);
   if (!finer.complete || !alike(body, flight.end, finer.end)) return no("does not converge");
-  // As solvers in single precision cannot but start. What turns back from inside out, say, falls from an edge.
+  // Solvers in single precision start with such a disturbance. A body that turns back from inside out, for example, may
+  // then come to rest elsewhere.
   const Flight beside = flown(disturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
   if (!beside.complete || !settled(beside) || !alike(body, beside.end, finer.end))
     return no("comes to rest later or elsewhere after a disturbance by the last digits of a float");

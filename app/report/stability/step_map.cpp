@@ -10,7 +10,7 @@
 namespace app {
 namespace {
 
-/// Springs and gas with every mode excited: some of the disturbance is noise.
+/// A ball of springs and gas. Noise in its start excites every mode.
 class DisturbedBall {
  public:
   explicit DisturbedBall(double stiffness) : scene_(lone_scene(ball_material(stiffness, 0.1))) {
@@ -28,11 +28,11 @@ class DisturbedBall {
 
   bool stable(const softbody::Integrator& integrator, double h) const {
     softbody::World world = make(integrator, h);
-    const double start = softbody::measure(world).energy, most = start + 0.05 * (start - balance_);
+    const double start = softbody::measure(world).energy, max_energy = start + 0.05 * (start - balance_);
     for (int i = 0; i < 300; ++i) {
       world.step();
       const softbody::Measures m = softbody::measure(world);
-      if (!m.finite || m.energy > most) return false;
+      if (!m.finite || m.energy > max_energy) return false;
     }
     return true;
   }

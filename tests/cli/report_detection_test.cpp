@@ -1,4 +1,4 @@
-// `report detection`: the files that it leaves, and what stands in them.
+// `report detection`: its files and their contents.
 
 #include <gtest/gtest.h>
 #include <stdlib.h>
@@ -10,7 +10,7 @@
 namespace cli::test {
 namespace {
 
-/// Four balls that fall into each other; the key asks for care where it is written.
+/// Returns a scene of four balls that fall into each other. Its key has characters that must be quoted.
 const std::filesystem::path& balls() {
   static const TemporaryFolder folder;
   static const auto file = folder.write("four, 'balls'.toml", R"(
@@ -24,7 +24,7 @@ lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}
   return file;
 }
 
-/// A quick report on them, made once.
+/// Returns the folder of a quick report on them, which is made once.
 const std::filesystem::path& quick_report() {
   static const TemporaryFolder folder;
   static const auto out = folder.path() / "new" / "report";
@@ -44,7 +44,7 @@ std::vector<Row> sweep_rows() {
 
 std::string methods_table() { return run({"list", "methods"}).out; }
 
-TEST(Report, RowsAreCompleteAndEveryMethodHasItsAxesInEveryState) {
+TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryState) {
   std::map<std::string, std::set<std::string>> settings;  // by method and frame
   std::set<std::string> frames, methods;
   const auto rows = sweep_rows();
@@ -77,7 +77,7 @@ TEST(Report, RowsAreCompleteAndEveryMethodHasItsAxesInEveryState) {
   }
 }
 
-TEST(Report, OnlyTheLiteralMethodMissesContactsAndWithSmallCellsItDoes) {
+TEST(DetectionReport, ShowsThatOnlyTheLiteralMethodMissesContacts) {
   bool missed = false;
   for (Row row : sweep_rows()) {
     EXPECT_EQ(row["precision"], "1");
@@ -92,7 +92,7 @@ TEST(Report, OnlyTheLiteralMethodMissesContactsAndWithSmallCellsItDoes) {
   EXPECT_TRUE(missed);
 }
 
-TEST(Report, CountsAreThoseOfTheMethods) {
+TEST(DetectionReport, HasTheCountsOfTheMethods) {
   for (Row row : sweep_rows()) {
     if (row["method"] == "multi-level-sb") {
       EXPECT_EQ(number(row["hashes"]), 8 * number(row["boxes"]));
@@ -106,7 +106,7 @@ TEST(Report, CountsAreThoseOfTheMethods) {
   }
 }
 
-TEST(Report, GrowthIsMeasuredOnMoreAndMoreBodies) {
+TEST(DetectionReport, MeasuresGrowthOnMoreAndMoreBodies) {
   std::set<std::string> bodies;
   for (Row row : read_csv(quick_report() / "detection.csv")) {
     if (row["part"] == "growth") bodies.insert(row["bodies"]);
@@ -114,7 +114,7 @@ TEST(Report, GrowthIsMeasuredOnMoreAndMoreBodies) {
   EXPECT_EQ(bodies, (std::set<std::string>{"3", "4"}));
 }
 
-TEST(Report, TheMarkdownSaysHowItWasMadeAndShowsThePlotsThatAreThere) {
+TEST(DetectionReport, SaysHowItWasMadeAndShowsItsPlots) {
   const std::string text = read_file(quick_report() / "report.md");
   EXPECT_NE(text.find("`sbcollide report detection --scene "), std::string::npos);
   EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
@@ -132,7 +132,7 @@ TEST(Report, TheMarkdownSaysHowItWasMadeAndShowsThePlotsThatAreThere) {
   }
 }
 
-TEST(Report, ThePapersTableHasItsFourScenes) {
+TEST(DetectionReport, HasThePapersScenesInTable1) {
   const TemporaryFolder folder;
   const Outcome o = run({"report", "detection", "--quick", "--scene", "A", "--threads", "2", "--out", folder.path()});
   EXPECT_EQ(o.status, 0) << o.err;
@@ -142,7 +142,7 @@ TEST(Report, ThePapersTableHasItsFourScenes) {
   EXPECT_EQ(text.find("Growth"), std::string::npos) << "three bodies are too few to grow";
 }
 
-TEST(Report, WithoutGnuplotOnlyThePlotsAreLeftOut) {
+TEST(DetectionReport, LeavesOutOnlyThePlotsWithoutGnuplot) {
   const TemporaryFolder folder;
   const std::string path = getenv("PATH");
   setenv("PATH", folder.path().c_str(), 1);
@@ -155,7 +155,7 @@ TEST(Report, WithoutGnuplotOnlyThePlotsAreLeftOut) {
   EXPECT_EQ(read_file(folder.path() / "report.md").find("!["), std::string::npos) << "no links to what is not there";
 }
 
-TEST(Report, BadInputIsRefusedInOneLineAndLeavesNothing) {
+TEST(DetectionReport, RefusesBadInputInOneLineAndWritesNothing) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "not a folder");
   const auto nobody = folder.write("nobody.toml", "[dropper]\n");
