@@ -7,8 +7,8 @@
 
 #include <fmt/core.h>
 
+#include "app/base/table.h"
 #include "app/report/plot.h"
-#include "app/report/table.h"
 
 namespace app {
 

@@ -7,7 +7,7 @@
 
 namespace app {
 
-/// Returns the steps a frame that a world is given; nothing for an integrator that chooses its own.
+/// Returns the steps per frame that a world is given; nothing for an integrator that chooses its own.
 inline std::optional<int> steps_for(const softbody::Integrator& integrator, int steps) {
   return integrator.automatic ? std::nullopt : std::optional(steps);
 }

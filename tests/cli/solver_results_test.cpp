@@ -69,8 +69,8 @@ std::string left_out(const std::vector<int>& ends) {
 
 TEST(SolverPage, SaysWhyCurvesEnd) {
   const std::string known = "Left out, above the reference's uncertainty of 2e-05 R, since ";
-  const std::string long_runs = known + "runs took longer than 0.5 s: Runge-Kutta 4 beyond 16 steps a frame.\n\n";
-  const std::string most = known + "no more steps were tried: Runge-Kutta 4 beyond 64 steps a frame.\n\n";
+  const std::string long_runs = known + "runs took longer than 0.5 s: Runge-Kutta 4 beyond 16 steps per frame.\n\n";
+  const std::string most = known + "no more steps were tried: Runge-Kutta 4 beyond 64 steps per frame.\n\n";
   EXPECT_EQ(left_out({16, 1}), long_runs);
   EXPECT_EQ(left_out({1, 64}), most);
   EXPECT_EQ(left_out({64, 16}), long_runs + most);

@@ -91,7 +91,7 @@ Plot depth_against_time(const ContactCase& c) {
   Plot plot{.name = "contact-time-" + c.key,
             .caption = c.name + ": left is cheaper, down is more accurate.",
             .title = c.name + ": the deepest penetration against run time",
-            .x = "a frame, ms of processor time",
+            .x = "processor time per frame, ms",
             .y = "deepest penetration, R",
             .settings = axis_from_zero};
   for (const ContactTrial& t : c.trials)

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
 #include <fmt/core.h>
@@ -13,37 +12,34 @@
 namespace app {
 namespace {
 
-/// Hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
+/// Returns the hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
 TableRow hash_row(const SceneResult& scene) {
-  double vertices = 0;  // on average: bodies may arrive between the states
+  double vertices = 0;  // on average: bodies may appear between the states
   for (const StateResult& s : scene.states) vertices += static_cast<double>(s.vertices);
   vertices /= static_cast<double>(scene.states.size());
-  std::map<std::string_view, std::map<int, std::string>> found;  // by method and level
-  for (const Mean& m : means(scene)) {
-    const Configuration& c = m.configuration;
-    if (m.not_run.empty() && c.cell == 1)
-      found[method_of(c).key][c.settings.levels] = fmt::format("{} ({:.2f})", whole(m.hashes), m.hashes / vertices);
-  }
-  const auto cell = [](const std::map<int, std::string>& levels, auto which) {
-    return which == levels.end() ? "not run" : which->second;
+  const std::vector<Mean> all = means(scene);
+  const auto hashes = [&](std::string_view method, std::optional<int> level) -> std::string {
+    const auto found = std::ranges::find_if(all, [&](const Mean& m) {
+      const Configuration& c = m.configuration;
+      return m.not_run.empty() && c.cell == 1 && method_of(c).key == method && (!level || c.settings.levels == *level);
+    });
+    return found == all.end() ? "not run" : fmt::format("{} ({:.2f})", whole(found->hashes), found->hashes / vertices);
   };
-  const auto& vertex_hash = found["grid-hash"];
-  const auto& corner_hash = found[collide::paper_method];
-  TableRow row{{"scene", scene.scene}, {"N", whole(vertices)}, {"Grid Hash", cell(vertex_hash, vertex_hash.begin())}};
+  TableRow row{{"scene", scene.scene}, {"N", whole(vertices)}, {"Grid Hash", hashes("grid-hash", std::nullopt)}};
   for (const int level : sweep_levels)
-    row.push_back({fmt::format("8 corners a box, level {}", level), cell(corner_hash, corner_hash.find(level))});
+    row.push_back({fmt::format("8 corners per box, level {}", level), hashes(collide::paper_method, level)});
   return row;
 }
 
 void add_hash_counts(Page& page, const DetectionResults& r) {
   Table table;
   for (const SceneResult& scene : r.scenes) table.add(hash_row(scene));
-  page.text("### Hashes: N vertices against 8 corners a box");
+  page.text("### Hashes: N vertices against 8 corners per box");
   page.text(
-      "Hash evaluations a frame, automatic cell size, means over the states; in brackets as a share of the N vertices. "
-      "A vertex hash fills its table with N of them. The others are the look-ups of all cells within the tolerance, "
-      "without which it would miss contacts. The eight corners of the boxes save hashes only where a body has more "
-      "than eight vertices a box.");
+      "Hash evaluations per frame, automatic cell size, means over the states; in brackets as a share of the N "
+      "vertices. A vertex hash fills its table with N of them. The others are the look-ups of all cells within the "
+      "tolerance, without which it would miss contacts. The eight corners of the boxes save hashes only where a body "
+      "has more than eight vertices per box.");
   page.table(table);
 }
 
@@ -107,7 +103,7 @@ Plot cost_against_bodies(const SceneResult& growth) {
             .caption = "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
             .title = "Cost of a frame against the number of bodies",
             .x = "bodies",
-            .y = "detection from scratch, ms a frame",
+            .y = "detection from scratch, ms per frame",
             .settings = "set ytics format '%g'\n"};
   for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
     const Configuration& c = growth.states.front().sweep.rows[i].configuration;
@@ -135,8 +131,8 @@ void add_growth(Page& page, const DetectionResults& results) {
   page.text("### Growth with the number of bodies");
   page.text(
       "The bodies nearest to the middle of `{}`, in frame {}, the first one recorded, where the middle is as dense as "
-      "the rest; level 3, automatic cell size: median ms a frame, in brackets ns a vertex. p: a cost grows as bodies^p "
-      "between the last two columns that were run; 0 would be O(1), 1 is linear, 2 is quadratic.",
+      "the rest; level 3, automatic cell size: median ms per frame, in brackets ns per vertex. p: a cost grows as "
+      "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 is quadratic.",
       growth.scene, growth.states.back().frame);
   page.text(
       "Every body brings boxes of its own. So hashing is linear in the number of bodies at every level: p of hashes is "

@@ -121,7 +121,7 @@ Plot error_against_time(const SceneResult& scene) {
             .caption = "Every configuration that ran on all states of " + scene.name +
                        "; down and left is better, the shaded band holds those that miss nothing.",
             .title = scene.name + ": error against run time",
-            .x = "detection from scratch, ms a frame",
+            .x = "detection from scratch, ms per frame",
             .y = "missed share of the true contacts",
             .settings = band.axis()};
   std::vector<Point> front;

@@ -74,9 +74,9 @@ void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
 Plot error_against_time(const SolverCase& c, double bound) {
   Plot plot{
       .name = "solver-" + c.key,
-      .caption = c.name + ": left is cheaper, down is more accurate; numbers are steps a frame, crosses blew up.",
+      .caption = c.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
       .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.name, c.growth),
-      .x = "processor time, ms a simulated second a body",
+      .x = "processor time, ms per simulated second and body",
       .y = "error in position, RMS / R",
       .settings = fmt::format(
           "set yrange [*:{0:g}]\n"
@@ -99,7 +99,7 @@ void add_introduction(Page& page, const SolverResults& r) {
   page.text("# Solvers: error against run time");
   page.text("`{}` makes this report.", r.command);
   page.item(
-      "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps a frame "
+      "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps per frame "
       "(each step of XPBD has 20 substeps; `auto` chooses its own steps). Error: RMS over the particles of the "
       "difference to the reference, in radii R, at the end.",
       r.seconds, 1 / r.frame_time);
@@ -116,8 +116,8 @@ void add_introduction(Page& page, const SolverResults& r) {
       r.bound);
   page.item(
       "A curve ends with the first error that is not above the reference's own uncertainty, with the first run that "
-      "takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps a frame. Each table is followed "
-      "by which. Runs are timed: on another machine a curve may end elsewhere.",
+      "takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps per frame. Each table is "
+      "followed by which. Runs are timed: on another machine a curve may end elsewhere.",
       r.max_run_seconds, r.seconds, r.max_substeps);
   page.item(
       "Growth: the factor by which a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No "
@@ -173,7 +173,7 @@ void add_overview(Page& page, const SolverResults& r) {
   page.text("## All scenes");
   page.text(
       "ms per simulated second and body, in a batch where there is one, for an error of at most {:g} R. In brackets "
-      "the steps a frame (`auto` chooses its own), or instead the least error seen:",
+      "the steps per frame (`auto` chooses its own), or instead the least error seen:",
       bound);
   page.table(table);
 }
@@ -221,7 +221,7 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
     const WorkPoint& last = curve.points.back();
     if (last.substeps == 0 || curve.reaches(known)) continue;
     std::string& list = last.substeps >= r.max_substeps ? too_many : too_long;
-    list += fmt::format("{}{} beyond {} steps a frame{}", list.empty() ? "" : "; ", curve.integrator->name,
+    list += fmt::format("{}{} beyond {} steps per frame{}", list.empty() ? "" : "; ", curve.integrator->name,
                         last.substeps, last.blew_up ? " (blew up)" : "");
   }
   if (too_long.empty() && too_many.empty())
@@ -247,7 +247,7 @@ Page solver_page(const SolverResults& results) {
         "grows {:.3g} times.",
         c.reference, c.step, c.change, c.converged ? "" : ", so it has not converged: smaller errors mean nothing",
         c.growth);
-    page.text("ms for an error of at most ... (steps a frame):");
+    page.text("ms for an error of at most ... (steps per frame):");
     page.table(costs(results, c));
     add_left_out(page, results, c);
     page.text("With the fewest steps that do not blow up, and with the steps that give the least error:");

@@ -11,14 +11,14 @@
 
 namespace app {
 
-/// One integrator with one number of steps a frame.
+/// One integrator with one number of steps per frame.
 struct WorkPoint {
-  int substeps = 0;                   // 0: it chose them itself
-  double cpu_alone = 0;               // ms of processor time a simulated second a body: one body in a batch of lanes
-  std::optional<double> cpu_batch{};  // the same for a full batch of bodies
-  bool blew_up = false;               // then the rest has no meaning
-  double error = 0;                   // R, RMS of the positions at the end
-  double energy = 0;                  // of the reference's, in the energy scale
+  int substeps = 0;      // 0: it chose them itself
+  double cpu_alone = 0;  // ms of processor time per simulated second and body: one body in a batch of lanes
+  std::optional<double> cpu_batch{};          // the same for a full batch of bodies
+  bool blew_up = false;                       // then the rest has no meaning
+  double error = 0;                           // R, RMS of the positions at the end
+  double energy = 0;                          // of the reference's, in the energy scale
   std::optional<double> linear{}, angular{};  // momentum, of the reference's; only where nothing acts from outside
   std::optional<double> volume{};             // of the reference's; only closed bodies
   double speed = 0;                           // m/s, RMS of motion within the bodies at the end: jitter where they rest
@@ -62,7 +62,7 @@ struct SolverResults {
   double bound = 0;                    // R, of the reference's change
   int repetitions = 0;
   double max_run_seconds = 0;  // of processor time: a curve ends with the first run that takes longer ...
-  int max_substeps = 0;        // ... or with this many steps a frame
+  int max_substeps = 0;        // ... or with this many steps per frame
   std::vector<SolverCase> cases;
 };
 

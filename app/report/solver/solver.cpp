@@ -15,7 +15,7 @@ namespace {
 constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"};
 
 struct Effort {
-  double seconds;                 // of processor time: the steps a frame are doubled until a run takes longer
+  double seconds;                 // of processor time: the steps per frame are doubled until a run takes longer
   int repetitions;                // of each point; fewer if these took those seconds
   std::uint64_t reference_steps;  // at most, of the reference
   int max_substeps = 1 << 14;     // a frame

@@ -8,8 +8,8 @@
 
 namespace app {
 
-/// Runs and judges a cell. A named integrator takes one step of its own a frame; `auto` chooses its steps. `dt`: s, the
-/// length of a frame.
+/// Runs and judges a cell. A named integrator takes one step of its own per frame; `auto` chooses its steps. `dt`: s,
+/// the length of a frame.
 StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt);
 
 /// Returns what pairs of the shield would hold if these bodies joined now, each at its source's position, before a

@@ -85,7 +85,7 @@ void add_introduction(Page& page, const StabilityResults& r) {
   page.text("`{}` makes this report. All figures are the same on every machine.", r.command);
   page.item(
       "Every case runs for {:g} s, by every integrator, in frames of 1/30, 1/60 and 1/240 s, {}. Named integrators "
-      "take exactly one step of their own a frame (a step of XPBD has 20 substeps), so that the report shows where "
+      "take exactly one step of their own per frame (a step of XPBD has 20 substeps), so that the report shows where "
       "they blow up. Only `auto` chooses its steps.",
       r.seconds,
       r.from_file ? "with all stiffnesses and pressures of the scene times a factor"

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "app/base/csv_line.h"
+#include "app/base/table.h"
 #include "app/files/output_file.h"
 
 namespace app {
@@ -53,18 +53,15 @@ std::string curves_csv(const Session& session) {
       row.resize(curves.size());
       row[c] = curves[c].ring[i];
     }
-  std::string text;
-  {
-    CsvLine heading(text);
-    heading.add("frame");
-    for (const Curve& curve : curves) heading.add(std::string_view(curve.name));
+  std::vector<std::string> columns{"frame"};
+  for (const Curve& curve : curves) columns.emplace_back(curve.name);
+  Table table(columns);
+  for (const auto& [frame, values] : rows) {
+    TableRow row{{"frame", frame}};
+    for (std::size_t c = 0; c < curves.size(); ++c) row.push_back({columns[c + 1], values[c]});
+    table.add(row);
   }
-  for (const auto& [frame, row] : rows) {
-    CsvLine line(text);
-    line.add(static_cast<double>(frame));
-    for (const auto& value : row) line.add_if(value.has_value(), static_cast<double>(value.value_or(0)));
-  }
-  return text;
+  return table.csv();
 }
 
 /// Whatever goes wrong is a message.

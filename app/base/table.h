@@ -38,9 +38,13 @@ using TableRow = std::vector<NamedCell>;
 
 class Table {
  public:
-  /// Adds a row. The first row names all columns. Later rows have them in the same order; what they leave out is empty.
+  /// Without columns, the first row names them.
+  explicit Table(std::vector<std::string> columns = {}) : rows_{std::move(columns)} {}
+
+  /// Adds a row. Its cells are in the order of the columns; a column that it leaves out is empty.
   void add(const TableRow& row);
-  bool empty() const { return rows_.empty(); }
+  bool empty() const { return rows_.size() == 1; }
+  /// Returns the table as CSV (RFC 4180, but lines end with "\n").
   std::string csv() const;
   /// Returns the table as the project's pages keep it. The first `text_columns` hold text, the others numbers.
   std::string markdown(std::size_t text_columns = 1) const;

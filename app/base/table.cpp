@@ -1,11 +1,10 @@
-#include "app/report/table.h"
+#include "app/base/table.h"
 
 #include <cassert>
 #include <cmath>
 
 #include <fmt/ranges.h>
 
-#include "app/base/csv_line.h"
 #include "app/base/text.h"
 
 namespace app {
@@ -13,10 +12,8 @@ namespace app {
 TableCell::TableCell(double number) : text(fmt::format("{:.9g}", number)) {}
 
 void Table::add(const TableRow& row) {
-  if (rows_.empty()) {
-    rows_.emplace_back();
+  if (rows_[0].empty())
     for (const NamedCell& named : row) rows_[0].push_back(named.column);
-  }
   std::vector<std::string> texts;
   auto next = row.begin();
   for (const std::string& column : rows_[0])
@@ -28,8 +25,13 @@ void Table::add(const TableRow& row) {
 std::string Table::csv() const {
   std::string text;
   for (const auto& row : rows_) {
-    CsvLine line(text);
-    for (const std::string& cell : row) line.add(cell);
+    for (const std::string& cell : row) {
+      const bool plain = cell.find_first_of(",\"\r\n") == std::string::npos;
+      if (!plain) text += '"';
+      for (const char c : cell) text.append(c == '"' ? 2 : 1, c);
+      text += plain ? "," : "\",";
+    }
+    text.back() = '\n';
   }
   return text;
 }
