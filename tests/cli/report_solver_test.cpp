@@ -80,6 +80,12 @@ TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   const Outcome none = run({"report", "solver", "--quick", "--scene", empty, "--out", folder.path() / "out"});
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
+  for (const char* appear : {"appear = 5\n", "appear = 500\n", "\n[[body]]\nposition = [3, 3, 0]\nappear = 5\n"}) {
+    const auto late = folder.write("late.toml", std::string("[[body]]\n") + appear);
+    const Outcome o = run({"report", "solver", "--quick", "--scene", late, "--out", folder.path() / "out"});
+    EXPECT_EQ(o.status, 2) << appear;
+    EXPECT_NE(o.err.find("join after the start"), std::string::npos) << o.err;
+  }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
 }

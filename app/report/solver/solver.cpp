@@ -108,6 +108,10 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
   if (options.scene) {
     const softbody::Scene scene = chosen_scenes(options).front();
     if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to measure; add a [[body]]");
+    const auto joins = [](const softbody::BodySource& b) { return b.appear > 0 && b.appear <= SolverRun{}.frames; };
+    const auto starts = [](const softbody::BodySource& b) { return b.appear <= 0; };
+    if (std::ranges::any_of(scene.bodies, joins) || std::ranges::none_of(scene.bodies, starts))
+      throw UsageError("scene '" + scene.key + "': bodies join after the start; set appear = 0");
     return {{.key = scene.key, .name = scene.name, .scene = scene, .repeatable = false}};
   }
   std::vector<SolverScene> scenes = solver_scenes();
