@@ -1,4 +1,4 @@
-// The program: reads the command line and hands over. Errors end here, as one line and exit status 2.
+// The program: parses the command line and calls a command. All errors end here, as one line and exit status 2.
 
 #include <csignal>
 #include <cstdio>
@@ -19,34 +19,33 @@
 
 namespace {
 
-int run(const app::Options& options) {
+int run(const app::cli::Options& options) {
   switch (options.command) {
-    case app::Command::list:
-      app::list(options.list_of);
+    case app::cli::Command::list:
+      app::cli::list(options.list_of);
       return 0;
-    case app::Command::simulate:
-      app::simulate(options);
+    case app::cli::Command::simulate:
+      app::cli::simulate(options);
       return 0;
-    case app::Command::detect:
-      app::detect(options);
+    case app::cli::Command::detect:
+      app::cli::detect(options);
       return 0;
-    case app::Command::report:
-      app::report(options.report);
+    case app::cli::Command::report:
+      app::report::report(options.report);
       return 0;
-    case app::Command::demo:
+    case app::cli::Command::demo:
       break;
   }
 #if SBCOLLIDE_GRAPHICS
-  return app::run_demo({.scene = app::load_scene(options),
-                        .scene_name = options.scene,
-                        .scene_folder = app::scene_folder(),
-                        .meshes = options.meshes,
-                        .integrator = options.integrator,
-                        .substeps = options.substeps,
-                        .threads = options.threads,
-                        .width = options.width,
-                        .height = options.height,
-                        .size_given = options.size_given});
+  return app::window::run_demo({.scene = app::cli::load_scene(options),
+                                .scene_name = options.scene,
+                                .scene_folder = app::files::scene_folder(),
+                                .meshes = options.meshes,
+                                .integrator = options.integrator,
+                                .threads = options.threads,
+                                .width = options.width,
+                                .height = options.height,
+                                .size_given = options.size_given});
 #else
   throw app::UsageError(
       "this build has no window; use `sbcollide simulate`, or configure with -DSBCOLLIDE_GRAPHICS=ON");
@@ -57,9 +56,9 @@ int run(const app::Options& options) {
 
 int main(int argc, char** argv) {
   try {
-    app::remove_temporary_files_on_signals();
-    std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is an error of writing, as on a full disk
-    const auto options = app::parse_options(argc, argv);
+    app::files::remove_temporary_files_on_signals();
+    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a size limit then fails like one on a full disk
+    const auto options = app::cli::parse_options(argc, argv);
     const int status = options ? run(*options) : 0;
     if (!std::cout.flush() || std::fflush(stdout) != 0)
       throw app::UsageError("standard output cannot be written to; is the disk full?");

@@ -1,24 +1,21 @@
 #pragma once
-// What windows and headless contexts share: how they fail, and how OpenGL's functions are loaded.
+// What windows and headless contexts share: the error type, and loading OpenGL's functions.
 
 #include <stdexcept>
-#include <string>
 
 namespace engine {
 
-/// There is no display or no OpenGL 3.3 here. what() is one line that says what is missing and what to do about it.
-class Unavailable : public std::runtime_error {
+/// There is no display, or no OpenGL 3.3. what() is one line: what is missing, and what to do about it.
+class ContextError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// Loads the OpenGL functions of the current context and checks for version 3.3. Window and HeadlessContext call it.
-void load_gl();
+/// Loads the OpenGL functions of the current context; Window and HeadlessContext call it. Throws ContextError if the
+/// version is below 3.3.
+void load_opengl();
 
-/// Name and version of the current context's driver, e.g. "llvmpipe (LLVM 15.0.6, 256 bits), OpenGL 4.5 ...".
-std::string gl_description();
-
-/// Whether that driver computes pictures on the processor, so that every pixel counts.
-bool draws_in_software();
+/// True if the current context draws on the CPU, where the time grows with every pixel.
+bool uses_software_renderer();
 
 }  // namespace engine

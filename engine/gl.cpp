@@ -1,6 +1,7 @@
 #include "engine/gl.h"
 
 #include <algorithm>
+#include <stdexcept>
 #include <string>
 
 namespace engine {
@@ -13,10 +14,10 @@ GLuint generated(Generate generate) {
   return name;
 }
 
-int possible_samples(int wanted) {
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_SAMPLES, &most);
-  return wanted < 2 ? 0 : std::min(wanted, most);
+int supported_samples(int wanted) {
+  GLint max = 0;
+  glGetIntegerv(GL_MAX_SAMPLES, &max);
+  return wanted < 2 ? 0 : std::min(wanted, max);
 }
 
 }  // namespace
@@ -30,6 +31,8 @@ void delete_framebuffer(GLuint name) { glDeleteFramebuffers(1, &name); }
 void delete_renderbuffer(GLuint name) { glDeleteRenderbuffers(1, &name); }
 }  // namespace detail
 
+FramebufferName generate_framebuffer() { return FramebufferName(generated(glGenFramebuffers)); }
+
 Buffer::Buffer() : name_(generated(glGenBuffers)) {}
 
 void Buffer::upload(GLenum target, const void* data, std::size_t bytes, GLenum usage) {
@@ -39,6 +42,13 @@ void Buffer::upload(GLenum target, const void* data, std::size_t bytes, GLenum u
 
 VertexArray::VertexArray() : name_(generated(glGenVertexArrays)) {}
 
+void enable_attributes(GLuint count, GLuint first_per_instance) {
+  for (GLuint attribute = 0; attribute < count; ++attribute) {
+    glEnableVertexAttribArray(attribute);
+    if (attribute >= first_per_instance) glVertexAttribDivisor(attribute, 1);
+  }
+}
+
 Texture::Texture() : name_(generated(glGenTextures)) {}
 
 void Texture::bind(int unit, GLenum target) const {
@@ -46,19 +56,26 @@ void Texture::bind(int unit, GLenum target) const {
   glBindTexture(target, id());
 }
 
+void set_linear_clamped() {
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_LINEAR);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_S, GL_CLAMP_TO_EDGE);
+  glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
+}
+
 Framebuffer::Framebuffer(glm::ivec2 size, int samples)
     : size_(size),
-      samples_(possible_samples(samples)),
+      samples_(supported_samples(samples)),
       framebuffer_(generated(glGenFramebuffers)),
       resolved_(samples_ > 0 ? generated(glGenFramebuffers) : 0),
       colour_(generated(glGenRenderbuffers)),
       depth_(generated(glGenRenderbuffers)),
       resolved_colour_(samples_ > 0 ? generated(glGenRenderbuffers) : 0) {
-  GLint most = 0;
-  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &most);
-  if (size.x < 1 || size.y < 1 || size.x > most || size.y > most) {
+  GLint max = 0;
+  glGetIntegerv(GL_MAX_RENDERBUFFER_SIZE, &max);
+  if (size.x < 1 || size.y < 1 || size.x > max || size.y > max) {
     throw std::runtime_error("a picture of " + std::to_string(size.x) + "x" + std::to_string(size.y) +
-                             " pixels is not possible: 1x1 to " + std::to_string(most) + "x" + std::to_string(most) +
+                             " pixels is not possible: 1x1 to " + std::to_string(max) + "x" + std::to_string(max) +
                              " is");
   }
   if (samples_ > 0) attach(resolved_.get(), resolved_colour_.get(), 0, 0);
@@ -67,10 +84,10 @@ Framebuffer::Framebuffer(glm::ivec2 size, int samples)
 }
 
 void Framebuffer::attach(GLuint framebuffer, GLuint colour, GLuint depth, int samples) const {
-  const auto add = [&](GLuint buffer, GLenum format, GLenum place) {
+  const auto add = [&](GLuint buffer, GLenum format, GLenum attachment) {
     glBindRenderbuffer(GL_RENDERBUFFER, buffer);
     glRenderbufferStorageMultisample(GL_RENDERBUFFER, samples, format, size_.x, size_.y);
-    glFramebufferRenderbuffer(GL_FRAMEBUFFER, place, GL_RENDERBUFFER, buffer);
+    glFramebufferRenderbuffer(GL_FRAMEBUFFER, attachment, GL_RENDERBUFFER, buffer);
   };
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   add(colour, GL_RGBA8, GL_COLOR_ATTACHMENT0);
@@ -103,7 +120,7 @@ Image read_pixels(GLuint framebuffer, glm::ivec2 size) {
   glBindFramebuffer(GL_READ_FRAMEBUFFER, framebuffer);
   glPixelStorei(GL_PACK_ALIGNMENT, 4);
   glReadPixels(0, 0, size.x, size.y, GL_RGBA, GL_UNSIGNED_BYTE, image.rgba.data());
-  // OpenGL's rows go from the bottom up.
+  // OpenGL returns the bottom row first.
   const auto begin = image.rgba.begin();
   for (std::size_t top = 0, bottom = image.rgba.size(); top + row < bottom; top += row) {
     bottom -= row;

@@ -3,12 +3,13 @@
 #include <imgui.h>
 
 #include <array>
+#include <cassert>
 #include <fstream>
 
 namespace engine {
 namespace {
 
-// Where Debian, Ubuntu, Fedora and Arch put them.
+// Font files on Debian, Ubuntu, Fedora and Arch, best font first.
 constexpr std::array font_files{
     "/usr/share/fonts/opentype/inter/Inter-Regular.otf",
     "/usr/share/fonts/truetype/roboto/unhinted/RobotoTTF/Roboto-Regular.ttf",
@@ -17,9 +18,9 @@ constexpr std::array font_files{
     "/usr/share/fonts/TTF/DejaVuSans.ttf",
 };
 
-// Latin, Greek, dashes and quotes, superscripts, arrows, mathematical signs, and simple shapes.
-constexpr std::array<ImWchar, 15> glyphs{0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
-                                         0x2190, 0x2199, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
+// First and last characters: Latin, Greek, dashes and quotes, superscripts, arrows, mathematical signs, simple shapes.
+constexpr std::array<ImWchar, 15> glyph_ranges{0x0020, 0x00ff, 0x0370, 0x03ff, 0x2010, 0x2027, 0x2070, 0x209f,
+                                               0x2190, 0x2199, 0x2200, 0x22ff, 0x25a0, 0x25ff, 0};
 
 ImVec4 rgba(unsigned rgb, float alpha = 1.0f) {
   const auto channel = [&](int shift) { return static_cast<float>((rgb >> shift) & 0xffu) / 255.0f; };
@@ -29,7 +30,7 @@ ImVec4 rgba(unsigned rgb, float alpha = 1.0f) {
 void set_colours(ImVec4* colours) {
   const unsigned ink = 0x22272e, accent = 0x2f6fb5;
   colours[ImGuiCol_Text] = rgba(ink);
-  colours[ImGuiCol_TextDisabled] = rgba(0x5f6873);  // 5 to 1 on the docks
+  colours[ImGuiCol_TextDisabled] = rgba(0x5f6873);  // contrast 5 to 1 on the docks
   colours[ImGuiCol_WindowBg] = rgba(0xf8f9fa, 0.95f);
   colours[ImGuiCol_ChildBg] = rgba(0xffffff, 0.0f);
   colours[ImGuiCol_PopupBg] = rgba(0xffffff, 0.98f);
@@ -69,16 +70,17 @@ void set_colours(ImVec4* colours) {
   colours[ImGuiCol_ModalWindowDimBg] = rgba(ink, 0.25f);
 }
 
-bool readable(const char* file) { return std::ifstream(file).good(); }
+bool is_readable(const char* file) { return std::ifstream(file).good(); }
 
 }  // namespace
 
 void apply_theme(float scale) {
+  assert(scale > 0.0f);
   ImGuiStyle& style = ImGui::GetStyle();
   style = ImGuiStyle();
   ImGui::StyleColorsLight(&style);
   set_colours(style.Colors);
-  style.DisabledAlpha = 0.7f;  // text still 5 to 1 on a button
+  style.DisabledAlpha = 0.7f;  // keeps a contrast of 5 to 1 on buttons
   style.WindowPadding = {14.0f, 12.0f};
   style.FramePadding = {8.0f, 4.0f};
   style.ItemSpacing = {8.0f, 6.0f};
@@ -96,6 +98,7 @@ void apply_theme(float scale) {
 }
 
 void load_font(float pixels) {
+  assert(pixels > 0.0f);
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;
   atlas.Clear();
   ImFontConfig config;
@@ -103,7 +106,7 @@ void load_font(float pixels) {
   config.OversampleV = 1;
   config.PixelSnapH = false;
   for (const char* file : font_files) {
-    if (readable(file) && atlas.AddFontFromFileTTF(file, pixels, &config, glyphs.data()) != nullptr) return;
+    if (is_readable(file) && atlas.AddFontFromFileTTF(file, pixels, &config, glyph_ranges.data()) != nullptr) return;
   }
   config.SizePixels = pixels;
   atlas.AddFontDefault(&config);

@@ -1,12 +1,12 @@
 #pragma once
-// The look of the panels.
+// Colours, sizes and font of the panels.
 
 namespace engine {
 
-/// Sets ImGui's colours, and its sizes times `scale`.
+/// Sets ImGui's colours and its sizes, multiplied by `scale` > 0.
 void apply_theme(float scale);
 
-/// Fills ImGui's font atlas: a legible font of the system at `pixels` height, else ImGui's own.
+/// Fills ImGui's font atlas with a system font, or with ImGui's own if none is found. `pixels` > 0 is the height.
 void load_font(float pixels);
 
 }  // namespace engine

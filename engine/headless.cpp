@@ -19,7 +19,7 @@ Function egl_function(const char* name) {
   return reinterpret_cast<Function>(eglGetProcAddress(name));
 }
 
-/// The displays worth trying, best first.
+/// Returns the displays to try, best first.
 std::vector<EGLDisplay> candidate_displays() {
   const char* client = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
   const auto get_display = egl_function<PFNEGLGETPLATFORMDISPLAYEXTPROC>("eglGetPlatformDisplayEXT");
@@ -40,16 +40,17 @@ std::vector<EGLDisplay> candidate_displays() {
   return displays;
 }
 
+/// Returns an OpenGL 3.3 core context, or EGL_NO_CONTEXT.
 EGLContext create_context(EGLDisplay display) {
-  constexpr std::array<EGLint, 5> config_wish{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
-  constexpr std::array<EGLint, 7> context_wish{
+  constexpr std::array<EGLint, 5> config_attributes{EGL_RENDERABLE_TYPE, EGL_OPENGL_BIT, EGL_SURFACE_TYPE, 0, EGL_NONE};
+  constexpr std::array<EGLint, 7> context_attributes{
       EGL_CONTEXT_MAJOR_VERSION,           3,       EGL_CONTEXT_MINOR_VERSION, 3, EGL_CONTEXT_OPENGL_PROFILE_MASK,
       EGL_CONTEXT_OPENGL_CORE_PROFILE_BIT, EGL_NONE};
   EGLConfig config = nullptr;
   EGLint found = 0;
   if (!eglBindAPI(EGL_OPENGL_API)) return EGL_NO_CONTEXT;
-  if (!eglChooseConfig(display, config_wish.data(), &config, 1, &found) || found == 0) return EGL_NO_CONTEXT;
-  return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish.data());
+  if (!eglChooseConfig(display, config_attributes.data(), &config, 1, &found) || found == 0) return EGL_NO_CONTEXT;
+  return eglCreateContext(display, config, EGL_NO_CONTEXT, context_attributes.data());
 }
 
 }  // namespace
@@ -57,23 +58,24 @@ EGLContext create_context(EGLDisplay display) {
 HeadlessContext::HeadlessContext() {
   std::string problem = "EGL knows no platform that works without a display";
   for (EGLDisplay display : candidate_displays()) {
-    if (open(display, problem)) return;
+    if (try_display(display, problem)) return;
   }
-  throw Unavailable("cannot draw without a window: " + problem +
-                    "; install Mesa's drivers (packages libegl-mesa0 and libgl1-mesa-dri)");
+  throw ContextError("cannot draw without a window: " + problem +
+                     "; install Mesa's drivers (packages libegl-mesa0 and libgl1-mesa-dri)");
 }
 
-bool HeadlessContext::open(void* display, std::string& problem) {
+/// Makes a context on `display` current. Returns false and sets `problem` if that fails.
+bool HeadlessContext::try_display(void* display, std::string& problem) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
   const EGLContext context = create_context(display);
   if (context != EGL_NO_CONTEXT && eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     try {
-      load_gl();
+      load_opengl();
       display_ = display;
       context_ = context;
       return true;
-    } catch (const Unavailable& reason) {
-      problem = reason.what();
+    } catch (const ContextError& error) {
+      problem = error.what();
     }
     eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   } else {
@@ -87,7 +89,7 @@ bool HeadlessContext::open(void* display, std::string& problem) {
 HeadlessContext::~HeadlessContext() {
   eglMakeCurrent(display_, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
   eglDestroyContext(display_, context_);
-  // The display stays: it belongs to the whole process, and another context may use it.
+  // The display is not terminated: the whole process shares it, and another context may use it.
 }
 
 }  // namespace engine

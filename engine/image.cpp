@@ -22,7 +22,7 @@ std::vector<std::uint8_t> without_alpha(const Image& image) {
 
 }  // namespace
 
-// libpng's simplified interface reports by return value, without longjmp.
+// libpng's simplified interface reports errors by its return value, without longjmp.
 
 std::string encode_png(const Image& image) {
   const auto pixels = static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height);

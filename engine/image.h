@@ -1,6 +1,8 @@
 #pragma once
 // Pictures in memory and as PNG. No OpenGL.
 
+#include <cassert>
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <glm/vec4.hpp>
@@ -15,20 +17,22 @@ struct Image {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgba;
 
+  /// Returns the pixel in column `x` and row `y`, which must be inside the picture.
   glm::u8vec4 at(int x, int y) const {
+    assert(x >= 0 && x < width && y >= 0 && y < height);
     const auto* p =
         rgba.data() + 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
     return {p[0], p[1], p[2], p[3]};
   }
 };
 
-/// A picture could not be encoded or read. what() is the reason, after the path if there is one.
+/// A picture cannot be encoded or read. what() is the reason, after the path if there is one.
 class ImageError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The bytes of a PNG file of 8-bit RGB; alpha is dropped. Throws ImageError.
+/// Returns the bytes of an 8-bit RGB PNG file; drops alpha. Throws ImageError, also if the picture is empty.
 std::string encode_png(const Image& image);
 
 /// Reads any PNG as RGBA. Throws ImageError.

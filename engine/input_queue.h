@@ -1,7 +1,8 @@
 #pragma once
-// What mouse and keyboard did in a window, in order, handed on frame by frame. What is typed after a click is for
-// whoever the click chose, which shows only once a frame was told of the click; and Dear ImGui 1.86, which looks at
-// keys and buttons once a frame, would miss what goes down and up between two frames. Slow frames make both usual.
+// Mouse and keyboard events of a window, in order, handed out frame by frame. Slow frames make it necessary, because
+// many events then happen between two frames:
+// - What is typed after a click is meant for the widget that the click selects, which is known only a frame later.
+// - Dear ImGui 1.86 reads keys and buttons once a frame and misses what goes down and up between two frames.
 
 #include <glm/vec2.hpp>
 #include <variant>
@@ -12,21 +13,21 @@ namespace engine {
 struct ButtonEvent {
   int button;
   bool down;
-  glm::vec2 at;                     // the cursor, screen coordinates
-  double earliest = 0, latest = 0;  // s: when it may have happened
+  glm::vec2 position;               // of the cursor, screen coordinates
+  double earliest = 0, latest = 0;  // s: the event happened between these times
 };
-/// To shortcuts, in the keyboard's layout: see key_reader.h.
+/// What a key means to shortcuts; see key_translator.h.
 struct KeyMeaning {
-  int key;           // GLFW_KEY_*; 0: none
-  bool typed_first;  // what the key types is meant, and `key` only if that is no shortcut
+  int key;                 // GLFW_KEY_*; 0: none
+  bool prefers_character;  // the typed character counts, and `key` only if that character is no shortcut
 };
 struct KeyEvent {
-  int key;  // GLFW_KEY_*, by its place on the keyboard
+  int key;  // GLFW_KEY_*: the position on a US keyboard
   KeyMeaning meaning;
-  int scancode, action, mods;
+  int scancode, action, mods;  // as in GLFW's key callback
 };
 struct CharacterEvent {
-  unsigned int code;
+  unsigned int code;  // Unicode
 };
 struct ScrollEvent {
   glm::dvec2 steps;
@@ -37,12 +38,12 @@ class InputQueue {
  public:
   bool empty() const { return events_.empty(); }
   void push(const InputEvent& event) { events_.push_back(event); }
-  /// What the next frame may be told: one mouse button's change at most, and of keys and characters only those whose
-  /// receiver and whose order do not matter to each other: a key that sends no character has its frame to itself.
+  /// Removes and returns the events of the next frame. At most one mouse button changes in a frame. Keys and characters
+  /// follow only while it is known which widget receives them and while their order within the frame does not matter.
   std::vector<InputEvent> take();
 
  private:
-  bool focus_moves_ = false;  // in the next frame, which is to be told nothing
+  bool skip_frame_ = false;  // the next frame gets no events, because the focus moves in it
   std::vector<InputEvent> events_;
 };
 

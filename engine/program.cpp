@@ -1,20 +1,20 @@
-// Programs: reading shader files, compiling them, and saying where one is wrong.
+#include "engine/program.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cstdio>
 #include <fstream>
 #include <sstream>
 #include <vector>
-
-#include "engine/gl.h"
 
 namespace engine {
 namespace fs = std::filesystem;
 
 namespace {
 
-/// A shader's text, and where each of its lines comes from. (Drivers do not agree on #line, and Mesa mixes files up.)
-struct Source {
+/// The text of a shader with its includes, and the file and line that each line comes from. (#line is no alternative:
+/// drivers interpret it differently, and Mesa confuses the files.)
+struct ShaderSource {
   struct Origin {
     fs::path file;
     int line;
@@ -23,14 +23,14 @@ struct Source {
   std::vector<Origin> lines;
 };
 
-void append(Source& source, const fs::path& file) {
+void append_file(ShaderSource& source, const fs::path& file) {
   std::ifstream stream(file);
   if (!stream) throw ShaderError(file.string() + ": cannot read this shader");
   std::string line;
   for (int n = 1; std::getline(stream, line); ++n) {
     if (line.starts_with("#include \"")) {
       const std::size_t name = line.find('"') + 1;
-      append(source, file.parent_path() / line.substr(name, line.rfind('"') - name));
+      append_file(source, file.parent_path() / line.substr(name, line.rfind('"') - name));
     } else {
       source.text += line + "\n";
       source.lines.push_back({file, n});
@@ -47,8 +47,9 @@ std::string info_log(GLuint name, Get get, GetLog get_log) {
   return log.c_str();
 }
 
-/// Puts file and line before what the driver says: Mesa writes "0:12(5): ", NVIDIA "0(12) : ", others "ERROR: 0:12: ".
-std::string readable(const std::string& log, const Source& source) {
+/// Replaces the line number at the start of each of the driver's messages by file and line. Mesa writes "0:12(5): ",
+/// NVIDIA "0(12) : ", others "ERROR: 0:12: ".
+std::string with_file_and_line(const std::string& log, const ShaderSource& source) {
   std::istringstream lines(log);
   std::string result, line;
   while (std::getline(lines, line)) {
@@ -56,7 +57,7 @@ std::string readable(const std::string& log, const Source& source) {
     std::size_t number = 0;
     if (!result.empty()) result += "\n";
     if (std::sscanf(line.c_str() + start, "%*d%*1[:(]%zu", &number) == 1 && number - 1 < source.lines.size()) {
-      const Source::Origin& origin = source.lines[number - 1];
+      const ShaderSource::Origin& origin = source.lines[number - 1];
       const std::size_t text = line.find(": ", start);
       result += origin.file.string() + ":" + std::to_string(origin.line) + line.substr(std::min(text, line.size()));
     } else {
@@ -66,19 +67,26 @@ std::string readable(const std::string& log, const Source& source) {
   return result;
 }
 
+/// Compiles a shader and attaches it to `program`. Throws ShaderError.
 GLuint compile(GLuint program, GLenum stage, const fs::path& file) {
-  Source source;
-  append(source, file);
+  ShaderSource source;
+  append_file(source, file);
   const GLuint shader = glCreateShader(stage);
   const char* text = source.text.c_str();
   glShaderSource(shader, 1, &text, nullptr);
   glCompileShader(shader);
   glAttachShader(program, shader);
-  glDeleteShader(shader);  // when the program lets go of it
+  glDeleteShader(shader);  // takes effect when the program detaches it
   GLint ok = GL_FALSE;
   glGetShaderiv(shader, GL_COMPILE_STATUS, &ok);
-  if (!ok) throw ShaderError(readable(info_log(shader, glGetShaderiv, glGetShaderInfoLog), source));
+  if (!ok) throw ShaderError(with_file_and_line(info_log(shader, glGetShaderiv, glGetShaderInfoLog), source));
   return shader;
+}
+
+[[maybe_unused]] GLuint current_program() {
+  GLint name = 0;
+  glGetIntegerv(GL_CURRENT_PROGRAM, &name);
+  return static_cast<GLuint>(name);
 }
 
 }  // namespace
@@ -102,6 +110,7 @@ Program::Program(const fs::path& folder, const std::string& vertex_file, const s
 }
 
 GLint Program::location(const char* name) const {
+  assert(current_program() == name_.get());
   const auto [found, added] = locations_.try_emplace(name);
   if (added) found->second = glGetUniformLocation(name_.get(), name);
   return found->second;

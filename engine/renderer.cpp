@@ -7,64 +7,70 @@
 
 #include "engine/context.h"
 #include "engine/gl.h"
-#include "engine/render/blocks.h"
-#include "engine/render/bodies.h"
-#include "engine/render/frame_block.h"
-#include "engine/render/occlusion.h"
-#include "engine/render/overlays.h"
-#include "engine/render/shadow.h"
-#include "engine/render/solids.h"
-#include "engine/render/studio.h"
+#include "engine/render/ambient_occlusion.h"
+#include "engine/render/body_pass.h"
+#include "engine/render/box_pass.h"
+#include "engine/render/environment_pass.h"
+#include "engine/render/floor_map.h"
+#include "engine/render/frame_uniforms.h"
+#include "engine/render/overlay_pass.h"
+#include "engine/render/shadow_map.h"
+#include "engine/render/sphere_pass.h"
 
 namespace engine {
 namespace {
 
-constexpr float floor_map_reach = 1.5f;  // half its width, in radii of the scene
+constexpr float floor_map_half_size = 1.5f;  // in radii of the scene
 
-/// A round distance that cuts the scene into a handful of squares.
+/// Returns the distance of grid lines in m: a power of ten that divides the scene into a handful of cells.
 float grid_spacing(float scene_radius) { return std::pow(10.0f, std::floor(std::log10(0.6f * scene_radius))); }
 
-/// What draw() changes and must leave as it found it: the target and the part of it.
-class SavedTarget {
+/// The framebuffers that were bound when the object was made.
+class FramebufferBindings {
  public:
-  SavedTarget() {
-    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &framebuffer_);
+  FramebufferBindings() {
+    glGetIntegerv(GL_DRAW_FRAMEBUFFER_BINDING, &draw_);
     glGetIntegerv(GL_READ_FRAMEBUFFER_BINDING, &read_);
   }
-  void bind() const {
-    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(framebuffer_));
+  void restore() const {
+    glBindFramebuffer(GL_DRAW_FRAMEBUFFER, static_cast<GLuint>(draw_));
     glBindFramebuffer(GL_READ_FRAMEBUFFER, static_cast<GLuint>(read_));
   }
 
  private:
-  GLint framebuffer_ = 0, read_ = 0;
+  GLint draw_ = 0, read_ = 0;
 };
 
 }  // namespace
 
 struct Renderer::Passes {
   explicit Passes(const std::filesystem::path& shaders)
-      : bodies(shaders), spheres(shaders), blocks(shaders), floor_map(shaders), studio(shaders), overlays(shaders) {}
+      : bodies(shaders),
+        spheres(shaders),
+        boxes(shaders),
+        floor_map(shaders),
+        environment(shaders),
+        overlays(shaders) {}
 
   void update(const Camera& camera, const Viewport& viewport, const FrameData& frame);
   void draw_shadows();
   void draw_scene(const Viewport& viewport, const FrameData& frame);
   void find_casters(const FrameData& frame);
-  FrameBlock describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
+  render::FrameUniforms frame_uniforms(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
 
-  const bool in_software = draws_in_software();
+  const bool software_renderer = uses_software_renderer();
   glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
-  LightView light{};
-  Occlusion occlusion;
-  std::vector<glm::vec4> casters;  // spheres round all that casts shadows
-  ShadowMap shadow_map;
-  Bodies bodies;
-  Spheres spheres;
-  Blocks blocks;
-  FloorMap floor_map;
-  Studio studio;
-  Overlays overlays;
-  Buffer block;
+  render::LightView light{};
+  render::AmbientOcclusion occlusion;
+  std::vector<glm::vec4> casters;  // spheres round all that casts shadows: centre, radius
+  render::ShadowMap shadow_map;
+  render::BodyPass bodies;
+  render::SpherePass spheres;
+  render::BoxPass boxes;
+  render::FloorMap floor_map;
+  render::EnvironmentPass environment;
+  render::OverlayPass overlays;
+  Buffer uniform_buffer;
 };
 
 void Renderer::Passes::find_casters(const FrameData& frame) {
@@ -74,52 +80,55 @@ void Renderer::Passes::find_casters(const FrameData& frame) {
     const MeshDraw& draw = frame.meshes[i];
     const bool finite = occlusion.spheres()[i].w > 0;
     if (finite)
-      casters.emplace_back(centre, reach(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+      casters.emplace_back(centre,
+                           render::max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
   }
   for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
   for (const Capsule& c : frame.capsules)
     casters.emplace_back(0.5f * (c.from + c.to), 0.5f * glm::distance(c.from, c.to) + c.radius);
-  for (const Block& b : frame.blocks) {
-    const glm::mat3& a = b.half_axes;  // at right angles
+  for (const OrientedBox& b : frame.oriented_boxes) {
+    const glm::mat3& a = b.half_axes;
     casters.emplace_back(b.centre, std::sqrt(glm::dot(a[0], a[0]) + glm::dot(a[1], a[1]) + glm::dot(a[2], a[2])));
   }
 }
 
-FrameBlock Renderer::Passes::describe(const Camera& camera, const Viewport& viewport, const FrameData& frame) const {
+render::FrameUniforms Renderer::Passes::frame_uniforms(const Camera& camera, const Viewport& viewport,
+                                                       const FrameData& frame) const {
   const glm::vec3& centre = frame.bounds_centre;
   const float radius = frame.bounds_radius;
-  FrameBlock values{};
+  render::FrameUniforms values{};
   values.clip_from_world = camera.projection(viewport.size) * camera.view();
   values.shadow_from_world = light.texture_from_world();
   values.eye = glm::vec4(camera.eye(), frame.pixel_scale);
-  values.to_light = glm::vec4(to_light, light.texel);
+  values.to_light = glm::vec4(to_light, light.texel_size);
   values.viewport = glm::vec4(viewport.origin, viewport.size);
-  values.floor_map = glm::vec4(centre.x, centre.z, 0.5f / (floor_map_reach * radius), frame.ground.value_or(0.0f));
+  values.floor_map =
+      glm::vec4(centre.x, centre.z, 0.5f / (floor_map_half_size * radius), frame.floor_height.value_or(0.0f));
   values.scene = glm::vec4(centre.x, centre.z, radius, grid_spacing(radius));
-  values.casters = light.reach_of(casters);
-  values.flags.x = frame.ground ? 1.0f : 0.0f;
+  values.shadow_bounds = light.shadow_bounds(casters);
+  values.flags.x = frame.floor_height ? 1.0f : 0.0f;
   return values;
 }
 
 void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
-  light = shadow_map.view(to_light, frame.bounds_centre, frame.bounds_radius);
+  light = shadow_map.light_view(to_light, frame.bounds_centre, frame.bounds_radius);
   occlusion.update(frame);
   find_casters(frame);
-  const FrameBlock values = describe(camera, viewport, frame);
-  block.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
-  glBindBufferBase(GL_UNIFORM_BUFFER, 0, block.id());
+  const render::FrameUniforms values = frame_uniforms(camera, viewport, frame);
+  uniform_buffer.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
+  glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer.id());
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   bodies.update(frame, occlusion, camera.eye(), pixels_at_one_metre);
   spheres.update(frame, occlusion);
-  blocks.update(frame);
-  studio.update(frame, casters, to_light, 8.0f * light.texel);
+  boxes.update(frame);
+  environment.update(frame, casters, to_light, 8.0f * light.texel_size);
 }
 
 void Renderer::Passes::draw_shadows() {
   shadow_map.begin();
   bodies.draw_shadows(light.clip_from_world);
   spheres.draw_shadows(light.clip_from_world);
-  blocks.draw_shadows(light.clip_from_world);
+  boxes.draw_shadows(light.clip_from_world);
   shadow_map.end();
 }
 
@@ -129,12 +138,12 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   glEnable(GL_SCISSOR_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
-  shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
+  shadow_map.texture().bind(render::unit_shadow_map, GL_TEXTURE_2D);
   bodies.draw();
   spheres.draw();
-  blocks.draw();
-  studio.draw(frame.ground.has_value());
-  if (in_software) glFlush();  // so that other cores begin while this one gets the overlays ready
+  boxes.draw();
+  environment.draw(frame.floor_height.has_value());
+  if (software_renderer) glFlush();  // so that the driver's threads draw while this one prepares the overlays
   bodies.draw_translucent();
   overlays.draw(frame);
 }
@@ -149,7 +158,7 @@ MeshHandle Renderer::add_mesh(std::span<const std::uint32_t> triangles, std::uin
 void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameData& frame) {
   if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
   passes_->bodies.check(frame);
-  const SavedTarget target;
+  const FramebufferBindings bindings;
   glEnable(GL_DEPTH_TEST);
   glDepthFunc(GL_LESS);
   glDepthMask(GL_TRUE);
@@ -157,8 +166,8 @@ void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameD
   glDisable(GL_SCISSOR_TEST);
   passes_->update(camera, viewport, frame);
   passes_->draw_shadows();
-  if (frame.ground) passes_->floor_map.draw(frame, passes_->occlusion);
-  target.bind();
+  if (frame.floor_height) passes_->floor_map.draw(frame, passes_->occlusion);
+  bindings.restore();
   passes_->draw_scene(viewport, frame);
   glDepthFunc(GL_LESS);
   glBindVertexArray(0);

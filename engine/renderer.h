@@ -1,5 +1,5 @@
 #pragma once
-// Draws one FrameData: matte bodies and spheres on a light studio floor, with soft shadows, and overlays over them.
+// Draws one FrameData: matte bodies and solids in a light studio with soft shadows, and overlays on top.
 
 #include <cstdint>
 #include <filesystem>
@@ -20,16 +20,17 @@ struct Viewport {
 
 class Renderer {
  public:
-  /// Needs a current context, also when destroyed. Throws ShaderError.
+  /// Reads the shaders in the folder `shaders`. Needs a current context, also when destroyed. Throws ShaderError.
   explicit Renderer(const std::filesystem::path& shaders);
   ~Renderer();
 
-  /// Uploads a mesh: three indices per triangle, counted from its body's first vertex, counter-clockwise from outside.
-  /// A mesh with a border is drawn from both sides. Throws std::invalid_argument if an index is out of range.
+  /// Uploads a mesh: three indices per triangle, counted from the body's first vertex, counter-clockwise from outside.
+  /// Both sides of an open mesh are drawn. Throws std::invalid_argument if an index is not below `vertex_count` or the
+  /// last triangle is incomplete.
   MeshHandle add_mesh(std::span<const std::uint32_t> triangles, std::uint32_t vertex_count);
 
   /// Draws into the bound framebuffer and covers the whole viewport, background included. Does nothing if the viewport
-  /// is empty. Throws std::invalid_argument if a draw reaches beyond the vertices or names no mesh.
+  /// is empty. Throws std::invalid_argument if a draw exceeds the vertices of the frame or does not fit its mesh.
   void draw(const Camera& camera, const Viewport& viewport, const FrameData& frame);
 
  private:

@@ -25,14 +25,14 @@ bool is_folder(const fs::path& path) {
 
 fs::path find_folder(std::string_view name) {
   if (const char* data = std::getenv("SBCOLLIDE_DATA"); data != nullptr && *data != '\0') {
-    // Whoever sets it means it: falling back to another folder would hide the mistake.
+    // No other folder is tried, because that would hide a mistake in the variable.
     if (fs::path folder = fs::path(data) / name; is_folder(folder)) return folder;
     throw ResourceError("SBCOLLIDE_DATA=" + std::string(data) + " has no folder '" + std::string(name) +
                         "': set it to the folder that holds shaders/ and assets/, or unset it");
   }
   const fs::path here = executable_folder();
   std::string tried;
-  // A checkout that was moved or copied has its own build/PRESET/bin, where the name of another is compiled in.
+  // In a checkout that was moved or copied, SBCOLLIDE_SOURCE_DIR still names the old place.
   const fs::path checkout = here / "../../..";
   std::vector<fs::path> bases{here, here / "../share/sbcollide", fs::path(SBCOLLIDE_SOURCE_DIR)};
   if (fs::exists(checkout / "CMakePresets.json")) bases.insert(bases.end() - 1, checkout);

@@ -1,5 +1,5 @@
 #pragma once
-// Where the files read at run time lie. Needs no graphics: its own target, sbcollide::resources.
+// Finds the files that are read at run time. Needs no graphics; a target of its own: sbcollide::resources.
 
 #include <filesystem>
 #include <stdexcept>
@@ -7,15 +7,15 @@
 
 namespace engine {
 
-/// A folder was not found. what() is one line: the folder, the places tried, and the variable SBCOLLIDE_DATA.
+/// A folder is missing. what() is one line: the folder, where it was searched, and the variable SBCOLLIDE_DATA.
 class ResourceError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The folder `name` ("shaders", "assets"), whatever the working directory: inside $SBCOLLIDE_DATA if that is set, else
-/// beside the executable, else in ../share/sbcollide of it, else in the checkout whose build/PRESET/bin it lies in,
-/// else in the source folder that it was built from. Throws ResourceError.
+/// Finds the folder `name` ("shaders", "assets"), from any working directory. If $SBCOLLIDE_DATA is set, the folder
+/// must be there. Otherwise the search goes through: the folder of the executable, ../share/sbcollide beside it, the
+/// checkout whose build/PRESET/bin holds the executable, and the source folder of the build. Throws ResourceError.
 std::filesystem::path find_folder(std::string_view name);
 
 }  // namespace engine

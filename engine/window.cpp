@@ -1,17 +1,17 @@
 #include "engine/window.h"
 
 #include <GL/glew.h>
-// After GLEW, which wants to be first.
 #include <GLFW/glfw3.h>
 
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cstdlib>
 #include <thread>
 #include <utility>
 
 #include "engine/context.h"
-#include "engine/key_reader.h"
+#include "engine/key_translator.h"
 
 namespace engine {
 namespace {
@@ -29,6 +29,7 @@ bool is_absolute_path(const char* variable) {
 }
 #endif
 
+/// Returns `wanted`, reduced to the work area of the primary monitor.
 glm::ivec2 fitting_size(glm::ivec2 wanted) {
   glm::ivec2 origin(0), area(0);
   if (GLFWmonitor* monitor = glfwGetPrimaryMonitor(); monitor != nullptr) {
@@ -43,28 +44,28 @@ void set_hints(const WindowOptions& options) {
   glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
   glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
   glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-#ifdef __APPLE__  // has no other; elsewhere it would forbid wide lines, which the overlays take where no card draws
+#ifdef __APPLE__  // offers no other core context; elsewhere it would forbid the wide lines of render/overlay_pass.h
   glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
 #endif
-  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // where the driver can: it tells of resets
+  glfwWindowHint(GLFW_CONTEXT_ROBUSTNESS, GLFW_LOSE_CONTEXT_ON_RESET);  // reports driver resets, if supported
   glfwWindowHint(GLFW_DEPTH_BITS, 24);
   glfwWindowHint(GLFW_SAMPLES, options.samples);
   glfwWindowHint(GLFW_SCALE_TO_MONITOR, GLFW_TRUE);
-  glfwWindowHint(GLFW_VISIBLE, options.visible ? GLFW_TRUE : GLFW_FALSE);
   glfwWindowHintString(GLFW_X11_CLASS_NAME, "sbcollide");
 }
 
 }  // namespace
 
 Window::Window(const WindowOptions& options) {
+  assert(options.size.x > 0 && options.size.y > 0 && options.samples >= 0);
 #ifdef GLFW_PLATFORM
-  // Where no socket of Wayland's can be, its library would say so on standard error before GLFW turned to X11.
+  // Where no Wayland socket can exist, Wayland's library would print an error before GLFW tried X11.
   if (!is_absolute_path("XDG_RUNTIME_DIR") && !is_absolute_path("WAYLAND_DISPLAY"))
     glfwInitHint(GLFW_PLATFORM, GLFW_PLATFORM_X11);
 #endif
   if (!glfwInit()) {
-    throw Unavailable("cannot open a window: " + last_glfw_error() +
-                      "; start it in a desktop session (DISPLAY or WAYLAND_DISPLAY set), or use 'simulate'");
+    throw ContextError("cannot open a window: " + last_glfw_error() +
+                       "; start it in a desktop session (DISPLAY or WAYLAND_DISPLAY set), or use 'simulate'");
   }
   set_hints(options);
   const glm::ivec2 size = fitting_size(options.size);
@@ -72,12 +73,12 @@ Window::Window(const WindowOptions& options) {
   if (window_ == nullptr) {
     const std::string reason = last_glfw_error();
     glfwTerminate();
-    throw Unavailable("cannot open a window with OpenGL 3.3: " + reason +
-                      "; update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1");
+    throw ContextError("cannot open a window with OpenGL 3.3: " + reason +
+                       "; update the graphics driver, or set LIBGL_ALWAYS_SOFTWARE=1");
   }
   try {
     glfwMakeContextCurrent(window_);
-    load_gl();
+    load_opengl();
   } catch (...) {
     glfwTerminate();
     throw;
@@ -90,13 +91,13 @@ Window::Window(const WindowOptions& options) {
   glfwSetScrollCallback(window_, &Window::on_scroll);
   glfwSetCharCallback(window_, &Window::on_character);
   glfwSetWindowSizeLimits(window_, 320, 240, GLFW_DONT_CARE, GLFW_DONT_CARE);
-  set_vsync(options.vsync);
-  measure();
+  glfwSwapInterval(options.vsync ? 1 : 0);
+  update_size();
 }
 
 Window::~Window() { glfwTerminate(); }
 
-bool Window::open() const { return !glfwWindowShouldClose(window_); }
+bool Window::is_open() const { return !glfwWindowShouldClose(window_); }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
 void Window::poll(double seconds) {
@@ -106,11 +107,11 @@ void Window::poll(double seconds) {
   } else {
     glfwPollEvents();
   }
-  polled_ = glfwGetTime();
-  measure();
+  last_poll_ = glfwGetTime();
+  update_size();
 }
 
-void Window::measure() {
+void Window::update_size() {
   glfwGetFramebufferSize(window_, &framebuffer_size_.x, &framebuffer_size_.y);
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
@@ -122,24 +123,22 @@ void Window::measure() {
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(dropped_files_, {}); }
 
 void Window::present() { glfwSwapBuffers(window_); }
-void Window::set_vsync(bool on) { glfwSwapInterval(on ? 1 : 0); }
-void Window::set_title(const std::string& title) { glfwSetWindowTitle(window_, title.c_str()); }
 
 bool Window::context_lost() const {
-  // Drivers may give an address to functions that they do not have.
+  // The version and the extensions decide: a driver may return an address for a function that it does not support.
   if (GLEW_VERSION_4_5 || GLEW_KHR_robustness) return glGetGraphicsResetStatus() != GL_NO_ERROR;
   return GLEW_ARB_robustness && glGetGraphicsResetStatusARB() != GL_NO_ERROR;
 }
 
-void Window::wait_for_reset() const {
-  constexpr int most = 100;
-  for (int i = 0; i < most && context_lost(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+void Window::wait_for_context_reset() const {
+  constexpr int max_waits = 100;
+  for (int i = 0; i < max_waits && context_lost(); ++i) std::this_thread::sleep_for(std::chrono::milliseconds(50));
 }
 
 float Window::content_scale() const {
   float x = 1.0f, y = 1.0f;
   glfwGetWindowContentScale(window_, &x, &y);
-  return std::clamp(std::max(x, y), 0.5f, 8.0f);  // some X servers report nonsense
+  return std::clamp(std::max(x, y), 0.5f, 8.0f);  // some X servers report wrong values
 }
 
 glm::vec2 Window::cursor() const {
@@ -165,7 +164,7 @@ void Window::on_cursor(GLFWwindow* window, double x, double y) { self(window).cu
 
 void Window::on_button(GLFWwindow* window, int button, int action, int) {
   Window& w = self(window);
-  w.input_.push(ButtonEvent{button, action == GLFW_PRESS, w.cursor_, w.polled_, glfwGetTime()});
+  w.input_.push(ButtonEvent{button, action == GLFW_PRESS, w.cursor_, w.last_poll_, glfwGetTime()});
 }
 
 void Window::on_scroll(GLFWwindow* window, double x, double y) { self(window).input_.push(ScrollEvent{{x, y}}); }
@@ -173,7 +172,7 @@ void Window::on_scroll(GLFWwindow* window, double x, double y) { self(window).in
 void Window::on_character(GLFWwindow* window, unsigned int code) { self(window).input_.push(CharacterEvent{code}); }
 
 void Window::on_key(GLFWwindow* window, int key, int scancode, int action, int mods) {
-  const KeyMeaning meaning = meaning_of(key, [](int named) { return glfwGetKeyName(named, 0); });
+  const KeyMeaning meaning = key_meaning(key, [](int named) { return glfwGetKeyName(named, 0); });
   self(window).input_.push(KeyEvent{key, meaning, scancode, action, mods});
 }
 

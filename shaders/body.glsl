@@ -1,4 +1,4 @@
-// One vertex of a body: a point inside a triangle of its mesh, bulged so that the outline comes out round.
+// One vertex of a body: a point in a triangle of its mesh, moved outwards so that the outline is round.
 layout(location = 0) in uvec3 corners;
 layout(location = 1) in vec2 weights;
 layout(location = 2) in uint first_vertex;
@@ -10,12 +10,12 @@ vec3 fetch(samplerBuffer buffer, uint vertex) {
   return vec3(texelFetch(buffer, at).r, texelFetch(buffer, at + 1).r, texelFetch(buffer, at + 2).r);
 }
 
-// Phong tessellation (Boubekeur and Alexa 2008). With 1/2 the middle of an edge of a sphere lies on the sphere.
+// Phong tessellation (Boubekeur and Alexa 2008). The factor 1/2 puts the middle of an edge of a sphere onto the sphere.
 void body_vertex(out vec3 position, out vec3 normal) {
   vec3 p0 = fetch(positions, corners.x), n0 = fetch(normals, corners.x);
   position = p0;
   normal = n0;
-  if (corners.x == corners.y) return;  // a vertex of the mesh itself
+  if (corners.x == corners.y) return;  // a vertex of the mesh
   vec3 p1 = fetch(positions, corners.y), n1 = fetch(normals, corners.y);
   vec3 p2 = fetch(positions, corners.z), n2 = fetch(normals, corners.z);
   vec3 w = vec3(weights, 1.0 - weights.x - weights.y);

@@ -1,2 +1,3 @@
 #version 330 core
+// Writes depth only.
 void main() {}

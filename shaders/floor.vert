@@ -1,9 +1,9 @@
 #version 330 core
 #include "frame.glsl"
-layout(location = 0) in vec2 place;  // x, z
-out vec2 ground;
+layout(location = 0) in vec2 position;  // x, z
+out vec2 floor_position;
 
 void main() {
-  ground = place;
-  gl_Position = frame.clip_from_world * vec4(place.x, frame.floor_map.w, place.y, 1.0);
+  floor_position = position;
+  gl_Position = frame.clip_from_world * vec4(position.x, frame.floor_map.w, position.y, 1.0);
 }

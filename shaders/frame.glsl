@@ -1,4 +1,4 @@
-// What every shader of a frame shares; laid out as engine::FrameBlock.
+// Values that all shaders of a frame share. engine::render::FrameUniforms has the same layout.
 layout(std140) uniform Frame {
   mat4 clip_from_world;
   mat4 shadow_from_world;  // to 0..1 in the shadow map
@@ -7,7 +7,7 @@ layout(std140) uniform Frame {
   vec4 viewport;           // origin and size, pixels
   vec4 floor_map;          // centre x, centre z, 1 / extent, height of the floor
   vec4 scene;              // centre x, centre z, radius, distance between grid lines
-  vec4 casters;            // the part of the shadow map where shadows can be: least and greatest x, y
+  vec4 shadow_bounds;      // part of the shadow map that can hold shadows: min x, min y, max x, max y
   vec4 flags;              // x: 1 if there is a floor
 } frame;
 

@@ -1,21 +1,21 @@
 #version 330 core
-// A line with room for round ends and a soft edge: a rectangle that faces the screen, or its axis alone, which the
-// driver then makes wide.
+// A line, longer and wider than asked for, so that line.frag can draw round ends and a soft edge. It is either a
+// rectangle that faces the screen or only the rectangle's axis, which the driver widens (glLineWidth).
 #include "frame.glsl"
 layout(location = 0) in vec3 a;
 layout(location = 1) in vec3 b;
 layout(location = 2) in vec4 colour;
 uniform float width;
-uniform float sides;  // 1 for a rectangle, 0 for its axis
-flat out vec4 ends;   // a and b on the screen, pixels
+uniform float side_scale;  // 1: a rectangle; 0: its axis
+flat out vec4 ends;        // a and b on the screen, pixels
 flat out vec4 line_colour;
 
 void main() {
-  // A thousandth nearer to the eye, so that a line on a surface is not lost in it.
+  // A thousandth of the distance nearer to the eye, so that a line on a surface is not hidden by it.
   vec4 from = frame.clip_from_world * vec4(mix(a, frame.eye.xyz, 0.001), 1.0);
   vec4 to = frame.clip_from_world * vec4(mix(b, frame.eye.xyz, 0.001), 1.0);
   line_colour = colour;
-  // Cut at the near plane: behind the eye there are no pixels.
+  // Clipped at the near plane: a point behind the eye has no pixel.
   float d0 = from.z + from.w, d1 = to.z + to.w;
   if (d0 < 0.0 && d1 < 0.0) {
     gl_Position = vec4(0.0, 0.0, 2.0, 1.0);
@@ -30,11 +30,11 @@ void main() {
   ends = vec4(p0, p1) + vec4(half_size + frame.viewport.xy, half_size + frame.viewport.xy);
   float span = length(p1 - p0);
   vec2 direction = span > 1e-4 ? (p1 - p0) / span : vec2(1.0, 0.0);
-  float reach = 0.5 * width + 0.5;  // beyond it line.frag covers nothing
+  float margin = 0.5 * width + 0.5;  // line.frag draws nothing beyond it
   bool at_end = (gl_VertexID & 1) == 1;
-  float side = (gl_VertexID & 2) == 2 ? reach : -reach;
-  float along = at_end ? span + reach : -reach;
-  vec2 pixel = p0 + direction * along + vec2(-direction.y, direction.x) * side * sides;
+  float side = (gl_VertexID & 2) == 2 ? margin : -margin;
+  float along = at_end ? span + margin : -margin;
+  vec2 pixel = p0 + direction * along + vec2(-direction.y, direction.x) * side * side_scale;
   vec4 clip = at_end ? end : start;
   gl_Position = vec4(pixel / half_size * clip.w, clip.zw);
 }

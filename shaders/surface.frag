@@ -7,7 +7,7 @@
 in vec3 world_position;
 in vec3 world_normal;
 in vec3 bounce;
-in float seen;
+in float sky_visibility;
 flat in vec3 albedo;
 uniform float opacity = 1.0;
 out vec4 fragment;
@@ -20,21 +20,22 @@ float power4(float x) {
 void main() {
   vec3 normal = normalize(world_normal) * (gl_FrontFacing ? 1.0 : -1.0);
   vec3 to_eye = normalize(frame.eye.xyz - world_position);
-  vec3 half_way = normalize(to_eye + frame.to_light.xyz);
-  vec3 base = linear(albedo);
+  vec3 half_vector = normalize(to_eye + frame.to_light.xyz);
+  vec3 base = linear_from_srgb(albedo);
 
-  // Lambert's law, but coming to 0 smoothly: the edge of the light on a sphere is soft.
+  // Lambert's law, but with a smooth approach to 0: the edge of the light on a sphere is soft.
   float cosine = max(dot(normal, frame.to_light.xyz), 0.0);
-  float facing = 1.1 * cosine * cosine / (cosine + 0.1);
-  float lit = light_reaching(world_position, normal);
-  vec3 key = vec3(0.86, 0.83, 0.79) * facing * lit;
-  vec3 sky = vec3(0.40, 0.43, 0.48) * seen;
-  vec3 floor_light = vec3(0.34, 0.33, 0.32) * bounce * (0.35 + 0.65 * seen);
+  float diffuse = 1.1 * cosine * cosine / (cosine + 0.1);
+  float lit = light_visibility(world_position, normal);
+  vec3 key = vec3(0.86, 0.83, 0.79) * diffuse * lit;
+  vec3 sky = vec3(0.40, 0.43, 0.48) * sky_visibility;
+  vec3 floor_light = vec3(0.34, 0.33, 0.32) * bounce * (0.35 + 0.65 * sky_visibility);
   vec3 colour = base * (key + mix(floor_light, sky, 0.5 + 0.5 * normal.y));
 
-  float gloss = power4(max(dot(normal, half_way), 0.0));
-  gloss = power4(gloss) * gloss * gloss * gloss;  // to the 28th
-  float edge = power4(1.0 - max(dot(normal, to_eye), 0.0));
-  colour += vec3(0.10) * gloss * lit * facing + vec3(0.09, 0.10, 0.11) * edge * seen * (0.5 + 0.5 * normal.y);
-  fragment = vec4(dithered(srgb(shoulder(colour))), opacity);
+  float specular = power4(max(dot(normal, half_vector), 0.0));
+  specular = power4(specular) * specular * specular * specular;  // to the 28th power
+  float rim = power4(1.0 - max(dot(normal, to_eye), 0.0));
+  colour += vec3(0.10) * specular * lit * diffuse +
+            vec3(0.09, 0.10, 0.11) * rim * sky_visibility * (0.5 + 0.5 * normal.y);
+  fragment = vec4(dithered(srgb_from_linear(compress_highlights(colour))), opacity);
 }

@@ -47,7 +47,7 @@ void Dynamics::choose(double seconds) {
   } else if (has_surface_) {
     why_ = "contact of the true surfaces wants short steps";
   } else if (std::any_of(moving_.begin(), moving_.end(),
-                         [](const Batch* batch) { return batch->particles() > most_implicit_particles; })) {
+                         [](const Batch* batch) { return batch->particles() > max_implicit_particles; })) {
     why_ = "a body has too many particles for implicit steps";
   } else {
     integrator_ = find_integrator("implicit");

@@ -53,7 +53,7 @@ Batch& Dynamics::batch_with_room(const std::shared_ptr<const Prototype>& prototy
   }
   Batch b;
   b.prototype = prototype;
-  b.width = alone && b.particles() > most_implicit_particles ? one_lane : lanes;
+  b.width = alone && b.particles() > max_implicit_particles ? one_lane : lanes;
   b.mesh = mesh_of(prototype, b.width);
   b.base = append(b.values());
   return batches_.emplace_back(std::move(b));

@@ -10,6 +10,7 @@
 #include "softbody/implicit_solver.h"
 #include "softbody/integrators.h"
 #include "softbody/kernels.h"
+#include "softbody/limits.h"
 #include "softbody/max_work.h"
 #include "softbody/plan.h"
 #include "softbody/prototype.h"
@@ -44,10 +45,6 @@ struct Advance {
 
 class Dynamics {
  public:
-  // A frame, unless they are fixed:
-  static constexpr int max_substeps = 4000, max_implicit_steps = 1024;
-  static constexpr std::size_t most_implicit_particles = 1000;  // of a body: the matrix grows faster than the springs
-
   Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
       : scene_(scene),
         workers_(workers),

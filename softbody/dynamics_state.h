@@ -3,10 +3,8 @@
 
 #include <array>
 #include <memory>
-#include <optional>
 #include <vector>
 
-#include "softbody/grab.h"
 #include "softbody/kernels.h"
 #include "softbody/prototype.h"
 #include "softbody/shield.h"
@@ -57,10 +55,6 @@ struct Body {
   bool moves() const { return !held && !asleep; }
 };
 
-struct Particle {
-  glm::dvec3 position, velocity;  // m and m/s, world
-};
-
 /// All that bodies remember from one frame to the next.
 struct DynamicsState {
   std::vector<Batch> batches;
@@ -69,7 +63,6 @@ struct DynamicsState {
   float shield_thickness = 0;            // m
   std::vector<ShieldPair> shield_pairs;
   SurfaceContact::State surface;
-  std::optional<Grab> grab;
   HeldRate held_rate;
 
   std::size_t bytes() const;

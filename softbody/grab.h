@@ -1,16 +1,16 @@
 #pragma once
-// A hand: a spring with a damper that draws one point of a body's surface to a target.
+// A hand: a damped spring that pulls one point of a body's surface to a target.
 
 #include <array>
 
 #include <glm/vec3.hpp>
 
-#include "softbody/shield.h"
+#include "softbody/body.h"
 
 namespace softbody {
 
-/// The point is p = the sum of weights * corners. With the body's mass M, w = 2 pi frequency and z the damping ratio,
-/// the body as a whole swings on the hand as a point would: M w^2 (target - p) - 2 z M w p'.
+/// The point is p = the sum of weights * corners. The force on it is M w^2 (target - p) - 2 z M w p' with the body's
+/// mass M, w = 2 pi frequency and the damping ratio z: the body as a whole swings on the hand as a point mass would.
 struct Grab {
   BodyId body = 0;
   std::array<std::uint32_t, 3> corners{};  // vertices of the body, counted from its first
@@ -22,13 +22,14 @@ struct Grab {
   bool operator==(const Grab&) const = default;
 };
 
-/// Spring and damper k, c on a particle of mass m that moves at v, pulled by `stretch` towards the target:
+/// Returns the force (N) of a spring k and a damper c on a particle of mass m and velocity v, `stretch` (m) away from
+/// the target:
 ///
-///   F = (k stretch - (c + h k) v) / (1 + h (c + h k) / m),
+///   F = (k stretch - (c + h k) v) / (1 + h (c + h k) / m).
 ///
-/// the impulse over a step of h seconds by implicit Euler, as in a soft constraint (Catto 2011). v holds what all other
-/// forces do in the step. It acts as a mass of h (c + h k) more would, so that no k and c is too stiff for any step of
-/// any integrator, and where the other forces are in balance with k * stretch it gives just that. In N; lengths in m.
+/// It is the impulse of an implicit Euler step of h seconds, over h, as in a soft constraint (Catto 2011). v includes
+/// what all other forces do in the step. The force acts like an additional mass of h (c + h k), so that no k and c are
+/// too stiff for any step of any integrator. If the other forces balance k * stretch, it is k * stretch.
 inline glm::dvec3 pull(double k, double c, double m, double h, const glm::dvec3& stretch, const glm::dvec3& v) {
   const double damping = c + h * k;
   return (k * stretch - damping * v) / (1 + h * damping / m);

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "softbody/best_rotation.h"
 #include "softbody/shape_matching.h"
 
 namespace softbody {

@@ -13,6 +13,7 @@
 #include "softbody/implicit_stages.h"
 #include "softbody/integrator_steps.h"
 #include "softbody/rigid_motion.h"
+#include "softbody/solid_placement.h"
 #include "softbody/solids.h"
 
 namespace softbody {

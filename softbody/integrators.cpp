@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -116,6 +117,12 @@ const Integrator* find_integrator(std::string_view key) {
   for (const Integrator& i : all_integrators)
     if (i.key == key) return &i;
   return nullptr;
+}
+
+const Integrator& IntegratorChoice::integrator() const {
+  const Integrator* found = find_integrator(key);
+  assert(found);
+  return *found;
 }
 
 std::string integrator_keys() {

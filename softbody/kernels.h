@@ -11,6 +11,7 @@
 #include <span>
 #include <vector>
 
+#include "softbody/isa.h"
 #include "softbody/lanes.h"
 #include "softbody/solid_shapes.h"
 
@@ -165,9 +166,6 @@ struct ImplicitKernels {
   void (*add_scaled_shared)(std::size_t count, const double* times, const double* shared, double* y);
 };
 
-enum class Isa { baseline, avx2 };
-/// The widest that this processor and build have.
-Isa best_isa();
 const Kernels& kernels(Isa isa, int width = lanes);
 const ImplicitKernels& implicit_kernels(Isa isa);
 

@@ -11,9 +11,10 @@
 
 #include <glm/vec3.hpp>
 
+#include "softbody/limits.h"
+
 namespace softbody {
 
-inline constexpr int lanes = 8;
 inline constexpr int one_lane = 1;  // the width of what is solved by itself
 
 /// Inlined everywhere, so that it is compiled for the instruction set of its caller.

@@ -1,26 +1,36 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace softbody {
 
-/// Of a scene file, of a world that bodies are added to, and vertices or objects of an OBJ file: with more, a small
-/// machine would begin to swap.
+/// Of a scene file, and of a world that bodies are added to; also the most vertices and the most objects of an OBJ
+/// file. With more, a small machine would begin to swap.
 inline constexpr std::uint64_t max_particles = 4'000'000;
 
-/// Of the faces of an OBJ file, all together: a closed mesh of triangles with that many vertices has 24 million.
+/// Of a frame, unless the number of substeps is fixed.
+inline constexpr int max_substeps = 4000, max_implicit_steps = 1024;
+
+/// Of a body in implicit steps: the matrix grows faster than the springs.
+inline constexpr std::size_t max_implicit_particles = 1000;
+
+/// Bodies of one prototype that are solved side by side, one in each SIMD lane.
+inline constexpr int lanes = 8;
+
+/// Corners of all faces of an OBJ file together: a closed mesh of triangles with max_particles vertices has 24 million.
 inline constexpr std::uint64_t max_file_corners = 8 * max_particles;
 
-/// m, of the tolerance and the sides of cells that a scene gives.
-inline constexpr double least_length = 1e-9, most_length = 1e6;
+/// m, of a scene's tolerance and cell sides.
+inline constexpr double min_length = 1e-9, max_length = 1e6;
 
-/// Of a scene: m, of the tolerance, and m/s^2, of gravity along each axis. With more, steps of light bodies would not
+/// Of a scene: the tolerance in m, and gravity along each axis in m/s^2. With more, steps of light bodies would not
 /// stay finite.
-inline constexpr double most_tolerance = 10, most_gravity = 1e3;
+inline constexpr double max_tolerance = 10, max_gravity = 1e3;
 
-/// m, of a body's mesh. Smaller ones have areas and volumes that floats cannot hold in products, and weigh next to
-/// nothing against the gas in them: their substeps could not be counted. The air around larger ones gives them energies
-/// in which floats lose everything else.
-inline constexpr double least_body_size = 1e-3, most_body_size = 1e4;
+/// m, the extent of a body's mesh. Products of the areas and volumes of a smaller mesh underflow in floats, and its gas
+/// is so stiff for its mass that its substeps could not be counted. The energy of the air around a larger mesh is so
+/// large that floats lose all other energies beside it.
+inline constexpr double min_body_size = 1e-3, max_body_size = 1e4;
 
 }  // namespace softbody

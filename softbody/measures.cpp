@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/deformation.h"
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
 namespace softbody {
@@ -38,7 +39,7 @@ double staggering(const World& world, BodyId id, double substep, double deformat
   std::vector<glm::dvec3> middle, before;  // of the last substep
   double sum = 0;
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
-    const Particle q = world.dynamics().particle(id, i);
+    const Particle q = world.particle(id, i);
     middle.push_back(q.position - substep / 2 * q.velocity);
     before.push_back(q.position - substep * q.velocity);
     sum += p.particle_mass * glm::dot(world.scene().gravity, substep / 2 * q.velocity);
@@ -65,7 +66,7 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   std::vector<glm::dvec3> x;
   x.reserve(p.mesh.vertices.size());
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
-    const Particle q = world.dynamics().particle(id, i);
+    const Particle q = world.particle(id, i);
     x.push_back(q.position);
     const double speed2 = glm::dot(q.velocity, q.velocity);
     m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
@@ -119,6 +120,18 @@ std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
   std::vector<BodyMeasures> list;
   for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id, substep));
   return list;
+}
+
+std::vector<SolidContact> solid_contacts(const World& world) {
+  constexpr double rounding = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding
+  std::vector<SolidContact> contacts;
+  const collide::Frame p = world.positions();
+  for (Index i = 0; i < p.x.size(); ++i) {
+    const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
+    const double distance = world.prototype(world.vertex_body()[i]).material.thickness + rounding;
+    if (d.depth > -distance) contacts.push_back({i, d.normal});
+  }
+  return contacts;
 }
 
 Measures measure(const World& world) { return total(measure_bodies(world)); }

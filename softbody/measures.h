@@ -1,11 +1,11 @@
 #pragma once
-// Totals over a world, all in double: energy, momentum, volume, penetration.
+// Energy, momentum, volume and penetration of bodies and of a whole world, in double.
 
 #include "softbody/world.h"
 
 namespace softbody {
 
-/// In J. What contacts store is not in it.
+/// In J, without the energy that contacts store.
 struct Energy {
   double kinetic = 0;
   double elastic = 0;  // springs and shape matching
@@ -28,16 +28,15 @@ struct BodyMeasures {
   bool finite = true;              // all positions and velocities
 };
 
-/// substep: s; 0, or how long the last one of semi-implicit Euler was. Its velocities belong to the middle of it, and
-/// with them the energy of what swings fast swings, too. What it conserves, exactly where forces are linear, is
+/// `substep`: s, the length of the last substep of semi-implicit Euler, or 0 to leave `staggering` out. The velocities
+/// of that integrator belong to the middle of a substep, so that the energy of fast oscillations oscillates, too. What
+/// it conserves instead, exactly if forces are linear, is the energy plus `staggering`:
 ///
-///   K(v) + 2 U(x - h/2 v) - (U(x) + U(x - h v)) / 2
-///
-/// instead, by `staggering` more than the energy.
+///   K(v) + 2 U(x - h/2 v) - (U(x) + U(x - h v)) / 2.
 BodyMeasures measure(const World& world, BodyId body, double substep = 0);
 std::vector<BodyMeasures> measure_bodies(const World& world, double substep = 0);
 
-/// Deformation energy of a body's starting shape, which is its least if it starts in equilibrium.
+/// Returns the deformation energy of a body's starting shape. It is the smallest one if the body starts in equilibrium.
 Energy starting_energy(const Prototype& prototype);
 
 struct Measures {
@@ -53,7 +52,7 @@ struct Measures {
 };
 
 Measures measure(const World& world);
-/// The same from what was measured of all bodies.
+/// Returns the sum of the measures of all bodies.
 Measures total(std::span<const BodyMeasures> bodies);
 
 /// How deep a point lies in a solid, with the solid's outward normal there.
@@ -61,7 +60,14 @@ struct SolidDepth {
   glm::vec3 normal;
   double depth;  // m, negative outside
 };
-/// The deepest of the scene's solids at a point; depth is -infinity if the scene has none.
+/// Returns the largest depth of a point in one of the scene's solids; -infinity if the scene has none.
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point);
+
+struct SolidContact {
+  Index vertex;      // over the whole world
+  glm::vec3 normal;  // out of the solid
+};
+/// Returns the vertices that touch solids.
+std::vector<SolidContact> solid_contacts(const World& world);
 
 }  // namespace softbody

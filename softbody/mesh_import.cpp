@@ -90,9 +90,9 @@ class Importer {
     findings_.file_extent = box.extent();
     if (!(box.extent() > 0)) fail("has all its faces in one point; check the export");
     const double size = file_.size > 0 ? file_.size : box.extent(), scale = size / box.extent();
-    if (size < least_body_size || size > most_body_size)
-      fail("is " + toml_value(size) + " m large (" + toml_value(least_body_size) + " to " +
-           toml_value(std::int64_t(most_body_size)) +
+    if (size < min_body_size || size > max_body_size)
+      fail("is " + toml_value(size) + " m large (" + toml_value(min_body_size) + " to " +
+           toml_value(std::int64_t(max_body_size)) +
            " are allowed); set size to the largest extent that it shall have, in m");
     findings_.extent = size;
     const glm::dvec3 middle = 0.5 * (box.lo + box.hi);

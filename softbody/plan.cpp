@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
 namespace softbody {

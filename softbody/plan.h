@@ -1,14 +1,17 @@
 #pragma once
-// What a scene needs is decided once, at load: a plan lists the stages of a step and says of the others why they are
-// left out. A stage that is left out costs no call.
+// A plan lists the stages of a step that a scene needs, and says why the others are left out. It is made when the scene
+// is loaded or changes. A stage that is left out costs no call.
 
+#include <cstddef>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "softbody/prototype.h"
-
 namespace softbody {
+
+struct Prototype;
+struct Scene;
 
 /// In the order in which a step runs them.
 enum class Stage {
@@ -38,7 +41,7 @@ enum class Stage {
   count
 };
 
-/// The stage's key in the plan of `simulate --json`, e.g. "bend-springs".
+/// Returns the stage's key in the plan of `simulate --json`, e.g. "bend-springs".
 std::string_view stage_key(Stage stage);
 
 struct LeftOut {
@@ -52,13 +55,13 @@ struct Plan {
   bool has(Stage stage) const;
 };
 
-/// What is in a world beside its scene's own bodies.
+/// What a world has besides its scene's own bodies.
 struct Visitors {
   std::size_t bodies = 0;  // dropped or thrown in by hand
   bool grabs = false;      // a hand holds a body
 };
 
-/// prototypes: those of the scene's bodies, of its dropper and of the visitors.
+/// `prototypes`: those of the scene's bodies, of its dropper and of the visitors.
 Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
                const Visitors& visitors = {});
 

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "collide/surface/surface.h"
 #include "softbody/equilibrium.h"
 #include "softbody/spring_bound.h"
 

@@ -5,8 +5,14 @@
 #include <span>
 #include <vector>
 
-#include "collide/surface/surface.h"
 #include "softbody/scene.h"
+
+namespace collide {
+class Shape;
+}
+namespace collide::surface {
+class Surface;
+}
 
 namespace softbody {
 
@@ -25,16 +31,16 @@ struct Gas {
   // All at volume v, which may be zero or negative (an inverted body).
   /// Absolute pressure in Pa.
   double pressure(double v) const;
-  /// Pa, of what is around. It presses from outside, wherever the faces look: within 0.1 V0 of a flat body it turns its
-  /// sign, or a body with little gas in it, once inverted, would be blown up without end.
+  /// Ambient pressure in Pa. It acts on the outer side of the skin: within 0.1 V0 of a flat body it changes its sign.
+  /// Otherwise an inverted body with little gas would be blown up without end.
   double outside(double v) const;
-  /// Pa, what drives the faces out.
+  /// The pressure in Pa that drives the faces out.
   double gauge(double v) const { return pressure(v) - outside(v); }
-  /// Its derivative in Pa/m^3, never positive.
+  /// The derivative of gauge() in Pa/m^3, never positive.
   double slope(double v) const;
-  /// J, work done against what is around, 0 at V0; d/dV = outside().
+  /// Work done against the ambient pressure in J, 0 at V0; d/dV = outside().
   double outside_energy(double v) const;
-  /// With that by the gas, 0 at V0, in J; d/dV = -gauge().
+  /// That work less the work done by the gas, in J, 0 at V0; d/dV = -gauge().
   double energy(double v) const;
 };
 
@@ -54,7 +60,7 @@ struct Prototype {
   double radius = 0;                       // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;           // starting shape: the equilibrium, or the mesh itself
   double start_volume = 0;                 // m^3, 0 for open meshes
-  // What stands for the springs in stable_step(), half of their matrices' largest eigenvalues (see spring_bound()):
+  // Of the springs in stable_step(): half of the largest eigenvalues of their matrices (see spring_bound()).
   double spring_stiffness_bound = 0;  // N/m: at most the largest sum of the stiffnesses at one particle
   double spring_damping_bound = 0;    // N s/m
   double largest_degree = 0;          // faces at one particle
@@ -67,26 +73,32 @@ struct Prototype {
 /// Throws SceneError if no equilibrium is found.
 std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material);
 
-/// A prototype of the same mesh and of another material. It keeps the starting shape, which is in balance only for the
-/// material that it was found for. source: that of the mesh.
+/// Returns the prototype of a mesh and a material: the one that is in use somewhere, since an equilibrium may take long
+/// to find, or a new one. If one in use has a material of another name but the same values, it is a copy of that.
+/// Throws SceneError as make_prototype() does. May be called on any thread.
+std::shared_ptr<const Prototype> shared_prototype(const MeshSource& mesh, const Material& material);
+
+/// Returns a prototype of the same mesh with another material. It keeps the starting shape, which is in equilibrium
+/// only for the material that it was found for. `source`: that of the mesh.
 std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
                                                const Material& material);
 
-/// What the stability bound of the gas, if there is any, needs of a body's shape.
+/// What the stability bound of the gas needs to know of a body's shape.
 struct SurfaceShape {
   double volume = 0;       // m^3
-  double area2 = 0;        // m^4: over the particles, of |A|^2, A = dV/dx
-  double stretch = 0;      // N m^3: over the springs, of the stiffness times |A_i - A_j|^2
-  double two_medians = 0;  // m, the two longest medians of a face together, of the face where they are longest
+  double area2 = 0;        // m^4: the sum over the particles of |A|^2, A = dV/dx
+  double stretch = 0;      // N m^3: the sum over the springs of the stiffness times |A_i - A_j|^2
+  double two_medians = 0;  // m: the largest sum of a face's two longest medians
 };
 SurfaceShape measure_surface(const Prototype& prototype, const std::vector<glm::dvec3>& vertices);
 
-/// Bound of the stiffness over mass that springs, gas and shape matching act with on one particle of a body of this
-/// shape, in 1/s^2.
+/// Returns a bound of the stiffness over mass (1/s^2) of springs, gas and shape matching at one particle of a body of
+/// this shape.
 double stiffness_per_mass(const Prototype& prototype, const SurfaceShape& surface);
 
-/// Largest stable step of semi-implicit Euler times 0.8, in s, for stiffness/mass sum k_m (1/s^2) and damping/mass sum
-/// c_m (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m / (2 omega).
+/// Returns 0.8 times the largest stable step of semi-implicit Euler in s, for the sums k_m of stiffness/mass (1/s^2)
+/// and c_m of damping/mass (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m /
+/// (2 omega).
 double stable_step(double k_m, double c_m);
 
 }  // namespace softbody

@@ -52,7 +52,7 @@ Material read_material(Table& table) {
 MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
   MeshFile file;
   file.path = table.folder() / table.text("path", "");
-  file.size = table.number("size", file.size, least_body_size, most_body_size);
+  file.size = table.number("size", file.size, min_body_size, max_body_size);
   file.weld = table.number("weld", file.weld, 0, 0.1);
   file.up = table.vector("up", file.up, -1, 1);
   if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
@@ -72,12 +72,12 @@ MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
   m.kind = table.text("kind", m.kind);
   if (m.kind == "icosphere") {
     m.subdivisions = table.integer("subdivisions", m.subdivisions, 0, 6);
-    m.radius = table.number("radius", m.radius, least_body_size, most_body_size);
+    m.radius = table.number("radius", m.radius, min_body_size, max_body_size);
   } else if (m.kind == "grid") {
     m.columns = table.integer("columns", m.columns, 1, 1000);
     m.rows = table.integer("rows", m.rows, 1, 1000);
-    m.width = table.number("width", m.width, least_body_size, most_body_size);
-    m.depth = table.number("depth", m.depth, least_body_size, most_body_size);
+    m.width = table.number("width", m.width, min_body_size, max_body_size);
+    m.depth = table.number("depth", m.depth, min_body_size, max_body_size);
   } else if (m.kind == "file") {
     m = read_mesh_file(table, files);
   } else {
@@ -107,13 +107,13 @@ void read_collision(Table table, Scene& scene) {
       find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
   if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
   scene.contact_surface = surface->value;
-  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, least_length, most_tolerance));
+  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, min_length, max_tolerance));
   c.self_collision = table.boolean("self_collision", c.self_collision);
   c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
   c.buckets =
       static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
   scene.default_cell_size = !table.has("cell_size");
-  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), least_length, most_length));
+  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), min_length, max_length));
   const glm::dvec3 primes = table.whole_vector("primes", {c.primes[0], c.primes[1], c.primes[2]}, 1,
                                                std::numeric_limits<std::uint32_t>::max());
   for (int axis = 0; axis < 3; ++axis) c.primes[std::size_t(axis)] = static_cast<std::uint32_t>(primes[axis]);
@@ -288,7 +288,7 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
   scene.key = file.stem().string();
   scene.name = root.text("name", scene.key);
   scene.look_at = root.text("look_at", "");
-  scene.gravity = root.vector("gravity", scene.gravity, -most_gravity, most_gravity);
+  scene.gravity = root.vector("gravity", scene.gravity, -max_gravity, max_gravity);
   read_collision(root.child("collision"), scene);
   read_solids(root, scene);
   read_bodies(root, scene);

@@ -8,16 +8,10 @@
 // to them. It is the gradient of 1/2 m w^2 sum |x_i - g_i|^2, minimal in c and R, so that it changes neither linear nor
 // angular momentum; a maximum over rotations is convex in x, so that w^2 bounds its stiffness over mass in every state.
 
-#include <glm/mat3x3.hpp>
-
 #include "softbody/kernels.h"
 #include "softbody/prototype.h"
 
 namespace softbody {
-
-/// The rotation R for which trace(R^T covariance) is largest, covariance = the sum of x q^T: Horn's quaternion (1987,
-/// "Closed-form solution of absolute orientation using unit quaternions"). Never a reflection; of several any one.
-glm::dmat3 best_rotation(const glm::dmat3& covariance);
 
 /// Where the goal shape goes in each of the first `used` lanes; the others stay as they are.
 template <class Real>

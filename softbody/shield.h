@@ -22,11 +22,10 @@
 #include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
+#include "softbody/contacts.h"
 #include "softbody/lanes.h"
 
 namespace softbody {
-
-using BodyId = std::uint32_t;
 
 struct ShieldPair {
   collide::Contact contact;    // the two vertices
@@ -38,13 +37,6 @@ struct ShieldPair {
   float friction;           // Coulomb
   glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
 };
-
-/// What a pair holds, see Shield::energy().
-struct PairEnergy {
-  collide::Contact contact;
-  double joules;
-};
-double total(std::span<const PairEnergy> pairs);  // J
 
 /// The end of a pair that falls to one batch.
 struct ShieldEnd {

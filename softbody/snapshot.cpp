@@ -1,5 +1,7 @@
 #include "softbody/snapshot.h"
 
+#include <cassert>
+
 #include "softbody/world_state.h"
 
 namespace softbody {
@@ -17,7 +19,7 @@ std::size_t DynamicsState::bytes() const {
 }
 
 DynamicsState Dynamics::save() const {
-  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), grab_, held_rate_};
+  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), held_rate_};
   for (Batch& b : state.batches) {  // for one frame only, and they point into the batch that they were copied from
     b.near_solids.clear();
     b.solid_features.clear();
@@ -34,57 +36,56 @@ void Dynamics::restore(const DynamicsState& state) {
   shield_.thickness = state.shield_thickness;
   shield_.pairs = state.shield_pairs;
   surface_.restore(state.surface);
-  grab_ = state.grab;
   held_rate_ = state.held_rate;
   moving_.clear();
 }
 
 std::size_t Snapshot::bytes() const {
-  return sizeof(*this) + bytes_of(scene.bodies) + bytes_of(arrived) + bytes_of(added) + dynamics.bytes();
+  const Insides& all = *insides;
+  return sizeof(*this) + sizeof(all) + bytes_of(all.scene.bodies) + bytes_of(all.arrived) + bytes_of(all.added) +
+         all.dynamics.bytes();
 }
 
 Snapshot World::snapshot() const {
   const State& s = *state_;
-  return {.scene = s.scene,
-          .prototypes = s.prototypes,
-          .dynamics = s.dynamics.save(),
-          .arrived = s.arrived,
-          .visitors = s.visitors,
-          .added = s.added,
-          .drops = s.drops,
-          .drop_direction = s.drop_direction,
-          .frame = s.frame,
-          .time = s.time,
-          .integrator = s.options.integrator,
-          .substeps = s.options.substeps,
-          .method = s.method,
-          .settings = s.settings,
-          .default_cell = s.default_cell,
-          .shield = s.shield,
-          .profile = s.profile};
+  return {.frame = s.frame,
+          .grab = grabbed(),
+          .insides = std::make_shared<const Snapshot::Insides>(Snapshot::Insides{.scene = s.scene,
+                                                                                 .prototypes = s.prototypes,
+                                                                                 .dynamics = s.dynamics.save(),
+                                                                                 .arrived = s.arrived,
+                                                                                 .visitors = s.visitors,
+                                                                                 .added = s.added,
+                                                                                 .drops = s.drops,
+                                                                                 .drop_direction = s.drop_direction,
+                                                                                 .integrator = s.options.integrator,
+                                                                                 .method = s.method,
+                                                                                 .settings = s.settings,
+                                                                                 .shield = s.shield,
+                                                                                 .report = s.report})};
 }
 
-void World::restore(const Snapshot& from) {
+void World::restore(const Snapshot& snapshot) {
+  assert(snapshot.insides);
   State& s = *state_;
+  const Snapshot::Insides& from = *snapshot.insides;
   s.scene = from.scene;
   s.prototypes = from.prototypes;
   s.visitors = from.visitors;
   s.added = from.added;
   s.sleep = Sleep(s.scene.sleep);
   s.options.integrator = from.integrator;
-  s.options.substeps = from.substeps;
+  s.report = from.report;
   s.replan();
   s.set_integrator();  // unchecked: what it has come to since would not be accepted from a scene any more
   s.dynamics.restore(from.dynamics);
+  s.dynamics.grab(snapshot.grab);
   s.arrived = from.arrived;
   s.drops = from.drops;
   s.drop_direction = from.drop_direction;
-  s.frame = from.frame;
-  s.time = from.time;
+  s.frame = snapshot.frame;
   s.settings = from.settings;
-  s.default_cell = from.default_cell;
   s.shield = from.shield;
-  s.profile = from.profile;
   s.method = from.method;
   s.detector = s.method->make();  // what it remembers is of another state
   s.count_vertices();

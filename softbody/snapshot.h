@@ -1,32 +1,23 @@
 #pragma once
-// A world at an instant, to go back to: every value that has a say in what comes, and none that can be worked out.
+// A world at an instant, to go back to.
 
-#include "softbody/prototype_set.h"
-#include "softbody/world.h"
+#include <memory>
+#include <optional>
+
+#include "softbody/grab.h"
 
 namespace softbody {
 
-/// Taken by World::snapshot(). Meshes and materials are shared with the world.
+/// Made by World::snapshot(). It shares meshes and materials with the world; copies of a snapshot share all of it.
 struct Snapshot {
-  Scene scene;  // with the contact surface in use
-  PrototypeSet prototypes;
-  DynamicsState dynamics;
-  std::vector<char> arrived;
-  Visitors visitors;
-  std::vector<AddedBody> added;
-  int drops = 0;
-  std::array<double, 2> drop_direction{};
-  int frame = 0;
-  double time = 0;  // s
-  std::string integrator;
-  std::optional<int> substeps;
-  const collide::Method* method = nullptr;
-  collide::Settings settings;
-  bool default_cell = true;
-  float shield = 0;  // m, how thick it has grown
-  Profile profile;   // of the last step, for display
+  /// All other values that decide how the world goes on.
+  struct Insides;
 
-  /// Of memory, without what is shared; a few kilobytes may be missing.
+  int frame = 0;
+  std::optional<Grab> grab;  // reset it to let the world go on without the hand
+  std::shared_ptr<const Insides> insides;
+
+  /// Returns its memory in bytes, without what is shared with the world; a few kilobytes may be missing.
   std::size_t bytes() const;
 };
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/dynamics.h"
+#include "softbody/solid_placement.h"
 #include "softbody/solids.h"
 
 namespace softbody {

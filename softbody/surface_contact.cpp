@@ -287,15 +287,15 @@ Index SurfaceContact::owner(const Pair& pair, std::uint32_t slot) const {
   return slot >= first && slot < end && (slot - first) % stride == 0 ? pair.range.a : pair.range.b;
 }
 
-std::vector<SurfaceTouch> SurfaceContact::touches(const collide::Bodies& vertices) const {
-  std::vector<SurfaceTouch> list;
+std::vector<SurfaceContactPoint> SurfaceContact::touches(const collide::Bodies& vertices) const {
+  std::vector<SurfaceContactPoint> list;
   for (const Pair& p : pairs_) {
     const auto& rows = threads_[static_cast<std::size_t>(p.thread)].rows;
     for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r) {
       const ContactRow& row = rows[r];
       if (row.pressed <= 0) continue;
-      SurfaceTouch& touch =
-          list.emplace_back(SurfaceTouch{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
+      SurfaceContactPoint& touch = list.emplace_back(
+          SurfaceContactPoint{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
       for (std::size_t k = 0; k < 4; ++k) {
         const Index body = owner(p, row.slot[k]);
         const std::size_t local = (row.slot[k] - bodies_[body].first_slot) / bodies_[body].stride;

@@ -30,11 +30,10 @@
 
 #include "collide/surface/closed_shell.h"
 #include "collide/surface/surface_search.h"
+#include "softbody/contacts.h"
 #include "softbody/kernels.h"
 
 namespace softbody {
-
-using Index = collide::Index;
 
 /// What surface contact knows of a body.
 struct ContactBody {
@@ -62,15 +61,6 @@ struct ContactRow {
   std::uint32_t feature;  // place in the search's features
 };
 
-/// A contact that pressed in the last substep, for whoever shows it.
-struct SurfaceTouch {
-  Index a, b;                   // bodies of the first and the second side; equal: inside one
-  std::array<Index, 4> vertex;  // over the world
-  std::array<float, 4> weight;  // of the vertices: the first side's add up to 1 and are its closest point, the second's
-                                // to -1
-  glm::vec3 normal;             // unit, from the second side to the first
-};
-
 class SurfaceContact {
  public:
   /// All that is remembered from one substep to the next, and the rows that touches() shows.
@@ -81,7 +71,6 @@ class SurfaceContact {
   static constexpr int iterations = 2;          // a substep
   static constexpr int iterations_of_hits = 8;  // see hit()
   static constexpr int turns = 8;               // of mend(), which the solids take with it
-  static constexpr float push_speed = 1.0f;     // m/s, overlaps come apart no faster
   // Of the spring that keeps the distance, against the effective mass of the contact:
   static constexpr float spring_frequency = 750;  // 1/s, angular
   static constexpr float spring_damping = 5;      // of the critical
@@ -128,7 +117,7 @@ class SurfaceContact {
   bool gives_energy() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
-  std::vector<SurfaceTouch> touches(const collide::Bodies& vertices) const;
+  std::vector<SurfaceContactPoint> touches(const collide::Bodies& vertices) const;
 
  private:
   struct Pair {

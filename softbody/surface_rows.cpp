@@ -251,7 +251,7 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   row.mass = 1 / mobility;
   // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
   const float spare = apart - 0.5f * distance;
-  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, push_speed);
+  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, max_separation_speed);
   const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
   row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
   row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);

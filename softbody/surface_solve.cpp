@@ -49,7 +49,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
   const Side one = side(pair, false), two = side(pair, true);
   const Whole a = whole(one), b = whole(two);
   const glm::vec3 axis = unit(a.centre - b.centre, {});
-  const float missing = push_speed - glm::dot(a.velocity - b.velocity, axis);
+  const float missing = max_separation_speed - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
   for (Index i = 0; i < one.surface->vertex_count(); ++i)

@@ -282,20 +282,20 @@ Outlines outlines(const ObjFile& file, std::span<const Index> welded_to) {
   return found;
 }
 
-std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> positions, double distance) {
-  assert(distance >= 0 && positions.size() == file.x.size());
-  std::vector<char> used(positions.size(), false);
+std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> points, double distance) {
+  assert(distance >= 0 && points.size() == file.x.size());
+  std::vector<char> used(points.size(), false);
   double reach = 0;
   for (const Index corner : file.corners) {
     used[corner] = true;
-    for (int k = 0; k < 3; ++k) reach = std::max(reach, std::abs(positions[corner][k]));
+    for (int k = 0; k < 3; ++k) reach = std::max(reach, std::abs(points[corner][k]));
   }
-  std::vector<Index> place(positions.size());
+  std::vector<Index> place(points.size());
   std::iota(place.begin(), place.end(), Index{0});
   Places places(distance, 1e-9 * reach);
   bool shared = false;
   for (Index v = 0; v < place.size(); ++v) {
-    if (used[v]) place[v] = places.add(positions[v], v);
+    if (used[v]) place[v] = places.add(points[v], v);
     shared = shared || place[v] != v;
   }
   if (!shared) return place;

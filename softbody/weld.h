@@ -30,6 +30,6 @@ Outlines outlines(const ObjFile& file, std::span<const Index> welded_to);
 ///   4. all of them: then the mesh has an edge with more than two faces, and is refused.
 /// A piece whose faces all lie on faces of other pieces is welded to these. distance: in the units of `positions`, >=
 /// 0.
-std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> positions, double distance);
+std::vector<Index> weld(const ObjFile& file, std::span<const glm::dvec3> points, double distance);
 
 }  // namespace softbody

@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cassert>
 #include <chrono>
 #include <cmath>
 #include <sstream>
@@ -41,15 +42,14 @@ World::State::State(Scene s, const Options& o)
       method(collide::find_method(scene.method)),
       detector(method->make()),
       settings(scene.collision),
-      default_cell(scene.default_cell_size),
       shield(settings.tolerance) {
-  dynamics.set_least_shared(options.least_shared);
+  dynamics.set_least_shared(options.min_shared_particles);
   dynamics.set_max_work(options.max_work);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
   check_stability(prototypes, plan);
   set_integrator();
-  if (default_cell) settings.cell_size = rest_cell_size(prototypes, settings);
+  if (scene.default_cell_size) settings.cell_size = rest_cell_size(prototypes, settings);
   arrive();
   gather();
   detect();
@@ -64,21 +64,23 @@ double World::State::substeps(const Prototype& p, float thickness) const {
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
   const double own = p.spring_damping_bound, all = own + Shield::damping_bound(contact, friction, thickness);
-  const auto stable_step = find_integrator(options.integrator)->stable_step;
+  const auto stable_step = options.integrator.integrator().stable_step;
   return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }
 
 /// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
 bool World::State::implicit_in_reserve(const PrototypeSet& all, const Plan& with) const {
-  return find_integrator(options.integrator)->automatic && !with.has(Stage::surface_contact) &&
+  return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
          std::all_of(all.all().begin(), all.all().end(),
-                     [](const auto& one) { return one->mesh.vertices.size() <= Dynamics::most_implicit_particles; });
+                     [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
 }
 
 /// As the options have it, whatever becomes of it.
 void World::State::set_integrator() {
-  dynamics.set_integrator(*find_integrator(options.integrator));
-  dynamics.set_substeps(options.substeps);
+  report.integrator = &options.integrator.integrator();
+  report.why = {};
+  dynamics.set_integrator(*report.integrator);
+  dynamics.set_substeps(options.integrator.substeps);
 }
 
 /// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.
@@ -89,11 +91,11 @@ void World::State::check_stability(const PrototypeSet& all, const Plan& with) co
 
 void World::State::check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const {
   const auto particles = p.mesh.vertices.size();
-  if (find_integrator(options.integrator)->implicit && particles > Dynamics::most_implicit_particles)
+  if (options.integrator.integrator().implicit && particles > max_implicit_particles)
     throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
                      " vertices has too large a matrix for implicit steps (at most " +
-                     std::to_string(Dynamics::most_implicit_particles) + " vertices); choose another integrator");
-  if (options.substeps) return;
+                     std::to_string(max_implicit_particles) + " vertices); choose another integrator");
+  if (options.integrator.substeps) return;
   const double steps = substeps(p, contacts ? shield : 0);
   if (steps <= max_substeps) return;
   const bool wide = contacts && substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
@@ -141,7 +143,7 @@ void World::State::detect() {
     detector->detect(positions.frame(bodies), settings, workers, result);
   else
     result = {};
-  profile.detect_ms = ms_since(start);
+  report.detect_ms = ms_since(start);
 }
 
 void World::State::wake_all() {
@@ -149,10 +151,8 @@ void World::State::wake_all() {
     if (dynamics.body(b).asleep) dynamics.put_to_sleep(b, false);
 }
 
-World::World(Scene scene, const Options& options) : state_(std::make_unique<State>(std::move(scene), options)) {}
-World::~World() = default;
-World::World(World&&) noexcept = default;
-World& World::operator=(World&&) noexcept = default;
+World::World(Scene scene, const Options& options) : state_(new State(std::move(scene), options)) {}
+void World::DeleteState::operator()(State* state) const { delete state; }
 
 void World::step(const std::function<void()>& after_substep) {
   State& s = *state_;
@@ -175,75 +175,72 @@ void World::step(const std::function<void()>& after_substep) {
   };
   const Advance done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
   s.dynamics.finish_frame(done.seconds);
-  s.profile.substeps = done.substeps;
-  s.profile.seconds = done.seconds;
-  s.time += done.seconds;
+  s.report.time += done.seconds;
+  s.report.seconds = done.seconds;
+  s.report.substeps = done.substeps;
+  s.report.last_substep = s.dynamics.last_substep();
+  s.report.integrator = &s.dynamics.used_integrator();
+  s.report.why = s.dynamics.why_integrator();
+  s.report.adds_energy = s.dynamics.surface_contact().gives_energy();
   const bool whole = done.seconds == s.options.frame_time;
   if (!whole) s.shield = std::min(s.shield, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
   s.gather();
-  s.profile.solve_ms = ms_since(start) - looking_ms;
+  s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
   const bool shield_grows =
       s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
   if (s.plan.has(Stage::sleep) && whole && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
-  s.profile.total_ms = ms_since(start) - looking_ms;
+  s.report.total_ms = ms_since(start) - looking_ms;
 }
-
-void World::redetect() { state_->detect(); }
 
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
   State& s = *state_;
+  assert(particles.size() == s.bodies.size(body));
   s.dynamics.set_particles(body, particles);
   s.wake_all();
   s.gather();
   s.detect();
 }
 
-int World::add_material(const Material& material) {
-  state_->scene.materials.push_back(material);
-  return int(state_->scene.materials.size()) - 1;
-}
-
 const Scene& World::scene() const { return state_->scene; }
 int World::frame() const { return state_->frame; }
-double World::time() const { return state_->time; }
 double World::frame_time() const { return state_->options.frame_time; }
 const Plan& World::plan() const { return state_->plan; }
 const collide::Settings& World::collision() const { return state_->settings; }
-bool World::uses_default_cell_size() const { return state_->default_cell; }
 const collide::Method& World::method() const { return *state_->method; }
 
 void World::set_method(std::string_view key) {
   State& s = *state_;
-  s.method = collide::find_method(key);
+  const collide::Method* found = collide::find_method(key);
+  assert(found);
+  s.method = found;
   s.detector = s.method->make();
   s.wake_all();
   s.detect();
 }
 
-void World::set_integrator(std::string_view key, std::optional<int> substeps) {
+void World::set_integrator(const IntegratorChoice& choice) {
   State& s = *state_;
-  const Options before = s.options;
-  s.options.integrator = key;
-  s.options.substeps = substeps;
+  const IntegratorChoice before = s.options.integrator;
+  s.options.integrator = choice;
   try {
     s.check_stability(s.prototypes, s.plan);
   } catch (const SceneError&) {
-    s.options = before;
+    s.options.integrator = before;
     throw;
   }
   s.set_integrator();
   s.wake_all();
 }
 
-const Integrator& World::integrator() const { return *find_integrator(state_->options.integrator); }
-std::optional<int> World::substeps() const { return state_->options.substeps; }
+const IntegratorChoice& World::integrator_choice() const { return state_->options.integrator; }
 
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
   State& s = *state_;
+  assert(collide::problem(settings).empty());
   s.settings = s.scene.collision = settings;
+  s.scene.default_cell_size = default_cell_size;
   s.replan();  // self-collision decides whether a lone body needs detection
-  s.default_cell = default_cell_size;
   if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
   s.wake_all();
   s.detect();
@@ -268,33 +265,30 @@ void World::set_contact_surface(ContactSurface surface) {
 const collide::Bodies& World::bodies() const { return state_->bodies; }
 collide::Frame World::positions() const { return state_->positions.frame(state_->bodies); }
 const Prototype& World::prototype(BodyId body) const { return state_->dynamics.prototype(body); }
-const Body& World::body(BodyId body) const { return state_->dynamics.body(body); }
+Particle World::particle(BodyId body, Index vertex) const { return state_->dynamics.particle(body, vertex); }
 const collide::Result& World::detection() const { return state_->result; }
 const collide::Detector& World::detector() const { return *state_->detector; }
 std::span<const BodyId> World::vertex_body() const { return state_->vertex_body; }
-const Profile& World::profile() const { return state_->profile; }
+int World::needed_substeps() const { return state_->dynamics.substeps(state_->options.frame_time); }
 std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
-const Dynamics& World::dynamics() const { return state_->dynamics; }
+const StepReport& World::last_step() const { return state_->report; }
 
-std::vector<PairEnergy> World::shield_energies() const {
-  const State& s = *state_;
-  if (!s.plan.has(Stage::contact_response)) return {};
-  return s.dynamics.shield_energies({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+BodyState World::body(BodyId body) const {
+  const Dynamics& dynamics = state_->dynamics;
+  const Body& b = dynamics.body(body);
+  return {b.number, b.origin, b.held, b.asleep, dynamics.solid_impulse(body)};
 }
 
-std::vector<PairEnergy> World::last_shield_energies() const { return state_->dynamics.shield_energies(); }
-
-std::vector<SolidContact> World::solid_contacts() const {
-  constexpr double hair = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding
-  std::vector<SolidContact> contacts;
+PairEnergies World::pair_energies() const {
   const State& s = *state_;
-  const Coordinates& p = s.positions;
-  for (Index i = 0; i < p.x.size(); ++i) {
-    const SolidDepth d = solid_depth(s.scene, {p.x[i], p.y[i], p.z[i]});
-    const double distance = prototype(s.vertex_body[i]).material.thickness + hair;
-    if (d.depth > -distance) contacts.push_back({i, d.normal});
-  }
-  return contacts;
+  PairEnergies energies{.last = s.dynamics.shield_energies(), .next = {}};
+  if (s.plan.has(Stage::contact_response))
+    energies.next = s.dynamics.shield_energies({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+  return energies;
+}
+
+std::vector<SurfaceContactPoint> World::surface_contacts() const {
+  return state_->dynamics.surface_contact().touches(state_->bodies);
 }
 
 bool World::all_at_rest() const {

@@ -1,6 +1,7 @@
 // World: what is changed by hand, between frames.
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -96,6 +97,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
   const Prototype& p = *s.prototypes.of(source);
   const double pace = std::min(p.radius, 0.5);  // m
   constexpr int most_paces = 20;
+  assert(velocity != glm::dvec3(0.0));
   source.velocity = velocity;
   for (int i = 2; i < most_paces; ++i) {
     source.position = from + i * pace * glm::normalize(velocity);
@@ -106,12 +108,12 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
 
 const std::vector<AddedBody>& World::added() const { return state_->added; }
 
-std::vector<BodySource> World::sources() const {
-  const std::vector<AddedBody>& added = state_->added;  // in the order in which they came
+std::vector<BodySource> body_sources(const World& world) {
+  const std::vector<AddedBody>& added = world.added();
   const auto first_late = std::ranges::find_if(added, [](const AddedBody& one) { return one.source.appear > 0; });
   std::vector<BodySource> all;
   auto late = first_late;
-  for (const BodySource& body : scene().bodies) {
+  for (const BodySource& body : world.scene().bodies) {
     // Between two steps, so before those of the scene that come in the next one.
     for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
     all.push_back(body);
@@ -179,25 +181,13 @@ void World::remove(BodyId body) {
   s.detect();
 }
 
-void World::grab(const Grab& grab) {
+void World::grab(const std::optional<Grab>& grab) {
   State& s = *state_;
-  s.dynamics.hold(grab.body, false, 0);
+  assert(!grab || grab->body < s.bodies.count());
+  if (grab) s.dynamics.hold(grab->body, false, 0);
   s.dynamics.grab(grab);
-  s.visitors.grabs = true;
+  s.visitors.grabs = grab.has_value();
   s.replan();
-}
-
-void World::pull_to(const glm::dvec3& target) {
-  std::optional<Grab> grab = grabbed();
-  if (!grab) return;
-  grab->target = target;
-  state_->dynamics.grab(grab);
-}
-
-void World::release() {
-  state_->dynamics.grab(std::nullopt);
-  state_->visitors.grabs = false;
-  state_->replan();
 }
 
 const std::optional<Grab>& World::grabbed() const { return state_->dynamics.grabbed(); }
@@ -210,6 +200,11 @@ void World::set_gravity(const glm::dvec3& gravity) {
 
 void World::set_material(std::size_t index, const Material& material) {
   State& s = *state_;
+  assert(index <= s.scene.materials.size());
+  if (index == s.scene.materials.size()) {
+    s.scene.materials.push_back(material);
+    return;
+  }
   PrototypeSet changed = s.prototypes;
   changed.set_material(int(index), material);
   s.check_stability(changed, s.plan);

@@ -1,8 +1,10 @@
 #pragma once
-// What a world is made of, for the files that implement World; nobody else includes this.
+// What a world is made of, for the files that implement World. Only they and tests of the solver include this.
 
+#include "softbody/dynamics.h"
 #include "softbody/prototype_set.h"
 #include "softbody/sleep.h"
+#include "softbody/snapshot.h"
 #include "softbody/world.h"
 
 namespace softbody {
@@ -56,12 +58,10 @@ struct World::State {
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
   int frame = 0;
-  double time = 0;  // s
 
   const collide::Method* method;
   std::unique_ptr<collide::Detector> detector;
   collide::Settings settings;
-  bool default_cell;
   float shield;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider throws bodies
                  // about
 
@@ -69,7 +69,23 @@ struct World::State {
   std::vector<BodyId> vertex_body;
   Coordinates positions;
   collide::Result result;
-  Profile profile;
+  StepReport report;
+};
+
+struct Snapshot::Insides {
+  Scene scene;  // with all changes
+  PrototypeSet prototypes;
+  DynamicsState dynamics;
+  std::vector<char> arrived;
+  Visitors visitors;
+  std::vector<AddedBody> added;
+  int drops = 0;
+  std::array<double, 2> drop_direction{};
+  IntegratorChoice integrator;
+  const collide::Method* method = nullptr;
+  collide::Settings settings;
+  float shield = 0;  // m, how thick it has grown
+  StepReport report;
 };
 
 }  // namespace softbody

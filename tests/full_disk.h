@@ -1,5 +1,5 @@
 #pragma once
-// A disk that is full while this lives: no file, of this process or of those that it starts, grows beyond some bytes.
+// Simulates a full disk: no file of this process, or of a process that it starts, can grow beyond a few bytes.
 
 #include <sys/resource.h>
 
@@ -10,7 +10,7 @@ namespace tests {
 
 class FullDisk {
  public:
-  /// bytes: enough for an error message, too few for any result.
+  /// `bytes`: the limit. The default is enough for an error message and too little for any result.
   explicit FullDisk(rlim_t bytes = 400) : handler_(std::signal(SIGXFSZ, SIG_IGN)) {
     getrlimit(RLIMIT_FSIZE, &before_);
     const rlimit less{bytes, before_.rlim_max};

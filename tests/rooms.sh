@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Checks that each folder of the sources includes only itself and the folders that this table allows it.
+# Checks that each folder of the sources includes only itself and the folders that the first table allows it, and that
+# app includes only the public headers of softbody, which the second table lists.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -26,10 +27,16 @@ app/window: app/base app/files app/compare app/session app/render app/ui collide
 app: app/base app/files app/cli app/report app/window collide softbody engine
 "
 
+# They include only each other of softbody, so that no change of the solver reaches app.
+public="
+best_rotation body contacts grab integrators isa limits max_work measures mesh mesh_import obj_file plan prototype scene
+scene_write snapshot solids toml_table toml_text world
+"
+
 # A folder without a row belongs to the row of the folder above it. An entry `collide` or `engine` allows the folders below
 # it, too.
 grep -r --include='*.h' --include='*.cpp' '^#include "' collide softbody engine app |
-  awk -v allowed="$allowed" '
+  awk -v allowed="$allowed" -v public="$public" '
     function room(path) {
       while (sub(/\/[^\/]*$/, "", path)) if (path in known) return path
       return path
@@ -41,6 +48,8 @@ grep -r --include='*.h' --include='*.cpp' '^#include "' collide softbody engine 
         count = split(side[2], target, " ")
         for (k = 1; k <= count; ++k) may[side[1], target[k]]
       }
+      count = split(public, name, " ")
+      for (k = 1; k <= count; ++k) shown["softbody/" name[k] ".h"]
     }
     {
       file = target_file = $0
@@ -48,6 +57,10 @@ grep -r --include='*.h' --include='*.cpp' '^#include "' collide softbody engine 
       gsub(/^[^"]*"|".*/, "", target_file)
       if (target_file !~ /\//) next
       from = room(file); to = room(target_file)
+      if (to == "softbody" && !(target_file in shown) && (from ~ /^app/ || file in shown)) {
+        printf "%s includes %s, which is not a public header of softbody\n", file, target_file
+        wrong = 1
+      }
       top = to; sub(/\/.*/, "", top)
       if (from == to || (from, to) in may || (from ~ /^app/ && (from, top) in may)) next
       printf "%s includes %s: %s may not use %s\n", file, target_file, from, to

@@ -1,5 +1,5 @@
 #pragma once
-// A folder of its own for a test that reads or writes files.
+// A temporary folder for a test that reads or writes files.
 
 #include <stdlib.h>
 
@@ -10,7 +10,7 @@
 
 namespace tests {
 
-/// Empty at first; vanishes with the object and all that is in it.
+/// A new, empty folder. The destructor removes it with everything in it.
 class TemporaryFolder {
  public:
   TemporaryFolder() {
@@ -25,7 +25,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  /// Puts a file there and returns its path.
+  /// Writes a file into the folder and returns its path.
   std::filesystem::path write(const std::string& name, const std::string& text) const {
     std::ofstream(path_ / name, std::ios::binary) << text;
     return path_ / name;

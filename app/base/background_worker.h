@@ -1,6 +1,8 @@
 #pragma once
-// A thread that answers questions about copies of the world, one at a time: the demo hands them over and never waits.
+// A thread that answers questions about copies of the world, one at a time. The demo hands a question over and never
+// waits for the answer.
 
+#include <cassert>
 #include <chrono>
 #include <condition_variable>
 #include <mutex>
@@ -12,7 +14,7 @@ namespace app {
 
 /// Task: has the types Question and Answer, and a member
 ///   Answer answer(const Question& question, const std::stop_token& stop)
-/// that throws nothing. It is made on the thread and may remember what it needs from one question to the next.
+/// that throws nothing. The thread makes one Task, which may keep data from one question to the next.
 template <class Task>
 class BackgroundWorker {
  public:
@@ -21,14 +23,16 @@ class BackgroundWorker {
 
   BackgroundWorker() : thread_([this](const std::stop_token& stop) { work(stop); }) {}
 
-  /// True if an offer would be taken now. After an answer the worker rests for so many times as long as that took: with
-  /// 2 it never takes more than a third of a core from the simulation and the drawing.
+  /// Returns true if offer() would take a question now and the worker has rested. rests: the rest after an answer, in
+  /// multiples of the time that the answer took. With 2 the worker takes at most a third of a core from the simulation
+  /// and the drawing.
   bool ready(int rests = 2) const {
+    assert(rests >= 0);
     const std::scoped_lock lock(mutex_);
     return !busy_ && !waiting_ && Clock::now() >= answered_ + rests * took_;
   }
 
-  /// Takes the question, or drops it if another one is waiting or being answered. Never waits for an answer.
+  /// Takes the question; drops it if another one waits or is being answered. Does not wait for an answer.
   void offer(Question question) {
     {
       const std::scoped_lock lock(mutex_);
@@ -38,7 +42,7 @@ class BackgroundWorker {
     wake_.notify_one();
   }
 
-  /// The latest answer that was not yet taken.
+  /// Returns the latest answer, once; nothing if there is no new one.
   std::optional<Answer> take() {
     const std::scoped_lock lock(mutex_);
     return std::exchange(done_, std::nullopt);
@@ -73,7 +77,7 @@ class BackgroundWorker {
   bool busy_ = false;
   Clock::time_point answered_;
   Clock::duration took_{};
-  std::jthread thread_;  // last: started after, joined before all else
+  std::jthread thread_;  // last member: starts after the others are made, and ends before they go
 };
 
 }  // namespace app

@@ -1,41 +1,20 @@
 #pragma once
-// Putting texts together.
+// Numbers as text.
 
-#include <cstddef>
 #include <cstdint>
-#include <cstdio>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace app {
 
-/// Like snprintf, for at most 255 characters.
-template <class... Values>
-std::string format(const char* pattern, Values... values) {
-  char text[256];
-  std::snprintf(text, sizeof text, pattern, values...);
-  return text;
-}
+/// Returns "1,234,567".
+std::string grouped(std::uint64_t number);
 
-/// Of two counts; "-" if the second is none.
-inline std::string ratio(std::uint64_t part, std::uint64_t whole) {
-  return whole == 0 ? "-" : format("%.3g", static_cast<double>(part) / static_cast<double>(whole));
-}
+/// Returns `part` / `whole` in three digits; "-" if `whole` is 0.
+std::string ratio(std::uint64_t part, std::uint64_t whole);
 
-template <class... Parts>
-std::string joined(const Parts&... parts) {
-  std::string text;
-  (text.append(std::string_view(parts)), ...);
-  return text;
-}
-
-/// "1,234,567"
-inline std::string grouped(std::uint64_t number) {
-  std::string text = std::to_string(number);
-  for (auto at = static_cast<std::ptrdiff_t>(text.size()) - 3; at > 0; at -= 3) {
-    text.insert(static_cast<std::size_t>(at), 1, ',');
-  }
-  return text;
-}
+/// Returns the texts with a separator between them.
+std::string joined(const std::vector<std::string>& texts, std::string_view separator);
 
 }  // namespace app

@@ -4,7 +4,7 @@
 
 namespace app {
 
-/// Bad input or a run that cannot be done. what() is one line that says what, where and what to do.
+/// Bad input, or a run that is not possible. what() is one line: what is wrong, where, and what to do.
 struct UsageError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };

@@ -2,29 +2,29 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <iostream>
 #include <iterator>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/base/times.h"
+#include "app/base/timings.h"
 #include "app/files/contacts_csv.h"
-#include "app/files/obj.h"
+#include "app/files/obj_reader.h"
 
-namespace app {
+namespace app::cli {
 namespace {
 
 using collide::Index;
 
-/// All that is read from the files, which are consecutive frames of the same bodies.
+/// The content of the files, which are consecutive frames of the same bodies.
 struct Sequence {
-  std::vector<ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
+  std::vector<files::ObjBodies> frames;  // only the first keeps its edges, and only until the bodies are made
   collide::Bodies bodies;
-  std::vector<std::string> notes;  // the first file's as they are; those that only another file has with its name
+  std::vector<std::string> notes;  // of the first file; further ones begin with the name of their file
 
   /// Adds the notes of a file.
-  void note(const std::string& file, const ObjBodies& read) {
+  void note(const std::string& file, const files::ObjBodies& read) {
     for (const std::string& text : read.notes) {
       if (std::ranges::find(notes, text) == notes.end())
         notes.push_back(frames.size() == 1 && &read == &frames[0] ? text : file + ": " + text);
@@ -32,12 +32,12 @@ struct Sequence {
   }
 
   collide::Frame frame(std::size_t number) const {
-    const ObjBodies& f = frames[number];
+    const files::ObjBodies& f = frames[number];
     return {f.x, f.y, f.z, &bodies};
   }
 };
 
-void require_match(const ObjBodies& bodies, const std::string& file, const ObjBodies& first,
+void require_match(const files::ObjBodies& bodies, const std::string& file, const files::ObjBodies& first,
                    const std::string& first_file) {
   const auto refuse = [&](const std::string& what, std::size_t here, std::size_t there) {
     throw UsageError(file + ": " + what + " " + std::to_string(here) + ", in " + first_file + " " +
@@ -49,8 +49,9 @@ void require_match(const ObjBodies& bodies, const std::string& file, const ObjBo
   }
 }
 
-/// `rest`: nullptr, or what matches `mesh`. Copies of one mesh, one after another, share their topology.
-collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
+/// Makes the bodies of a mesh. rest: nullptr, or the same bodies at rest. Consecutive copies of a mesh share a
+/// topology.
+collide::Bodies make_bodies(const files::ObjBodies& mesh, const files::ObjBodies* rest) {
   collide::Bodies bodies;
   std::shared_ptr<const collide::Topology> topology;
   for (std::size_t b = 0; b < mesh.count(); ++b) {
@@ -64,25 +65,25 @@ collide::Bodies make_bodies(const ObjBodies& mesh, const ObjBodies* rest) {
   return bodies;
 }
 
-/// Frames stay in memory, so that to read them is no part of the times.
-constexpr std::size_t most_positions = std::size_t{1} << 27;  // of all frames together, 1.5 GiB
+// All frames stay in memory, so that the times do not include reading.
+constexpr std::size_t max_positions = std::size_t{1} << 27;  // of all frames together: 1.5 GiB
 
 Sequence read_sequence(const DetectOptions& options) {
   Sequence sequence;
   const std::string& first_file = options.files.front();
   for (const std::string& file : options.files) {
-    sequence.frames.push_back(read_obj(file));
+    sequence.frames.push_back(files::read_obj(file));
     sequence.note(file, sequence.frames.back());
     require_match(sequence.frames.back(), file, sequence.frames.front(), first_file);
     if (sequence.frames.size() > 1) sequence.frames.back().edges = {};
     const std::size_t vertices = sequence.frames.front().x.size(), files = options.files.size();
-    if (vertices * files > most_positions)
+    if (vertices * files > max_positions)
       throw UsageError(std::to_string(files) + " files of " + std::to_string(vertices) + " vertices each: at most " +
-                       std::to_string(most_positions) + " together; give fewer files at a time");
+                       std::to_string(max_positions) + " together; give fewer files at a time");
   }
-  ObjBodies& first = sequence.frames.front();
+  files::ObjBodies& first = sequence.frames.front();
   if (options.rest) {
-    const ObjBodies rest = read_obj(*options.rest);
+    const files::ObjBodies rest = files::read_obj(*options.rest);
     sequence.note(*options.rest, rest);
     require_match(rest, *options.rest, first, first_file);
     sequence.bodies = make_bodies(first, &rest);
@@ -93,34 +94,32 @@ Sequence read_sequence(const DetectOptions& options) {
   return sequence;
 }
 
-/// Figures of one frame.
-struct MethodRow {
+/// The figures of one frame.
+struct DetectRow {
   std::size_t contacts = 0;
   std::uint64_t self_contacts = 0;
   collide::Counters counters;
   collide::Skipped skipped{};
-  Times times;  // of each repetition
+  Timings times;  // by repetition
 };
 
-/// From positions in memory to the finished list.
+/// Returns the time (ms) from positions in memory to the finished list of contacts.
 double timed_detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
                     collide::Workers& workers, collide::Result& result, const std::string& file) {
-  const auto start = std::chrono::steady_clock::now();
   try {
-    detector.detect(frame, settings, workers, result);
-  } catch (const std::length_error& error) {  // more than the method may take
+    return time_ms([&] { detector.detect(frame, settings, workers, result); });
+  } catch (const std::length_error& error) {  // more contacts than a method may report
     throw UsageError(file + ": " + error.what());
   }
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
 }
 
-std::vector<MethodRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
+std::vector<DetectRow> run(const Options& options, const collide::Method& method, const collide::Settings& settings,
                            const Sequence& sequence) {
-  std::optional<ContactsCsv> csv;
+  std::optional<files::ContactsCsv> csv;
   if (options.detect.contacts) csv.emplace(*options.detect.contacts);
   collide::Workers workers(options.threads);
   collide::Result result;
-  std::vector<MethodRow> rows(sequence.frames.size());
+  std::vector<DetectRow> rows(sequence.frames.size());
   for (int repetition = 0; repetition < options.detect.repeat; ++repetition) {
     auto detector = method.make();
     for (std::size_t f = 0; f < rows.size(); ++f) {
@@ -132,7 +131,7 @@ std::vector<MethodRow> run(const Options& options, const collide::Method& method
       rows[f].self_contacts = result.self_contacts;
       rows[f].counters = result.counters;
       rows[f].skipped = result.skipped;
-      if (csv) csv->add(f, frame, result.contacts);  // at once: the lists of all frames may be too large to keep
+      if (csv) csv->add(f, frame, result.contacts);  // now, because the lists of all frames may be too large to keep
     }
   }
   if (csv) csv->commit();
@@ -140,17 +139,17 @@ std::vector<MethodRow> run(const Options& options, const collide::Method& method
 }
 
 void print_json(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
+                const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
   using Json = nlohmann::ordered_json;
   Json frames = Json::array();
-  for (const MethodRow& r : rows) {
+  for (const DetectRow& r : rows) {
     Json skipped = Json::object();
     for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
       skipped[std::string(collide::skip_kinds[kind].key)] = r.skipped[kind];
     frames.push_back({{"frame", frames.size()},
                       {"contacts", r.contacts},
                       {"self_contacts", r.self_contacts},
-                      {"ms", {{"min", r.times.least()}, {"median", r.times.median()}}},
+                      {"ms", {{"min", r.times.min()}, {"median", r.times.median()}}},
                       {"pair_tests", r.counters.pair_tests},
                       {"hashes", r.counters.hashes},
                       {"boxes", r.counters.boxes},
@@ -164,18 +163,16 @@ void print_json(const Options& options, const collide::Method& method, const std
 }
 
 void print_table(const Options& options, const collide::Method& method, const std::vector<std::string>& notes,
-                 const collide::Bodies& bodies, const std::vector<MethodRow>& rows) {
-  std::printf("%s, tolerance %g m, threads %d, bodies %u, vertices %u\n", std::string(method.name).c_str(),
-              *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
-  for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
-  std::printf("%7s %10s %10s %10s %10s %14s %12s %10s\n", "frame", "ms min", "ms median", "contacts", "self",
-              "pair tests", "hashes", "boxes");
-  const auto number = [](std::uint64_t value) { return static_cast<unsigned long long>(value); };
+                 const collide::Bodies& bodies, const std::vector<DetectRow>& rows) {
+  std::cout << fmt::format("{}, tolerance {:g} m, threads {}, bodies {}, vertices {}\n", method.name,
+                           *options.detection.tolerance, options.threads, bodies.count(), bodies.vertex_count());
+  for (const std::string& note : notes) std::cout << "note: " << note << '\n';
+  std::cout << "  frame     ms min  ms median   contacts       self     pair tests       hashes      boxes\n";
   for (std::size_t f = 0; f < rows.size(); ++f) {
-    const MethodRow& r = rows[f];
-    std::printf("%7zu %10.3f %10.3f %10zu %10llu %14llu %12llu %10llu\n", f, r.times.least(), r.times.median(),
-                r.contacts, number(r.self_contacts), number(r.counters.pair_tests), number(r.counters.hashes),
-                number(r.counters.boxes));
+    const DetectRow& r = rows[f];
+    std::cout << fmt::format("{:7} {:10.3f} {:10.3f} {:10} {:10} {:14} {:12} {:10}\n", f, r.times.min(),
+                             r.times.median(), r.contacts, r.self_contacts, r.counters.pair_tests, r.counters.hashes,
+                             r.counters.boxes);
   }
 }
 
@@ -189,7 +186,7 @@ void detect(const Options& options) {
   const Sequence sequence = read_sequence(options.detect);
   if (automatic_cell_size(options.detection, true))
     settings.cell_size = collide::default_cell_size(sequence.frame(0), settings.levels, settings.tolerance);
-  const std::vector<MethodRow> rows = run(options, method, settings, sequence);
+  const std::vector<DetectRow> rows = run(options, method, settings, sequence);
   std::vector<std::string> notes = warnings(method, settings);
   std::ranges::copy(sequence.notes, std::back_inserter(notes));
   if (options.json)
@@ -198,4 +195,4 @@ void detect(const Options& options) {
     print_table(options, method, notes, sequence.bodies, rows);
 }
 
-}  // namespace app
+}  // namespace app::cli

@@ -1,11 +1,11 @@
 #pragma once
-// `sbcollide detect`: the contacts of any method in meshes of anyone's.
+// `sbcollide detect`: finds contacts in the user's own meshes, by any method.
 
 #include "app/cli/options.h"
 
-namespace app {
+namespace app::cli {
 
-/// Prints the figures as a table or as JSON, and writes the contacts if asked for. Throws UsageError or ObjError.
+/// Prints the figures as a table or as JSON, and writes the contacts on request. Throws UsageError or ObjError.
 void detect(const Options& options);
 
-}  // namespace app
+}  // namespace app::cli

@@ -2,14 +2,14 @@
 
 #include <limits>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "app/base/number_text.h"
-#include "app/base/text.h"
+#include "app/base/parse_numbers.h"
+#include "app/cli/integer_option.h"
 #include "app/cli/options.h"
-#include "app/cli/whole_number_option.h"
 
-namespace app {
+namespace app::cli {
 namespace {
 
 std::array<std::uint32_t, 3> read_primes(const std::string& text) {
@@ -17,7 +17,7 @@ std::array<std::uint32_t, 3> read_primes(const std::string& text) {
   std::array<std::uint32_t, 3> primes{};
   bool good = parts.size() == primes.size();
   for (std::size_t axis = 0; good && axis < primes.size(); ++axis) {
-    const auto number = whole_number(parts[axis]);
+    const auto number = parse_integer(parts[axis]);
     good = number && *number >= 1 && *number <= std::numeric_limits<std::uint32_t>::max();
     if (good) primes[axis] = static_cast<std::uint32_t>(*number);
   }
@@ -28,7 +28,7 @@ std::array<std::uint32_t, 3> read_primes(const std::string& text) {
 }
 
 glm::vec3 read_cell_size(const std::string& text) {
-  const auto sides = real_numbers(text, ',');
+  const auto sides = parse_reals(text, ',');
   if (!sides || (sides->size() != 1 && sides->size() != 3))
     throw UsageError("--cell-size " + text + ": must be a number of metres, three of them as X,Y,Z, or auto");
   return {float(sides->front()), float((*sides)[sides->size() / 2]), float(sides->back())};
@@ -40,10 +40,10 @@ void add_detection_options(CLI::App& command, DetectionOptions& options) {
   command.add_option("--method", options.method, "detector: a key of `list methods`")->type_name("M");
   command.add_option("--levels", options.levels, "subdivision level: each body's box is cut into 2^N boxes")
       ->type_name("N")
-      ->transform(whole_number_from(0, collide::max_levels));
+      ->transform(integer_in_range(0, collide::max_levels));
   command.add_option("--buckets", options.buckets, "number of buckets of the hash table")
       ->type_name("N")
-      ->transform(whole_number_from(1, collide::max_buckets));
+      ->transform(integer_in_range(1, collide::max_buckets));
   command
       .add_option(
           "--cell-size", options.cell_size,
@@ -74,7 +74,7 @@ void apply(const DetectionOptions& options, collide::Settings& settings) {
   if (options.buckets) settings.buckets = *options.buckets;
   if (options.tolerance) {
     settings.tolerance = static_cast<float>(*options.tolerance);
-    check(format("--tolerance %.9g", *options.tolerance));
+    check(fmt::format("--tolerance {:.9g}", *options.tolerance));
   }
   if (!automatic_cell_size(options, true)) settings.cell_size = read_cell_size(*options.cell_size);
   check("--cell-size");
@@ -87,4 +87,4 @@ std::vector<std::string> warnings(const collide::Method& method, const collide::
   return {std::move(hash)};
 }
 
-}  // namespace app
+}  // namespace app::cli

@@ -12,9 +12,9 @@ namespace CLI {
 class App;
 }
 
-namespace app {
+namespace app::cli {
 
-/// What the command line says about detection; what it leaves open stays as the scene or the default has it.
+/// The options of detection. For an option that is not given, the scene or the default decides.
 struct DetectionOptions {
   std::optional<std::string> method;
   std::optional<int> levels;
@@ -24,19 +24,20 @@ struct DetectionOptions {
   std::optional<std::string> primes;     // "A,B,C", as typed
 };
 
-/// Offers them on the command line.
+/// Adds these options to a command.
 void add_detection_options(CLI::App& command, DetectionOptions& options);
 
-/// The method asked for, or else the one with the key `otherwise`. Throws UsageError if there is no such method.
+/// Returns the chosen method, or the one with the key `otherwise`. Throws UsageError if there is no such method.
 const collide::Method& chosen_method(const DetectionOptions& options, std::string_view otherwise);
 
-/// Whether it says that the cell size is to be worked out, or nothing for the default.
+/// Returns true if the cell size is "auto"; `otherwise` if it is not given.
 bool automatic_cell_size(const DetectionOptions& options, bool otherwise);
 
-/// Puts all the others into `settings`, which must be usable. Throws UsageError that names the option at fault.
+/// Applies the other options to `settings`. Throws UsageError with the option at fault. Precondition: problem(settings)
+/// is empty.
 void apply(const DetectionOptions& options, collide::Settings& settings);
 
-/// A line for each setting that is allowed but spoils something of this method: now those of the hash, if it has one.
+/// Returns a line for each setting that is allowed but spoils this method: today those of the hash, if it has one.
 std::vector<std::string> warnings(const collide::Method& method, const collide::Settings& settings);
 
-}  // namespace app
+}  // namespace app::cli

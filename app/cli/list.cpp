@@ -8,12 +8,12 @@
 #include "softbody/integrators.h"
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::cli {
 namespace {
 
 void row(std::string_view key, std::string_view name) { std::cout << key << '\t' << name << '\n'; }
 
-/// A file that is not in order hides no other.
+/// Lists all valid scenes, then throws the error of the first invalid one.
 void list_scenes(const std::filesystem::path& folder) {
   std::optional<softbody::SceneError> first_error;
   for (const std::string& key : softbody::scene_keys(folder)) {
@@ -36,8 +36,8 @@ void list(const std::string& what) {
   } else if (what == "contact-surfaces") {
     for (const softbody::ContactSurfaceInfo& s : softbody::contact_surfaces) row(s.key, s.name);
   } else {
-    list_scenes(scene_folder());
+    list_scenes(files::scene_folder());
   }
 }
 
-}  // namespace app
+}  // namespace app::cli

@@ -1,12 +1,12 @@
 #pragma once
-// `sbcollide list`: what there is to choose from.
+// `sbcollide list`: prints what can be chosen.
 
 #include <string>
 
-namespace app {
+namespace app::cli {
 
-/// Prints key, tab, name, a line each. what: "scenes", "methods" or "integrators". Throws SceneError if a scene is not
-/// in order, once all others are printed.
+/// Prints a line "KEY<tab>NAME" for each choice. what: see Options::list_of. Throws SceneError if a scene file is
+/// invalid, after all others are printed.
 void list(const std::string& what);
 
-}  // namespace app
+}  // namespace app::cli

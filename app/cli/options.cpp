@@ -3,16 +3,16 @@
 #include <algorithm>
 #include <thread>
 
+#include <fmt/core.h>
 #include <CLI/CLI.hpp>
 
-#include "app/base/number_text.h"
-#include "app/base/text.h"
-#include "app/cli/whole_number_option.h"
+#include "app/base/parse_numbers.h"
+#include "app/cli/integer_option.h"
 #include "app/files/scene_folder.h"
 #include "softbody/limits.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::cli {
 namespace {
 
 std::string one_line(std::string text) {
@@ -21,7 +21,7 @@ std::string one_line(std::string text) {
   return text;
 }
 
-/// Why the library refuses the command line.
+/// Returns why CLI11 refuses the command line.
 std::string reason(const CLI::ParseError& error) {
   constexpr std::string_view value_of_flag = " was given a disallowed flag override";  // after its bare name
   std::string why = one_line(error.what());
@@ -29,11 +29,11 @@ std::string reason(const CLI::ParseError& error) {
   return "--" + why.substr(0, why.size() - value_of_flag.size()) + ": a flag, to be written without a value";
 }
 
-/// "1280x720" to width and height.
+/// Reads width and height, e.g. "1280x720".
 void parse_size(const std::string& text, Options& options) {
   const auto parts = split(text, 'x');
   const auto side = [&](std::size_t which) {
-    const auto pixels = parts.size() == 2 ? whole_number(parts[which]) : std::nullopt;
+    const auto pixels = parts.size() == 2 ? parse_integer(parts[which]) : std::nullopt;
     if (!pixels || *pixels < 1 || *pixels > 16384)
       throw UsageError("--size " + text + ": must be WIDTHxHEIGHT, each from 1 to 16384, e.g. 1280x720");
     return static_cast<int>(*pixels);
@@ -47,7 +47,7 @@ void parse_captures(const std::string& text, Options& options) {
     throw UsageError("--capture " + text + ": '" + std::string(item) + "' " + why);
   };
   for (const std::string_view item : split(text, ',')) {
-    const auto frame = whole_number(item);
+    const auto frame = parse_integer(item);
     if (!frame || *frame < 1) refuse(item, "is no frame number; write e.g. 100,400,600,800");
     if (*frame > options.frames) refuse(item, "lies beyond --frames " + std::to_string(options.frames));
     options.captures.push_back(static_cast<int>(*frame));
@@ -56,9 +56,9 @@ void parse_captures(const std::string& text, Options& options) {
 }
 
 softbody::View read_view(const std::string& text) {
-  const auto v = real_numbers(text, ',');
-  const auto within = [&](std::size_t which, double least, double most) {
-    return (*v)[which] >= least && (*v)[which] <= most;
+  const auto v = parse_reals(text, ',');
+  const auto within = [&](std::size_t which, double min, double max) {
+    return (*v)[which] >= min && (*v)[which] <= max;
   };
   if (!v || v->size() != 6 || !within(0, -1e6, 1e6) || !within(1, -1e6, 1e6) || !within(2, -1e6, 1e6) ||
       !within(3, 1e-9, 1e6) || !within(4, -360, 360) || !within(5, -89, 89))
@@ -72,7 +72,7 @@ void add_common_options(CLI::App& command, Options& options) {
   add_detection_options(command, options.detection);
   command.add_option("--threads", options.threads, "threads (default: all cores)")
       ->type_name("N")
-      ->transform(whole_number_from(1, 256));
+      ->transform(integer_in_range(1, 256));
 }
 
 void add_scene_options(CLI::App& command, Options& options) {
@@ -82,12 +82,12 @@ void add_scene_options(CLI::App& command, Options& options) {
       .add_option("--contact-surface", options.contact_surface,
                   "what keeps bodies apart: a key of `list contact-surfaces`")
       ->type_name("K");
-  command.add_option("--integrator", options.integrator, "a key of `list integrators`")->type_name("I");
+  command.add_option("--integrator", options.integrator.key, "a key of `list integrators`")->type_name("I");
   command
-      .add_option("--substeps", options.substeps,
+      .add_option("--substeps", options.integrator.substeps,
                   "exactly N steps of the integrator a frame (default: as many as stability asks for)")
       ->type_name("N")
-      ->transform(whole_number_from(1, softbody::World::max_substeps));
+      ->transform(integer_in_range(1, softbody::max_substeps));
   command.add_flag_function(
       "--self,!--no-self", [&options](std::int64_t number) { options.self_collision = number > 0; },
       "whether pairs of one body count (default: the scene's)");
@@ -103,7 +103,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   add_scene_options(*simulate, options);
   simulate->add_option("--frames", options.frames, "frames to run")
       ->type_name("N")
-      ->transform(whole_number_from(1, 10'000'000));
+      ->transform(integer_in_range(1, 10'000'000));
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
@@ -111,7 +111,7 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate
       ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
       ->type_name("N")
-      ->transform(whole_number_from(1, 10'000'000));
+      ->transform(integer_in_range(1, 10'000'000));
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -132,7 +132,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
       ->type_name("FILE");
   detect->add_option("--repeat", d.repeat, "runs of the whole sequence, each with a fresh detector")
       ->type_name("K")
-      ->transform(whole_number_from(1, 100'000));
+      ->transform(integer_in_range(1, 100'000));
   detect->add_flag("!--no-reuse", d.reuse, "forget what earlier frames taught");
   detect->add_option("--contacts", d.contacts, "file to write the contacts to")->type_name("CSV");
   detect->add_flag("--json", options.json, "print one JSON document instead of a table");
@@ -140,7 +140,7 @@ CLI::App* add_detect(CLI::App& cli, Options& options) {
 }
 
 CLI::App* add_report(CLI::App& cli, Options& options) {
-  ReportOptions& r = options.report;
+  report::ReportOptions& r = options.report;
   CLI::App* report = cli.add_subcommand("report", "measure for minutes; write tables and plots");
   report->add_option("what", r.name, "detection, contact, solver or stability");
   report->add_option("--scene", r.scene, "only this scene: a key of `list scenes` or a .toml file")->type_name("S");
@@ -151,13 +151,13 @@ CLI::App* add_report(CLI::App& cli, Options& options) {
           "detection: threads of the detectors that are timed (default 1); contact and stability: runs side by "
           "side (default: all cores)")
       ->type_name("N")
-      ->transform(whole_number_from(1, 256));
+      ->transform(integer_in_range(1, 256));
   report->add_option("--out", r.out, "folder for the report")->type_name("DIR")->required();
   return report;
 }
 
-/// CLI11 takes an empty value for none at all, so that `--tolerance ""` would go unnoticed, and the option after a
-/// forgotten value for that value.
+/// Throws UsageError for an empty value, which CLI11 would ignore, and for a forgotten value, for which CLI11 would
+/// take the next option.
 void refuse_missing_values(const CLI::App& command) {
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& value : option->results()) {
@@ -171,15 +171,17 @@ void refuse_missing_values(const CLI::App& command) {
   for (const CLI::App* below : command.get_subcommands()) refuse_missing_values(*below);
 }
 
-/// Values of flags are added up by CLI11, which throws what is no error of its own at `--self=maybe`.
+/// Makes CLI11 refuse values of flags. Otherwise it would add them up, and throw an error of another kind for
+/// `--self=maybe`.
 void refuse_values_of_flags(CLI::App& command) {
   for (CLI::Option* option : command.get_options()) option->disable_flag_override();
   for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
 }
 
 void check(const Options& options) {
-  if (!softbody::find_integrator(options.integrator))
-    throw UsageError("--integrator " + options.integrator + ": unknown; use one of: " + softbody::integrator_keys());
+  if (!softbody::find_integrator(options.integrator.key))
+    throw UsageError("--integrator " + options.integrator.key +
+                     ": unknown; use one of: " + softbody::integrator_keys());
   if (options.contact_surface && !softbody::find_contact_surface(*options.contact_surface))
     throw UsageError("--contact-surface " + *options.contact_surface +
                      ": unknown; use one of: " + softbody::contact_surface_keys());
@@ -190,10 +192,11 @@ void check(const Options& options) {
                      std::to_string(options.frames) + ", so that no file would be written");
 }
 
-/// Of what scene files take: a scene that is saved is to be read again.
+/// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
 void require_length(const std::string& option, float metres, double most) {
-  if (!(metres >= static_cast<float>(softbody::least_length) && metres <= static_cast<float>(most)))
-    throw UsageError(option + format(": must be a number of metres from %g to %.0f", softbody::least_length, most));
+  if (!(metres >= static_cast<float>(softbody::min_length) && metres <= static_cast<float>(most)))
+    throw UsageError(option +
+                     fmt::format(": must be a number of metres from {:g} to {:.0f}", softbody::min_length, most));
 }
 
 }  // namespace
@@ -201,7 +204,6 @@ void require_length(const std::string& option, float metres, double most) {
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;
   options.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  options.integrator = softbody::default_integrator;
   std::string size, captures;
 
   CLI::App cli{
@@ -257,15 +259,16 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
 softbody::Scene load_scene(const Options& options) {
   if (options.scene.ends_with(".obj"))
     throw UsageError("--scene " + options.scene + ": a mesh, not a scene; `sbcollide --mesh` opens it in the window");
-  softbody::Scene scene = softbody::find_scene(options.scene, scene_folder());
+  softbody::Scene scene = softbody::find_scene(options.scene, files::scene_folder());
   scene.method = chosen_method(options.detection, scene.method).key;
   if (const auto tolerance = options.detection.tolerance)
-    require_length(format("--tolerance %.9g", *tolerance), static_cast<float>(*tolerance), softbody::most_tolerance);
+    require_length(fmt::format("--tolerance {:.9g}", *tolerance), static_cast<float>(*tolerance),
+                   softbody::max_tolerance);
   apply(options.detection, scene.collision);
   if (!automatic_cell_size(options.detection, true))
     for (int axis = 0; axis < 3; ++axis)
       require_length("--cell-size " + *options.detection.cell_size, scene.collision.cell_size[axis],
-                     softbody::most_length);
+                     softbody::max_length);
   scene.default_cell_size = automatic_cell_size(options.detection, scene.default_cell_size);
   if (options.self_collision) scene.collision.self_collision = *options.self_collision;
   if (options.view) scene.view = *options.view;
@@ -273,4 +276,4 @@ softbody::Scene load_scene(const Options& options) {
   return scene;
 }
 
-}  // namespace app
+}  // namespace app::cli

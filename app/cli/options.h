@@ -1,5 +1,5 @@
 #pragma once
-// The command line as plain values. Everything is checked here, once, before anything runs.
+// Parses the command line into plain values. Everything is checked here, once, before anything runs.
 
 #include <filesystem>
 #include <optional>
@@ -9,20 +9,21 @@
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
 #include "app/report/report.h"
+#include "softbody/integrators.h"
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::cli {
 
 enum class Command { demo, simulate, detect, report, list };
 
-/// What only `detect` has.
+/// The options of `detect` alone.
 struct DetectOptions {
   std::vector<std::string> files;                 // OBJ, at least one
-  std::optional<std::string> rest;                // OBJ: pairs closer than the tolerance in it are no self-collisions
-  std::optional<std::filesystem::path> contacts;  // CSV to write
+  std::optional<std::string> rest;                // OBJ: pairs closer than the tolerance in it are not self-collisions
+  std::optional<std::filesystem::path> contacts;  // the CSV file to write
   bool self_collision = true;
   int repeat = 1;
-  bool reuse = true;  // a detector may use what it learnt from earlier frames
+  bool reuse = true;  // a detector may use data of earlier frames
 };
 
 struct Options {
@@ -33,27 +34,26 @@ struct Options {
   std::optional<bool> self_collision;          // otherwise the scene's
   std::optional<softbody::View> view;          // otherwise the scene's
   DetectOptions detect;
-  ReportOptions report;
-  std::string integrator;
-  std::optional<int> substeps;  // a frame, of the integrator's; none: the stability bound's
+  report::ReportOptions report;
+  softbody::IntegratorChoice integrator;
   int threads = 1;
   double frame_time = 1.0 / 60.0;   // s
   int width = 1280, height = 720;   // pixels
-  bool size_given = false;          // the window opens in this size, whatever it had last
+  bool size_given = false;          // the window opens in this size, not in that of the last run
   std::vector<std::string> meshes;  // OBJ files to open in the window
   int frames = 800;
-  std::vector<int> captures;     // frames to write a picture of, ascending
-  std::optional<int> obj_every;  // frames between those whose bodies are written as OBJ files
+  std::vector<int> captures;     // frames to take pictures of, ascending
+  std::optional<int> obj_every;  // write the bodies of every so many frames as OBJ files
   std::filesystem::path out = ".";
   bool json = false;
-  bool oracle = false;  // `simulate --json`: the surface oracle's figures of each frame
+  bool oracle = false;  // `simulate --json`: add the surface oracle's figures of each frame
   std::string list_of;  // "scenes", "methods", "integrators" or "contact-surfaces"
 };
 
-/// Throws UsageError. Nothing if help or the version was asked for, which is printed.
+/// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.
 std::optional<Options> parse_options(int argc, const char* const* argv);
 
-/// The scene that the options name, with their settings in it. Throws UsageError or SceneError.
+/// Returns the scene that the options name, with their settings. Throws UsageError or SceneError.
 softbody::Scene load_scene(const Options& options);
 
-}  // namespace app
+}  // namespace app::cli

@@ -8,11 +8,12 @@
 #include <iostream>
 #include <set>
 
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
-#include "app/files/obj_write.h"
+#include "app/files/obj_writer.h"
 #include "app/files/output_file.h"
 #include "app/files/scene_folder.h"
 #include "softbody/measures.h"
@@ -20,29 +21,27 @@
 #include "app/render/capture.h"
 #endif
 
-namespace app {
+namespace app::cli {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Figures of one frame.
+/// The figures of one frame.
 struct FrameRow {
   int frame;
-  double time;  // s
-  softbody::Profile profile;
+  softbody::StepReport step;
   std::uint64_t bodies, self, solid;  // contacts
   softbody::Measures measures;
-  std::optional<collide::oracle::SurfaceFigures> oracle;  // if asked for
+  std::optional<collide::oracle::SurfaceFigures> oracle;  // on request
 };
 
-FrameRow take_row(const softbody::World& world) {
+FrameRow measure_row(const softbody::World& world) {
   const auto& d = world.detection();
   return {world.frame(),
-          world.time(),
-          world.profile(),
+          world.last_step(),
           d.contacts.size() - d.self_contacts,
           d.self_contacts,
-          world.solid_contacts().size(),
+          softbody::solid_contacts(world).size(),
           softbody::measure(world),
           {}};
 }
@@ -61,8 +60,8 @@ Json to_json(const FrameRow& r) {
   const softbody::Measures& m = r.measures;
   const auto ratio = [&](double value) { return m.has_volume ? Json(value) : Json(nullptr); };
   Json row{{"frame", r.frame},
-           {"time", r.time},
-           {"ms", {{"detect", r.profile.detect_ms}, {"solve", r.profile.solve_ms}, {"total", r.profile.total_ms}}},
+           {"time", r.step.time},
+           {"ms", {{"detect", r.step.detect_ms}, {"solve", r.step.solve_ms}, {"total", r.step.total_ms}}},
            {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
            {"energy", m.energy},
            {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
@@ -81,18 +80,14 @@ Json to_json(const softbody::Plan& plan) {
   return {{"stages", stages}, {"left_out", left_out}};
 }
 
-/// Which one was asked for, which one the last frame was integrated with and, if that was chosen automatically, why.
+/// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
 Json to_json_integrator(const softbody::World& world) {
-  return {{"key", world.integrator().key},
-          {"used", world.dynamics().used_integrator().key},
-          {"why", world.dynamics().why_integrator()}};
+  return {{"key", world.integrator_choice().key},
+          {"used", world.last_step().integrator->key},
+          {"why", world.last_step().why}};
 }
 
-std::string hex(std::uint64_t value) {
-  char text[17];
-  std::snprintf(text, sizeof text, "%016llx", static_cast<unsigned long long>(value));
-  return text;
-}
+std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
@@ -108,55 +103,51 @@ void print_json(const softbody::World& world, const std::vector<FrameRow>& rows)
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
-  char text[32] = "-";
-  if (measures.has_volume) std::snprintf(text, sizeof text, "%.3f", ratio);
-  return text;
+  return measures.has_volume ? fmt::format("{:.3f}", ratio) : "-";
 }
 
-/// About twenty lines, however many frames.
+/// Prints about twenty lines for any number of frames.
 void print_table(const softbody::World& world, const std::vector<FrameRow>& rows) {
-  std::printf("%s, %s, bodies: %u, vertices: %u; contacts between bodies, inside one, with solids\n",
-              world.scene().name.c_str(), std::string(world.method().name).c_str(), world.bodies().count(),
-              world.bodies().vertex_count());
+  std::cout << fmt::format("{}, {}, bodies: {}, vertices: {}; contacts between bodies, inside one, with solids\n",
+                           world.scene().name, world.method().name, world.bodies().count(),
+                           world.bodies().vertex_count());
   for (const std::string& warning : warnings(world.method(), world.collision()))
-    std::printf("note: %s\n", warning.c_str());
-  std::printf("%7s %10s %9s %8s %7s %7s %12s %7s %7s %12s %10s\n", "frame", "detect ms", "solve ms", "between",
-              "inside", "solid", "energy J", "V min", "V max", "deepest m", "speed m/s");
+    std::cout << "note: " << warning << '\n';
+  std::cout
+      << "  frame  detect ms  solve ms  between  inside   solid     energy J   V min   V max    deepest m  speed m/s\n";
   const std::size_t stride = std::max<std::size_t>(1, rows.size() / 20);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if ((i + 1) % stride != 0 && i + 1 != rows.size()) continue;
     const FrameRow& r = rows[i];
     const softbody::Measures& m = r.measures;
-    std::printf("%7d %10.3f %9.3f %8llu %7llu %7llu %12.4f %7s %7s %12.2e %10.4f%s\n", r.frame, r.profile.detect_ms,
-                r.profile.solve_ms, static_cast<unsigned long long>(r.bodies), static_cast<unsigned long long>(r.self),
-                static_cast<unsigned long long>(r.solid), m.energy, ratio_text(m, m.volume_ratio_min).c_str(),
-                ratio_text(m, m.volume_ratio_max).c_str(), m.deepest_penetration, m.max_speed,
-                m.finite ? "" : "  NOT FINITE");
+    std::cout << fmt::format("{:7} {:10.3f} {:9.3f} {:8} {:7} {:7} {:>12.4f} {:>7} {:>7} {:>12.2e} {:>10.4f}{}\n",
+                             r.frame, r.step.detect_ms, r.step.solve_ms, r.bodies, r.self, r.solid, m.energy,
+                             ratio_text(m, m.volume_ratio_min), ratio_text(m, m.volume_ratio_max),
+                             m.deepest_penetration, m.max_speed, m.finite ? "" : "  NOT FINITE");
   }
-  std::printf("integrator: %s", std::string(world.dynamics().used_integrator().name).c_str());
-  if (const std::string why(world.dynamics().why_integrator()); !why.empty()) std::printf(", for %s", why.c_str());
-  std::printf("\nstages left out:%s\n", world.plan().left_out.empty() ? " none" : "");
+  std::cout << "integrator: " << world.last_step().integrator->name;
+  if (const auto why = world.last_step().why; !why.empty()) std::cout << ", for " << why;
+  std::cout << "\nstages left out:" << (world.plan().left_out.empty() ? " none" : "") << '\n';
   for (const softbody::LeftOut& l : world.plan().left_out)
-    std::printf("  %s: %s\n", std::string(softbody::stage_key(l.stage)).c_str(), l.why.c_str());
-  std::printf("state hash %s\n", hex(world.state_hash()).c_str());
+    std::cout << "  " << softbody::stage_key(l.stage) << ": " << l.why << '\n';
+  std::cout << "state hash " << hex(world.state_hash()) << '\n';
 }
 
-/// A result of one frame: PREFIX_0012ENDING in the folder for results, four digits or more.
+/// Returns the file for a result of one frame: PREFIX_0012ENDING in the folder for results, with at least four digits.
 std::filesystem::path result_file(const Options& options, const char* prefix, int frame, const char* ending) {
-  char number[16];
-  std::snprintf(number, sizeof number, "_%04d", frame);
-  return options.out / std::string(prefix).append(number).append(ending);
+  return options.out / fmt::format("{}_{:04}{}", prefix, frame, ending);
 }
 
-/// Writes the pictures that were asked for; without graphics it refuses before anything runs.
+/// Writes the requested pictures. Without graphics the constructor throws before anything runs.
 class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
     if (options.captures.empty()) return;
 #if SBCOLLIDE_GRAPHICS
-    capture_ = std::make_unique<Capture>(options.width, options.height);  // first: without OpenGL no folder is made
-    prepare_folder(options.out);
-    for (const int frame : options.captures) require_no_input(picture(frame));
+    capture_ = std::make_unique<render::Capture>(options.width,
+                                                 options.height);  // first: without OpenGL no folder should be made
+    files::prepare_folder(options.out);
+    for (const int frame : options.captures) files::require_no_input(picture(frame));
 #else
     throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
 #endif
@@ -173,28 +164,28 @@ class Pictures {
 #if SBCOLLIDE_GRAPHICS
   std::filesystem::path picture(int frame) const { return result_file(options_, "frame", frame, ".png"); }
 
-  std::unique_ptr<Capture> capture_;
+  std::unique_ptr<render::Capture> capture_;
 #endif
 };
 
-/// Writes the bodies of every Nth frame, and once more at rest whenever there are others than before.
-class Motion {
+/// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed.
+class ObjSequence {
  public:
-  explicit Motion(const Options& options) : options_(options) {
+  explicit ObjSequence(const Options& options) : options_(options) {
     if (!options.obj_every) return;
-    prepare_folder(options.out);
+    files::prepare_folder(options.out);
     for (const auto& entry : std::filesystem::directory_iterator(options.out))
-      if (will_write(entry.path().filename().string())) require_no_input(entry.path());
+      if (will_write(entry.path().filename().string())) files::require_no_input(entry.path());
   }
   void take(const softbody::World& world) {
     if (!options_.obj_every || world.frame() % *options_.obj_every != 0) return;
-    if (world.bodies().count() == 0) return;  // `detect` takes no file without vertices
-    if (!bodies_ || !bodies_->are_those_of(world)) {
+    if (world.bodies().count() == 0) return;  // `detect` refuses a file without vertices
+    if (!bodies_ || !bodies_->matches(world)) {
       bodies_.emplace(world);
-      write_file(file("rest", world.frame()), bodies_->at_rest());
+      files::write_file(file("rest", world.frame()), bodies_->at_rest());
     }
     const collide::Frame at = world.positions();
-    write_file(file("frame", world.frame()), bodies_->frame(at.x, at.y, at.z));
+    files::write_file(file("frame", world.frame()), bodies_->frame(at.x, at.y, at.z));
   }
 
  private:
@@ -213,15 +204,15 @@ class Motion {
   }
 
   const Options& options_;
-  std::optional<MovingBodies> bodies_;
+  std::optional<files::ObjWriter> bodies_;
 };
 
-/// What was done to the meshes from files, where it may surprise; each once.
+/// Prints what was changed in imported meshes where this may surprise, once for each mesh.
 void print_remarks(const softbody::Scene& scene) {
-  std::set<const softbody::ImportedMesh*> told;
+  std::set<const softbody::ImportedMesh*> printed;
   for (const softbody::BodySource& body : scene.bodies) {
     const softbody::ImportedMesh* mesh = body.mesh.imported.get();
-    if (!mesh || !told.insert(mesh).second) continue;
+    if (!mesh || !printed.insert(mesh).second) continue;
     if (const std::string text = remarks(mesh->findings); !text.empty())
       std::fprintf(stderr, "note: %s: %s\n", body.mesh.file.path.string().c_str(), text.c_str());
   }
@@ -231,28 +222,27 @@ void print_remarks(const softbody::Scene& scene) {
 
 void simulate(const Options& options) {
   softbody::Scene scene = load_scene(options);
-  protect_input(softbody::scene_path(options.scene, scene_folder()));
-  protect_inputs(scene);
-  softbody::World world(std::move(scene), {.threads = options.threads,
-                                           .frame_time = options.frame_time,
-                                           .integrator = options.integrator,
-                                           .substeps = options.substeps});
+  files::protect_input(softbody::scene_path(options.scene, files::scene_folder()));
+  files::protect_inputs(scene);
+  softbody::World world(
+      std::move(scene),
+      {.threads = options.threads, .frame_time = options.frame_time, .integrator = options.integrator});
   Pictures pictures(options);
-  Motion motion(options);
+  ObjSequence obj_sequence(options);
   print_remarks(world.scene());
   const bool progress = isatty(STDERR_FILENO) != 0;
-  WorldOracle oracle(options.oracle ? options.threads : 1);
-  if (options.oracle) oracle.crossings(world);  // from where the first frame starts
+  compare::WorldOracle oracle(options.oracle ? options.threads : 1);
+  if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   std::vector<FrameRow> rows;
   rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
-    rows.push_back(take_row(world));
+    rows.push_back(measure_row(world));
     if (options.oracle)
       rows.back().oracle =
           collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
-    motion.take(world);
+    obj_sequence.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
   }
   if (progress) std::fprintf(stderr, "\r%40s\r", "");
@@ -262,4 +252,4 @@ void simulate(const Options& options) {
     print_table(world, rows);
 }
 
-}  // namespace app
+}  // namespace app::cli

@@ -1,11 +1,12 @@
 #pragma once
-// `sbcollide simulate`: a scene without a window, its figures as a table or as JSON, pictures on request.
+// `sbcollide simulate`: runs a scene without a window.
 
 #include "app/cli/options.h"
 
-namespace app {
+namespace app::cli {
 
-/// Throws UsageError, SceneError, or what Capture throws. No GL is touched unless pictures are asked for.
+/// Prints the figures as a table or as JSON, and writes pictures and OBJ files on request. Throws UsageError,
+/// SceneError, or what Capture throws. Calls OpenGL only if pictures are requested.
 void simulate(const Options& options);
 
-}  // namespace app
+}  // namespace app::cli

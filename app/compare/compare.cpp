@@ -1,17 +1,14 @@
 #include "app/compare/compare.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 #include <utility>
 
+#include "app/base/timings.h"
 #include "app/compare/score.h"
 
-namespace app {
+namespace app::compare {
 namespace {
-
-double now_ms() {
-  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 CompareRow scored(const collide::Result& found, const std::vector<collide::Contact>& truth, CompareRow row) {
   row.scored = true;
@@ -28,7 +25,9 @@ CompareRow scored(const collide::Result& found, const std::vector<collide::Conta
 }  // namespace
 
 std::size_t method_index(std::string_view key) {
-  return static_cast<std::size_t>(collide::find_method(key) - collide::method_table().data());
+  const collide::Method* method = collide::find_method(key);
+  assert(method);
+  return static_cast<std::size_t>(method - collide::method_table().data());
 }
 
 Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
@@ -36,14 +35,14 @@ Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::method_table()[i].make();
 }
 
-CompareReport Comparison::run(const Snapshot& snapshot, const std::stop_token& stop) {
+CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_token& stop) {
   CompareReport report;
   report.id = snapshot.id;
   report.frame = snapshot.frame_number;
   report.rows.resize(entries_.size());
   for (Entry& entry : entries_) entry.done = false;
-  forecast_.begin(snapshot.frame(), snapshot.settings, snapshot.world);
-  forecast_.learn(snapshot.driver, snapshot.found.counters);
+  cost_model_.begin(snapshot.frame(), snapshot.settings, snapshot.world);
+  cost_model_.learn(snapshot.driver, snapshot.found.counters);
 
   report.order = choose(snapshot, report);
   std::ranges::shuffle(report.order, random_);
@@ -54,18 +53,19 @@ CompareReport Comparison::run(const Snapshot& snapshot, const std::stop_token& s
     if (entries_[method].done) row.ms = entries_[method].ms;
     row.not_run = entries_[method].error;
   }
-  report.reference = find_reference(snapshot, report.stands_in);
+  report.reference = find_reference(snapshot, report.reference_note);
   if (report.reference && !entries_[*report.reference].done) detect(*report.reference, snapshot);
   score(snapshot, report);
   return report;
 }
 
-/// The methods to time, in the order of the table. The reference is not among them if it is brute force.
-std::vector<std::size_t> Comparison::choose(const Snapshot& snapshot, CompareReport& report) {
+/// Returns the methods to time, in the order of the table. Brute force is not among them: it only serves as the
+/// reference.
+std::vector<std::size_t> Comparison::choose(const FrameSnapshot& snapshot, CompareReport& report) {
   std::vector<std::size_t> order;
   for (std::size_t i = 0; i < snapshot.chosen.size(); ++i) {
     if (!snapshot.chosen[i]) continue;
-    if (const Work work = forecast_.of(i); work.cost() > budget_) {
+    if (const WorkEstimate work = cost_model_.of(i); work.cost() > budget_) {
       report.rows[i].not_run = "not run: " + work.in_words() + " predicted";
     } else if (collide::method_table()[i].key != collide::reference_method) {
       order.push_back(i);
@@ -74,41 +74,40 @@ std::vector<std::size_t> Comparison::choose(const Snapshot& snapshot, CompareRep
   return order;
 }
 
-void Comparison::detect(std::size_t method, const Snapshot& snapshot) {
+void Comparison::detect(std::size_t method, const FrameSnapshot& snapshot) {
   Entry& entry = entries_[method];
   entry.error.clear();
   try {
-    entry.detector->forget();  // from scratch, as the others
-    const double start = now_ms();
-    entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result);
-    entry.ms = now_ms() - start;
+    entry.detector->forget();  // all methods search from scratch
+    entry.ms = time_ms([&] { entry.detector->detect(snapshot.frame(), snapshot.settings, alone_, entry.result); });
     entry.done = true;
-    forecast_.learn(method, entry.result.counters);
+    cost_model_.learn(method, entry.result.counters);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
     entry.error = std::string("not run: ") + error.what();
   }
 }
 
-std::optional<std::size_t> Comparison::find_reference(const Snapshot& snapshot, std::string& stands_in) const {
+std::optional<std::size_t> Comparison::find_reference(const FrameSnapshot& snapshot,
+                                                      std::string& reference_note) const {
   const std::size_t brute_force = method_index(collide::reference_method);
-  const Work work = forecast_.of(brute_force);
+  const WorkEstimate work = cost_model_.of(brute_force);
   if (work.cost() <= budget_) return brute_force;
-  stands_in = "brute force would take " + work.in_words();
-  // Methods that build boxes of their own and methods that do not share the least code.
+  reference_note = "brute force would take " + work.in_words();
+  // A method with levels and one without share the least code.
   const bool driver_uses_levels = collide::method_table()[snapshot.driver].uses_levels;
   for (std::size_t i = 0; i < entries_.size(); ++i) {
     const collide::Method& method = collide::method_table()[i];
     if (i == brute_force || !method.exact || method.uses_levels == driver_uses_levels) continue;
-    if (entries_[i].done || forecast_.of(i).cost() <= budget_) return i;
+    if (entries_[i].done || cost_model_.of(i).cost() <= budget_) return i;
   }
   return std::nullopt;
 }
 
-void Comparison::score(const Snapshot& snapshot, CompareReport& report) const {
+void Comparison::score(const FrameSnapshot& snapshot, CompareReport& report) const {
   if (!report.reference) return;
   const Entry& reference = entries_[*report.reference];
-  if (!reference.done) {  // it has thrown
-    report.stands_in = reference.error;
+  if (!reference.done) {  // it threw
+    report.reference_note = reference.error;
     report.reference.reset();
     return;
   }
@@ -119,11 +118,11 @@ void Comparison::score(const Snapshot& snapshot, CompareReport& report) const {
     CompareRow& row = report.rows[i];
     if (i == snapshot.driver) {
       row = scored(snapshot.found, truth, std::move(row));
-      if (entries_[i].done) row.counters = entries_[i].result.counters;  // from scratch, as its time
+      if (entries_[i].done) row.counters = entries_[i].result.counters;  // of the search from scratch that was timed
     } else if (entries_[i].done) {
       row = scored(entries_[i].result, truth, std::move(row));
     }
   }
 }
 
-}  // namespace app
+}  // namespace app::compare

@@ -1,5 +1,5 @@
 #pragma once
-// Methods side by side on one frozen frame: what each costs, and what it finds of the true contacts.
+// Compares methods on a copy of one frame: the cost of each, and how many of the true contacts it finds.
 
 #include <memory>
 #include <optional>
@@ -8,86 +8,85 @@
 #include <string>
 #include <vector>
 
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 #include "app/compare/positions.h"
 
-namespace app {
+namespace app::compare {
 
-/// The index of a key in collide::method_table(), which must have it.
+/// Returns the index of a key in collide::method_table(), which must have it.
 std::size_t method_index(std::string_view key);
 
-/// One frame, copied, and what to run on it.
-struct Snapshot {
-  std::uint64_t id = 0;     // the caller's: names the state that was copied
-  std::uint64_t world = 0;  // another number, another world
+/// A copy of one frame, and the methods to run on it.
+struct FrameSnapshot {
+  std::uint64_t id = 0;     // the caller's number of the copied state
+  std::uint64_t world = 0;  // differs from world to world
   int frame_number = 0;     // of the world
   Positions at;
   collide::Bodies bodies;
   collide::Settings settings;
   std::size_t driver = 0;    // index of the method that drives the bodies
-  collide::Result found;     // what it found
-  std::vector<bool> chosen;  // by method: to be run beside it; empty: none
+  collide::Result found;     // the result of that method
+  std::vector<bool> chosen;  // by method: run it, too; empty: none
 
   collide::Frame frame() const { return {at.x, at.y, at.z, &bodies}; }
 };
 
-/// What is known of one method on the frame.
+/// The figures of one method on the frame.
 struct CompareRow {
-  std::optional<double> ms;  // of its detector, alone on one core; only of those chosen
-  std::string not_run;       // why a chosen method was not run, else empty
+  std::optional<double> ms;  // on one core; only of chosen methods
+  std::string not_run;       // why a chosen method did not run, else empty
 
-  bool scored = false;  // the rest is of this frame: the method ran, or drives, and there is a reference
+  bool scored = false;  // the members below are known: there is a reference, and the method ran or drives
   collide::Counters counters;
   collide::Coverage coverage = collide::Coverage::exact;
   std::size_t contacts = 0;
-  double recall = 1;                     // found true contacts / all true contacts; 1 if there are none
-  double precision = 1;                  // found true contacts / all found; 1 if none is found
+  double recall = 1, precision = 1;      // see Score
   std::vector<collide::Contact> missed;  // false negatives
 };
 
 struct CompareReport {
-  std::uint64_t id = 0;                  // of the snapshot; 0: nothing compared yet
+  std::uint64_t id = 0;                  // of the snapshot; 0: nothing was compared yet
   int frame = 0;                         // the snapshot's frame_number
   std::optional<std::size_t> reference;  // the method whose contacts count as the true ones
   std::size_t true_contacts = 0;
   double reference_ms = 0;
-  std::string stands_in;           // why the reference is not brute force, or why there is none; else empty
-  std::vector<std::size_t> order;  // in which methods were timed
+  std::string reference_note;      // why the reference is not brute force, or is missing; else empty
+  std::vector<std::size_t> order;  // in which the methods were timed
   std::vector<CompareRow> rows;    // by method
 };
 
-/// Runs the methods one after another, each with a detector of its own that it keeps from frame to frame.
+/// Runs the methods one after another. Each has a detector of its own, which is kept from frame to frame.
 class Comparison {
  public:
-  /// Pair tests that one method may take on one frame: about a second of one core.
-  static constexpr std::uint64_t usual_budget = 1'000'000'000;
+  /// The pair tests that one method may take on one frame: about a second on one core.
+  static constexpr std::uint64_t default_budget = 1'000'000'000;
 
-  explicit Comparison(std::uint32_t seed, std::uint64_t budget = usual_budget);
+  explicit Comparison(std::uint32_t seed, std::uint64_t budget = default_budget);
 
-  /// Times the chosen methods within the budget, in a new shuffled order with every call; brute force, or an exact
-  /// method of another kind than the driver where brute force exceeds the budget, is the reference, outside of the
-  /// timed part. A stop asked for is heeded between two methods; the report is worthless then.
-  CompareReport run(const Snapshot& snapshot, const std::stop_token& stop = {});
+  /// Times the chosen methods within the budget, in a new random order with each call. The reference is brute force;
+  /// where this exceeds the budget, an exact method of another kind than the driver. `stop` is checked between methods;
+  /// the report of a stopped run is worthless.
+  CompareReport run(const FrameSnapshot& snapshot, const std::stop_token& stop = {});
 
  private:
   struct Entry {
     std::unique_ptr<collide::Detector> detector;
     collide::Result result;
     double ms = 0;
-    bool done = false;  // on this frame
+    bool done = false;  // has run on this frame
     std::string error;
   };
 
-  std::vector<std::size_t> choose(const Snapshot& snapshot, CompareReport& report);
-  void detect(std::size_t method, const Snapshot& snapshot);
-  std::optional<std::size_t> find_reference(const Snapshot& snapshot, std::string& stands_in) const;
-  void score(const Snapshot& snapshot, CompareReport& report) const;
+  std::vector<std::size_t> choose(const FrameSnapshot& snapshot, CompareReport& report);
+  void detect(std::size_t method, const FrameSnapshot& snapshot);
+  std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot, std::string& reference_note) const;
+  void score(const FrameSnapshot& snapshot, CompareReport& report) const;
 
   std::uint64_t budget_;
   std::mt19937 random_;
   std::vector<Entry> entries_;  // by method
-  Forecast forecast_;
+  CostModel cost_model_;
   collide::Workers alone_{1};
 };
 
-}  // namespace app
+}  // namespace app::compare

@@ -1,24 +1,28 @@
 #pragma once
-// Where vertices are drawn: in slow motion between two steps.
+// The positions at which vertices are drawn; in slow motion these lie between two steps.
+
+#include <cassert>
 
 #include <glm/common.hpp>
 
 #include "app/compare/positions.h"
 
-namespace app {
+namespace app::compare {
 
-/// `part` of the way from `before` to `now`. Vertices beyond `before` are where they are. Owns nothing.
+/// The positions at the fraction `part` of the way from x, y, z to `now`. Vertices that x, y, z lack are drawn at
+/// `now`. Owns nothing.
 struct DrawnPositions {
   collide::Frame now{};
-  std::span<const float> x{}, y{}, z{};  // before
+  std::span<const float> x{}, y{}, z{};  // before the last step
   float part = 1;
 
   std::size_t size() const { return now.x.size(); }
   glm::vec3 operator[](std::size_t i) const {
+    assert(i < size());
     const glm::vec3 here(now.x[i], now.y[i], now.z[i]);
     if (part >= 1 || i >= x.size()) return here;
     return glm::mix(glm::vec3(x[i], y[i], z[i]), here, part);
   }
 };
 
-}  // namespace app
+}  // namespace app::compare

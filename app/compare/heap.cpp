@@ -4,15 +4,15 @@
 #include <malloc.h>
 #endif
 
-namespace app {
+namespace app::compare {
 
 std::size_t heap_in_use() {
 #if defined(__GLIBC__)
   const struct mallinfo2 heap = ::mallinfo2();
-  return heap.uordblks + heap.hblkhd;  // in the arenas, and large blocks with a mapping of their own
+  return heap.uordblks + heap.hblkhd;  // in the arenas; large blocks with mappings of their own
 #else
   return 0;
 #endif
 }
 
-}  // namespace app
+}  // namespace app::compare

@@ -1,11 +1,11 @@
 #pragma once
-// A copy of where all vertices are.
+// A copy of the positions of all vertices.
 
 #include <vector>
 
 #include "collide/core/frame.h"
 
-namespace app {
+namespace app::compare {
 
 /// World positions of all vertices, in metres.
 struct Positions {
@@ -18,4 +18,4 @@ struct Positions {
   }
 };
 
-}  // namespace app
+}  // namespace app::compare

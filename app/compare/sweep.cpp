@@ -1,17 +1,18 @@
 #include "app/compare/sweep.h"
 
 #include <algorithm>
-#include <chrono>
+#include <cassert>
 #include <numeric>
 #include <set>
 
 #include "app/compare/heap.h"
 #include "app/compare/score.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::compare {
 namespace {
 
-/// The one value that stands for an axis which a method has no use for.
+/// Returns the values of an axis; `otherwise` alone if the method does not use the axis.
 template <class Values, class Value>
 std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
   return used ? std::vector<Value>(values.begin(), values.end()) : std::vector<Value>{otherwise};
@@ -59,17 +60,18 @@ std::vector<Configuration> sweep_configurations(const softbody::World& world) {
 Sweep::Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
              collide::Workers& workers)
     : frame_(frame), limits_(limits), workers_(workers), random_(limits.seed) {
+  assert(collide::is_complete(frame));
   for (const collide::Method& method : collide::method_table()) detectors_.push_back(method.make());
   for (const Configuration& c : configurations) report_.rows.emplace_back().configuration = c;
   predict();
 }
 
-/// Strikes out what would exceed the budget.
+/// Marks the configurations that would exceed the budget.
 void Sweep::predict() {
-  Forecast forecast;
+  CostModel cost_model;
   for (SweepRow& row : report_.rows) {
-    forecast.begin(frame_, row.configuration.settings, 0);
-    const Work work = forecast.of(row.configuration.method);
+    cost_model.begin(frame_, row.configuration.settings, 0);
+    const WorkEstimate work = cost_model.of(row.configuration.method);
     predicted_.push_back(work.cost());
     if (work.cost() > limits_.budget) row.not_run = "over budget: " + work.in_words() + " predicted";
   }
@@ -114,12 +116,12 @@ void Sweep::find_reference() {
   try {
     if (const auto c = choose_reference()) run(*c);
   } catch (const std::exception& error) {  // out of memory, or more contacts than a detector may report
-    report_.stands_in = error.what();
+    report_.reference_note = error.what();
   }
 }
 
-/// Brute force, if a row has it within the budget; else the exact configuration of least predicted work, one without
-/// subdivided boxes where there is one: it shares the least code with those that have them.
+/// Returns brute force if it is within the budget; else the exact configuration with the least predicted work. Those
+/// without subdivided boxes come first: they share the least code with the others.
 std::optional<Configuration> Sweep::choose_reference() {
   std::optional<std::size_t> best;
   const auto rank = [&](std::size_t i) {
@@ -130,7 +132,7 @@ std::optional<Configuration> Sweep::choose_reference() {
     const collide::Method& method = collide::method_table()[row.configuration.method];
     if (method.key == collide::reference_method) {
       if (row.not_run.empty()) return row.configuration;
-      report_.stands_in = "brute force is " + row.not_run;
+      report_.reference_note = "brute force is " + row.not_run;
     }
     if (method.exact && row.not_run.empty() && (!best || rank(i) < rank(*best))) best = i;
   }
@@ -142,8 +144,7 @@ void Sweep::next_round() {
   order_.clear();
   for (std::size_t i = 0; i < report_.rows.size(); ++i) {
     const SweepRow& row = report_.rows[i];
-    const double spent = std::accumulate(row.times.ms.begin(), row.times.ms.end(), 0.0);
-    if (row.not_run.empty() && spent < limits_.repeat_ms) order_.push_back(i);
+    if (row.not_run.empty() && row.times.total() < limits_.repeat_ms) order_.push_back(i);
   }
   std::ranges::shuffle(order_, random_);
 }
@@ -174,10 +175,7 @@ void Sweep::time(SweepRow& row) {
   detector.forget();
   detector.detect(frame_, c.settings, workers_, result_);
   detector.forget();
-  const auto start = std::chrono::steady_clock::now();
-  detector.detect(frame_, c.settings, workers_, result_);
-  const std::chrono::duration<double, std::milli> taken = std::chrono::steady_clock::now() - start;
-  row.times.ms.push_back(taken.count());
+  row.times.ms.push_back(time_ms([&] { detector.detect(frame_, c.settings, workers_, result_); }));
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points) {
@@ -192,4 +190,4 @@ std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points) {
   return front;
 }
 
-}  // namespace app
+}  // namespace app::compare

@@ -1,5 +1,5 @@
 #pragma once
-// What every method costs and finds on one frame, over all settings that it has use for: error against run time.
+// Measures what each method costs and finds on one frame, over all settings that it uses: error against run time.
 
 #include <memory>
 #include <optional>
@@ -7,73 +7,74 @@
 #include <string>
 #include <vector>
 
-#include "app/base/times.h"
-#include "app/compare/forecast.h"
+#include "app/base/timings.h"
+#include "app/compare/cost_model.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::compare {
 
-// The axes of a sweep.
+// The axes of a sweep. Cell sizes are multiples of the automatic one.
 inline constexpr std::array<int, 4> sweep_levels{0, 3, 6, 9};
 inline constexpr std::array<std::uint32_t, 4> sweep_buckets{101, 1001, 10'007, 1'000'003};
-inline constexpr std::array<double, 5> sweep_cells{0.25, 0.5, 1, 2, 4};  // in automatic cell sizes
+inline constexpr std::array<double, 5> sweep_cells{0.25, 0.5, 1, 2, 4};
 
-/// A method with the settings it runs with.
+/// A method and the settings that it runs with.
 struct Configuration {
   std::size_t method = 0;      // index in collide::method_table()
-  collide::Settings settings;  // what the method has no use for is as in the world
+  collide::Settings settings;  // settings that the method does not use are the world's
   double cell = 1;             // the cell size in units of the automatic one
 };
 
-/// The automatic cell size of a level (§2.2): that of the world's bodies at rest, whatever they look like now.
+/// Returns the automatic cell size of a level (§2.2). It depends on the rest shapes of the world's bodies, not on the
+/// current ones.
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels);
 
-/// Every method with all combinations of those axes that it has use for, in the order of the table; for the rest the
-/// world's settings.
+/// Returns each method with all combinations of the axes that it uses, in the order of the table. The other settings
+/// are the world's.
 std::vector<Configuration> sweep_configurations(const softbody::World& world);
 
-/// What is known of one configuration on the frame.
+/// The figures of one configuration on the frame.
 struct SweepRow {
   Configuration configuration;
-  std::string not_run;   // why it was not run, else empty
-  bool checked = false;  // the rest but the times is known
-  Times times;           // from scratch each, in the order in which they were taken; empty: not timed yet
+  std::string not_run;   // why it did not run, else empty
+  bool checked = false;  // the members below are known, except the times
+  Timings times;         // of searches from scratch, in the order of the runs; empty: not timed yet
   collide::Counters counters;
   collide::Skipped skipped{};
   collide::Coverage coverage = collide::Coverage::exact;
   std::size_t contacts = 0, missed = 0;
   double recall = 1, precision = 1;  // see Score; 1 where there is no reference
-  std::size_t memory = 0;            // bytes that a fresh detector and its contacts hold after the frame: see heap.h
+  std::size_t memory = 0;            // bytes of a new detector and its contacts after the frame, see heap.h
 };
 
 struct SweepReport {
-  std::optional<Configuration> reference;  // whose contacts count as the true ones; nothing: not found yet, or none
-  std::string stands_in;                   // why that is not brute force, or why there is none; else empty
+  std::optional<Configuration> reference;  // its contacts count as the true ones; nothing: not found yet, or none
+  std::string reference_note;              // why the reference is not brute force, or is missing; else empty
   std::size_t true_contacts = 0;
-  std::vector<SweepRow> rows;  // as the configurations
+  std::vector<SweepRow> rows;  // by configuration
 };
 
 struct SweepLimits {
-  std::uint64_t budget = 1'000'000'000;  // Work::cost() that a configuration may be predicted to take: about a second
-  int repetitions = 5;                   // timed runs of each configuration, at most ...
-  double repeat_ms = 500;                // ... and none any more once its runs have taken so long
-  std::uint32_t seed = 1;                // of the order
+  std::uint64_t budget = 1'000'000'000;  // predicted WorkEstimate::cost() of a configuration: about a second
+  int repetitions = 5;                   // max timed runs of each configuration
+  double repeat_ms = 500;                // no further run once the runs of a configuration have taken so long
+  std::uint32_t seed = 1;                // of the random order
 };
 
-/// Runs configurations on one frame: first each with a fresh detector, which checks what it finds and takes; then
-/// rounds of timed runs, in a new shuffled order each, so that a drift of the machine's speed favours none. One
-/// detector a method takes all of its timed runs. It forgets before each: found from scratch, but after a run that is
-/// not timed, which puts scratch memory and caches where they are while frames follow each other.
+/// Runs configurations on one frame. First each runs once with a new detector: this checks what it finds and how
+/// much memory it takes. Then come rounds of timed runs, each in a new random order, so that a drift of the machine's
+/// speed favours none. Timed runs of a method share one detector. It forgets all frames before each run, which is
+/// preceded by a run that is not timed: this leaves scratch memory and caches as they are while frames follow each
+/// other.
 class Sweep {
  public:
-  /// The frame and the workers must outlive the sweep.
+  /// The frame must be complete. It and the workers must outlive the sweep.
   Sweep(const collide::Frame& frame, const std::vector<Configuration>& configurations, const SweepLimits& limits,
         collide::Workers& workers);
 
-  /// One configuration, checked or timed once; the first call finds the true contacts. False once nothing is left to
-  /// do.
+  /// Checks or times one configuration; the first call finds the true contacts. Returns false if nothing is left to do.
   bool step();
-  /// Of all that is to be done, from 0 to 1.
+  /// Returns the share of the work that is done, from 0 to 1.
   double progress() const;
   const SweepReport& report() const { return report_; }
 
@@ -90,20 +91,20 @@ class Sweep {
   collide::Workers& workers_;
   std::mt19937 random_;
   SweepReport report_;
-  std::vector<std::uint64_t> predicted_;  // Work::cost(), by row
+  std::vector<std::uint64_t> predicted_;  // WorkEstimate::cost(), by row
   std::vector<collide::Contact> truth_;
   std::vector<std::unique_ptr<collide::Detector>> detectors_;  // by method, for the timed runs
   collide::Result result_;
-  std::vector<std::size_t> order_;  // rows still to be run in this round, the next one last
-  int round_ = -1;                  // -1: the reference is to be found; 0: checks; then timed rounds
+  std::vector<std::size_t> order_;  // rows left in this round, the next one last
+  int round_ = -1;                  // -1: find the reference; 0: checks; from 1 on: timed rounds
 };
 
 /// A point of a plot of error against run time.
 struct Tradeoff {
   double ms, error;  // error: 1 - recall
 };
-/// The points than which no other is both at least as fast and at least as good, ascending in time; of equal points
-/// the first.
+/// Returns the Pareto front, ascending in time: the points that no other point equals or beats in both time and error.
+/// Of equal points it has the first.
 std::vector<std::size_t> pareto_front(const std::vector<Tradeoff>& points);
 
-}  // namespace app
+}  // namespace app::compare

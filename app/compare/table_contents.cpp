@@ -1,14 +1,15 @@
 #include "app/compare/table_contents.h"
 
 #include <algorithm>
+#include <cassert>
 #include <span>
 
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 
-namespace app {
+namespace app::compare {
 namespace {
 
-/// Pairs of equal neighbours' runs: the sum over runs of equal values of the pairs within each.
+/// Returns the number of pairs within runs of equal values, summed over all runs.
 template <class Range, class Same>
 std::uint64_t pairs_in_runs(const Range& range, const Same& same) {
   std::uint64_t pairs = 0;
@@ -20,7 +21,7 @@ std::uint64_t pairs_in_runs(const Range& range, const Same& same) {
   return pairs;
 }
 
-/// Of the entries of one bucket.
+/// Counts the shared cells and the aliasing among the entries of one bucket.
 Sharing sharing_in(std::span<const TableEntry> entries) {
   std::vector<collide::Index> items;
   for (const TableEntry& entry : entries) items.push_back(entry.item);
@@ -48,6 +49,7 @@ const CellGroup* BucketContents::group(const std::optional<Cell>& cell) const {
 TableContents::TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame,
                              const collide::Settings& settings)
     : vertices_(!debug.vertices.empty()) {
+  assert(collide::is_complete(frame));
   const collide::methods::CellHash hash(settings);
   const auto add = [&](const Cell& cell, collide::Index item) { entries_.push_back({hash.bucket(cell), cell, item}); };
   for (const collide::Index v : debug.vertices) add(hash.cell(frame.x[v], frame.y[v], frame.z[v]), v);
@@ -83,4 +85,4 @@ BucketContents TableContents::bucket(std::uint32_t number) const {
   return contents;
 }
 
-}  // namespace app
+}  // namespace app::compare

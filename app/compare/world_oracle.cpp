@@ -1,14 +1,16 @@
 #include "app/compare/world_oracle.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "collide/surface/closed_shell.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::compare {
 
 collide::surface::Surfaces surfaces_of(const softbody::World& world) {
   collide::surface::Surfaces surfaces;
@@ -20,22 +22,23 @@ collide::oracle::Overlaps WorldOracle::overlaps(const softbody::World& world) {
   return collide::oracle::find_overlaps(world.positions(), surfaces_of(world), workers_);
 }
 
-double WorldOracle::moved(const softbody::World& world) const {
+double WorldOracle::max_displacement(const softbody::World& world) const {
   const collide::Frame now = world.positions();
-  double most2 = 0;
+  assert(now.x.size() >= before_.x.size());
+  double max2 = 0;
   for (std::size_t v = 0; v < before_.x.size(); ++v) {
     const glm::dvec3 way(now.x[v] - before_.x[v], now.y[v] - before_.y[v], now.z[v] - before_.z[v]);
-    most2 = std::max(most2, glm::dot(way, way));
+    max2 = std::max(max2, glm::dot(way, way));
   }
-  return std::sqrt(most2);
+  return std::sqrt(max2);
 }
 
 std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::World& world) {
   const collide::Frame now = world.positions(), before{before_.x, before_.y, before_.z, &bodies_};
-  const std::size_t known = bodies_.vertex_count();  // arrivals come after them
+  const std::size_t known = bodies_.vertex_count();  // new bodies come after them
   const collide::Frame after{now.x.first(known), now.y.first(known), now.z.first(known), &bodies_};
   std::vector<collide::oracle::Crossing> found;
-  if (moved(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
+  if (max_displacement(world) > 0) found = collide::oracle::find_crossings(before, after, surfaces_, workers_);
   std::swap(earlier_, before_);
   before_.copy(now);
   bodies_ = world.bodies();
@@ -43,7 +46,7 @@ std::vector<collide::oracle::Crossing> WorldOracle::crossings(const softbody::Wo
   return found;
 }
 
-bool WorldOracle::came_inside(const collide::oracle::Crossing& crossing) const {
+bool WorldOracle::entered_body(const collide::oracle::Crossing& crossing) const {
   const collide::Index vertex = crossing.feature[0], first = bodies_.first[crossing.other];
   const auto inside = [&](const Positions& p) {
     const collide::VertexRun at{&p.x[first], &p.y[first], &p.z[first], bodies_.size(crossing.other)};
@@ -53,4 +56,4 @@ bool WorldOracle::came_inside(const collide::oracle::Crossing& crossing) const {
   return inside(before_) && !inside(earlier_);
 }
 
-}  // namespace app
+}  // namespace app::compare

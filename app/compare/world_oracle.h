@@ -1,39 +1,41 @@
 #pragma once
-// The surface oracle on a world in motion.
+// Applies the surface oracle to a world in motion.
 
 #include "app/compare/positions.h"
 #include "collide/core/workers.h"
 #include "collide/oracle/surface_oracle.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::compare {
 
-/// The surface of each body, as the oracle wants them.
+/// Returns the surface of each body, for the oracle.
 collide::surface::Surfaces surfaces_of(const softbody::World& world);
 
 class WorldOracle {
  public:
-  /// threads: of the oracle.
+  /// threads: the number of threads that the oracle uses.
   explicit WorldOracle(int threads) : workers_(threads) {}
 
-  /// What overlaps at this instant.
+  /// Returns what overlaps now.
   collide::oracle::Overlaps overlaps(const softbody::World& world);
 
-  /// m: how far a vertex is at the most from where it was when crossings() was called last; 0 before.
-  double moved(const softbody::World& world) const;
+  /// Returns the largest displacement of a vertex (m) since the last call of crossings(); 0 before the first. Bodies
+  /// may have been added since, but not removed.
+  double max_displacement(const softbody::World& world) const;
 
-  /// What passed through what since the last call, each vertex taken along the straight line between the two: bodies
-  /// that arrived in between are left out, and the first call finds nothing. To be called for one world only.
+  /// Returns what passed through what since the last call, if each vertex moved in a straight line. Bodies that were
+  /// added in between are left out, and the first call finds nothing. Call it for one world only.
   std::vector<collide::oracle::Crossing> crossings(const softbody::World& world);
-  /// Whether a vertex that crossed a face of a closed body in the last call came to be inside it. Crossings alone do
-  /// not tell: of those through one face only the first is listed, and those through a rim are those of two.
-  bool came_inside(const collide::oracle::Crossing& crossing) const;
+  /// Returns true if a vertex that crossed a face of a closed body in the last call is now inside the body. The
+  /// crossing alone does not say so: only the first one through each face is listed, and one through the rim of a
+  /// face is listed for both faces.
+  bool entered_body(const collide::oracle::Crossing& crossing) const;
 
  private:
   collide::Workers workers_;
-  Positions before_, earlier_;           // of the last call and the one before it
+  Positions before_, earlier_;           // at the last call and the one before it
   collide::Bodies bodies_;               // of before_
-  collide::surface::Surfaces surfaces_;  // likewise
+  collide::surface::Surfaces surfaces_;  // of before_
 };
 
-}  // namespace app
+}  // namespace app::compare

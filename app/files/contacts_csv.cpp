@@ -1,21 +1,13 @@
 #include "app/files/contacts_csv.h"
 
-#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 
-namespace app {
+namespace app::files {
 namespace {
 
-using collide::Index;
-
-Index body_of(const collide::Bodies& bodies, Index vertex) {
-  const auto next = std::upper_bound(bodies.first.begin(), bodies.first.end(), vertex);
-  return static_cast<Index>(next - bodies.first.begin()) - 1;
-}
-
-/// One line. to_chars, because a frame may have millions of them.
+/// Composes one line. It uses to_chars, because a frame may have millions of lines.
 class Line {
  public:
   template <class Integer>
@@ -23,7 +15,7 @@ class Line {
     end_ = std::to_chars(end_, text_.end(), number).ptr;
     *end_++ = after;
   }
-  /// As %.9g, which names a float uniquely.
+  /// Writes nine digits, which identify a float uniquely.
   void add_distance(float distance) {
     end_ = std::to_chars(end_, text_.end(), double{distance}, std::chars_format::general, 9).ptr;
     *end_++ = '\n';
@@ -31,7 +23,7 @@ class Line {
   std::string_view text() const { return {text_.data(), static_cast<std::size_t>(end_ - text_.data())}; }
 
  private:
-  std::array<char, 128> text_;  // five integers of 20 digits at most and a distance of 16 characters
+  std::array<char, 128> text_;  // at most five integers of 20 digits and a distance of 16 characters
   char* end_ = text_.data();
 };
 
@@ -47,11 +39,11 @@ void ContactsCsv::add(std::size_t number, const collide::Frame& frame, const std
     line.add(number, ',');
     line.add(a, ',');
     line.add(b, ',');
-    line.add(body_of(*bodies, a), ',');
-    line.add(body_of(*bodies, b), ',');
+    line.add(bodies->body_of(a), ',');
+    line.add(bodies->body_of(b), ',');
     line.add_distance(std::sqrt(collide::squared_distance(x[a], y[a], z[a], x[b], y[b], z[b])));
     file_.write(line.text());
   }
 }
 
-}  // namespace app
+}  // namespace app::files

@@ -4,21 +4,21 @@
 #include "app/files/output_file.h"
 #include "collide/core/detector.h"
 
-namespace app {
+namespace app::files {
 
 class ContactsCsv {
  public:
-  /// Throws UsageError, as all of this class does, if the file cannot be written. It replaces only an empty file and
-  /// another table of contacts, since a name that was left out after --contacts makes a mesh the file to write.
+  /// Throws UsageError if the file cannot be written, as do all members. Replaces only an empty file or an earlier
+  /// table of contacts: if the user forgets the name after --contacts, the next mesh would be taken for it.
   explicit ContactsCsv(const std::filesystem::path& path);
 
-  /// Adds the contacts of a frame, a line each, in their order.
+  /// Adds a line for each contact of frame `number`, in their order.
   void add(std::size_t number, const collide::Frame& frame, const std::vector<collide::Contact>& contacts);
-  /// Puts the file into its place; without it there is none.
+  /// Puts the finished file into its place. Without this call there is no file.
   void commit() { file_.commit(); }
 
  private:
   OutputFile file_;
 };
 
-}  // namespace app
+}  // namespace app::files

@@ -6,7 +6,7 @@
 
 #include "app/base/usage_error.h"
 
-namespace app {
+namespace app::files {
 namespace fs = std::filesystem;
 namespace {
 
@@ -47,4 +47,4 @@ void require_no_input(const fs::path& output) {
                        "; name another file");
 }
 
-}  // namespace app
+}  // namespace app::files

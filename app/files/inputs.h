@@ -1,19 +1,20 @@
 #pragma once
-// The files that the run reads: no output may replace one of them.
+// Protects the files that the run reads: no output may replace one of them.
 
 #include <filesystem>
 
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::files {
 
-/// From now on require_no_input() refuses this file. Throws UsageError if standard output goes into it. Thread-safe.
+/// Protects a file: from now on require_no_input() refuses it. Throws UsageError if standard output goes into the
+/// file. Thread-safe.
 void protect_input(const std::filesystem::path& file);
-/// The same for the mesh files that a body, or all bodies of a scene, are made from.
+/// Protect the mesh file of a body; the mesh files of all bodies of a scene.
 void protect_input(const softbody::MeshSource& mesh);
 void protect_inputs(const softbody::Scene& scene);
 
-/// Throws UsageError if `output` is a protected file, by whatever path or link. Thread-safe.
+/// Throws UsageError if `output` is a protected file, under any path or link. Thread-safe.
 void require_no_input(const std::filesystem::path& output);
 
-}  // namespace app
+}  // namespace app::files

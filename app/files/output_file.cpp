@@ -11,11 +11,11 @@
 #include "app/base/usage_error.h"
 #include "app/files/inputs.h"
 
-namespace app {
+namespace app::files {
 namespace fs = std::filesystem;
 namespace {
 
-/// True if nothing is lost when a file with this heading takes the place of `file`.
+/// Returns true if nothing is lost when a file with this heading replaces `file`.
 bool may_replace(const fs::path& file, std::string_view heading) {
   std::string beginning(heading.size(), '\0');
   std::ifstream in(file, std::ios::binary);
@@ -38,7 +38,7 @@ void write_file(const fs::path& file, std::string_view bytes) {
   out.commit();
 }
 
-fs::path next_free(const fs::path& folder, const std::string& prefix, const std::string& ending) {
+fs::path next_free_path(const fs::path& folder, const std::string& prefix, const std::string& ending) {
   for (int number = 1;; ++number) {
     std::string digits = std::to_string(number);
     digits.insert(0, digits.size() < 4 ? 4 - digits.size() : 0, '0');
@@ -79,4 +79,4 @@ void OutputFile::fail(const std::string& why, const char* advice) const {
   throw UsageError(path_.string() + ": cannot be written: " + why + "; " + advice);
 }
 
-}  // namespace app
+}  // namespace app::files

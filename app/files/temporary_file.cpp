@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cassert>
 #include <cerrno>
 #include <csignal>
 #include <mutex>
@@ -14,12 +15,12 @@
 #include <thread>
 #include <utility>
 
-namespace app {
+namespace app::files {
 namespace {
 
-std::mutex names_mutex;  // held while a name is made, taken away or changed, and from a signal on to the program's end
+std::mutex names_mutex;  // held while a name is added, removed or changed, and after a signal until the end
 
-/// Of the files that are there. Never destroyed: a signal may come at the very end.
+/// The names of the existing files. The set is never destroyed, because a signal may come at the very end.
 std::set<std::string>& temporary_names() {
   static auto& all = *new std::set<std::string>;
   return all;
@@ -33,7 +34,7 @@ extern "C" void note_signal(int number) {
   ::sem_post(&arrived);
 }
 
-/// In a thread of its own, since next to nothing is allowed where a signal interrupts.
+/// Runs in a thread of its own, because a signal handler itself may call almost nothing.
 void await_signal() {
   while (::sem_wait(&arrived) != 0) continue;
   const std::scoped_lock lock(names_mutex);
@@ -64,7 +65,7 @@ TemporaryFile::TemporaryFile(const std::filesystem::path& path) {
   const std::scoped_lock lock(names_mutex);
   const int descriptor = ::mkostemp(name.data(), O_CLOEXEC);
   if (descriptor < 0) fail(errno);
-  // mkostemp makes it private.
+  // mkostemp makes a private file.
   const mode_t mask = ::umask(0);
   ::umask(mask);
   ::fchmod(descriptor, 0666 & ~mask);
@@ -87,7 +88,8 @@ TemporaryFile::~TemporaryFile() {
 }
 
 void TemporaryFile::keep_as(const std::filesystem::path& path) {
-  // A full disk may show only when the file is closed.
+  assert(file_);
+  // A full disk may be reported only when the file is closed.
   if (std::fclose(file_.release()) != 0) fail(errno);
   const std::scoped_lock lock(names_mutex);
   if (std::rename(name_.c_str(), path.c_str()) != 0) fail(errno);
@@ -95,4 +97,4 @@ void TemporaryFile::keep_as(const std::filesystem::path& path) {
   name_.clear();
 }
 
-}  // namespace app
+}  // namespace app::files

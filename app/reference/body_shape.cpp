@@ -1,30 +1,33 @@
 #include "app/reference/body_shape.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/shape_matching.h"
+#include "softbody/best_rotation.h"
 
-namespace app {
+namespace app::reference {
 namespace {
 
 glm::dvec3 mean(const std::vector<glm::dvec3>& list) {
   glm::dvec3 sum(0.0);
-  for (const glm::dvec3& p : list) sum += p - list.front();  // near zero: nothing is lost a kilometre away
+  for (const glm::dvec3& p : list) sum += p - list.front();  // small numbers: no digits are lost a kilometre away
   return list.front() + sum / double(list.size());
 }
 
 }  // namespace
 
 double rms_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  assert(a.size() == b.size() && !a.empty());
   double sum = 0;
   for (std::size_t i = 0; i < a.size(); ++i) sum += glm::dot(a[i] - b[i], a[i] - b[i]);
   return std::sqrt(sum / double(a.size()));
 }
 
 double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
+  assert(a.size() == b.size() && !a.empty());
   const glm::dvec3 centre_a = mean(a), centre_b = mean(b);
   glm::dmat3 covariance(0.0);
   for (std::size_t i = 0; i < a.size(); ++i) covariance += glm::outerProduct(a[i] - centre_a, b[i] - centre_b);
@@ -35,12 +38,14 @@ double shape_distance(const std::vector<glm::dvec3>& a, const std::vector<glm::d
 }
 
 double volume_of(const std::vector<glm::dvec3>& x, const std::vector<softbody::Triangle>& triangles) {
+  assert(!x.empty());
   std::vector<glm::dvec3> near;  // softbody::volume() loses digits far from the origin
   for (const glm::dvec3& p : x) near.push_back(p - x.front());
   return softbody::volume(near, triangles);
 }
 
 RigidMotion rigid_motion(const BodyState& s) {
+  assert(s.x.size() == s.v.size() && !s.x.empty());
   RigidMotion m{.centre = mean(s.x), .velocity = mean(s.v)};
   const double share = 1 / double(s.x.size());
   glm::dmat3 inertia(0.0);
@@ -54,7 +59,7 @@ RigidMotion rigid_motion(const BodyState& s) {
   return m;
 }
 
-double internal_speed(const BodyState& s) {
+double deformation_speed(const BodyState& s) {
   const RigidMotion m = rigid_motion(s);
   double sum = 0;
   for (std::size_t i = 0; i < s.x.size(); ++i) {
@@ -64,4 +69,4 @@ double internal_speed(const BodyState& s) {
   return std::sqrt(sum / double(s.x.size()));
 }
 
-}  // namespace app
+}  // namespace app::reference

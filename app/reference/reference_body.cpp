@@ -7,44 +7,44 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
-namespace app {
+namespace app::reference {
 namespace {
 
 using glm::dvec3;
 using softbody::Stage;
 
-/// The ideal gas P V = n below which volume it goes on along its tangent.
-constexpr double tangent_below = 0.1;  // of V0
+constexpr double tangent_below = 0.1;  // of V0: below this volume the law of the ideal gas continues as its tangent
 
 double absolute_pressure(const softbody::Gas& gas, double volume) {
-  const double touch = tangent_below * gas.rest_volume;
-  if (volume > touch) return gas.amount / volume;
-  return gas.amount / touch + gas.amount / (touch * touch) * (touch - volume);
+  const double knee = tangent_below * gas.rest_volume;
+  if (volume > knee) return gas.amount / volume;
+  return gas.amount / knee + gas.amount / (knee * knee) * (knee - volume);
 }
 
-/// The ambient pressure stays on the outer side of faces that are turned inside out: its sign goes over between the
-/// two touches.
+/// Returns the ambient pressure. It stays on the outer side of a body that is inside out: its sign changes linearly
+/// between the volumes -tangent_below V0 and +tangent_below V0.
 double ambient_pressure(const softbody::Gas& gas, double volume) {
-  const double touch = tangent_below * gas.rest_volume;
-  if (volume > touch) return gas.ambient;
-  return volume < -touch ? -gas.ambient : gas.ambient * (volume / touch);
+  const double knee = tangent_below * gas.rest_volume;
+  if (volume > knee) return gas.ambient;
+  return volume < -knee ? -gas.ambient : gas.ambient * (volume / knee);
 }
 
-/// The integral of the ambient less the absolute pressure from V0.
+/// Returns the integral of the ambient pressure minus the absolute pressure, from V0 on.
 double gas_energy(const softbody::Gas& gas, double volume) {
-  const double touch = tangent_below * gas.rest_volume, low = std::min(volume, touch);
-  const double ideal = -gas.amount * std::log(std::max(volume, touch) / gas.rest_volume);
-  const double tangent = (touch - low) * (gas.amount / touch + absolute_pressure(gas, low)) / 2;
-  const double flat = std::clamp(volume, -touch, touch);  // from the upper touch to there the ambient's is a parabola
-  const double ambient = gas.ambient * (std::max(volume, touch) - gas.rest_volume + std::max(0.0, -touch - volume)) +
-                         gas.ambient * (flat * flat - touch * touch) / (2 * touch);
+  const double knee = tangent_below * gas.rest_volume, low = std::min(volume, knee);
+  const double ideal = -gas.amount * std::log(std::max(volume, knee) / gas.rest_volume);
+  const double tangent = (knee - low) * (gas.amount / knee + absolute_pressure(gas, low)) / 2;
+  const double flat = std::clamp(volume, -knee, knee);  // between these the ambient part is a parabola
+  const double ambient = gas.ambient * (std::max(volume, knee) - gas.rest_volume + std::max(0.0, -knee - volume)) +
+                         gas.ambient * (flat * flat - knee * knee) / (2 * knee);
   return ambient + ideal + tangent;
 }
 
-/// a + s b for all particles.
-std::vector<dvec3> ahead(const std::vector<dvec3>& a, double s, const std::vector<dvec3>& b) {
+/// Returns a + s b for all particles.
+std::vector<dvec3> add_scaled(const std::vector<dvec3>& a, double s, const std::vector<dvec3>& b) {
   std::vector<dvec3> sum(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) sum[i] = a[i] + s * b[i];
   return sum;
@@ -55,15 +55,15 @@ std::vector<dvec3> ahead(const std::vector<dvec3>& a, double s, const std::vecto
 BodyState state_of(const softbody::World& world, softbody::BodyId body) {
   BodyState state;
   for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) {
-    const softbody::Particle p = world.dynamics().particle(body, i);
+    const softbody::Particle p = world.particle(body, i);
     state.x.push_back(p.position);
     state.v.push_back(p.velocity);
   }
   return state;
 }
 
-std::string ReferenceBody::missing(const softbody::World& world) {
-  // Detection and sleep move nothing by themselves: a body that sleeps has come to rest.
+std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
+  // Detection and sleep move nothing: a body that sleeps has come to rest.
   constexpr std::array known{
       Stage::structural_springs, Stage::bend_springs,  Stage::shear_springs, Stage::gas_pressure, Stage::gravity,
       Stage::integrate,          Stage::solid_spheres, Stage::ground,        Stage::solid_planes, Stage::solid_boxes,
@@ -77,7 +77,7 @@ std::string ReferenceBody::missing(const softbody::World& world) {
 void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state, std::vector<dvec3>& a) const {
   const dvec3 d = state.x[s.j] - state.x[s.i];
   const double length = glm::length(d);
-  if (length == 0) return;  // it has no direction
+  if (length == 0) return;  // no direction
   const dvec3 n = d / length;
   const double tension = s.stiffness * (length - s.rest) + s.damping * glm::dot(state.v[s.j] - state.v[s.i], n);
   a[s.i] += tension / prototype_.particle_mass * n;
@@ -102,40 +102,40 @@ std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
   return a;
 }
 
-/// In the coming h seconds no particle goes deeper than the surface, and none below comes up faster than 1 m/s or a
-/// tenth of its depth a step; Coulomb's friction takes its share of what the surface gives.
-void ReferenceBody::touch_solids(const std::vector<dvec3>& x, std::vector<dvec3>& v, double h) const {
+/// Corrects the velocities for the coming h seconds: no particle gets below a surface, and one that is below rises with
+/// at most 1 m/s and a tenth of its depth per step. Coulomb friction acts in proportion to the correction.
+void ReferenceBody::collide_with_solids(const std::vector<dvec3>& x, std::vector<dvec3>& v, double h) const {
   softbody::for_each_solid(scene_, [&](const auto& solid) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const softbody::SolidSurface s = softbody::surface_at(solid, x[i]);
       const double gap = s.distance - prototype_.material.thickness;
-      const double least = gap > 0 ? -gap / h : std::min(-0.1 * gap / h, 1.0);
+      const double min_up = gap > 0 ? -gap / h : std::min(-0.1 * gap / h, 1.0);
       const double up = glm::dot(v[i], s.normal);
-      if (up >= least) continue;
+      if (up >= min_up) continue;
       const dvec3 along = v[i] - up * s.normal;
-      const double slip = glm::length(along), lost = std::min(slip, solid.friction * (least - up));
-      v[i] = least * s.normal + (slip > 0 ? (1 - lost / slip) * along : along);
+      const double slip = glm::length(along), lost = std::min(slip, solid.friction * (min_up - up));
+      v[i] = min_up * s.normal + (slip > 0 ? (1 - lost / slip) * along : along);
     }
   });
 }
 
 void ReferenceBody::step(BodyState& state, double h) const {
   const std::vector<dvec3> a1 = accelerations(state);
-  const BodyState s2{ahead(state.x, h / 2, state.v), ahead(state.v, h / 2, a1)};
+  const BodyState s2{add_scaled(state.x, h / 2, state.v), add_scaled(state.v, h / 2, a1)};
   const std::vector<dvec3> a2 = accelerations(s2);
-  const BodyState s3{ahead(state.x, h / 2, s2.v), ahead(state.v, h / 2, a2)};
+  const BodyState s3{add_scaled(state.x, h / 2, s2.v), add_scaled(state.v, h / 2, a2)};
   const std::vector<dvec3> a3 = accelerations(s3);
-  const BodyState s4{ahead(state.x, h, s3.v), ahead(state.v, h, a3)};
+  const BodyState s4{add_scaled(state.x, h, s3.v), add_scaled(state.v, h, a3)};
   const std::vector<dvec3> a4 = accelerations(s4);
   std::vector<dvec3> mean(state.x.size());
   for (std::size_t i = 0; i < mean.size(); ++i) mean[i] = (state.v[i] + 2.0 * s2.v[i] + 2.0 * s3.v[i] + s4.v[i]) / 6.0;
   const std::vector<dvec3> free = mean;
-  touch_solids(state.x, mean, h);
+  collide_with_solids(state.x, mean, h);
   for (std::size_t i = 0; i < mean.size(); ++i) {
     state.x[i] += h * mean[i];
     state.v[i] += h / 6 * (a1[i] + 2.0 * a2[i] + 2.0 * a3[i] + a4[i]) + (mean[i] - free[i]);
   }
-  touch_solids(state.x, state.v, h);
+  collide_with_solids(state.x, state.v, h);
 }
 
 double ReferenceBody::stable_step(const BodyState& state) const {
@@ -158,4 +158,4 @@ double ReferenceBody::energy(const BodyState& state) const {
   return energy;
 }
 
-}  // namespace app
+}  // namespace app::reference

@@ -1,51 +1,52 @@
 #pragma once
-// One soft body in plain double-precision arithmetic: what reports hold the solvers against. It shares a scene's data
-// with them (springs, faces, the numbers of the gas law, the solids' shapes) and none of their arithmetic.
+// One soft body in plain double precision, with which the reports compare the solvers. It shares a scene's data with
+// the solvers (springs, faces, numbers of the gas law, shapes of solids), but none of their arithmetic.
 
 #include <string>
 #include <vector>
 
+#include "softbody/prototype.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::reference {
 
-/// Of one body's particles: m and m/s.
+/// The positions (m) and velocities (m/s) of one body's particles.
 struct BodyState {
   std::vector<glm::dvec3> x, v;
 };
 
-/// As a world holds them.
+/// Returns the state of a body in a world.
 BodyState state_of(const softbody::World& world, softbody::BodyId body);
 
 class ReferenceBody {
  public:
-  /// Both must outlive it. The prototype: of the scene's only body.
+  /// prototype: of the scene's only body. Both arguments must outlive the object.
   ReferenceBody(const softbody::Prototype& prototype, const softbody::Scene& scene)
       : prototype_(prototype), scene_(scene) {}
 
-  /// A stage of the plan that has a say in the motion and that this model does not know; empty: there is none, and the
-  /// model is the scene's.
-  static std::string missing(const softbody::World& world);
+  /// Returns a stage of the world's plan that affects the motion and that this model lacks, or "several bodies"; empty
+  /// if the model fits the scene.
+  static std::string unsupported_stage(const softbody::World& world);
 
   const softbody::Prototype& prototype() const { return prototype_; }
   const softbody::Scene& scene() const { return scene_; }
-  /// m/s^2, of springs, dampers, gas and gravity.
+  /// Returns the accelerations (m/s^2) by springs, dampers, gas and gravity.
   std::vector<glm::dvec3> accelerations(const BodyState& state) const;
-  /// The classical Runge-Kutta step of h seconds; then the solids act on the velocities, so that no particle is below a
-  /// surface after it.
+  /// Takes a classical Runge-Kutta step of h seconds. Solids correct the velocities, so that the step ends with
+  /// no further particle below a surface.
   void step(BodyState& state, double h) const;
-  /// s, for such a step in this state.
+  /// Returns the largest stable step (s) in this state.
   double stable_step(const BodyState& state) const;
-  /// J: kinetic, springs, gas (0 at the mesh's own volume) and gravity (0 at the world's origin).
+  /// Returns the energy (J): kinetic, springs, gas (0 at the mesh's own volume) and gravity (0 at the world's origin).
   double energy(const BodyState& state) const;
 
  private:
   void add_spring(const softbody::Spring& spring, const BodyState& state, std::vector<glm::dvec3>& a) const;
   void add_gas(const BodyState& state, std::vector<glm::dvec3>& a) const;
-  void touch_solids(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& v, double h) const;
+  void collide_with_solids(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& v, double h) const;
 
   const softbody::Prototype& prototype_;
   const softbody::Scene& scene_;
 };
 
-}  // namespace app
+}  // namespace app::reference

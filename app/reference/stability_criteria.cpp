@@ -4,51 +4,51 @@
 #include <array>
 #include <cmath>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
 
-namespace app {
+namespace app::reference {
 
-void StabilityJudge::add(const StabilitySample& s) {
+void StabilityAssessment::add(const StabilitySample& s) {
   StabilityFigures& f = figures_;
-  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.speed_reach,
-               extent = s.extent / s.extent_reach, depth = s.depth / limits_.radius;
-  // What is no number is no less than any bound: std::max would pass over it.
+  const double excess = (s.energy - limits_.energy - s.work) / s.scale, speed = s.speed / s.reachable_speed,
+               extent = s.extent / s.reachable_extent, depth = s.depth / limits_.radius;
+  // std::max would ignore NaN.
   const auto finite = [](double figure) { return std::isfinite(figure); };
   f.finite = s.finite && std::ranges::all_of(std::array{excess, speed, extent, depth}, finite);
   if (!f.finite) {
-    f.blew_up = s.time;
+    f.blow_up_time = s.time;
     return;
   }
   f.energy = std::max(f.energy, excess);
   f.speed = std::max(f.speed, speed);
   f.extent = std::max(f.extent, extent);
-  constexpr int coming_out = 10;  // frames
-  if (!limits_.begins_inside || s.frame > coming_out) f.transient = std::max(f.transient, depth);
+  constexpr int frames_to_come_out = 10;
+  if (!limits_.begins_inside || s.frame > frames_to_come_out) f.transient = std::max(f.transient, depth);
   if (s.time > 0.75 * limits_.seconds) f.steady = std::max(f.steady, depth);
-  f.through = s.through;
-  if (excess > 10) f.blew_up = s.time;
+  f.passed_through = s.passed_through;
+  if (excess > 10) f.blow_up_time = s.time;
 }
 
 std::vector<std::string> failures(const StabilityFigures& f) {
   constexpr StabilityBounds b = stability_bounds;
-  if (!f.refused.empty()) return {joined("refused: ", f.refused)};
+  if (!f.refused.empty()) return {fmt::format("refused: {}", f.refused)};
   std::vector<std::string> all;
   const auto check = [&](bool good, const std::string& text) {
     if (!good) all.push_back(text);
   };
   check(f.finite, "not finite");
-  check(f.energy <= b.energy, format("energy + %.2g", f.energy));
-  check(f.speed <= b.speed, format("speed %.2g of what energy can give", f.speed));
-  check(f.extent <= b.extent, format("box %.2g of what energy can draw", f.extent));
-  check(f.transient <= b.transient, format("%.2g R deep in a solid", f.transient));
-  check(f.steady <= b.steady, format("%.2g R deep in a solid in the end", f.steady));
-  check(f.through == 0, format("through a solid: %zu", f.through));
-  if (f.blew_up > 0) all.push_back(format("gave up at %.3g s", f.blew_up));
-  if (!f.reference || f.blew_up > 0) return all;
-  check(f.reference->shape <= b.shape, format("shape off by %.2g R", f.reference->shape));
-  check(f.reference->volume <= b.volume, format("volume off by %.2g %%", 100 * f.reference->volume));
-  check(f.reference->rest <= b.rest, format("moves by %.2g m/s too fast", f.reference->rest));
+  check(f.energy <= b.energy, fmt::format("energy + {:.2g}", f.energy));
+  check(f.speed <= b.speed, fmt::format("speed {:.2g} of what energy can give", f.speed));
+  check(f.extent <= b.extent, fmt::format("box {:.2g} of what energy can draw", f.extent));
+  check(f.transient <= b.transient, fmt::format("{:.2g} R deep in a solid", f.transient));
+  check(f.steady <= b.steady, fmt::format("{:.2g} R deep in a solid in the end", f.steady));
+  check(f.passed_through == 0, fmt::format("through a solid: {}", f.passed_through));
+  if (f.blow_up_time > 0) all.push_back(fmt::format("gave up at {:.3g} s", f.blow_up_time));
+  if (!f.reference || f.blow_up_time > 0) return all;
+  check(f.reference->shape <= b.shape, fmt::format("shape off by {:.2g} R", f.reference->shape));
+  check(f.reference->volume <= b.volume, fmt::format("volume off by {:.2g} %", 100 * f.reference->volume));
+  check(f.reference->rest <= b.rest, fmt::format("moves by {:.2g} m/s too fast", f.reference->rest));
   return all;
 }
 
-}  // namespace app
+}  // namespace app::reference

@@ -1,53 +1,53 @@
 #pragma once
-// What a run on an extreme case is judged by, as numbers. Knows no world: figures of frames come in, verdicts go out.
+// The criteria by which a run of an extreme case is judged. They know no world: they turn figures of frames into
+// verdicts.
 
 #include <optional>
 #include <string>
 #include <vector>
 
-namespace app {
+namespace app::reference {
 
-/// Fixed at the start.
+/// What is fixed at the start of a run.
 struct StabilityLimits {
-  double energy = 0;           // J, at the start, of all that a sample counts
-  double seconds = 0;          // that the run takes
-  double radius = 0;           // m, R of the smallest body of the scene, whenever it joins
-  bool begins_inside = false;  // a solid
+  double energy = 0;           // J, at the start, of all that StabilitySample::energy counts
+  double seconds = 0;          // length of the run
+  double radius = 0;           // m, R of the smallest body of the scene, even of one that is added later
+  bool begins_inside = false;  // some body begins inside a solid
 };
 
-/// One frame.
+/// The figures of one frame.
 struct StabilitySample {
   double time = 0;     // s, at its end
   int frame = 0;       // from 1
-  bool finite = true;  // all positions and velocities; if not, the rest has no meaning
-  double energy = 0;   // J: kinetic, springs, gas, gravity, and what bodies have put into shields
-  double work = 0;     // J, that came from outside so far: solids push out what is in them, bodies join with theirs
-  double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that have begun or joined by now
-  double speed = 0,
-         speed_reach = 0;  // m/s: of the fastest particle, and what all the energy there may be could give it
-  double extent = 0, extent_reach = 0;  // m: the longest box of a body, and how long that energy could draw it
-  double depth = 0;                     // m, the deepest particle in a solid
-  std::size_t through = 0;              // bodies that have gone through a solid so far
+  bool finite = true;  // all positions and velocities are; if not, the rest has no meaning
+  double energy = 0;   // J: kinetic, springs, gas, gravity, and what bodies have put into penalty contacts
+  double work = 0;     // J, from outside so far: solids push out bodies, and added bodies bring their own energy
+  double scale = 0;    // J, max(E0 - E_eq, m g R) of the bodies that are there by now
+  double speed = 0, reachable_speed = 0;    // m/s: of the fastest particle; what all the energy could give it
+  double extent = 0, reachable_extent = 0;  // m: longest side of a body's box; to what that energy could stretch it
+  double depth = 0;                         // m, of the deepest particle in a solid
+  std::size_t passed_through = 0;           // bodies that have gone through a solid so far
 };
 
-/// How the end differs from the reference's.
-struct AgainstReference {
-  double shape = 0;   // R, RMS once moved and turned to fit
-  double volume = 0;  // of the reference's; 0 for what holds none
-  double rest = 0;    // m/s, RMS of the motion within the body, above the reference's
+/// How the end of a run differs from the reference's.
+struct ReferenceDeviation {
+  double shape = 0;   // R, RMS after moving and turning to fit
+  double volume = 0;  // share of the reference's volume; 0 for open bodies
+  double rest = 0;    // m/s, by how much the RMS of the motion within the body exceeds the reference's
 };
 
 struct StabilityFigures {
-  bool finite = true;    // all positions and velocities, and what is worked out from them
-  double energy = 0;     // above what it may have, in the scale: the largest
-  double speed = 0;      // in its reach: the largest
-  double extent = 0;     // in its reach: the largest
-  double transient = 0;  // R, deepest in a solid; from the 11th frame on if it began inside
-  double steady = 0;     // R, deepest in a solid in the last quarter of the time
-  std::size_t through = 0;
-  std::optional<AgainstReference> reference{};  // none: it is judged on the rest
-  double blew_up = 0;                           // s, when the run was given up; 0: it was not
-  std::string refused{};                        // why the solver would not run; then nothing else has a meaning
+  bool finite = true;    // all positions, velocities and derived figures are
+  double energy = 0;     // largest excess energy / scale
+  double speed = 0;      // largest speed / reachable speed
+  double extent = 0;     // largest extent / reachable extent
+  double transient = 0;  // R, largest depth in a solid; from frame 11 on if some body begins inside
+  double steady = 0;     // R, largest depth in a solid in the last quarter of the run
+  std::size_t passed_through = 0;
+  std::optional<ReferenceDeviation> reference{};  // nothing: the run is judged by the other figures
+  double blow_up_time = 0;                        // s, when the run was given up; 0: it was not
+  std::string refused{};                          // why the solver refused to run; the rest has no meaning then
 };
 
 struct StabilityBounds {
@@ -58,12 +58,12 @@ struct StabilityBounds {
 };
 inline constexpr StabilityBounds stability_bounds;
 
-class StabilityJudge {
+class StabilityAssessment {
  public:
-  explicit StabilityJudge(const StabilityLimits& limits) : limits_(limits) {}
+  explicit StabilityAssessment(const StabilityLimits& limits) : limits_(limits) {}
   void add(const StabilitySample& sample);
-  /// It is not finite, or has ten times the energy that it may: nothing better will come.
-  bool lost() const { return figures_.blew_up > 0; }
+  /// Returns true if the run is not finite, or has ten times the scale in excess energy: it cannot recover.
+  bool diverged() const { return figures_.blow_up_time > 0; }
   const StabilityFigures& figures() const { return figures_; }
 
  private:
@@ -71,7 +71,7 @@ class StabilityJudge {
   StabilityFigures figures_;
 };
 
-/// What is wrong, in words with the numbers; empty: it passes.
+/// Returns what is wrong, in words with numbers; empty if the run passes.
 std::vector<std::string> failures(const StabilityFigures& figures);
 
-}  // namespace app
+}  // namespace app::reference

@@ -1,6 +1,6 @@
 #pragma once
-// The scene's picture, kept between frames of the window. It is drawn again only if something in it has changed, so
-// that a world at rest costs nothing and the panel stays quick beside it.
+// Keeps the picture of the scene between frames of the window. It is drawn again only if something in it has changed,
+// so that a world at rest costs nothing and the panel stays responsive.
 
 #include <cstddef>
 #include <functional>
@@ -11,19 +11,19 @@
 #include "engine/gl.h"
 #include "engine/renderer.h"
 
-namespace app {
+namespace app::render {
 
-/// How many of its pixels along each side a moving picture gets: all, or where fewer than 30 pictures a second come as
-/// many as let them come, but never less than 55 %.
-class Fineness {
+/// The share of the pixels along each side that a moving picture gets: 1 if at least 30 pictures per second come; else
+/// less, so that 30 come, but at least 0.55.
+class RenderScale {
  public:
-  /// After each moving picture: s from the one before it to this one, and s that drawing took.
+  /// Tells of a moving picture: the time since the picture before it, and the time to draw it (both in s).
   void add(double interval, double drawing);
   float value() const;
 
  private:
   std::size_t level_ = 0;
-  int pictures_ = 0;  // since the level was last looked at
+  int pictures_ = 0;  // since the level was last checked
   double interval_ = 0, drawing_ = 0;
 };
 
@@ -31,22 +31,22 @@ class Canvas {
  public:
   using Draw = std::function<void(const engine::Viewport& whole)>;
 
-  /// Needs a current context. Drivers that draw in software (`in_software`) take time for each pixel, and twice as long
-  /// with smooth edges: for them moving pictures do without, and are coarser where they would come too slowly.
+  /// Requires a current context. in_software: the driver draws in software. Then each pixel takes time, and twice as
+  /// much with smooth edges; so moving pictures have no smooth edges, and are coarser if they would come too slowly.
   explicit Canvas(bool in_software) : in_software_(in_software) {}
 
-  /// Calls draw with a picture bound if `changed`, or if the one at hand is not `fine`, with smooth edges and all
-  /// pixels, but should be. What draw is told to draw into may be smaller than `size`.
+  /// Calls draw, with a framebuffer bound, if the scene has `changed`, or if a `fine` picture (smooth edges, all
+  /// pixels) is wanted and the present one is not. The viewport that draw gets may be smaller than `size`.
   void update(glm::ivec2 size, bool changed, bool fine, const Draw& draw);
-  /// Copies the picture to the window, its lower left corner at `origin`.
+  /// Copies the picture to the window, with its lower left corner at `origin`. Precondition: update() was called.
   void show(glm::ivec2 origin) const;
-  /// The picture, if the last update() wanted it fine; else it may be an older one. Empty before the first.
+  /// Returns the picture if the last update() wanted a fine one, else perhaps an older one; empty before the first.
   engine::Image read() const { return full_ ? full_->read() : engine::Image{}; }
 
-  /// How the last picture came, see Fineness::add(): one that moved tells how the next ones are to be drawn.
+  /// Tells how long the last picture took, see RenderScale::add(). Only moving pictures count.
   void pace(double interval, double drawing);
-  /// Of the picture at hand.
-  float fineness() const { return is_coarse_ ? drawn_at_ : 1.0f; }
+  /// Returns the render scale of the present picture.
+  float render_scale() const { return is_coarse_ ? drawn_at_ : 1.0f; }
 
  private:
   static constexpr int samples = 4;
@@ -55,9 +55,9 @@ class Canvas {
 
   bool in_software_;
   bool is_fine_ = false, is_coarse_ = false, moved_ = false;
-  Fineness fineness_;
-  float drawn_at_ = 1;  // of the last coarse picture
+  RenderScale render_scale_;
+  float drawn_at_ = 1;  // render scale of the last coarse picture
   std::optional<engine::Framebuffer> full_, multisampled_, coarse_;
 };
 
-}  // namespace app
+}  // namespace app::render

@@ -6,26 +6,26 @@
 #include "engine/headless.h"
 #include "engine/resources.h"
 
-namespace app {
+namespace app::render {
 
-struct Capture::Studio {
+struct Capture::Offscreen {
   engine::HeadlessContext context;  // first: the others need it
   engine::Framebuffer target;
   SceneView view;
 };
 
 Capture::Capture(int width, int height)
-    : studio_(new Studio{.context = {},
-                         .target = engine::Framebuffer({width, height}, 4),
-                         .view = SceneView(engine::find_folder("shaders"))}) {}
+    : offscreen_(new Offscreen{.context = {},
+                               .target = engine::Framebuffer({width, height}, 4),
+                               .view = SceneView(engine::find_folder("shaders"))}) {}
 
 Capture::~Capture() = default;
 
 void Capture::write(const softbody::World& world, const std::filesystem::path& file) {
-  const glm::ivec2 size = studio_->target.size();
-  studio_->target.bind();
-  studio_->view.draw(world, {}, studio_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
-  write_file(file, engine::encode_png(studio_->target.read()));
+  const glm::ivec2 size = offscreen_->target.size();
+  offscreen_->target.bind();
+  offscreen_->view.draw(world, {}, offscreen_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
+  files::write_file(file, engine::encode_png(offscreen_->target.read()));
 }
 
-}  // namespace app
+}  // namespace app::render

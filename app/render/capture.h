@@ -1,25 +1,25 @@
 #pragma once
-// Pictures of a world without a window.
+// Draws pictures of a world without a window.
 
 #include <filesystem>
 #include <memory>
 
 #include "softbody/world.h"
 
-namespace app {
+namespace app::render {
 
 class Capture {
  public:
-  /// Throws engine::Unavailable, engine::ResourceError or engine::ShaderError: one line that says what is missing.
+  /// Throws engine::ContextError, engine::ResourceError or engine::ShaderError with one line that says what is missing.
   Capture(int width, int height);
   ~Capture();
 
-  /// Writes what the scene's own camera sees as a PNG of exactly the size asked for. Throws UsageError.
+  /// Writes a PNG of exactly that size, seen by the scene's own camera. Throws UsageError.
   void write(const softbody::World& world, const std::filesystem::path& file);
 
  private:
-  struct Studio;
-  std::unique_ptr<Studio> studio_;
+  struct Offscreen;
+  std::unique_ptr<Offscreen> offscreen_;
 };
 
-}  // namespace app
+}  // namespace app::render

@@ -1,6 +1,7 @@
 #include "app/render/overlay_shapes.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
@@ -8,17 +9,19 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
+#include "softbody/measures.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::render {
 namespace {
 
 using Points = std::span<const glm::vec3>;
 
-/// `tinted`: else their edges alone, where faces of other boxes tint the same.
+/// tinted: fill the faces, too; false where other boxes already tint the same place.
 void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
-  if (!tinted) set.fill = 0;
+  if (!tinted) set.face_alpha = 0;
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     glm::vec3 lo(std::numeric_limits<float>::max()), hi(std::numeric_limits<float>::lowest());
@@ -31,7 +34,7 @@ void add_body_boxes(const softbody::World& world, Points positions, bool tinted,
   frame.boxes.push_back(std::move(set));
 }
 
-/// The bucket that gives a box its colour is that of its minimum corner.
+/// Returns the colour of the bucket of the box's minimum corner.
 glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
   return bucket_colour(debug.box_bucket[debug.box_first[box]]);
 }
@@ -39,22 +42,22 @@ glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
   engine::BoxSet set;
-  set.fill = request.bucket ? 0.0f : 0.05f;
+  set.face_alpha = request.bucket ? 0.0f : 0.05f;
   const float alpha = request.bucket ? 0.15f : 0.85f;
-  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::most_boxes); ++i) {
+  for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
     set.boxes.push_back({lo, hi, glm::vec4(box_colour(debug, i), alpha)});
   }
   frame.boxes.push_back(std::move(set));
 }
 
-/// What is in a bucket, with its cells: those of one cell in one colour, and in another what shares but the bucket.
+/// Adds the content of a bucket and its cells: one cell in one colour; what shares only the bucket in another.
 void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
-  const CellGroup* reference = request.bucket->group(request.bucket_cell);
-  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .hidden = 0.6f, .fill = 0.22f};
-  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .hidden = 0.5f, .fill = 0.08f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.6f};
-  for (const CellGroup& group : request.bucket->groups) {
+  const compare::CellGroup* reference = request.bucket->group(request.bucket_cell);
+  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = 0.6f, .face_alpha = 0.22f};
+  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = 0.5f, .face_alpha = 0.08f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.6f};
+  for (const compare::CellGroup& group : request.bucket->groups) {
     const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
     cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
     for (const collide::Index item : group.items) {
@@ -74,18 +77,18 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
 void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
   engine::BoxSet set;
   set.width = 1.5f;
-  set.hidden = 0.6f;
-  set.fill = 0.12f;
+  set.occluded_alpha = 0.6f;
+  set.face_alpha = 0.12f;
   for (const auto& [lo, hi, body] : areas) {
-    if (set.boxes.size() < SceneView::most_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
+    if (set.boxes.size() < SceneView::max_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
   }
   frame.boxes.push_back(std::move(set));
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.0f, .hidden = 0.12f, .fill = 0};
+  engine::BoxSet set{.boxes = {}, .width = 1.0f, .occluded_alpha = 0.12f, .face_alpha = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
-    if (set.boxes.size() == SceneView::most_boxes) break;
+    if (set.boxes.size() == SceneView::max_boxes) break;
     set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
   }
   frame.boxes.push_back(std::move(set));
@@ -99,18 +102,18 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   points.points.push_back({b, glm::vec4(colour, 1.0f)});
 }
 
-// Contacts lie where bodies press together, hence mostly behind a surface: they show through well.
+// Contacts lie where bodies press together, mostly behind a surface, so they must show through.
 constexpr float contacts_hidden = 0.55f;
 
 void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
   const auto body = world.vertex_body();
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = body[contact.a] == body[contact.b];
     add_contact(positions, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
-  for (const softbody::SolidContact& contact : world.solid_contacts()) {
+  for (const softbody::SolidContact& contact : softbody::solid_contacts(world)) {
     points.points.push_back({positions[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));
@@ -118,8 +121,8 @@ void add_contacts(const softbody::World& world, Points positions, engine::FrameD
 }
 
 void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.8f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .hidden = 0.8f};
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.8f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.8f};
   for (const collide::Contact& contact : missed) {
     add_contact(positions, contact, contact_missed_colour, lines, points);
   }
@@ -127,12 +130,12 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
   frame.points.push_back(std::move(points));
 }
 
-/// Both closest points, and the normal from the second one, half a mean edge long.
-void add_touches(const softbody::World& world, std::span<const softbody::SurfaceTouch> touches, Points positions,
+/// Adds both closest points, and the normal at the second one, half a mean edge long.
+void add_touches(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> touches, Points positions,
                  engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .hidden = contacts_hidden};
-  for (const softbody::SurfaceTouch& touch : touches) {
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
+  for (const softbody::SurfaceContactPoint& touch : touches) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < touch.vertex.size(); ++k)
       (touch.weight[k] > 0 ? first : second) += std::abs(touch.weight[k]) * positions[touch.vertex[k]];
@@ -146,12 +149,12 @@ void add_touches(const softbody::World& world, std::span<const softbody::Surface
   frame.points.push_back(std::move(points));
 }
 
-/// Penetrating vertices joined to the surface that they passed, and the points where edges pierce faces.
-void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 1.5f, .hidden = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 4.0f, .hidden = contacts_hidden};
+/// Adds lines from penetrating vertices to the surface that they passed, and the points where edges pierce faces.
+void add_marks(std::span<const compare::SurfaceMark> marks, Points positions, engine::FrameData& frame) {
+  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = contacts_hidden};
+  engine::PointSet points{.points = {}, .diameter = 4.0f, .occluded_alpha = contacts_hidden};
   const glm::vec4 colour(contact_missed_colour, 1.0f);
-  for (const SurfaceMark& mark : marks) {
+  for (const compare::SurfaceMark& mark : marks) {
     const glm::vec3 vertex = positions[mark.vertex], point = vertex + mark.offset;
     points.points.push_back({mark.piercing ? point : vertex, colour});
     if (!mark.piercing) lines.lines.push_back({vertex, point, colour});
@@ -160,8 +163,8 @@ void add_marks(std::span<const SurfaceMark> marks, Points positions, engine::Fra
   frame.points.push_back(std::move(points));
 }
 
-/// Of each vertex of a body, whether a face at it is turned to the eye; of an open one, from which both sides show,
-/// all.
+/// Returns for each vertex of a body whether one of its faces is turned to the eye; always true for an open body, which
+/// shows both sides.
 std::vector<char> vertices_in_sight(const softbody::Prototype& prototype, Points body, const glm::vec3& eye) {
   const bool closed = prototype.start_volume > 0;
   std::vector<char> in_sight(body.size(), !closed);
@@ -179,27 +182,27 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
     if (!in_sight[spring.i] || !in_sight[spring.j]) continue;  // behind its own body: half of all lines
     const glm::vec3 a = body[spring.i], b = body[spring.j];
     const float strain = glm::distance(a, b) / static_cast<float>(spring.rest) - 1.0f;
-    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::full_strain), alpha)});
+    set.lines.push_back({a, b, glm::vec4(diverging_colour(strain / SceneView::max_shown_strain), alpha)});
   }
 }
 
-/// Whether a body is so large on the screen that springs other than along its edges can be told from these.
-bool is_near(const softbody::Prototype& prototype, Points body, const Sight& sight) {
-  constexpr float least = 20;  // pixels, of an edge
+/// Returns true if the body is so large on the screen that its other springs can be told from those along edges.
+bool is_near(const softbody::Prototype& prototype, Points body, const Viewpoint& viewpoint) {
+  constexpr float min_edge = 20;  // pixels
   const float edge = static_cast<float>(prototype.mean_edge);
-  return edge * sight.pixels_at_one_metre > least * glm::distance(body.front(), sight.eye);
+  return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
-void add_springs(const softbody::World& world, const Sight& sight, Points positions, engine::FrameData& frame) {
-  engine::LineSet structural{.lines = {}, .width = 1.75f, .hidden = 0};  // they are too many to draw twice
-  engine::LineSet others{.lines = {}, .width = 1.0f, .hidden = 0};
+void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points positions, engine::FrameData& frame) {
+  engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = 0};  // too many to draw twice
+  engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = 0};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(prototype, body, sight.eye);
+    const std::vector<char> in_sight = vertices_in_sight(prototype, body, viewpoint.eye);
     add_springs(prototype.structural, body, in_sight, 1.0f, structural);
-    if (!is_near(prototype, body, sight)) continue;
+    if (!is_near(prototype, body, viewpoint)) continue;
     add_springs(prototype.bend, body, in_sight, 0.45f, others);
     add_springs(prototype.shear, body, in_sight, 0.7f, others);
   }
@@ -207,12 +210,12 @@ void add_springs(const softbody::World& world, const Sight& sight, Points positi
   frame.lines.push_back(std::move(structural));
 }
 
-/// Edges between a face that is turned to the eye and one that is not, and borders; a little outside of the body or
-/// before it, for it is drawn rounder than its mesh is.
+/// Adds the borders, and the edges between a face that is turned to the eye and one that is not. They lie a little
+/// outside, because the body is drawn rounder than its mesh.
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  engine::FrameData& frame) {
   constexpr float outside = 0.08f;  // of the length of an edge
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .hidden = 0.5f};
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.5f};
   const collide::surface::Surface& surface = *world.prototype(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
@@ -236,7 +239,7 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
   frame.lines.push_back(std::move(lines));
 }
 
-/// The spring of the hand: from the point that it holds to where it draws it.
+/// Adds the spring of the mouse: from the point that it holds to its target.
 void add_grab(const softbody::World& world, const softbody::Grab& grab, Points positions, engine::FrameData& frame) {
   glm::vec3 held(0.0f);
   for (int i = 0; i < 3; ++i)
@@ -244,21 +247,22 @@ void add_grab(const softbody::World& world, const softbody::Grab& grab, Points p
             positions[world.bodies().first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
-  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .hidden = 0.7f});
-  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .hidden = 0.7f});
+  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = 0.7f});
+  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = 0.7f});
 }
 
 }  // namespace
 
-engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& colour) {
+engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm::vec4& colour) {
   const glm::vec3 at(static_cast<float>(cell[0]), static_cast<float>(cell[1]), static_cast<float>(cell[2]));
   return {at * size, (at + 1.0f) * size, colour};
 }
 
-void add_overlays(const softbody::World& world, const OverlayRequest& request, const Sight& sight, Points positions,
-                  engine::FrameData& frame) {
+void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
+                  Points positions, engine::FrameData& frame) {
+  assert(positions.size() == world.bodies().vertex_count());
   const Overlays& shown = request.shown;
-  if (shown.springs) add_springs(world, sight, positions, frame);
+  if (shown.springs) add_springs(world, viewpoint, positions, frame);
   if (shown.body_boxes) add_body_boxes(world, positions, !shown.boxes, frame);
   if (request.debug && shown.cells) add_cells(request, world.collision().cell_size, frame);
   if (request.debug && shown.boxes) add_boxes(request, frame);
@@ -268,8 +272,8 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.touches) add_touches(world, request.touches, positions, frame);
   if (shown.true_surfaces) add_marks(request.marks, positions, frame);
-  if (request.selected_body) add_outline(world, *request.selected_body, sight.eye, positions, frame);
+  if (request.selected_body) add_outline(world, *request.selected_body, viewpoint.eye, positions, frame);
   if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
 }
 
-}  // namespace app
+}  // namespace app::render

@@ -1,21 +1,21 @@
 #pragma once
-// Turns what the detector and the bodies know into lines, points and boxes. No drawing.
+// Turns the data of the detector and the bodies into lines, points and boxes. Draws nothing itself.
 
 #include "app/render/scene_view.h"
 
-namespace app {
+namespace app::render {
 
-/// A cell of the grid with cells of this size, as §2.2 counts them.
-engine::Box cell_box(const Cell& cell, const glm::vec3& size, const glm::vec4& colour);
+/// Returns the box of a grid cell, with the cells numbered as in §2.2. size: the sides of a cell.
+engine::Box cell_box(const compare::Cell& cell, const glm::vec3& size, const glm::vec4& colour);
 
-/// Where the scene is seen from, and how large: what is 1 m large and 1 m away covers so many pixels.
-struct Sight {
+/// The viewpoint, and the number of pixels that 1 m covers at a distance of 1 m.
+struct Viewpoint {
   glm::vec3 eye;
   float pixels_at_one_metre;
 };
 
-/// Adds the overlays asked for. `positions`: one a vertex of the world.
-void add_overlays(const softbody::World& world, const OverlayRequest& request, const Sight& sight,
+/// Adds the requested overlays. positions: one for each vertex of the world.
+void add_overlays(const softbody::World& world, const OverlayRequest& request, const Viewpoint& viewpoint,
                   std::span<const glm::vec3> positions, engine::FrameData& frame);
 
-}  // namespace app
+}  // namespace app::render

@@ -1,10 +1,10 @@
 #pragma once
-// What can be drawn over the bodies. One table: panel, shortcuts, scene view and tests loop over it.
+// What can be drawn over the bodies. Panel, shortcuts, preferences, scene view and tests loop over one table.
 
 #include <array>
 #include <string_view>
 
-namespace app {
+namespace app::render {
 
 struct Overlays {
   bool body_boxes = false;
@@ -24,7 +24,7 @@ struct Overlays {
 };
 
 struct OverlayRow {
-  std::string_view key;      // in messages and tests
+  std::string_view key;      // in preferences and tests
   std::string_view label;    // on the panel
   char shortcut;             // on the keyboard
   std::string_view tooltip;  // what it shows, with its section of the paper
@@ -62,4 +62,4 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
      &Overlays::true_surfaces},
 }};
 
-}  // namespace app
+}  // namespace app::render

@@ -6,7 +6,7 @@
 
 #include <glm/common.hpp>
 
-namespace app {
+namespace app::render {
 namespace {
 
 constexpr float golden = 0.618034f;
@@ -17,7 +17,7 @@ float encode(float linear) {
 
 bool inside(const glm::vec3& c) { return std::min({c.x, c.y, c.z}) >= 0.0f && std::max({c.x, c.y, c.z}) <= 1.0f; }
 
-/// Björn Ottosson's OKLab, to linear sRGB.
+/// Converts Björn Ottosson's OKLab to linear sRGB.
 glm::vec3 linear_srgb(float lightness, float chroma, float hue) {
   const float angle = hue * 6.2831853f;
   const float a = chroma * std::cos(angle), b = chroma * std::sin(angle);
@@ -37,8 +37,8 @@ glm::vec3 between(const std::array<glm::vec3, N>& stops, float t) {
   return glm::mix(stops[i], stops[i + 1], at - static_cast<float>(i));
 }
 
-}  // namespace
-
+/// Converts OKLCH, with the hue in turns, and reduces the chroma until the colour is in sRGB's gamut. Colours of equal
+/// lightness look equally light.
 glm::vec3 oklch(float lightness, float chroma, float hue) {
   glm::vec3 linear = linear_srgb(lightness, chroma, hue);
   while (!inside(linear) && chroma > 0.001f) {
@@ -49,6 +49,8 @@ glm::vec3 oklch(float lightness, float chroma, float hue) {
   return {encode(linear.x), encode(linear.y), encode(linear.z)};
 }
 
+}  // namespace
+
 glm::vec3 body_colour(std::uint32_t number) {
   constexpr std::array<float, 3> lightness{0.70f, 0.58f, 0.80f};
   const float hue = 0.07f + golden * static_cast<float>(number);
@@ -56,7 +58,7 @@ glm::vec3 body_colour(std::uint32_t number) {
 }
 
 glm::vec3 bucket_colour(std::uint32_t bucket) {
-  // An integer hash: buckets that differ by a Fibonacci number would share a hue otherwise.
+  // An integer hash, because otherwise buckets that differ by a Fibonacci number would have similar hues.
   std::uint32_t h = bucket * 2654435769u;
   h = (h ^ (h >> 15)) * 2246822519u;
   h ^= h >> 13;
@@ -87,4 +89,4 @@ glm::vec3 diverging_colour(float t) {
   return between(stops, 0.5f + 0.5f * t);
 }
 
-}  // namespace app
+}  // namespace app::render

@@ -6,9 +6,10 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/prototype.h"
 #include "softbody/solids.h"
 
-namespace app {
+namespace app::render {
 namespace {
 
 struct Hit {
@@ -16,7 +17,7 @@ struct Hit {
   glm::vec3 weights;
 };
 
-/// Moeller and Trumbore 1997, from both sides.
+/// Intersects a ray with a triangle, from both sides (Möller and Trumbore 1997).
 std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   const glm::vec3 ab = b - a, ac = c - a, across = glm::cross(ray.direction, ac);
   const float determinant = glm::dot(ab, across);
@@ -28,24 +29,24 @@ std::optional<Hit> meet(const engine::Ray& ray, const glm::vec3& a, const glm::v
   return Hit{distance, {1 - u - v, u, v}};
 }
 
-/// Whether the ray's line passes the sphere.
-bool passes(const engine::Ray& ray, const Round& round) {
-  return glm::length(glm::cross(round.centre - ray.origin, ray.direction)) <= round.radius;
+/// Returns true if the ray's line meets the sphere.
+bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
+  return glm::length(glm::cross(sphere.centre - ray.origin, ray.direction)) <= sphere.radius;
 }
 
-/// How far the ray goes before it enters a solid, at most `most`: as far as the nearest solid is away it may go on,
-/// again and again. A solid that the ray starts in is looked through, as it is drawn.
-float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float most) {
-  constexpr double hair = 1e-3;  // m
-  constexpr int most_steps = 300;
-  double nearest = static_cast<double>(most);
+/// Returns the distance at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
+/// through a solid in which the ray starts, as the drawing does.
+float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
+  constexpr double hit_distance = 1e-3;  // m
+  constexpr int max_steps = 300;
+  double nearest = static_cast<double>(max_distance);
   softbody::for_each_solid(scene, [&](const auto& solid) {
     double along = 0;
-    for (int i = 0; i < most_steps && along < nearest; ++i) {
+    for (int i = 0; i < max_steps && along < nearest; ++i) {
       const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
       const double away = softbody::surface_at(solid, at).distance;
       if (i == 0 && away <= 0) return;
-      if (away < hair) nearest = along;
+      if (away < hit_distance) nearest = along;
       along += away;
     }
   });
@@ -54,7 +55,8 @@ float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, floa
 
 }  // namespace
 
-Round round_body(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions) {
+BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body,
+                               const compare::DrawnPositions& positions) {
   const collide::Index first = world.bodies().first[body], end = world.bodies().first[body + 1];
   glm::vec3 lo = positions[first], hi = lo;
   for (collide::Index i = first; i < end; ++i) {
@@ -70,10 +72,11 @@ Round round_body(const softbody::World& world, softbody::BodyId body, const Draw
   return {centre, std::sqrt(radius2)};
 }
 
-std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions) {
+std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
+                         const compare::DrawnPositions& positions) {
   std::optional<Pick> nearest;
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
-    if (!passes(ray, round_body(world, body, positions))) continue;
+    if (!passes(ray, bounding_sphere(world, body, positions))) continue;
     const collide::Index first = world.bodies().first[body];
     for (const softbody::Triangle& t : world.prototype(body).mesh.triangles) {
       const auto hit = meet(ray, positions[first + t[0]], positions[first + t[1]], positions[first + t[2]]);
@@ -85,4 +88,4 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, c
   return nearest;
 }
 
-}  // namespace app
+}  // namespace app::render

@@ -1,5 +1,5 @@
 #pragma once
-// What lies under the mouse.
+// Finds what lies under the mouse.
 
 #include <optional>
 
@@ -7,26 +7,28 @@
 #include "engine/camera.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::render {
 
 /// A point on a triangle of a body.
 struct Pick {
   softbody::BodyId body;
   softbody::Triangle corners;  // vertices of the body, counted from its first
-  glm::vec3 weights;           // of the corners
+  glm::vec3 weights;           // barycentric, of the corners
   glm::vec3 point;             // m
   float distance;              // m, from the ray's origin
 };
 
-/// The first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it meets none,
-/// or a solid before.
-std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world, const DrawnPositions& positions);
+/// Returns the first triangle that the ray meets, from either side, of the bodies as they are drawn; nothing if it
+/// meets none, or a solid first.
+std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
+                         const compare::DrawnPositions& positions);
 
-/// A sphere round a body as it is drawn.
-struct Round {
+struct BoundingSphere {
   glm::vec3 centre;
   float radius;
 };
-Round round_body(const softbody::World& world, softbody::BodyId body, const DrawnPositions& positions);
+/// Returns a sphere around a body as it is drawn.
+BoundingSphere bounding_sphere(const softbody::World& world, softbody::BodyId body,
+                               const compare::DrawnPositions& positions);
 
-}  // namespace app
+}  // namespace app::render

@@ -9,25 +9,27 @@
 
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::render {
 namespace {
 
-/// The radius in steps of a quarter, so that bodies rolling away do not make the shadows' resolution crawl.
-float reaching(const glm::vec3& centre, float radius, std::span<const glm::vec3> positions) {
-  float most = 0;
+/// Returns a radius that contains all positions, at most 8 times `radius`. It grows in steps of a quarter, so that the
+/// shadows' resolution does not flicker while bodies roll away.
+float enclosing_radius(const glm::vec3& centre, float radius, std::span<const glm::vec3> positions) {
+  float max2 = 0;
   for (const glm::vec3& p : positions) {
     const glm::vec3 d = p - centre;
     const float distance2 = glm::dot(d, d);
-    if (std::isfinite(distance2)) most = std::max(most, distance2);
+    if (std::isfinite(distance2)) max2 = std::max(max2, distance2);
   }
-  const float ratio = std::min(std::sqrt(most) / radius, 8.0f);  // whoever is further off casts no shadow
+  const float ratio = std::min(std::sqrt(max2) / radius, 8.0f);  // what is farther off casts no shadow
   return ratio <= 1.0f ? radius : radius * std::pow(1.25f, std::ceil(std::log(ratio) / std::log(1.25f)));
 }
 
-/// Scenes are composed for wide pictures; in narrower ones the camera steps back, so many times as far, until as much
-/// fits in.
-double step_back(glm::ivec2 size) {
+/// Returns the factor of the camera's distance for pictures of this size. Scenes are composed for wide pictures; in a
+/// narrower one the camera stands farther away, so that as much fits in.
+double distance_factor(glm::ivec2 size) {
   constexpr double composed_for = 1.5;
   return std::clamp(composed_for * std::max(size.y, 1) / std::max(size.x, 1), 1.0, 3.0);
 }
@@ -44,7 +46,7 @@ const SceneView::UploadedMesh& SceneView::upload(const softbody::Mesh& mesh) {
   return meshes_.emplace(mesh.triangles, std::move(uploaded)).first->second;
 }
 
-void SceneView::gather_positions(const DrawnPositions& positions) {
+void SceneView::gather_positions(const compare::DrawnPositions& positions) {
   for (std::size_t i = 0; i < positions.size(); ++i) positions_.push_back(positions[i]);
 }
 
@@ -66,27 +68,26 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
   return draws;
 }
 
-void SceneView::gather_ghost(const softbody::World& ghost, const DrawnPositions& positions) {
+void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnPositions& positions) {
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
-  // Where the two worlds hardly differ, neither surface may show through the other in patches.
-  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .recess = 0.05f};
+  // Where the two worlds hardly differ, neither surface should show through the other in patches.
+  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .depth_bias = 0.05f};
   for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
   frame_.translucent.push_back(std::move(set));
 }
 
-/// Bodies that the spotlight does not name are but hinted at, the fainter the more there are to look through; those
-/// that it does may be looked into.
-void SceneView::apply(const Spotlight& spotlight) {
-  const float hint = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
-  engine::TranslucentSet named{.meshes = {}, .opacity = spotlight.opacity},
-      others{.meshes = {}, .opacity = hint, .hides = false};
+/// Fades bodies that the highlight does not name, the more the more of them there are. Named bodies may be translucent.
+void SceneView::apply(const Highlight& highlight) {
+  const float faded = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
+  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity},
+      others{.meshes = {}, .opacity = faded, .writes_depth = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
-    const bool is_named = std::ranges::count(spotlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
+    const bool is_named = std::ranges::count(highlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
     if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
-    (!is_named ? others.meshes : spotlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+    (!is_named ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
   }
   frame_.meshes = std::move(solid);
   frame_.translucent.push_back(std::move(named));
@@ -101,22 +102,22 @@ void SceneView::gather_solids(const softbody::Scene& scene) {
     frame_.capsules.push_back({glm::vec3(c.from), glm::vec3(c.to), static_cast<float>(c.radius), grey});
   for (const softbody::SolidBox& b : scene.boxes) {
     const glm::dmat3 half_axes(b.half_size.x * b.axes[0], b.half_size.y * b.axes[1], b.half_size.z * b.axes[2]);
-    frame_.blocks.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
+    frame_.oriented_boxes.push_back({glm::vec3(b.centre), glm::mat3(half_axes), grey});
   }
-  if (scene.ground) frame_.ground = static_cast<float>(scene.ground->height);
+  if (scene.ground) frame_.floor_height = static_cast<float>(scene.ground->height);
   for (const softbody::SolidPlane& p : scene.planes) {
-    if (!frame_.ground && p.normal == glm::dvec3(0, 1, 0))
-      frame_.ground = static_cast<float>(p.point.y);  // a floor
+    if (!frame_.floor_height && p.normal == glm::dvec3(0, 1, 0))
+      frame_.floor_height = static_cast<float>(p.point.y);  // a floor
     else
       frame_.planes.push_back({glm::vec3(p.point), glm::vec3(p.normal)});
   }
 }
 
 void SceneView::draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-                     const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions) {
+                     const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
-  // Overlays carry meaning in their colours, so the bodies step back.
+  // The colours of overlays have meanings, so the bodies are dimmed.
   const bool dimmed = overlays.shown.any() || overlays.bucket;
   positions_.clear();
   gather_positions(positions);
@@ -129,21 +130,21 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   if (overlays.ghost) gather_ghost(*overlays.ghost, overlays.ghost_positions);
   frame_.positions = positions_;
   frame_.normals = normals_;
-  if (overlays.spotlight) apply(*overlays.spotlight);
-  frame_.rounded = !overlays.shown.springs;  // springs run along the straight edges
+  if (overlays.highlight) apply(*overlays.highlight);
+  frame_.tessellated = !overlays.shown.springs;  // springs run along the straight edges
 
   const softbody::Scene& scene = world.scene();
   gather_solids(scene);
   const Bounds around = bounds(scene);
   frame_.bounds_centre = around.centre;
-  frame_.bounds_radius = reaching(around.centre, around.radius, positions_);
+  frame_.bounds_radius = enclosing_radius(around.centre, around.radius, positions_);
 
   const float pixels = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
   add_overlays(world, overlays, {camera.eye(), pixels / pixel_scale}, std::span(positions_).first(vertices), frame_);
-  if (overlays.spotlight) {
-    std::ranges::copy(overlays.spotlight->boxes, std::back_inserter(frame_.boxes));
-    std::ranges::copy(overlays.spotlight->lines, std::back_inserter(frame_.lines));
-    std::ranges::copy(overlays.spotlight->points, std::back_inserter(frame_.points));
+  if (overlays.highlight) {
+    std::ranges::copy(overlays.highlight->boxes, std::back_inserter(frame_.boxes));
+    std::ranges::copy(overlays.highlight->lines, std::back_inserter(frame_.lines));
+    std::ranges::copy(overlays.highlight->points, std::back_inserter(frame_.points));
   }
   renderer_.draw(camera, viewport, frame_);
 }
@@ -154,7 +155,7 @@ double SceneView::radius(const softbody::MeshSource& source) {
   return radii_.emplace_back(source, softbody::bounding_radius(source.make())).second;
 }
 
-/// A sphere round the scene as it is set up: solids and where bodies start.
+/// Returns a sphere around the scene as it is set up: the solids, and the places where bodies start.
 SceneView::Bounds SceneView::bounds(const softbody::Scene& scene) {
   glm::dvec3 lo = scene.view.target, hi = scene.view.target;
   const auto include = [&](const glm::dvec3& centre, double reach) {
@@ -178,14 +179,14 @@ engine::Camera SceneView::camera(const softbody::Scene& scene, glm::ivec2 size) 
   camera.fit(around.centre, around.radius, size);  // sets the limits of zoom and depth
   if (scene.ground) camera.set_floor(static_cast<float>(scene.ground->height));
   const softbody::View& view = scene.view;
-  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * step_back(size)),
+  camera.set_orbit({glm::vec3(view.target), static_cast<float>(view.distance * distance_factor(size)),
                     static_cast<float>(glm::radians(view.azimuth)), static_cast<float>(glm::radians(view.elevation))});
   return camera;
 }
 
 void SceneView::refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to) {
   engine::Orbit orbit = camera.orbit();
-  orbit.distance *= static_cast<float>(step_back(to) / step_back(from));
+  orbit.distance *= static_cast<float>(distance_factor(to) / distance_factor(from));
   camera.set_orbit(orbit);
 }
 
@@ -194,10 +195,10 @@ softbody::View SceneView::view(const engine::Camera& camera, glm::ivec2 size) {
   const engine::Orbit& orbit = camera.orbit();
   softbody::View view;
   for (int k = 0; k < 3; ++k) view.target[k] = rounded(double{orbit.target[k]});
-  view.distance = std::max(rounded(double{orbit.distance} / step_back(size)), 1e-4);
+  view.distance = std::max(rounded(double{orbit.distance} / distance_factor(size)), 1e-4);
   view.azimuth = rounded(std::remainder(glm::degrees(double{orbit.azimuth}), 360.0));
   view.elevation = rounded(glm::degrees(double{orbit.elevation}));
   return view;
 }
 
-}  // namespace app
+}  // namespace app::render

@@ -1,63 +1,64 @@
 #pragma once
-// Draws a world: bodies, solids, and the overlays over them. The window and the captures share it.
+// Draws a world: bodies, solids and overlays. The window and the captures share it.
 
 #include <filesystem>
 #include <map>
 #include <optional>
 
 #include "app/compare/drawn_positions.h"
+#include "app/compare/surface_check.h"
 #include "app/compare/table_contents.h"
-#include "app/compare/true_surfaces.h"
+#include "app/render/highlight.h"
 #include "app/render/overlays.h"
-#include "app/render/spotlight.h"
 #include "engine/renderer.h"
 #include "softbody/world.h"
 
-namespace app {
+namespace app::render {
 
-/// What to draw over the bodies. Pointers may be null; they and the spans must live until draw() returns.
+/// What to draw over the bodies. Pointers may be null. What they and the spans refer to must live until draw() returns.
 struct OverlayRequest {
   Overlays shown;
-  const collide::DebugGeometry* debug = nullptr;  // for boxes, cells and the bucket
-  const BucketContents* bucket = nullptr;         // its entries and cells stand out, and show in any case ...
-  std::optional<Cell> bucket_cell;                // ... those of this cell apart from others
-  std::optional<softbody::BodyId> selected_body;  // its outline shows
+  const collide::DebugGeometry* debug = nullptr;    // for boxes, cells and the bucket
+  const compare::BucketContents* bucket = nullptr;  // its entries and cells are shown in any case ...
+  std::optional<compare::Cell> bucket_cell;         // ... those of this cell in another colour
+  std::optional<softbody::BodyId> selected_body;    // its outline is shown
   std::vector<collide::DebugGeometry::Box> areas;
-  const std::vector<collide::Contact>* missed = nullptr;  // vertices of the world as it is
-  std::span<const softbody::SurfaceTouch> touches;        // the same
-  std::span<const SurfaceMark> marks;                     // the same
-  const Spotlight* spotlight = nullptr;                   // shows, and all else steps back
-  const softbody::World* ghost = nullptr;                 // another world with the same bodies, to look through
-  DrawnPositions ghost_positions;
+  const std::vector<collide::Contact>* missed = nullptr;   // vertices of the present world
+  std::span<const softbody::SurfaceContactPoint> touches;  // of the present world
+  std::span<const compare::SurfaceMark> marks;             // of the present world
+  const Highlight* highlight = nullptr;                    // everything else is faded
+  const softbody::World* ghost = nullptr;                  // another world with the same bodies, drawn translucent
+  compare::DrawnPositions ghost_positions;
 };
 
 class SceneView {
  public:
-  static constexpr std::size_t most_boxes = 20'000;  // of each kind; further ones are not drawn
-  static constexpr float full_strain = 0.2f;         // relative change of length at the ends of the colour scale
+  static constexpr std::size_t max_boxes = 20'000;  // of each kind; the others are not drawn
+  static constexpr float max_shown_strain = 0.2f;   // change of length / rest length at the ends of the colour scale
 
-  /// Needs a current context. Throws engine::ShaderError.
+  /// Requires a current context. Throws engine::ShaderError.
   explicit SceneView(const std::filesystem::path& shaders) : renderer_(shaders) {}
 
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
-            const engine::Viewport& viewport, float pixel_scale, const DrawnPositions& positions);
-  /// Every vertex where it is.
+            const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions);
+  /// Draws each vertex at its present position.
   void draw(const softbody::World& world, const OverlayRequest& overlays, const engine::Camera& camera,
             const engine::Viewport& viewport, float pixel_scale) {
-    draw(world, overlays, camera, viewport, pixel_scale, DrawnPositions{.now = world.positions()});
+    draw(world, overlays, camera, viewport, pixel_scale, compare::DrawnPositions{.now = world.positions()});
   }
 
-  /// What the last draw() drew, from elsewhere. The world is not asked, but labels and hints stay those of then.
-  void draw_again(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
+  /// Draws the same data as the last draw() from another camera. The world is not read; labels and fading stay the
+  /// same.
+  void redraw(const engine::Camera& camera, const engine::Viewport& viewport, float pixel_scale) {
     frame_.pixel_scale = pixel_scale;
     renderer_.draw(camera, viewport, frame_);
   }
 
-  /// The scene's own camera, with limits that suit its size.
+  /// Returns the scene's own camera for a picture of this size, with limits of zoom that suit the scene.
   engine::Camera camera(const softbody::Scene& scene, glm::ivec2 size);
-  /// The other way round: the view that a scene must have for such a camera, to a tenth of a millimetre or degree.
+  /// Returns the view that gives a scene this camera: the inverse of camera(), rounded to four decimals.
   static softbody::View view(const engine::Camera& camera, glm::ivec2 size);
-  /// The camera steps back or closer, so that a picture of another size holds as much.
+  /// Moves the camera so that a picture of another size shows as much.
   static void refit(engine::Camera& camera, glm::ivec2 from, glm::ivec2 to);
 
  private:
@@ -70,22 +71,22 @@ class SceneView {
     std::vector<std::uint32_t> indices;
   };
 
-  void gather_positions(const DrawnPositions& positions);
-  /// How to draw the bodies whose vertices, gathered last, begin at `first`; their colours are still to be set.
+  void gather_positions(const compare::DrawnPositions& positions);
+  /// Returns the draws of the bodies whose vertices were gathered last and begin at `first`. Colours are not set yet.
   std::vector<engine::MeshDraw> gather_bodies(const softbody::World& world, std::uint32_t first);
-  void gather_ghost(const softbody::World& ghost, const DrawnPositions& positions);
-  void apply(const Spotlight& spotlight);
+  void gather_ghost(const softbody::World& ghost, const compare::DrawnPositions& positions);
+  void apply(const Highlight& highlight);
   void gather_solids(const softbody::Scene& scene);
   const UploadedMesh& upload(const softbody::Mesh& mesh);
   Bounds bounds(const softbody::Scene& scene);
   double radius(const softbody::MeshSource& source);
 
   engine::Renderer renderer_;
-  // By contents: worlds come and go, but their meshes are few and mostly the same.
+  // By content: worlds come and go, but their meshes are few and mostly the same.
   std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;
-  std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of meshes seen so far
+  std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of the meshes so far
   std::vector<glm::vec3> positions_, normals_;
   engine::FrameData frame_;
 };
 
-}  // namespace app
+}  // namespace app::render

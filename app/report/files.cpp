@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdio>
 
 #include "app/files/inputs.h"
@@ -9,16 +10,16 @@
 #include "app/files/scene_folder.h"
 #include "app/report/gnuplot.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
-/// File names and contents; empty if they cannot be drawn.
+/// Returns file names and contents; nothing if gnuplot cannot draw them.
 std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot>& plots) {
   std::vector<std::pair<std::string, std::string>> pictures;
   try {
     for (const Plot& plot : plots) {
-      pictures.emplace_back(plot.name + ".svg", draw(plot.script, Picture::svg));
-      pictures.emplace_back(plot.name + ".png", draw(plot.script, Picture::png));
+      pictures.emplace_back(plot.name + ".svg", draw(script(plot), Picture::svg));
+      pictures.emplace_back(plot.name + ".png", draw(script(plot), Picture::png));
     }
   } catch (const std::runtime_error& error) {
     std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
@@ -33,16 +34,27 @@ void say(const std::string& what, double progress) {
   if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
 }
 
+void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
+                     const std::function<void(std::size_t)>& task) {
+  std::atomic<std::size_t> next{0};
+  workers.run([&](int thread) {
+    for (std::size_t i = next++; i < count; i = next++) {
+      if (thread == 0) say(what(i), static_cast<double>(i) / static_cast<double>(count));
+      task(i);
+    }
+  });
+}
+
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
   const auto scene_named = [](const std::string& name) {
-    softbody::Scene scene = softbody::find_scene(name, scene_folder());
-    protect_input(softbody::scene_path(name, scene_folder()));
-    protect_inputs(scene);
+    softbody::Scene scene = softbody::find_scene(name, files::scene_folder());
+    files::protect_input(softbody::scene_path(name, files::scene_folder()));
+    files::protect_inputs(scene);
     return scene;
   };
   if (options.scene) return {scene_named(*options.scene)};
   std::vector<softbody::Scene> scenes;
-  for (const std::string& key : softbody::scene_keys(scene_folder())) scenes.push_back(scene_named(key));
+  for (const std::string& key : softbody::scene_keys(files::scene_folder())) scenes.push_back(scene_named(key));
   return scenes;
 }
 
@@ -54,16 +66,17 @@ std::string command_of(const ReportOptions& o) {
   return text + " --out DIR";
 }
 
-void write_report(const std::filesystem::path& folder, const ReportFiles& files) {
+void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
+                  std::string_view page_name, const Page& page) {
   const bool watched = isatty(STDERR_FILENO) != 0;
   if (watched) std::fprintf(stderr, "\r%60s\r", "");
-  const auto pictures = draw_all(files.plots);
-  for (const auto& [name, bytes] : pictures) require_no_input(folder / name);
-  for (const std::string& name : {files.csv_name, files.markdown_name}) require_no_input(folder / name);
-  write_file(folder / files.csv_name, files.csv);
-  for (const auto& [name, bytes] : pictures) write_file(folder / name, bytes);
-  write_file(folder / files.markdown_name, files.markdown(pictures.empty() ? std::vector<Plot>{} : files.plots));
-  if (watched) std::fprintf(stderr, "written: %s\n", (folder / files.markdown_name).c_str());
+  auto files = draw_all(page.plots());
+  const std::string text = page.markdown(!files.empty());
+  files.emplace(files.begin(), csv_name, figures.csv());
+  files.emplace_back(page_name, text);
+  for (const auto& [name, bytes] : files) files::require_no_input(folder / name);
+  for (const auto& [name, bytes] : files) files::write_file(folder / name, bytes);
+  if (watched) std::fprintf(stderr, "written: %s\n", (folder / page_name).c_str());
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,33 +1,34 @@
 #pragma once
-// What all reports share: the scenes that they run, the line that shows progress, the files that they leave.
+// What all reports share: the scenes that they run, the line that shows progress, the files that they write.
 
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
-#include "app/report/plot.h"
+#include "app/report/page.h"
 #include "app/report/report.h"
+#include "collide/core/workers.h"
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::report {
 
-/// A terminal's last line says what is going on.
+/// Shows in the last line of a terminal what is going on. `progress`: from 0 to 1.
 void say(const std::string& what, double progress);
 
-/// The one that is asked for, or all. Throws SceneError.
+/// Calls `task(i)` for each i below `count`, on all workers side by side, and shows `what(i)` meanwhile.
+void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
+                     const std::function<void(std::size_t)>& task);
+
+/// Returns the scene that is asked for, or all. Throws SceneError.
 std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);
 
-/// The command that makes the report again.
+/// Returns the command that makes the report again.
 std::string command_of(const ReportOptions& options);
 
-struct ReportFiles {
-  std::string csv_name, csv, markdown_name;
-  std::vector<Plot> plots;
-  std::function<std::string(const std::vector<Plot>& drawn)> markdown;  // drawn: those that lie beside it
-};
+/// Writes the figures, the page and its plots into a folder that exists, and tells a terminal where they are. Without
+/// gnuplot it leaves out the plots and says so.
+void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
+                  std::string_view page_name, const Page& page);
 
-/// Writes all of them into a folder that is there. Without gnuplot the plots are left out, which is said: the figures
-/// are worth having without them. A terminal is told where they are.
-void write_report(const std::filesystem::path& folder, const ReportFiles& files);
-
-}  // namespace app
+}  // namespace app::report

@@ -13,12 +13,12 @@
 
 extern char** environ;
 
-namespace app {
+namespace app::report {
 namespace {
 
 using File = std::unique_ptr<std::FILE, int (*)(std::FILE*)>;
 
-/// A file without a name, for either end of the child: it may hold any amount, so that neither side waits.
+/// Returns a file without a name, for input or output of the child. It holds any amount, so that neither side waits.
 File temporary() {
   File file(std::tmpfile(), &std::fclose);
   if (!file) throw std::runtime_error("gnuplot: no temporary file can be made; is the disk full?");
@@ -68,4 +68,4 @@ std::string draw(const std::string& script, Picture kind) {
   return picture;
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,9 +1,9 @@
 #pragma once
-// Pictures drawn by gnuplot, a program of its own (package gnuplot-nox) that is there or not.
+// Pictures drawn by gnuplot, a separate program (package gnuplot-nox) that may be missing.
 
 #include <string>
 
-namespace app {
+namespace app::report {
 
 enum class Picture { svg, png };
 
@@ -11,4 +11,4 @@ enum class Picture { svg, png };
 /// std::runtime_error, which says what to do, if gnuplot is not installed or cannot draw the script.
 std::string draw(const std::string& script, Picture kind);
 
-}  // namespace app
+}  // namespace app::report

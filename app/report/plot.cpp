@@ -1,20 +1,57 @@
 #include "app/report/plot.h"
 
+#include <array>
+#include <cassert>
 #include <cmath>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
 
-namespace app {
+namespace app::report {
+namespace {
 
+/// Returns the text as gnuplot reads a string without escapes.
 std::string literal(std::string_view text) {
   std::string result = "'";
   for (const char c : text) result.append(c == '\'' ? 2 : 1, c);
   return result + "'";
 }
 
-std::string colour(const collide::Method& method) {
-  const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
-  return format("'#%02x%02x%02x'", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
+}  // namespace
+
+std::string script(const Plot& plot) {
+  assert(!plot.series.empty());
+  std::string text = fmt::format(
+      "set logscale xy\n"
+      "set grid xtics ytics linecolor '#dddddd' linewidth 1 linetype 1\n"
+      "set border linecolor '#666666'\n"
+      "set key outside top center horizontal maxcols 3 reverse Left samplen 1.5 width -3\n"
+      "set xtics format '%g'\n"
+      "set title {}\nset xlabel {}\nset ylabel {}\n{}",
+      literal(plot.title), literal(plot.x), literal(plot.y), plot.settings);
+  std::string drawn;
+  for (std::size_t i = 0; i < plot.series.size(); ++i) {
+    const Series& s = plot.series[i];
+    text += fmt::format("$d{} << EOD\n", i);
+    for (const Point& p : s.points) text += fmt::format("{:.9g} {:.9g} {}\n", p.x, p.y, p.label);
+    text += "EOD\n";
+    drawn += fmt::format("{}$d{} with {} linecolor rgb '{}' {}", drawn.empty() ? "plot " : ", ", i, s.style, s.colour,
+                         s.title.empty() ? "notitle" : "title " + literal(s.title));
+    if (!s.points.front().label.empty())
+      drawn += fmt::format(", $d{} using 1:2:3 with labels offset 0.9,0.5 font ',8' textcolor rgb '{}' notitle", i,
+                           s.colour);
+  }
+  return text + drawn + "\n";
 }
 
-}  // namespace app
+std::string colour(const collide::Method& method) {
+  const auto byte = [](float part) { return static_cast<int>(std::lround(255 * part)); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(method.colour.r), byte(method.colour.g), byte(method.colour.b));
+}
+
+const char* integrator_colour(std::size_t i) {
+  static constexpr std::array colours{"#000000", "#e69f00", "#0072b2", "#009e73",
+                                      "#cc79a7", "#d55e00", "#56b4e9", "#888888"};
+  return colours[i % colours.size()];
+}
+
+}  // namespace app::report

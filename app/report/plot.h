@@ -1,28 +1,47 @@
 #pragma once
+// Plots as data, and the gnuplot script that draws them.
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "collide/methods.h"
 
-namespace app {
+namespace app::report {
 
-/// A picture to be drawn.
-struct Plot {
-  std::string name;     // of its files, without the ending
-  std::string caption;  // one sentence: what is to be seen
-  std::string script;   // for draw()
+struct Point {
+  double x, y;
+  std::string label{};  // printed beside it
 };
 
-// What the scripts of all reports are made of.
-inline constexpr const char* plot_style =
-    "set logscale xy\n"
-    "set grid xtics ytics linecolor '#dddddd' linewidth 1 linetype 1\n"
-    "set border linecolor '#666666'\n"
-    "set key outside top center horizontal maxcols 3 reverse Left samplen 1.5 width -3\n"
-    "set xtics format '%g'\n";
-/// As gnuplot reads a string without escapes.
-std::string literal(std::string_view text);
-std::string colour(const collide::Method& method);
+/// Points that look alike.
+struct Series {
+  std::string title;   // empty: not in the key
+  std::string colour;  // "#rrggbb"
+  std::string style;   // as gnuplot's `with` takes it
+  std::vector<Point> points{};
+};
 
-}  // namespace app
+/// A picture with two logarithmic axes, unless its settings say otherwise.
+struct Plot {
+  std::string name;     // of its files, without the ending
+  std::string caption;  // one sentence: what the plot shows
+  std::string title, x, y;
+  std::string settings;  // further gnuplot commands, one a line
+  std::vector<Series> series{};
+
+  void add(Series more) {
+    if (!more.points.empty()) series.push_back(std::move(more));
+  }
+};
+
+/// Returns the script for draw(). The plot has a series.
+std::string script(const Plot& plot);
+
+/// Returns "#rrggbb".
+std::string colour(const collide::Method& method);
+/// Returns the colour of the table's integrator i. People who see few colours can tell them apart, too (Okabe and Ito
+/// 2008).
+const char* integrator_colour(std::size_t i);
+
+}  // namespace app::report

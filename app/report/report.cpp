@@ -5,12 +5,8 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
-#include "app/report/contact/contact.h"
-#include "app/report/detection/detection.h"
-#include "app/report/solver/solver.h"
-#include "app/report/stability/stability.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 struct Report {
@@ -18,7 +14,6 @@ struct Report {
   void (*make)(const ReportOptions& options);
 };
 
-/// All there are.
 constexpr std::array reports{Report{"detection", report_detection}, Report{"contact", report_contact},
                              Report{"solver", report_solver}, Report{"stability", report_stability}};
 
@@ -34,8 +29,8 @@ const Report& find_report(const std::string& name) {
 
 void report(const ReportOptions& options) {
   const Report& report = find_report(options.name);
-  scene_folder();  // throws where there is none: some reports open their scenes only after minutes
+  files::scene_folder();  // throws where there is none: some reports open their scenes only after minutes
   report.make(options);
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-namespace app {
+namespace app::report {
 
 struct ReportOptions {
   std::string name;                  // which report
@@ -16,8 +16,18 @@ struct ReportOptions {
   std::filesystem::path out = ".";   // folder of the files
 };
 
-/// Makes a report. Throws UsageError before anything runs if there is no such report or the folder cannot be written
-/// to; and SceneError.
+/// Makes the report that `options.name` names. Throws UsageError before anything runs if there is no such report or the
+/// folder cannot be written to; and SceneError.
 void report(const ReportOptions& options);
 
-}  // namespace app
+// The reports. Each writes NAME.csv, a page and plots into options.out, after it has measured everything.
+/// What each detector costs, and what it misses.
+void report_detection(const ReportOptions& options);
+/// How accurate each kind of contact is, judged by the surface oracle, and what it costs.
+void report_contact(const ReportOptions& options);
+/// What each integrator's error is, and what it costs.
+void report_solver(const ReportOptions& options);
+/// What each integrator survives.
+void report_stability(const ReportOptions& options);
+
+}  // namespace app::report

@@ -6,8 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 bool inside(const softbody::World& world, const glm::dvec3& p) {
@@ -32,7 +33,7 @@ bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from,
   return false;
 }
 
-bool SolidPassages::look(const softbody::World& world) {
+bool SolidPassages::observe(const softbody::World& world) {
   bool finite = true;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
     const softbody::Prototype& p = world.prototype(b);
@@ -47,4 +48,4 @@ bool SolidPassages::look(const softbody::World& world) {
   return finite;
 }
 
-}  // namespace app
+}  // namespace app::report

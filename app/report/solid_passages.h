@@ -1,20 +1,22 @@
 #pragma once
+// Bodies that pass through solids.
 
 #include <vector>
 
 #include "softbody/world.h"
 
-namespace app {
+namespace app::report {
 
-/// m, world, the mean of a body's vertices.
+/// Returns the mean of a body's vertices (m, in the world).
 glm::dvec3 middle_of(const softbody::World& world, collide::Index body);
 
-/// Counts how often a closed body has gone through a solid: its middle has, straight from where it was outside last.
-/// That of one wrapped around a solid may lie inside for a while, but comes out again on the side that it went in.
+/// Counts how often a closed body has gone through a solid: its middle has, on a straight line from where it was
+/// outside last. The middle of a body that is wrapped around a solid may be inside for a while, but comes out on the
+/// same side.
 class SolidPassages {
  public:
-  /// Once before the first step and after each. Returns false if some middle is not finite.
-  bool look(const softbody::World& world);
+  /// Call it once before the first step and after each step. Returns false if some middle is not finite.
+  bool observe(const softbody::World& world);
   std::size_t count() const { return count_; }
 
  private:
@@ -24,4 +26,4 @@ class SolidPassages {
   std::size_t count_ = 0;
 };
 
-}  // namespace app
+}  // namespace app::report

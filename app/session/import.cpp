@@ -1,46 +1,44 @@
 #include "app/session/import.h"
 
 #include <algorithm>
-#include <array>
+#include <cassert>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
+#include <fmt/core.h>
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
 #include "softbody/measures.h"
 #include "softbody/obj_file.h"
-#include "softbody/prototype_set.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::session {
 namespace {
 
 constexpr std::size_t many_vertices = 10'000;
-// In tolerances. A vertex over the middle of a regular face is 1 / sqrt(3) of its edge away from the corners.
+// In tolerances. A vertex above the centre of a regular face has a distance of edge / sqrt(3) to the corners.
 constexpr double finest_edge = 0.2, coarsest_edge = 1.732;
 
-/// The height at which a ball of this radius is clear of what is below, from `at` upwards.
+/// Returns the lowest height from `at` upwards at which a ball of this radius is clear of bodies and solids.
 double clear_height(const softbody::World& world, glm::dvec3 at, double radius) {
   const double gap = radius + static_cast<double>(world.collision().tolerance);
   const collide::Frame p = world.positions();
   for (std::size_t i = 0; i < p.x.size(); ++i)
     if (std::hypot(double{p.x[i]} - at.x, double{p.z[i]} - at.z) < gap) at.y = std::max(at.y, double{p.y[i]} + gap);
-  constexpr int most_tries = 1000;  // a scene may be solid all the way up
-  for (int i = 0; i < most_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
+  constexpr int max_tries = 1000;  // a scene may be solid all the way up
+  for (int i = 0; i < max_tries && softbody::solid_depth(world.scene(), at).depth > -gap; ++i) at.y += 0.1 * gap;
   return at.y;
 }
 
 std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbody::World& world) {
   const softbody::MeshSource& mesh = read.mesh;
   const softbody::ImportFindings& f = mesh.imported->findings;
-  std::array<char, 96> scale{};
-  std::snprintf(scale.data(), scale.size(), "scaled from %.4g to %.4g m", f.file_extent, f.extent);
-  std::vector<std::string> lines{mesh.file.path.filename().string() + ": " +
-                                     grouped(mesh.imported->mesh.vertices.size()) + " vertices, " +
-                                     grouped(mesh.imported->mesh.triangles.size()) + " triangles",
-                                 scale.data()};
+  std::vector<std::string> lines{
+      fmt::format("{}: {} vertices, {} triangles", mesh.file.path.filename().string(),
+                  grouped(mesh.imported->mesh.vertices.size()), grouped(mesh.imported->mesh.triangles.size())),
+      fmt::format("scaled from {:.4g} to {:.4g} m", f.file_extent, f.extent)};
   const std::string changed = softbody::remarks(f);
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");
@@ -75,6 +73,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
 }
 
 softbody::BodySource place_above(const softbody::World& world, softbody::MeshSource mesh) {
+  assert(mesh.imported);
   const softbody::Scene& scene = world.scene();
   softbody::BodySource body;
   const double radius = softbody::bounding_radius(mesh.imported->mesh);
@@ -85,6 +84,7 @@ softbody::BodySource place_above(const softbody::World& world, softbody::MeshSou
 }
 
 softbody::Material imported_material(double extent) {
+  assert(extent > 0);
   softbody::Material m;
   m.name = "imported";
   m.mass = std::clamp(extent * extent * extent, 0.01, 1000.0);
@@ -105,16 +105,17 @@ std::string Import::progress() const {
          (seconds > 0 ? ": " + std::to_string(seconds) + " s so far" : "");
 }
 
-void Import::add(Verdict verdict) {
-  report_.push_back(std::move(verdict));
-  if (report_.size() <= most_verdicts) return;
-  const auto newest = report_.end() - 1, oldest = std::ranges::find(report_.begin(), newest, false, &Verdict::refused);
+void Import::add(FileReport file_report) {
+  report_.push_back(std::move(file_report));
+  if (report_.size() <= max_file_reports) return;
+  const auto newest = report_.end() - 1,
+             oldest = std::ranges::find(report_.begin(), newest, false, &FileReport::refused);
   if (oldest != newest) report_.erase(oldest);
 }
 
 void Import::refuse(Session& session, const std::string& why) {
   add({.lines = {why}, .refused = true});
-  session.set_notice("");  // the report says it
+  session.simulation.notice.set("");  // the report says it already
 }
 
 void Import::load(Session& session) {
@@ -125,7 +126,7 @@ void Import::load(Session& session) {
 
 void Import::open(Session& session) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.threads()});
+  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.simulation.threads()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
@@ -142,10 +143,10 @@ void Import::read(FileReader::Question question) {
 
 void Import::drop(const std::vector<std::string>& files, Session& session) {
   dropped_.insert(dropped_.end(), files.begin(), files.end());
-  follow(session);
+  update(session);
 }
 
-void Import::follow(Session& session) {
+void Import::update(Session& session) {
   if (auto answer = reader_.take()) {
     reading_ = false;
     take(session, std::move(*answer));
@@ -164,7 +165,7 @@ void Import::take(Session& session, FileReader::Answer answer) {
 
 void Import::enter(Session& session, FileReader::World answer) {
   try {
-    session.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
+    session.scenes.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
     add({.lines = {"scene " + answer.path.filename().string()}});
   } catch (const std::exception& error) {
     refuse(session, error.what());
@@ -175,9 +176,9 @@ void Import::join(Session& session, FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
   std::vector<std::string> lines = lines_about(read, session.world());
   softbody::Material material = imported_material(read.mesh.imported->findings.extent);
-  session.add_body(place_above(session.world(), std::move(read.mesh)), std::move(material));
-  if (!session.notice().empty()) return refuse(session, name + ": " + session.notice());
+  session.bodies.add(place_above(session.world(), std::move(read.mesh)), std::move(material));
+  if (!session.simulation.notice.text().empty()) return refuse(session, name + ": " + session.simulation.notice.text());
   add({.lines = std::move(lines)});
 }
 
-}  // namespace app
+}  // namespace app::session

@@ -6,14 +6,14 @@
 #include "softbody/scene_write.h"
 #include "softbody/toml_text.h"
 
-namespace app {
+namespace app::session {
 namespace fs = std::filesystem;
 namespace {
 
-/// The scene without all that the command line has options for.
+/// Returns the scene without all that command-line options can set.
 softbody::Scene without_options(softbody::Scene scene) {
   const softbody::Scene plain;
-  scene.key = plain.key;  // of the file's name
+  scene.key = plain.key;  // depends on the file's name
   scene.method = plain.method;
   scene.contact_surface = plain.contact_surface;
   scene.collision = plain.collision;
@@ -27,7 +27,7 @@ std::string three(const auto& values) {
          softbody::toml_value(values[2]);
 }
 
-/// As --view takes it.
+/// Returns the view in the form of --view.
 std::string view_text(const softbody::View& v) {
   std::string text = three(v.target);
   for (const double value : {v.distance, v.azimuth, v.elevation}) text.append(",").append(softbody::toml_value(value));
@@ -42,11 +42,11 @@ SceneFile::SceneFile(const std::string& key_or_path, softbody::Scene content)
 
 SceneFile SceneFile::save(softbody::Scene scene, const fs::path& file) {
   if (file.extension() != ".toml") throw softbody::SceneError("a scene's file must end in .toml, e.g. scene.toml");
-  write_file(file, softbody::scene_toml(scene, file.parent_path()));
+  files::write_file(file, softbody::scene_toml(scene, file.parent_path()));
   return {file.string(), std::move(scene)};
 }
 
-bool SceneFile::makes(const softbody::Scene& used) const { return without_options(used) == content_; }
+bool SceneFile::reproduces(const softbody::Scene& used) const { return without_options(used) == content_; }
 
 std::string shell_word(const std::string& text) {
   constexpr std::string_view plain = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789_-./,:=+@%";
@@ -58,8 +58,9 @@ std::string shell_word(const std::string& text) {
 
 namespace {
 
-/// A space before each.
-std::string scene_options(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+/// Returns the options that make the scene `used`, with a space before each.
+std::string scene_options(const std::string& name, const softbody::Scene& used,
+                          const softbody::IntegratorChoice& integrator) {
   const collide::Settings& c = used.collision;
   std::string text;
   const auto add = [&text](const char* option, const std::string& value) {
@@ -89,15 +90,16 @@ std::string this_program() {
 
 }  // namespace
 
-std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator) {
+std::string demo_command(const std::string& name, const softbody::Scene& used,
+                         const softbody::IntegratorChoice& integrator) {
   return this_program() + scene_options(name, used, integrator);
 }
 
-std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
-                             int frame) {
-  const std::string number = std::to_string(std::max(frame, 1));  // nothing is drawn before the first
+std::string simulate_command(const std::string& name, const softbody::Scene& used,
+                             const softbody::IntegratorChoice& integrator, int frame) {
+  const std::string number = std::to_string(std::max(frame, 1));  // frame 0 has no picture
   return this_program() + " simulate" + scene_options(name, used, integrator) + " --frames " + number + " --capture " +
          number;
 }
 
-}  // namespace app
+}  // namespace app::session

@@ -1,40 +1,41 @@
 #pragma once
-// What a scene is called on the command line, and what that name stands for.
+// The name of a scene on the command line, and the scene that it stands for.
 
 #include <filesystem>
 #include <string>
 
-#include "app/session/integrator_choice.h"
+#include "softbody/integrators.h"
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::session {
 
 class SceneFile {
  public:
   SceneFile() = default;
-  /// key_or_path: as --scene takes it; content: what it holds, but for settings that the command line has options for.
+  /// key_or_path: in the form of --scene; content: the scene of that name.
   SceneFile(const std::string& key_or_path, softbody::Scene content);
 
-  /// Writes a scene to a file, whole or not at all. Throws SceneError or UsageError.
+  /// Writes a scene to a file, which becomes complete or stays as it was. Throws SceneError or UsageError.
   static SceneFile save(softbody::Scene scene, const std::filesystem::path& file);
 
-  /// What --scene finds it by from any folder: a key, or an absolute path.
+  /// Returns the name by which --scene finds it from any folder: a key, or an absolute path.
   const std::string& name() const { return name_; }
-  /// Whether the scene of this name and options of the command line make the scene `used`.
-  bool makes(const softbody::Scene& used) const;
+  /// Returns true if the scene of this name and command-line options reproduce the scene `used`.
+  bool reproduces(const softbody::Scene& used) const;
 
  private:
   std::string name_;
   softbody::Scene content_;
 };
 
-/// The shortest word, or quoted string, that a POSIX shell takes for `text`.
+/// Returns `text` as one word of a POSIX shell, quoted only if needed.
 std::string shell_word(const std::string& text);
 
-// Commands for a POSIX shell, with this executable: the demo with a scene of that name and the settings of `used`, and
-// the run without a window that takes a picture of the frame.
-std::string demo_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator);
-std::string simulate_command(const std::string& name, const softbody::Scene& used, const IntegratorChoice& integrator,
-                             int frame);
+/// Return commands for a POSIX shell, with this executable and the settings of `used`: one opens the demo with the
+/// scene of that name, the other takes a picture of the frame without a window.
+std::string demo_command(const std::string& name, const softbody::Scene& used,
+                         const softbody::IntegratorChoice& integrator);
+std::string simulate_command(const std::string& name, const softbody::Scene& used,
+                             const softbody::IntegratorChoice& integrator, int frame);
 
-}  // namespace app
+}  // namespace app::session

@@ -2,8 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 
-namespace app {
+namespace app::session {
 namespace {
 
 template <class Solid>
@@ -40,6 +41,7 @@ void put_solids(const SolidList& list, softbody::Scene& scene) {
 }
 
 std::string solid_name(const SolidList& list, std::size_t index) {
+  assert(index < list.size());
   static constexpr std::array names{"Ground", "Sphere", "Plane", "Box", "Capsule"};  // in the order of AnySolid
   const std::size_t kind = list[index].solid.index();
   const auto same = [kind](const SolidEntry& entry) { return entry.solid.index() == kind; };
@@ -48,4 +50,4 @@ std::string solid_name(const SolidList& list, std::size_t index) {
   return names[kind] + (' ' + std::to_string(1 + std::count_if(list.begin(), end, same)));
 }
 
-}  // namespace app
+}  // namespace app::session

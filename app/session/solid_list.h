@@ -1,12 +1,12 @@
 #pragma once
-// A scene's solids one by one, also those that are switched off.
+// A list of a scene's solids, including those that are switched off.
 
 #include <string>
 #include <variant>
 
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::session {
 
 using AnySolid = std::variant<softbody::Ground, softbody::SolidSphere, softbody::SolidPlane, softbody::SolidBox,
                               softbody::SolidCapsule>;
@@ -18,10 +18,11 @@ struct SolidEntry {
 };
 using SolidList = std::vector<SolidEntry>;
 
+/// Returns the solids of a scene, all switched on.
 SolidList list_solids(const softbody::Scene& scene);
-/// Those that are on become the scene's solids.
+/// Replaces the scene's solids by the entries that are switched on.
 void put_solids(const SolidList& list, softbody::Scene& scene);
-/// "Ground", "Sphere 2"; each differs.
+/// Returns the unique name of an entry, e.g. "Ground" or "Sphere 2". Precondition: index < list.size().
 std::string solid_name(const SolidList& list, std::size_t index);
 
-}  // namespace app
+}  // namespace app::session

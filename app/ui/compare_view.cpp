@@ -4,19 +4,21 @@
 #include <array>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-constexpr std::size_t median_of = 15;  // measurements
+constexpr std::size_t median_count = 15;  // measurements that a median is taken of
 
 enum ColumnIndex { run, name, time, tests, hashes, contacts, recall, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
-  float width;  // design pixels; 0: what is left
-  bool right;   // numbers end where the column ends
+  float width;  // design pixels; 0: the rest
+  bool right_aligned;
   const char* tooltip;
 };
 
@@ -40,17 +42,18 @@ constexpr std::array<Column, column_count> columns{{
     {"Latest times", 0, false, "The last measurements, oldest at the left, all on one axis."},
     {"Misses", 56, true, "Whose missed contacts the overlay shows (key 6); the driver's at first."},
 }};
-constexpr float least_plot = 70, column_gap = 10;                    // design pixels
+// All in design pixels.
+constexpr float min_plot_width = 70, column_gap = 10;
 constexpr float window_padding = 7, frame_padding = 1, row_gap = 1;  // above and below
 
-/// Design pixels that all columns take.
-float least_inside() {
-  float least = least_plot;
-  for (const Column& column : columns) least += column.width;
-  return least;
+/// Returns the smallest width that all columns need, in design pixels.
+float min_content_width() {
+  float width = min_plot_width;
+  for (const Column& column : columns) width += column.width;
+  return width;
 }
 
-/// Where columns begin and end, in screen coordinates, and the line that is being drawn.
+/// The ends of the columns, in screen coordinates, and the row that is being drawn.
 class Grid {
  public:
   Grid(const Widgets& w, float left, float width) {
@@ -63,24 +66,25 @@ class Grid {
     }
     height_ = ImGui::GetFrameHeight();
   }
-  void next_line() { top_ = ImGui::GetCursorScreenPos().y; }
+  void next_row() { top_ = ImGui::GetCursorScreenPos().y; }
   float left(ColumnIndex i) const { return left_[i]; }
   float right(ColumnIndex i) const { return right_[i]; }
   float top() const { return top_; }
   float text_top() const { return top_ + 0.5f * (height_ - ImGui::GetTextLineHeight()); }
   float height() const { return height_; }
 
-  /// Text on no item's account: it moves nothing, whatever it says.
+  /// Draws text that is no ImGui item, so that its length moves nothing.
   void text(ColumnIndex i, const std::string& text, bool pale = false) const {
-    const float end = right_[i] - (columns[i].right ? ImGui::CalcTextSize(text.c_str()).x : right_[i] - left_[i]);
+    const float end =
+        right_[i] - (columns[i].right_aligned ? ImGui::CalcTextSize(text.c_str()).x : right_[i] - left_[i]);
     ImGui::GetWindowDrawList()->AddText({std::floor(end), text_top()},
                                         ImGui::GetColorU32(pale ? ImGuiCol_TextDisabled : ImGuiCol_Text), text.c_str());
   }
-  /// An invisible item over the column's cell, for a tooltip.
+  /// Adds an invisible item over the column's cell, for a tooltip.
   void cell(Widgets& w, ColumnIndex i, const char* label, const char* tooltip) const {
     ImGui::SetCursorScreenPos({left_[i], top_});
     ImGui::Dummy({right_[i] - left_[i], height_});
-    w.done(label, tooltip);
+    w.register_item(label, tooltip);
   }
 
  private:
@@ -90,26 +94,25 @@ class Grid {
 
 /// What all rows have in common.
 struct Scale {
-  float slowest = 0;  // ms: the largest median
-  float axis = 1;     // ms: the top of the plots
+  float max_median = 0;  // ms
+  float axis_end = 1;    // ms, of the sparklines
 };
 
 Scale common_scale(const Session& session) {
   Scale scale;
-  float most = 0;
-  for (const Ring& times : session.history().method_ms) {
-    scale.slowest = std::max(scale.slowest, times.median(median_of));
-    most = std::max(most, times.largest());
+  float largest = 0;
+  for (const TimeSeries& times : session.comparison.method_ms()) {
+    scale.max_median = std::max(scale.max_median, times.median(median_count));
+    largest = std::max(largest, times.max());
   }
-  scale.axis = axis_end(most, 0.1f);
+  scale.axis_end = axis_end(largest, 0.1f);
   return scale;
 }
 
-/// One method's row.
 struct Row {
   std::size_t index;
   const collide::Method& method;
-  const CompareRow* measured;  // nullptr before the first report
+  const compare::CompareRow* measured;  // nullptr before the first report
   bool chosen, drives, is_reference;
 
   std::string label(const char* what) const { return std::string("###") + what + " " + std::string(method.name); }
@@ -121,66 +124,66 @@ void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& 
     ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
     bool on = row.chosen;
     if (w.checkbox(row.label("Run").c_str(), on, "Whether the method runs beside the driver.")) {
-      session.compare.methods[row.index] = on;
+      session.comparison.choice.methods[row.index] = on;
     }
   }
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
-  const bool shown = session.misses_of() == row.index;
+  const bool shown = session.comparison.misses_of() == row.index;
   if (w.radio(row.label("Misses of").c_str(), shown, "Shows what this method misses, in the scene.")) {
-    session.compare.misses_of = row.index;
+    session.comparison.choice.misses_of = row.index;
     show_misses = true;
   }
 }
 
-/// True if its name was clicked.
+/// Returns true if the name was clicked.
 bool draw_name(Widgets& w, const Grid& grid, const Row& row) {
   ImGui::SetCursorScreenPos({grid.left(name), grid.top()});
-  w.chip(row.method.colour, grid.height());
+  w.swatch(row.method.colour, grid.height());
   const float left = ImGui::GetItemRectMax().x + w.px(6);
   ImGui::SetCursorScreenPos({left, grid.text_top()});
   const std::string text = std::string(row.method.name) + row.label("Drive"), tooltip(row.method.summary);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(row.scored() ? ImGuiCol_Text : ImGuiCol_TextDisabled));
   const bool clicked = ImGui::Selectable(text.c_str(), false, 0, {grid.right(name) - left, 0});
   ImGui::PopStyleColor();
-  w.done(text.c_str(), tooltip.c_str());
+  w.register_item(text.c_str(), tooltip.c_str());
   return clicked;
 }
 
 void draw_time(const Widgets& w, const Session& session, const Grid& grid, const Row& row, const Scale& scale) {
-  const Ring& times = session.history().method_ms[row.index];
+  const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() == 0) {
     const bool reference = row.is_reference && row.scored();
     if (reference)
-      grid.text(time, format("%.2f ms", session.comparison().reference_ms), true);
+      grid.text(time, fmt::format("{:.2f} ms", session.comparison.report().reference_ms), true);
     else if (row.scored())
       grid.text(time, "not timed", true);
     return;
   }
-  const float median = times.median(median_of);
-  const float length = (grid.right(time) - grid.left(time)) * (scale.slowest > 0 ? median / scale.slowest : 0.0f);
+  const float median = times.median(median_count);
+  const float length = (grid.right(time) - grid.left(time)) * (scale.max_median > 0 ? median / scale.max_median : 0.0f);
   const float inset = w.px(2);
   ImGui::GetWindowDrawList()->AddRectFilled({grid.left(time), grid.top() + inset},
                                             {grid.left(time) + length, grid.top() + grid.height() - inset},
                                             to_imgui(row.method.colour, 0.45f), w.px(2));
-  grid.text(time, format("%.2f ms", static_cast<double>(median)));
+  grid.text(time, fmt::format("{:.2f} ms", median));
 }
 
 void draw_score(Widgets& w, const Grid& grid, const Row& row) {
-  const CompareRow& found = *row.measured;
+  const compare::CompareRow& found = *row.measured;
   grid.text(tests, grouped(found.counters.pair_tests));
   grid.text(hashes, grouped(found.counters.hashes), found.counters.hashes == 0);
   grid.text(contacts, grouped(found.contacts));
-  const Light light = light_of(found.coverage);
+  const StatusLight light = status_light(found.coverage);
   ImGui::SetCursorScreenPos({grid.left(recall) + w.px(4), grid.text_top()});
   w.dot(light.colour);
   if (row.is_reference) {
     grid.text(recall, "reference", true);
   } else {
     const bool misses_some = found.recall < 1;
-    if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
-    grid.text(recall, format("%.4f", rounded_down(found.recall)));
+    if (misses_some) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+    grid.text(recall, fmt::format("{:.4f}", rounded_down(found.recall)));
     if (misses_some) ImGui::PopStyleColor();
-    grid.text(precision, format("%.4f", rounded_down(found.precision)));
+    grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
   const std::string tip = std::string(light.name) + ": " + light.sentence +
                           " Missed now: " + grouped(found.missed.size()) +
@@ -188,17 +191,17 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
   grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
 }
 
-/// Beside its time, if there is one.
+/// Draws why the row has no score, beside its time if there is one.
 void draw_reason(const Session& session, const Grid& grid, const Row& row) {
   std::string reason = row.chosen ? "measuring" : "not chosen";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
-  const bool timed = session.history().method_ms[row.index].size() > 0;
+  const bool timed = session.comparison.method_ms()[row.index].size() > 0;
   ImGui::GetWindowDrawList()->AddText({grid.left(timed ? tests : time), grid.text_top()},
                                       ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
 }
 
 void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const Row& row, const Scale& scale) {
-  grid.next_line();
+  grid.next_row();
   if (row.drives) {
     ImGui::GetWindowDrawList()->AddRectFilled({grid.left(name) - w.px(4), grid.top()},
                                               {grid.right(misses) + w.px(4), grid.top() + grid.height()},
@@ -210,73 +213,74 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
     draw_score(w, grid, row);
   else
     draw_reason(session, grid, row);
-  const Ring& times = session.history().method_ms[row.index];
+  const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis}, row.method.colour, "ms",
+    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, row.method.colour, "ms",
                 grid.right(plot) - grid.left(plot));
   }
   draw_switches(w, session, show_misses, grid, row);
   ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
-  if (drive) session.set_method(row.method.key);
+  if (drive) session.settings.set_method(row.method.key);
 }
 
-void draw_head(Widgets& w, Session& session, Grid& grid) {
-  grid.next_line();
+void draw_header(Widgets& w, Session& session, Grid& grid) {
+  grid.next_row();
   for (std::size_t i = 0; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
     grid.text(at, columns[i].label, true);
     grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
   }
   ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
-  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.compare.on = false;
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.comparison.choice.on = false;
   ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
 }
 
-std::string footing(const Session& session) {
-  const CompareReport& report = session.comparison();
+std::string footer(const Session& session) {
+  const compare::CompareReport& report = session.comparison.report();
   std::string text = reference_sentence(report) + ".";
   if (report.reference) text.append(" ").append(grouped(report.true_contacts)).append(" true contacts.");
   const collide::Bodies& bodies = session.world().bodies();
-  return joined(text, "  N = ", grouped(bodies.vertex_count()), " vertices, ",
-                grouped(all_pair_tests(bodies, session.world().collision().self_collision)), " pairs.");
+  return fmt::format("{}  N = {} vertices, {} pairs.", text, grouped(bodies.vertex_count()),
+                     grouped(compare::all_pair_tests(bodies, session.world().collision().self_collision)));
 }
 
 }  // namespace
 
 float compare_height(float width, float scale) {
   const float line = ImGui::GetFontSize() + (2 * frame_padding + row_gap) * scale;
-  const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < least_inside() * scale;
+  const bool scrolls = width - 2 * ImGui::GetStyle().WindowPadding.x < min_content_width() * scale;
   return static_cast<float>(collide::method_table().size() + 1) * line + ImGui::GetFontSize() +
          2 * window_padding * scale + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
 }
 
-void draw_compare(Widgets& w, Session& session, bool& show_misses, const SceneArea& area) {
+void draw_compare(Widgets& w, Session& session, bool& show_misses, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
-  const float least = w.px(least_inside()), inside = area.max.x - area.min.x - 2 * style.WindowPadding.x;
-  ImGui::SetNextWindowContentSize({std::max(least, inside), 0});
+  const float width = std::max(w.px(min_content_width()), area.max.x - area.min.x - 2 * style.WindowPadding.x);
+  ImGui::SetNextWindowContentSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
   begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
-  Grid grid(w, ImGui::GetCursorScreenPos().x, std::max(least, inside));
-  draw_head(w, session, grid);
+  Grid grid(w, ImGui::GetCursorScreenPos().x, width);
+  draw_header(w, session, grid);
   const Scale scale = common_scale(session);
-  const CompareReport& report = session.comparison();
-  const std::size_t driver = session.driver();
+  const compare::CompareReport& report = session.comparison.report();
+  const std::size_t driver = session.comparison.driver();
   for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
     draw_row(w, session, show_misses, grid,
              {i, collide::method_table()[i], report.rows.empty() ? nullptr : &report.rows[i],
-              session.compare.methods[i], i == driver, report.reference == i},
+              session.comparison.choice.methods[i], i == driver, report.reference == i},
              scale);
   }
-  w.line(footing(session));
-  w.done("Compare footing",
-         "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
-         "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
+  w.text_line(footer(session));
+  w.register_item(
+      "Compare footing",
+      "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
+      "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
   ImGui::PopStyleVar(2);
   end_dock();
 }
 
-}  // namespace app
+}  // namespace app::ui

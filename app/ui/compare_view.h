@@ -1,14 +1,14 @@
 #pragma once
-// All methods on the same frozen frame, one row each: what it costs, and what it finds of the true contacts.
+// The comparison of all methods on one frozen frame: a row for each method with its cost and its true contacts.
 
 #include "app/ui/status.h"
 
-namespace app {
+namespace app::ui {
 
-/// ImGui units that it needs, in an area of this width.
+/// Returns the height in ImGui units that the comparison needs in an area of this width.
 float compare_height(float width, float scale);
-/// Draws the comparison in the area. `show_misses`: set when a method is chosen whose misses the scene is to show.
-/// Between begin_frame() and end_frame() of the Gui.
-void draw_compare(Widgets& widgets, Session& session, bool& show_misses, const SceneArea& area);
+/// Draws the comparison over `area`. Sets `show_misses` when the user chooses the method whose misses the scene shows.
+/// Call it between begin_frame() and end_frame() of the Gui.
+void draw_compare(Widgets& widgets, Session& session, bool& show_misses, const ScreenRect& area);
 
-}  // namespace app
+}  // namespace app::ui

@@ -4,40 +4,43 @@
 #include <string_view>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "app/ui/shortcuts.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
 constexpr float key_width = 78, between_columns = 24;  // design pixels
 
 struct Entry {
-  std::string_view key, what;
+  std::string_view key, text;
 };
-using Entries = std::vector<Entry>;  // an entry without both is an empty line
+using Entries = std::vector<Entry>;  // an entry without key and text is an empty line
 
 Entries keyboard() {
   Entries entries;
-  for (const Shortcut& shortcut : shortcuts()) entries.push_back({shortcut.label, shortcut.what});
+  for (const Shortcut& shortcut : shortcuts()) entries.push_back({shortcut.keys_text, shortcut.text});
   return entries;
 }
 
 Entries overlays_and_mouse() {
   Entries entries;
-  for (const OverlayRow& row : overlay_table) entries.push_back({std::string_view(&row.shortcut, 1), row.label});
+  for (const render::OverlayRow& row : render::overlay_table)
+    entries.push_back({std::string_view(&row.shortcut, 1), row.label});
   entries.push_back({"", ""});
-  for (const MouseUse& use : mouse_uses()) entries.push_back({use.label, use.what});
+  for (const MouseAction& use : mouse_actions()) entries.push_back({use.mouse_text, use.text});
   return entries;
 }
 
 float width_of(const Widgets& w, const Entries& entries) {
   float widest = 0;
   for (const Entry& e : entries)
-    widest = std::max(widest, ImGui::CalcTextSize(e.what.data(), e.what.data() + e.what.size()).x);
+    widest = std::max(widest, ImGui::CalcTextSize(e.text.data(), e.text.data() + e.text.size()).x);
   return w.px(key_width) + widest;
 }
 
-/// `left` is where it begins.
+/// Draws the entries from `left` (x) on.
 void draw_entries(Widgets& w, const Entries& entries, float left) {
   ImGui::BeginGroup();
   for (const Entry& e : entries) {
@@ -46,26 +49,26 @@ void draw_entries(Widgets& w, const Entries& entries, float left) {
     ImGui::SameLine();
     ImGui::SetCursorPosX(left + w.px(key_width));
     ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
-    ImGui::TextUnformatted(e.what.data(), e.what.data() + e.what.size());
+    ImGui::TextUnformatted(e.text.data(), e.text.data() + e.text.size());
     ImGui::PopStyleColor();
-    w.done(joined("Help ", e.what).c_str(), nullptr);
+    w.register_item(fmt::format("Help {}", e.text).c_str(), nullptr);
   }
   ImGui::EndGroup();
 }
 
 }  // namespace
 
-void draw_help(Widgets& w, const SceneArea& area, bool& open) {
+void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   const Entries keys = keyboard(), others = overlays_and_mouse();
   const float first = width_of(w, keys), both = first + w.px(between_columns) + width_of(w, others);
-  const float room = both + 2 * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
-  const bool narrow = display.x < room;
+  const float needed = both + 2 * ImGui::GetStyle().WindowPadding.x + ImGui::GetStyle().ScrollbarSize;
+  const bool narrow = display.x < needed;
   ImVec2 middle{0.5f * (area.min.x + area.max.x), 0.5f * display.y};
-  if (area.max.x - area.min.x < room) middle.x = 0.5f * display.x;
+  if (area.max.x - area.min.x < needed) middle.x = 0.5f * display.x;
   ImGui::SetNextWindowPos(middle, ImGuiCond_Always, {0.5f, 0.5f});
-  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // it scrolls if it has to
-  ImGui::SetNextWindowBgAlpha(1.0f);  // over the table's squares it would be hard to read otherwise
+  ImGui::SetNextWindowSizeConstraints({0, 0}, {display.x, display.y - w.px(8)});  // a higher text scrolls
+  ImGui::SetNextWindowBgAlpha(1.0f);  // the hash table's squares would make it hard to read
   ImGui::Begin("Help", &open,
                ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoCollapse |
                    ImGuiWindowFlags_NoSavedSettings);
@@ -88,4 +91,4 @@ void draw_help(Widgets& w, const SceneArea& area, bool& open) {
   ImGui::End();
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,12 +1,12 @@
 #pragma once
-// The help overlay: what the program shows, the keyboard and the mouse.
+// The help window: what the program shows, the keyboard shortcuts and the mouse.
 
 #include "app/ui/status.h"
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
-/// Draws the help in the middle of the area; `open` becomes false when it is closed.
-void draw_help(Widgets& widgets, const SceneArea& area, bool& open);
+/// Draws the help in the middle of `area`. Its close button sets `open` to false.
+void draw_help(Widgets& widgets, const ScreenRect& area, bool& open);
 
-}  // namespace app
+}  // namespace app::ui

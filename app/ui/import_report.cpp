@@ -4,35 +4,35 @@
 
 #include "app/render/palette.h"
 
-namespace app {
+namespace app::ui {
 
 namespace {
 
-void draw_verdict(Widgets& w, const Import::Verdict& verdict) {
-  if (verdict.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
+void draw_verdict(Widgets& w, const session::Import::FileReport& verdict) {
+  if (verdict.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
   for (const std::string& line : verdict.lines) {
     ImGui::TextWrapped("%s", line.c_str());
-    w.done("Import report", nullptr);
+    w.register_item("Import report", nullptr);
   }
   if (verdict.refused) ImGui::PopStyleColor();
 }
 
 }  // namespace
 
-void draw_import_report(Widgets& w, Import& import, const SceneArea& area) {
+void draw_import_report(Widgets& w, session::Import& import, const ScreenRect& area) {
   if (import.report().empty() && !import.busy()) return;
   const float margin = w.px(12), width = std::min(w.px(360), area.max.x - area.min.x - 2 * margin);
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.max.y - area.min.y - 2 * margin});
   ImGui::SetNextWindowSize({width, 0});
-  ImGui::Begin("Import", nullptr, plate & ~ImGuiWindowFlags_NoScrollbar);
-  for (const Import::Verdict& verdict : import.report()) {
+  ImGui::Begin("Import", nullptr, frameless_window & ~ImGuiWindowFlags_NoScrollbar);
+  for (const session::Import::FileReport& verdict : import.report()) {
     draw_verdict(w, verdict);
     if (&verdict != &import.report().back()) ImGui::Separator();
   }
   if (import.busy()) {
     ImGui::TextWrapped("%s", import.progress().c_str());
-    w.done("Import progress", nullptr);
+    w.register_item("Import progress", nullptr);
   }
   if (!import.report().empty() && w.button("Close###Close import report",
                                            "It stands here until it is closed, or the next file is named.", w.px(80)))
@@ -40,4 +40,4 @@ void draw_import_report(Widgets& w, Import& import, const SceneArea& area) {
   ImGui::End();
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,13 +1,14 @@
 #pragma once
-// What was found in a file and done to it, beside the panel, so that it moves nothing there.
+// The report on an imported file: what was found in it and what was done to it. It stands over the scene, so that it
+// moves nothing on the panel.
 
 #include "app/session/import.h"
 #include "app/ui/status.h"
 
-namespace app {
+namespace app::ui {
 
-/// Draws what is being read and the report on what was, if any, in the lower left corner of the area, until the latter
-/// is closed.
-void draw_import_report(Widgets& widgets, Import& import, const SceneArea& area);
+/// Draws the progress of a file that is being read, and the report on the last files until the user closes it, in the
+/// lower left corner of `area`. Draws nothing if there is neither.
+void draw_import_report(Widgets& widgets, session::Import& import, const ScreenRect& area);
 
-}  // namespace app
+}  // namespace app::ui

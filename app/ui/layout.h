@@ -1,5 +1,5 @@
 #pragma once
-// Where the interface's parts stand, and what is left for the scene.
+// The layout of the user interface: where its parts stand and what is left for the scene.
 
 #include <optional>
 #include <string>
@@ -8,21 +8,21 @@
 #include "app/ui/ui_state.h"
 #include "app/ui/widgets/dock.h"
 
-namespace app {
+namespace app::ui {
 
-inline constexpr float least_scene_width = 240;  // design pixels
+inline constexpr float min_scene_width = 240;  // design pixels
 
 struct Layout {
-  bool panel_covers_scene = false;   // the window is too narrow for both
-  std::optional<SceneArea> panel;    // at the left edge
-  std::optional<SceneArea> column;   // at the right one: what the scene's colours mean, and the hash table
-  std::optional<SceneArea> compare;  // at the lower one
-  std::optional<SceneArea> tour;     // in place of the two
-  SceneArea scene;                   // the rest, or all behind the panel that covers it
-  std::string no_room;               // a sentence on what is switched on and finds no place here, or empty
+  bool panel_covers_scene = false;    // the window is too narrow for both
+  std::optional<ScreenRect> panel;    // at the left edge
+  std::optional<ScreenRect> sidebar;  // at the right edge
+  std::optional<ScreenRect> compare;  // at the lower edge
+  std::optional<ScreenRect> tour;     // instead of sidebar and comparison
+  ScreenRect scene;                   // the rest; all of the window if the panel covers the scene
+  std::string no_room_message;        // names a part that is switched on and has no room; else empty
 };
 
-/// For ImGui's display as it is.
-Layout lay_out(const Session& session, const UiState& ui, float scale);
+/// Lays the parts out in ImGui's display.
+Layout compute_layout(const Session& session, const UiState& ui, float scale);
 
-}  // namespace app
+}  // namespace app::ui

@@ -5,80 +5,85 @@
 #include <algorithm>
 #include <array>
 
-namespace app {
+namespace app::ui {
 namespace {
 
 void change_levels(Session& session, int by) {
   collide::Settings settings = session.world().collision();
   settings.levels = std::clamp(settings.levels + by, 0, collide::max_levels);
-  session.set_collision(settings, session.world().uses_default_cell_size());
+  session.settings.set_collision(settings, session.world().scene().default_cell_size);
 }
 
 constexpr std::array shortcut_table{
-    Shortcut{GLFW_KEY_SPACE, 0, "Space", "Pause or go on", [](Session& s, UiState&) { s.paused = !s.paused; }},
-    Shortcut{GLFW_KEY_N, GLFW_KEY_PERIOD, "N or .", "Single step", [](Session& s, UiState&) { s.single_step(); }, true},
-    Shortcut{GLFW_KEY_S, 0, "S", "Slow motion", [](Session& s, UiState&) { s.slow_motion = !s.slow_motion; }},
-    Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.reset(); }},
+    Shortcut{GLFW_KEY_SPACE, 0, "Space", "Pause or go on",
+             [](Session& s, UiState&) { s.simulation.clock.paused = !s.simulation.clock.paused; }},
+    Shortcut{GLFW_KEY_N, GLFW_KEY_PERIOD, "N or .", "Single step",
+             [](Session& s, UiState&) { s.simulation.clock.single_step(); }, true},
+    Shortcut{GLFW_KEY_S, 0, "S", "Slow motion",
+             [](Session& s, UiState&) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; }},
+    Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
     Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a reset, drop, throw, import or deletion",
-             [](Session& s, UiState&) { s.undo(); }, false, GLFW_MOD_CONTROL},
-    Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies", [](Session& s, UiState&) { s.drop(many_drops); }, false,
-             GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_D, 0, "D", "Drop another body", [](Session& s, UiState&) { s.drop(); }},
+             [](Session& s, UiState&) { s.simulation.undo(); }, false, GLFW_MOD_CONTROL},
+    Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",
+             [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT},
+    Shortcut{GLFW_KEY_D, 0, "D", "Drop another body", [](Session& s, UiState&) { s.bodies.drop(); }},
     Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; }},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
-             [](Session& s, UiState&) { s.remove_selected(); }},
-    Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { s.next_method(); }},
-    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { s.next_contact_surface(); }},
+             [](Session& s, UiState&) { s.bodies.remove_selected(); }},
+    Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { s.settings.next_method(); }},
+    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface",
+             [](Session& s, UiState&) { s.settings.next_contact_surface(); }},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes", [](Session& s, UiState&) { change_levels(s, -1); }, true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes", [](Session& s, UiState&) { change_levels(s, 1); }, true},
     Shortcut{GLFW_KEY_G, 0, "G", "Guided tour of the method",
              [](Session& s, UiState& ui) { ui.tour.toggle(s, ui.overlays); }},
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: the step before", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: the next step", [](Session&, UiState& ui) { ui.tour.next(); }},
-    Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods", [](Session& s, UiState&) { s.compare.on = !s.compare.on; }},
+    Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
+             [](Session& s, UiState&) { s.comparison.choice.on = !s.comparison.choice.on; }},
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
-    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.table = !ui.table; }},
+    Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
-    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.take_away.picture_asked = true; }},
+    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_asked = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
              [](Session& s, UiState& ui) {
-               if (ui.list_open) return;  // closes that, and nothing else
+               if (ui.popup_open) return;  // the key closes this list and nothing else
                if (ui.tour.open() && !ui.help) return ui.tour.close(s, ui.overlays);
                ui.help = false;
-               s.select_body(std::nullopt);
-               s.select_bucket(std::nullopt);
+               s.bodies.select(std::nullopt);
+               s.inspector.select_bucket(std::nullopt);
              }},
     Shortcut{GLFW_KEY_Q, 0, "Q", "Quit", [](Session&, UiState& ui) { ui.quit = true; }},
 };
 
 constexpr std::array mouse_table{
-    MouseUse{"On a body", "Drag: pull it"},
-    MouseUse{"", "Click: select it"},
-    MouseUse{"", "Double-click: look at it"},
-    MouseUse{"Elsewhere", "Drag: turn"},
-    MouseUse{"Right drag", "Move sideways"},
-    MouseUse{"Wheel", "Closer or further"},
-    MouseUse{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
+    MouseAction{"On a body", "Drag: pull it"},
+    MouseAction{"", "Click: select it"},
+    MouseAction{"", "Double-click: look at it"},
+    MouseAction{"Elsewhere", "Drag: turn"},
+    MouseAction{"Right drag", "Move sideways"},
+    MouseAction{"Wheel", "Closer or further"},
+    MouseAction{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
 };
 
 }  // namespace
 
 std::span<const Shortcut> shortcuts() { return shortcut_table; }
-std::span<const MouseUse> mouse_uses() { return mouse_table; }
+std::span<const MouseAction> mouse_actions() { return mouse_table; }
 
-bool press(int key, bool repeat, Session& session, UiState& ui, int mods) {
-  // Shift alone changes nothing where it means nothing; these do, for their keys are others everywhere.
-  constexpr int others = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
-  for (const OverlayRow& row : overlay_table) {
-    if (key != row.shortcut || repeat || mods & others) continue;
+bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods) {
+  // Shift is ignored where no shortcut asks for it. With one of these a key means something else in every program.
+  constexpr int other_mods = GLFW_MOD_CONTROL | GLFW_MOD_ALT | GLFW_MOD_SUPER;
+  for (const render::OverlayRow& row : render::overlay_table) {
+    if (key != row.shortcut || repeat || mods & other_mods) continue;
     ui.overlays.*row.shown = !(ui.overlays.*row.shown);
     return true;
   }
   for (const Shortcut& shortcut : shortcut_table) {
     if (key != shortcut.key && (shortcut.other_key == 0 || key != shortcut.other_key)) continue;
-    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & others) continue;
+    if ((mods & shortcut.mods) != shortcut.mods || (mods & ~shortcut.mods) & other_mods) continue;
     if (repeat && !shortcut.repeats) return false;
     shortcut.act(session, ui);
     return true;
@@ -86,4 +91,4 @@ bool press(int key, bool repeat, Session& session, UiState& ui, int mods) {
   return false;
 }
 
-}  // namespace app
+}  // namespace app::ui

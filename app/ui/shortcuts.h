@@ -1,32 +1,32 @@
 #pragma once
-// The keyboard: one table that acts, and that the help overlay lists.
+// The keyboard shortcuts: one table that handle_key() runs and the help lists.
 
 #include <span>
 
 #include "app/session/session.h"
 #include "app/ui/ui_state.h"
 
-namespace app {
+namespace app::ui {
 
 struct Shortcut {
-  int key, other_key;      // GLFW_KEY_* or a sign, as in engine::KeyPress; other_key 0: none
-  std::string_view label;  // of the keys, in the help
-  std::string_view what;
+  int key, other_key;          // GLFW_KEY_* or a character, as in engine::KeyPress; other_key 0: none
+  std::string_view keys_text;  // the keys, in the help
+  std::string_view text;       // what they do, in the help
   void (*act)(Session& session, UiState& ui);
-  bool repeats = false;  // also while the key is held
-  int mods = 0;          // GLFW_MOD_*, which must be down
+  bool repeats = false;  // also acts repeatedly while the key is held
+  int mods = 0;          // GLFW_MOD_* that must be down
 };
 
-/// All but the overlays' digits, which are in overlay_table.
+/// All shortcuts except the overlays' digits, which are in overlay_table.
 std::span<const Shortcut> shortcuts();
 
-/// Does what the key is for; false if it is for nothing.
-bool press(int key, bool repeat, Session& session, UiState& ui, int mods = 0);
+/// Runs the shortcut of a key. Returns false if the key has none.
+bool handle_key(int key, bool repeat, Session& session, UiState& ui, int mods = 0);
 
-/// Mouse buttons and wheel over the scene, for the help.
-struct MouseUse {
-  std::string_view label, what;
+/// A use of the mouse over the scene, for the help.
+struct MouseAction {
+  std::string_view mouse_text, text;
 };
-std::span<const MouseUse> mouse_uses();
+std::span<const MouseAction> mouse_actions();
 
-}  // namespace app
+}  // namespace app::ui

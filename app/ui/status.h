@@ -1,48 +1,54 @@
 #pragma once
-// What stands over the scene whether or not the panel is open: the light of coverage with the live recall, legends of
-// the overlays, the caption of the moment, and hints for newcomers.
+// What stands over the scene even if the panel is hidden: the status lights with the live recall, the legend of the
+// overlays, the scene's caption, and hints for newcomers.
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
 #include "app/ui/widgets/dock.h"
 
-namespace app {
+namespace app::ui {
 
-/// Of what stands over the scene without a frame to drag it by.
-inline constexpr ImGuiWindowFlags plate = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                          ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
-                                          ImGuiWindowFlags_NoNav;
+/// ImGui's flags for windows without a frame over the scene.
+inline constexpr ImGuiWindowFlags frameless_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                                     ImGuiWindowFlags_NoSavedSettings |
+                                                     ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
 
-struct Light {
+struct StatusLight {
   glm::vec3 colour;
   const char* name;      // the colour in words
-  const char* sentence;  // what it means
+  const char* sentence;  // what the colour means
 };
-Light light_of(collide::Coverage coverage);
-/// Green: the step keeps within the bound and its reserve. Amber: within the limit of stability. Red: beyond it.
-Light light_of(const StepMargin& margin);
-/// The step's light with its numbers; below it the alarm, if there is one, and the way back.
+StatusLight status_light(collide::Coverage coverage);
+/// Returns green if the step keeps within the stability bound and its reserve, amber if it is within the bound, red if
+/// it is beyond the bound.
+StatusLight status_light(const session::StepMargin& margin);
+/// Draws the status light of the step with its numbers. Below it stand the alarm, if there is one, and the button that
+/// rewinds.
 void draw_step_light(Widgets& widgets, Session& session);
 
-/// "of the driving method", or whose boxes and buckets are shown instead because the driving method has no table.
-std::string whose_structure(const Session& session);
+/// Returns "of the driving method", or names the method whose boxes and buckets are shown because the driving method
+/// has no table.
+std::string shown_method_text(const Session& session);
 
-/// To four digits: one missed contact of a million is not a recall of 1.
+/// Rounds down to four digits, so that one missed contact of a million is not shown as a recall of 1.
 double rounded_down(double share);
-/// "Measured against ...", with the reason if that is not brute force.
-std::string reference_sentence(const CompareReport& report);
+/// Returns "Measured against ...", with the reason if that is not brute force.
+std::string reference_sentence(const compare::CompareReport& report);
 
-/// The light, its sentence and the recall; below it Layout::no_room and the session's notice(), if any. Returns where
-/// it ends. `explained`: with what the light's colours mean.
-float draw_status(Widgets& widgets, Session& session, const std::string& no_room, const SceneArea& area,
+/// Draws the coverage light and the recall; below them Layout::no_room_message and the session's notice(), if any.
+/// Returns the lower end (y). `explained`: the meaning of all three colours is shown.
+float draw_status(Widgets& widgets, Session& session, const std::string& no_room_message, const ScreenRect& area,
                   bool& explained);
-/// What the colours of the overlays mean; has_legend(): whether any that is shown needs it. `of_which_method`: also
-/// whose boxes and cells are shown.
-bool has_legend(const Session& session, const Overlays& shown);
-void draw_legend(Widgets& widgets, const Session& session, const Overlays& shown, bool of_which_method);
-/// The same, if any, over the scene in the upper left corner of the area.
-void draw_legend_plate(Widgets& widgets, const Session& session, const Overlays& shown, const SceneArea& area);
-/// Returns where it begins. `seconds`: how long the window has been open; the hint fades out after a while.
-float draw_caption(Widgets& widgets, const Session& session, const SceneArea& area, double seconds);
+/// True if an overlay that is shown needs a legend.
+bool has_legend(const Session& session, const render::Overlays& shown);
+/// Draws the legend of the overlays into the current window. `names_method`: it also names the method whose boxes and
+/// cells are shown.
+void draw_legend(Widgets& widgets, const Session& session, const render::Overlays& shown, bool names_method);
+/// Draws the legend, if any, over the scene in the upper left corner of `area`.
+void draw_floating_legend(Widgets& widgets, const Session& session, const render::Overlays& shown,
+                          const ScreenRect& area);
+/// Draws the caption and the hint at the lower edge of `area`. Returns their upper end (y). `seconds`: since the window
+/// opened; the hint fades out after a while.
+float draw_caption(Widgets& widgets, const Session& session, const ScreenRect& area, double seconds);
 
-}  // namespace app
+}  // namespace app::ui

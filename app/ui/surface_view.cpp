@@ -1,11 +1,13 @@
 #include "app/ui/surface_view.h"
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-std::string millimetres(double metres) { return format("%.2f mm", metres * 1e3); }
+std::string millimetres(double metres) { return fmt::format("{:.2f} mm", metres * 1e3); }
 
 std::string vertices_and_edges(std::size_t vertices, std::size_t edge_pairs) {
   return grouped(vertices) + " + " + grouped(edge_pairs);
@@ -14,18 +16,19 @@ std::string vertices_and_edges(std::size_t vertices, std::size_t edge_pairs) {
 std::string share(std::size_t part, std::size_t whole) { return grouped(part) + " of " + grouped(whole); }
 
 void draw_state(Widgets& w, const Session& session) {
-  const SurfaceReport& report = session.surfaces().report();
+  const compare::SurfaceReport& report = session.surfaces.report();
   std::string text = "True surfaces: ";
   if (!report.failure.empty())
     text.append("not judged, ").append(report.failure);
   else if (report.id == 0)
     text += "judging";
   else
-    text += report.id == session.revision() ? "as shown" : "frame " + std::to_string(report.frame);
-  w.line(text);
-  w.done("Judged frame",
-         "The state that these figures are of, judged exactly on a copy beside the simulation: that of an earlier "
-         "frame while bodies move. Solids are not judged.");
+    text += report.id == session.simulation.revision() ? "as shown" : "frame " + std::to_string(report.frame);
+  w.text_line(text);
+  w.register_item(
+      "Judged frame",
+      "The state that these figures are of, judged exactly on a copy beside the simulation: that of an earlier "
+      "frame while bodies move. Solids are not judged.");
 }
 
 void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
@@ -38,7 +41,7 @@ void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
   w.figure("Mean depth", millimetres(figures.mean_depth), "Over all penetrating vertices.");
 }
 
-void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const CrossingSums& sums) {
+void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const session::CrossingSums& sums) {
   w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
            "Vertices that passed through a face in the step to this frame, either way, and pairs of edges that passed "
            "through each other: on straight lines from the frame before.");
@@ -51,13 +54,14 @@ void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, 
 }
 
 void draw_missed(Widgets& w, const Session& session) {
-  const SurfaceReport& report = session.surfaces().report();
-  w.chip(contact_missed_colour, ImGui::GetTextLineHeight());
+  const compare::SurfaceReport& report = session.surfaces.report();
+  w.swatch(render::contact_missed_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  w.line("Missed surface contacts");
-  w.done("Missed surface contacts",
-         "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
-         "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
+  w.text_line("Missed surface contacts");
+  w.register_item(
+      "Missed surface contacts",
+      "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
+      "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
   w.figure(
       "  vertices", share(report.missed_penetrations, report.penetrations),
       "Penetrating vertices without a contact with any vertex of the body they are in. One inside two bodies counts "
@@ -73,9 +77,9 @@ void draw_missed(Widgets& w, const Session& session) {
 
 void draw_true_surfaces(Widgets& w, const Session& session) {
   draw_state(w, session);
-  draw_overlaps(w, session.surfaces().report().figures);
+  draw_overlaps(w, session.surfaces.report().figures);
   draw_missed(w, session);
-  if (w.section("Passages", false)) draw_crossings(w, session.surfaces().report().figures, session.surfaces().sums());
+  if (w.section("Passages", false)) draw_crossings(w, session.surfaces.report().figures, session.surfaces.sums());
 }
 
-}  // namespace app
+}  // namespace app::ui

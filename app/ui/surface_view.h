@@ -1,12 +1,12 @@
 #pragma once
-// The surface oracle's figures of the step last judged.
+// The surface oracle's figures of the last step that it judged.
 
 #include "app/session/session.h"
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
-/// Draws the figures into the current window, those asked for least often in a section that folds.
+/// Draws the figures into the current window. The rarely needed ones are in a section that is folded at first.
 void draw_true_surfaces(Widgets& widgets, const Session& session);
 
-}  // namespace app
+}  // namespace app::ui

@@ -3,30 +3,33 @@
 #include <algorithm>
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "collide/methods.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-constexpr float mark_radius = 4, lane_height = 6, reach = 9, label_gap = 6, axis_overhang = 6;  // design pixels
-constexpr glm::vec3 ink(0.15f), used_ink(0.8f, 0.0f, 0.4f);
-constexpr glm::vec3 line_of_decade(0.84f), line_between(0.94f), band(0.92f, 0.96f, 0.92f);
+constexpr float mark_radius = 4, lane_height = 6, pick_radius = 9, label_gap = 6, axis_overhang = 6;  // design pixels
+constexpr glm::vec3 front_colour(0.15f), ring_colour(0.8f, 0.0f, 0.4f);
+constexpr glm::vec3 major_line_colour(0.84f), minor_line_colour(0.94f), band_colour(0.92f, 0.96f, 0.92f);
 
-/// `place`: how much of the text's width lies left of the point.
-void pale_text(ImVec2 at, float place, const char* text) {
-  const float left = at.x - place * ImGui::CalcTextSize(text).x;
+/// Draws grey text at a point. `align`: the share of the text's width that lies left of the point.
+void draw_grey_text(ImVec2 at, float align, const char* text) {
+  const float left = at.x - align * ImGui::CalcTextSize(text).x;
   ImGui::GetWindowDrawList()->AddText({std::floor(left), std::floor(at.y)}, ImGui::GetColorU32(ImGuiCol_TextDisabled),
                                       text);
 }
 
 /// "0.01", "1", "100".
-std::string power_of_ten(int exponent) { return format("%g", std::pow(10.0, exponent)); }
+std::string power_of_ten(int exponent) { return fmt::format("{:g}", std::pow(10.0, exponent)); }
 
 int exponent_below(double value) { return static_cast<int>(std::floor(std::log10(value))); }
 
-std::size_t level_index(const Configuration& c) {
+std::size_t level_index(const compare::Configuration& c) {
   if (!collide::method_table()[c.method].uses_levels) return 0;
-  return static_cast<std::size_t>(std::ranges::find(sweep_levels, c.settings.levels) - sweep_levels.begin());
+  return static_cast<std::size_t>(std::ranges::find(compare::sweep_levels, c.settings.levels) -
+                                  compare::sweep_levels.begin());
 }
 
 }  // namespace
@@ -40,21 +43,21 @@ float SweepPlot::Axis::decade(int exponent) const {
   return start + (end - start) * static_cast<float>(exponent - first) / static_cast<float>(last - first);
 }
 
-void SweepPlot::set(const SweepReport& report) {
+void SweepPlot::set(const compare::SweepReport& report) {
   points_.clear();
   for (std::size_t i = 0; i < report.rows.size() && report.reference; ++i) {
-    const SweepRow& row = report.rows[i];
+    const compare::SweepRow& row = report.rows[i];
     if (row.times.ms.empty()) continue;
-    const double ms = std::max(row.times.median(), 1e-6);  // below a clock's tick
+    const double ms = std::max(row.times.median(), 1e-6);  // a time may be below the clock's resolution
     points_.push_back({i, row.configuration.method, level_index(row.configuration), {ms, 1 - row.recall}});
   }
-  std::vector<Tradeoff> values;
+  std::vector<compare::Tradeoff> values;
   for (const Point& point : points_) values.push_back(point.value);
-  front_ = pareto_front(values);
+  front_ = compare::pareto_front(values);
 }
 
 void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& emphasis) {
-  lay_out(w, min, max);
+  place_points(w, min, max);
   draw_axes(w);
   for (const Point& point : points_) {
     const bool pale = emphasis.method && *emphasis.method != point.method;
@@ -69,25 +72,25 @@ void SweepPlot::draw(const Widgets& w, ImVec2 min, ImVec2 max, const Emphasis& e
 }
 
 void SweepPlot::draw_ring(const Widgets& w, ImVec2 at) {
-  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(used_ink), 24, w.px(2));
+  ImGui::GetWindowDrawList()->AddCircle(at, w.px(2 * mark_radius), to_imgui(ring_colour), 24, w.px(2));
 }
 
-/// Whole decades, a few of them from the start, so that the axes hardly ever change while points come in.
-void SweepPlot::lay_out(const Widgets& w, ImVec2 min, ImVec2 max) {
+/// Fits the axes to whole decades, a few of them from the start, so that the axes rarely change while points come in.
+void SweepPlot::place_points(const Widgets& w, ImVec2 min, ImVec2 max) {
   const float line = ImGui::GetTextLineHeight();
-  int fastest = -2, slowest = 2, least = -2;
+  int fastest = -2, slowest = 2, min_error = -2;
   for (const Point& point : points_) {
     fastest = std::min(fastest, exponent_below(point.value.ms));
     slowest = std::max(slowest, exponent_below(point.value.ms) + 1);
-    if (point.value.error > 0) least = std::min(least, exponent_below(point.value.error));
+    if (point.value.error > 0) min_error = std::min(min_error, exponent_below(point.value.error));
   }
-  const float label_width = ImGui::CalcTextSize(power_of_ten(std::min(least, -4)).c_str()).x;
-  floor_ = max.y - 2 * line - w.px(label_gap);
+  const float label_width = ImGui::CalcTextSize(power_of_ten(std::min(min_error, -4)).c_str()).x;
+  bottom_ = max.y - 2 * line - w.px(label_gap);
   const float lanes = w.px(lane_height) * static_cast<float>(collide::method_table().size() + 2);
   time_ = {fastest, slowest, min.x + label_width + w.px(label_gap), max.x - w.px(12)};
-  error_ = {0, least, min.y + line + w.px(10), floor_ - lanes};
+  error_ = {0, min_error, min.y + line + w.px(10), bottom_ - lanes};
   for (Point& point : points_) {
-    // A lane a method, so that points on the floor do not hide each other.
+    // Each method has its own lane, so that points without error do not hide each other.
     const float lane = error_.end + w.px(lane_height) * (static_cast<float>(point.method) + 1.5f);
     point.at = {time_.at(point.value.ms), point.value.error > 0 ? error_.at(point.value.error) : lane};
   }
@@ -96,47 +99,50 @@ void SweepPlot::lay_out(const Widgets& w, ImVec2 min, ImVec2 max) {
 void SweepPlot::draw_axes(const Widgets& w) const {
   ImDrawList* draw = ImGui::GetWindowDrawList();
   const float top = error_.start - w.px(axis_overhang);
-  draw->AddRectFilled({time_.start, top}, {time_.end, floor_}, to_imgui(glm::vec3(1.0f)));
-  draw->AddRectFilled({time_.start, error_.end}, {time_.end, floor_}, to_imgui(band));
+  draw->AddRectFilled({time_.start, top}, {time_.end, bottom_}, to_imgui(glm::vec3(1.0f)));
+  draw->AddRectFilled({time_.start, error_.end}, {time_.end, bottom_}, to_imgui(band_colour));
   draw_time_axis(w, top);
   draw_error_axis(w);
-  pale_text({time_.end - w.px(6), floor_ - ImGui::GetTextLineHeight() - w.px(2)}, 1, "none missed; a lane a method");
-  draw->AddRect({time_.start, top}, {time_.end, floor_}, ImGui::GetColorU32(ImGuiCol_Border));
-  pale_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
-            "1 - recall: missed share of the true contacts");
+  draw_grey_text({time_.end - w.px(6), bottom_ - ImGui::GetTextLineHeight() - w.px(2)}, 1,
+                 "none missed; a lane a method");
+  draw->AddRect({time_.start, top}, {time_.end, bottom_}, ImGui::GetColorU32(ImGuiCol_Border));
+  draw_grey_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
+                 "1 - recall: missed share of the true contacts");
 }
 
 void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
   const auto line = [&](float x, const glm::vec3& colour) {
-    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, floor_}, to_imgui(colour));
+    ImGui::GetWindowDrawList()->AddLine({x, top}, {x, bottom_}, to_imgui(colour));
   };
   for (int e = time_.first; e <= time_.last; ++e) {
-    for (int digit = 2; digit < 10 && e < time_.last; ++digit) line(time_.at(digit * std::pow(10, e)), line_between);
-    line(time_.decade(e), line_of_decade);
-    pale_text({time_.decade(e), floor_ + w.px(3)}, 0.5f, power_of_ten(e).c_str());
+    for (int digit = 2; digit < 10 && e < time_.last; ++digit)
+      line(time_.at(digit * std::pow(10, e)), minor_line_colour);
+    line(time_.decade(e), major_line_colour);
+    draw_grey_text({time_.decade(e), bottom_ + w.px(3)}, 0.5f, power_of_ten(e).c_str());
   }
-  pale_text({time_.end, floor_ + ImGui::GetTextLineHeight() + w.px(4)}, 1, "ms a frame, from scratch, on one core");
+  draw_grey_text({time_.end, bottom_ + ImGui::GetTextLineHeight() + w.px(4)}, 1,
+                 "ms a frame, from scratch, on one core");
 }
 
 void SweepPlot::draw_error_axis(const Widgets& w) const {
   const float line = ImGui::GetTextLineHeight();
   const auto label = [&](float y, const char* text) {
-    pale_text({time_.start - w.px(label_gap), y - 0.5f * line}, 1, text);
+    draw_grey_text({time_.start - w.px(label_gap), y - 0.5f * line}, 1, text);
   };
   const float decade = error_.decade(-1) - error_.decade(0);
   const int every = std::max(1, static_cast<int>(std::ceil(line / decade)));  // labels must not overlap
   for (int e = error_.first; e >= error_.last; --e) {
     const float y = error_.decade(e);
-    ImGui::GetWindowDrawList()->AddLine({time_.start, y}, {time_.end, y}, to_imgui(line_of_decade));
+    ImGui::GetWindowDrawList()->AddLine({time_.start, y}, {time_.end, y}, to_imgui(major_line_colour));
     if (e % every == 0) label(y, power_of_ten(e).c_str());
   }
-  label(0.5f * (error_.end + floor_), "0");
+  label(0.5f * (error_.end + bottom_), "0");
 }
 
-/// Nothing lies both left of and below the stepped line.
+/// Draws the Pareto front as a stepped line: no point lies both left of it and below it.
 void SweepPlot::draw_front(const Widgets& w) const {
   ImDrawList* draw = ImGui::GetWindowDrawList();
-  const ImU32 colour = to_imgui(ink);
+  const ImU32 colour = to_imgui(front_colour);
   for (std::size_t i = 0; i < front_.size(); ++i) {
     const ImVec2 here = points_[front_[i]].at;
     draw->AddCircle(here, w.px(mark_radius + 1.5f), colour, 16, w.px(1.5f));
@@ -147,13 +153,13 @@ void SweepPlot::draw_front(const Widgets& w) const {
   }
 }
 
-const SweepPlot::Point* SweepPlot::near(const Widgets& w, ImVec2 place) const {
+const SweepPlot::Point* SweepPlot::hit_test(const Widgets& w, ImVec2 mouse) const {
   const Point* best = nullptr;
-  float least = w.px(reach) * w.px(reach);
+  float min_squared = w.px(pick_radius) * w.px(pick_radius);
   for (const Point& point : points_) {
-    const float dx = point.at.x - place.x, dy = point.at.y - place.y, distance = dx * dx + dy * dy;
-    if (distance > least) continue;
-    least = distance;
+    const float dx = point.at.x - mouse.x, dy = point.at.y - mouse.y, squared = dx * dx + dy * dy;
+    if (squared > min_squared) continue;
+    min_squared = squared;
     best = &point;
   }
   return best;
@@ -171,4 +177,4 @@ void SweepPlot::draw_mark(ImVec2 at, float r, std::size_t level, ImU32 colour) {
                             {at.x + 1.1f * r, at.y - 0.8f * up}, colour);
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,38 +1,37 @@
 #pragma once
-// Error against run time, log-log, drawn with Dear ImGui: a point for every row of a sweep that was timed.
+// The plot of error against run time, log-log, drawn with Dear ImGui: a point for each row of a sweep that was timed.
 
 #include "app/compare/sweep.h"
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
 class SweepPlot {
  public:
   struct Point {
-    std::size_t row;     // of the report
-    std::size_t method;  // in collide::method_table()
-    std::size_t level;   // in sweep_levels; 0 for methods without levels
-    Tradeoff value;      // median time
-    ImVec2 at{-1, -1};   // where it was drawn last
+    std::size_t row;          // of the report
+    std::size_t method;       // in collide::method_table()
+    std::size_t level;        // in sweep_levels; 0 for methods without levels
+    compare::Tradeoff value;  // median time
+    ImVec2 at{-1, -1};        // where it was drawn last
   };
-  /// What stands out.
   struct Emphasis {
-    std::optional<std::size_t> method;  // the points of all others are pale
-    std::optional<std::size_t> row;     // has a ring: the settings in use
+    std::optional<std::size_t> method;  // the points of all other methods are drawn faintly
+    std::optional<std::size_t> row;     // gets a series: the settings in use
   };
 
-  /// Gathers the report's points: none where there are no true contacts to measure against.
-  void set(const SweepReport& report);
+  /// Gathers the report's points. There are none if there are no true contacts to measure against.
+  void set(const compare::SweepReport& report);
   const std::vector<Point>& points() const { return points_; }
 
-  /// Draws into the rectangle.
+  /// Draws the plot into the rectangle.
   void draw(const Widgets& widgets, ImVec2 min, ImVec2 max, const Emphasis& emphasis);
-  /// The drawn point next to the place, if one is near.
-  const Point* near(const Widgets& widgets, ImVec2 place) const;
+  /// Returns the nearest drawn point within the pick radius, or nullptr.
+  const Point* hit_test(const Widgets& widgets, ImVec2 mouse) const;
 
-  /// The mark of a level: disc, square, triangle, triangle upside down.
+  /// Draws the mark of a level: disc, square, triangle, or triangle upside down.
   static void draw_mark(ImVec2 at, float radius, std::size_t level, ImU32 colour);
-  /// Round the mark of the settings in use.
+  /// Draws the series around the mark of the settings in use.
   static void draw_ring(const Widgets& w, ImVec2 at);
 
  private:
@@ -43,7 +42,7 @@ class SweepPlot {
     float decade(int exponent) const;
   };
 
-  void lay_out(const Widgets& widgets, ImVec2 min, ImVec2 max);
+  void place_points(const Widgets& widgets, ImVec2 min, ImVec2 max);
   void draw_axes(const Widgets& widgets) const;
   void draw_time_axis(const Widgets& widgets, float top) const;
   void draw_error_axis(const Widgets& widgets) const;
@@ -52,7 +51,7 @@ class SweepPlot {
   std::vector<Point> points_;
   std::vector<std::size_t> front_;  // indices of points_, ascending in time
   Axis time_{}, error_{};
-  float floor_ = 0;  // lower end of the band for points without error, which a logarithmic axis has no place for
+  float bottom_ = 0;  // lower end of the band of points without error, for which a logarithmic axis has no place
 };
 
-}  // namespace app
+}  // namespace app::ui

@@ -2,133 +2,138 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/base/text.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-constexpr float most_width = 720, most_height = 480, margin_width = 12;  // design pixels
-constexpr std::size_t most_reasons = 8;
+constexpr float max_width = 720, max_height = 480, margin_width = 12;  // design pixels
+constexpr std::size_t max_reasons = 8;
 
-bool was_run(const SweepRow& row) { return row.not_run.empty(); }
+bool was_run(const compare::SweepRow& row) { return row.not_run.empty(); }
 
-/// "Multi-Level SB, level 3, 1,001 buckets, cells x 0.5": without what the method has no use for.
-std::string in_words(const Configuration& c) {
+/// Returns "Multi-Level SB, level 3, 1,001 buckets, cells x 0.5", with only the settings that the method uses.
+std::string configuration_text(const compare::Configuration& c) {
   const collide::Method& method = collide::method_table()[c.method];
   std::string text(method.name);
-  if (method.uses_levels) text += format(", level %d", c.settings.levels);
-  if (method.uses_hash) text += joined(", ", grouped(c.settings.buckets), format(" buckets, cells x %g", c.cell));
+  if (method.uses_levels) text += fmt::format(", level {}", c.settings.levels);
+  if (method.uses_hash) text += fmt::format(", {} buckets, cells x {:g}", grouped(c.settings.buckets), c.cell);
   return text;
 }
 
-std::string tooltip(const SweepRow& row) {
-  std::string text = in_words(row.configuration);
+std::string point_tooltip(const compare::SweepRow& row) {
+  std::string text = configuration_text(row.configuration);
   const glm::vec3& cell = row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
-    text += format("\nCells of %.3g x %.3g x %.3g m", double{cell.x}, double{cell.y}, double{cell.z});
-    text += format(", %g of the automatic size", row.configuration.cell);
+    text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
+    text += fmt::format(", {:g} of the automatic size", row.configuration.cell);
   }
-  text += format("\n%.4g ms: median of %zu, least %.4g", row.times.median(), row.times.ms.size(), row.times.least());
-  text += format("\nRecall %.4f, precision %.4f; ", rounded_down(row.recall), rounded_down(row.precision));
-  text += joined(grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
-  text += joined("\n", grouped(row.counters.pair_tests), " pair tests, ", grouped(row.counters.hashes), " hashes");
-  text += joined("\nAbout ", grouped(row.memory / 1024), " KiB of memory");
-  const Light light = light_of(row.coverage);
-  text += joined("\n", light.name, ": ", light.sentence);
+  text +=
+      fmt::format("\n{:.4g} ms: median of {}, least {:.4g}", row.times.median(), row.times.ms.size(), row.times.min());
+  text += fmt::format("\nRecall {:.4f}, precision {:.4f}; ", rounded_down(row.recall), rounded_down(row.precision));
+  text += fmt::format("{}{}", grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
+  text += fmt::format("\n{} pair tests, {} hashes", grouped(row.counters.pair_tests), grouped(row.counters.hashes));
+  text += fmt::format("\nAbout {} KiB of memory", grouped(row.memory / 1024));
+  const StatusLight light = status_light(row.coverage);
+  text += fmt::format("\n{}: {}", light.name, light.sentence);
   return text + "\nClick: the bodies go on with this.";
 }
 
-/// What was not run, and why: the first few of many.
-std::string reasons(const SweepReport& report) {
+/// Lists what was not run and why, at most max_reasons of them.
+std::string not_run_text(const compare::SweepReport& report) {
   std::string text;
   std::size_t listed = 0, more = 0;
-  for (const SweepRow& row : report.rows) {
+  for (const compare::SweepRow& row : report.rows) {
     if (was_run(row)) continue;
-    if (listed == most_reasons) {
+    if (listed == max_reasons) {
       ++more;
       continue;
     }
-    text += joined(listed++ ? "\n" : "", in_words(row.configuration), ": ", row.not_run);
+    text += fmt::format("{}{}: {}", listed++ ? "\n" : "", configuration_text(row.configuration), row.not_run);
   }
-  if (more) text += joined("\nand ", grouped(more), " more.");
+  if (more) text += fmt::format("\nand {} more.", grouped(more));
   return text.empty() ? "All settings fit the budget." : text;
 }
 
-bool in_use(const SweepRow& row, const softbody::World& world) {
+bool in_use(const compare::SweepRow& row, const softbody::World& world) {
   const collide::Method& method = collide::method_table()[row.configuration.method];
   const collide::Settings &its = row.configuration.settings, &now = world.collision();
   if (method.key != world.method().key || (method.uses_levels && its.levels != now.levels)) return false;
   return !method.uses_hash || (its.buckets == now.buckets && its.cell_size == now.cell_size);
 }
 
-/// Only what the sweep varies; the rest stays as it is by now.
-void apply(const Configuration& c, Session& session) {
+/// Applies the settings that a sweep varies; the others keep their present values.
+void apply(const compare::Configuration& c, Session& session) {
   const collide::Method& method = collide::method_table()[c.method];
   collide::Settings settings = session.world().collision();
-  bool automatic = session.world().uses_default_cell_size();
+  bool automatic = session.world().scene().default_cell_size;
   if (method.uses_levels) settings.levels = c.settings.levels;
   if (method.uses_hash) {
     settings.buckets = c.settings.buckets;
     settings.cell_size = c.settings.cell_size;
     automatic = c.cell == 1;
   }
-  session.set_method(method.key);
-  session.set_collision(settings, automatic);
-  session.set_method(method.key);  // may have been refused before, with settings that would take it too long
+  session.settings.set_method(method.key);
+  session.settings.set_collision(settings, automatic);
+  session.settings.set_method(method.key);  // with the settings before, the method may have been refused as too slow
 }
 
-std::string counts(const SweepState& state) {
+std::string count_text(const session::SweepState& state) {
   const auto& rows = state.report.rows;
   if (rows.empty()) return {};
   const auto all = static_cast<std::size_t>(std::ranges::count_if(rows, was_run));
-  const auto checked = static_cast<std::size_t>(std::ranges::count(rows, true, &SweepRow::checked));
-  const auto timed =
-      static_cast<std::size_t>(std::ranges::count_if(rows, [](const SweepRow& row) { return !row.times.ms.empty(); }));
-  std::string text = joined(grouped(checked < all ? checked : timed), " of ", grouped(all));
+  const auto checked = static_cast<std::size_t>(std::ranges::count(rows, true, &compare::SweepRow::checked));
+  const auto timed = static_cast<std::size_t>(
+      std::ranges::count_if(rows, [](const compare::SweepRow& row) { return !row.times.ms.empty(); }));
+  std::string text = fmt::format("{} of {}", grouped(checked < all ? checked : timed), grouped(all));
   text += checked < all ? " checked" : state.progress < 1 ? " timed once" : " timed";
-  if (all < rows.size()) text += joined(", ", grouped(rows.size() - all), " not run");
+  if (all < rows.size()) text += fmt::format(", {} not run", grouped(rows.size() - all));
   return text;
 }
 
-std::string footing(const SweepState& state) {
+std::string footer(const session::SweepState& state) {
   if (state.scene.empty()) return "Nothing swept yet.";
-  std::string text = joined(state.scene, ", frame ", std::to_string(state.frame), ". ");
-  const SweepReport& report = state.report;
+  std::string text = fmt::format("{}, frame {}. ", state.scene, state.frame);
+  const compare::SweepReport& report = state.report;
   if (report.reference) {
-    text += joined(grouped(report.true_contacts), " true contacts by ",
-                   collide::method_table()[report.reference->method].name,
-                   report.stands_in.empty() ? "." : ", which stands in for brute force.");
-  } else if (!report.stands_in.empty()) {
-    text += joined("No true contacts: ", report.stands_in, ".");
+    text += fmt::format("{} true contacts by {}{}", grouped(report.true_contacts),
+                        collide::method_table()[report.reference->method].name,
+                        report.reference_note.empty() ? "." : ", which stands in for brute force.");
+  } else if (!report.reference_note.empty()) {
+    text += fmt::format("No true contacts: {}.", report.reference_note);
   }
   return text;
 }
 
-/// A sample and what it stands for, beside the entry before, or in a new line where there is no room left.
+/// Draws a sample and its meaning, beside the previous entry, or on a new line if there is no room.
 template <class Draw>
-void legend_entry(Widgets& w, const std::string& text, const char* tip, bool first, const Draw& draw_sample) {
+void draw_legend_entry(Widgets& w, const std::string& text, const char* tip, bool first, const Draw& draw_sample) {
   const float line = ImGui::GetTextLineHeight(), gap = w.px(14), inner = w.px(5);
   const float width = line + inner + ImGui::CalcTextSize(text.c_str()).x;
   const float end = ImGui::GetWindowPos().x + ImGui::GetWindowContentRegionMax().x;
   if (!first && ImGui::GetItemRectMax().x + gap + width <= end) ImGui::SameLine(0, gap);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImGui::Dummy({width, line});
-  w.done(joined("Legend ", text).c_str(), tip);
+  w.register_item(fmt::format("Legend {}", text).c_str(), tip);
   draw_sample(ImVec2(at.x + 0.5f * line, at.y + 0.5f * line));
   ImGui::GetWindowDrawList()->AddText({at.x + line + inner, at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
-void draw_progress(Widgets& w, const SweepState& state, float width) {
-  const std::string text = state.broken_off.empty() ? format("%.0f %%", 100 * state.progress) : state.broken_off;
+void draw_progress(Widgets& w, const session::SweepState& state, float width) {
+  const std::string text =
+      state.stop_reason.empty() ? fmt::format("{:.0f} %", 100 * state.progress) : state.stop_reason;
   ImVec4 colour = ImGui::GetStyleColorVec4(ImGuiCol_PlotHistogram);
-  colour.w = 0.35f;  // pale: the text stands on it
+  colour.w = 0.35f;  // faint, as it is the text's background
   ImGui::PushStyleColor(ImGuiCol_PlotHistogram, colour);
   ImGui::ProgressBar(static_cast<float>(state.progress), {width, 0}, text.c_str());
   ImGui::PopStyleColor();
-  w.done("Sweep progress", state.broken_off.empty()
-                               ? "First each setting is checked against the true contacts, then all are timed, up to "
-                                 "five times, in shuffled order."
-                               : state.broken_off.c_str());
+  w.register_item("Sweep progress",
+                  state.stop_reason.empty()
+                      ? "First each setting is checked against the true contacts, then all are timed, up to "
+                        "five times, in shuffled order."
+                      : state.stop_reason.c_str());
 }
 
 }  // namespace
@@ -158,29 +163,29 @@ void SweepView::draw_controls(Widgets& w, const Session& session) {
   draw_progress(w, state_, ImGui::GetContentRegionAvail().x - w.px(190));
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
-  w.line(counts(state_));
-  w.done("Sweep counts", reasons(state_.report).c_str());
+  w.text_line(count_text(state_));
+  w.register_item("Sweep counts", not_run_text(state_.report).c_str());
 }
 
 void SweepView::draw_legend(Widgets& w) {
-  looked_at_.reset();
+  hovered_method_.reset();
   for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
     const collide::Method& method = collide::method_table()[m];
-    legend_entry(w, std::string(method.name), "Its points alone.", m == 0,
-                 [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
-    if (ImGui::IsItemHovered()) looked_at_ = m;
+    draw_legend_entry(w, std::string(method.name), "Its points alone.", m == 0,
+                      [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
+    if (ImGui::IsItemHovered()) hovered_method_ = m;
   }
-  for (std::size_t level = 0; level < sweep_levels.size(); ++level) {
-    legend_entry(
-        w, format("level %d", sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
+  for (std::size_t level = 0; level < compare::sweep_levels.size(); ++level) {
+    draw_legend_entry(
+        w, fmt::format("level {}", compare::sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
         [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
   }
-  legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {
+  draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {
     const float half = w.px(7);
     ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
                                         w.px(1.5f));
   });
-  legend_entry(w, "in use", "What drives the bodies now.", false, [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
+  draw_legend_entry(w, "in use", "What drives the bodies now.", false, [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
 }
 
 void SweepView::draw_plot(Widgets& w, Session& session, float height) {
@@ -188,36 +193,37 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
   const ImVec2 size{ImGui::GetContentRegionAvail().x, height};
   const bool clicked = ImGui::InvisibleButton("##scatter", size);
   const bool hovered = ImGui::IsItemHovered();
-  w.done("Scatter", nullptr);
-  SweepPlot::Emphasis emphasis{.method = looked_at_, .row = {}};
+  w.register_item("Scatter", nullptr);
+  SweepPlot::Emphasis emphasis{.method = hovered_method_, .row = {}};
   for (const SweepPlot::Point& point : plot_.points()) {
     if (in_use(state_.report.rows[point.row], session.world())) emphasis.row = point.row;
   }
   plot_.draw(w, min, {min.x + size.x, min.y + size.y}, emphasis);
-  const SweepPlot::Point* under = hovered ? plot_.near(w, ImGui::GetIO().MousePos) : nullptr;
+  const SweepPlot::Point* under = hovered ? plot_.hit_test(w, ImGui::GetIO().MousePos) : nullptr;
   if (!under) return;
-  const SweepRow& row = state_.report.rows[under->row];
-  w.show_tooltip(tooltip(row).c_str());
+  const compare::SweepRow& row = state_.report.rows[under->row];
+  w.show_tooltip(point_tooltip(row).c_str());
   if (clicked) apply(row.configuration, session);
 }
 
-void SweepView::draw_footing(Widgets& w) const {
-  w.line(footing(state_));
-  const std::string& why = state_.report.stands_in;
-  w.done("Sweep footing", why.empty() ? "The frame that is swept, whatever the demo shows by now." : why.c_str());
+void SweepView::draw_footer(Widgets& w) const {
+  w.text_line(footer(state_));
+  const std::string& why = state_.report.reference_note;
+  w.register_item("Sweep footing",
+                  why.empty() ? "The frame that is swept, whatever the demo shows by now." : why.c_str());
 }
 
-void SweepView::draw(Widgets& w, Session& session, const SceneArea& area, bool& open) {
-  if (auto news = worker_.take()) {
-    state_ = std::move(*news);
+void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
+  if (auto state = worker_.take()) {
+    state_ = std::move(*state);
     plot_.set(state_.report);
   }
   const float margin = w.px(margin_width), room = area.max.y - area.min.y - 2 * margin;
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({std::min(w.px(most_width), area.max.x - area.min.x - 2 * margin),
-                            std::clamp(room, w.px(least_height - 2 * margin_width), w.px(most_height))});
-  ImGui::SetNextWindowBgAlpha(1.0f);  // points on coloured bodies would be hard to tell apart
-  // Folded it is a line at the scene's lower edge, and the scene is to be seen.
+  ImGui::SetNextWindowSize({std::min(w.px(max_width), area.max.x - area.min.x - 2 * margin),
+                            std::clamp(room, w.px(min_height - 2 * margin_width), w.px(max_height))});
+  ImGui::SetNextWindowBgAlpha(1.0f);  // the scene's colours would make the points hard to tell apart
+  // The user can collapse the window to its title bar, to see the scene.
   if (ImGui::Begin("Error against run time###Sweep view", &open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing)) {
@@ -226,9 +232,9 @@ void SweepView::draw(Widgets& w, Session& session, const SceneArea& area, bool& 
     draw_legend(w);
     const ImGuiStyle& style = ImGui::GetStyle();
     draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-    draw_footing(w);
+    draw_footer(w);
   }
   ImGui::End();
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,36 +1,37 @@
 #pragma once
-// The window "Error against run time": a sweep of every method over its settings on one frozen frame, as it goes on.
+// The window "Error against run time": a sweep of every method over its settings on one frozen frame, with its
+// progress.
 
+#include "app/session/live/sweep_worker.h"
 #include "app/session/session.h"
-#include "app/session/sweep_worker.h"
 #include "app/ui/status.h"
 #include "app/ui/sweep_plot.h"
 
-namespace app {
+namespace app::ui {
 
 class SweepView {
  public:
-  static constexpr float least_height = 364;  // of the area, in design pixels
+  static constexpr float min_height = 364;  // of the area, in design pixels
 
-  /// Draws the window in the lower left corner of the area; `open` becomes false when it is closed. A click on a point
-  /// makes its method and settings those of the session. A sweep goes on while the window is closed.
-  void draw(Widgets& widgets, Session& session, const SceneArea& area, bool& open);
+  /// Draws the window in the lower left corner of `area`. Its close button sets `open` to false; a sweep runs on while
+  /// the window is closed. A click on a point gives its method and settings to the session.
+  void draw(Widgets& widgets, Session& session, const ScreenRect& area, bool& open);
 
-  /// Tests aim by it, and wait for it.
+  // For tests.
   const SweepPlot& plot() const { return plot_; }
-  const SweepState& state() const { return state_; }
+  const session::SweepState& state() const { return state_; }
 
  private:
   void draw_button(Widgets& widgets, const Session& session);
   void draw_controls(Widgets& widgets, const Session& session);
   void draw_legend(Widgets& widgets);
   void draw_plot(Widgets& widgets, Session& session, float height);
-  void draw_footing(Widgets& widgets) const;
+  void draw_footer(Widgets& widgets) const;
 
-  SweepState state_;
+  session::SweepState state_;
   SweepPlot plot_;
-  std::optional<std::size_t> looked_at_;  // the method under the mouse in the legend
-  SweepWorker worker_;
+  std::optional<std::size_t> hovered_method_;  // under the mouse in the legend
+  session::SweepWorker worker_;
 };
 
-}  // namespace app
+}  // namespace app::ui

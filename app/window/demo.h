@@ -1,28 +1,27 @@
 #pragma once
-// The demo window: a world in motion, the panel beside it.
+// The demo window: a world in motion with the panel beside it.
 
 #include <filesystem>
 
 #include "softbody/integrators.h"
 #include "softbody/scene.h"
 
-namespace app {
+namespace app::window {
 
 struct DemoOptions {
   softbody::Scene scene;
   std::string scene_name;              // its key or file
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
-  std::vector<std::string> meshes;     // OBJ files that join the scene, as if dropped on the window
-  std::string integrator{softbody::default_integrator};
-  std::optional<int> substeps;  // as World::Options
+  std::vector<std::string> meshes;     // OBJ files that are imported as if dropped on the window
+  softbody::IntegratorChoice integrator;
   int threads = 1;
   int width = 1280, height = 720;  // of the window, screen coordinates
-  bool size_given = false;         // else it has the size that it had last
+  bool size_given = false;         // else the window has its last size
 };
 
-/// Runs until the window is closed; returns the exit code. Throws engine::Unavailable without a display,
-/// engine::ResourceError or engine::ShaderError if the program's files are not found or broken, softbody::SceneError if
+/// Runs until the window is closed; returns the exit code. Throws engine::ContextError without a display,
+/// engine::ResourceError or engine::ShaderError if the program's files are missing or broken, softbody::SceneError if
 /// the scene cannot be simulated.
 int run_demo(const DemoOptions& options);
 
-}  // namespace app
+}  // namespace app::window

@@ -1,30 +1,31 @@
 #include "app/window/overlay_request.h"
 
-namespace app {
+namespace app::window {
 
-bool whole_steps(const Session& session, const Overlays& shown) {
-  return shown.boxes || shown.cells || shown.areas || session.selected_bucket();
+bool shows_present_state(const Session& session, const render::Overlays& shown) {
+  return shown.boxes || shown.cells || shown.areas || session.inspector.selected_bucket();
 }
 
-OverlayRequest overlay_request(const Session& session, const UiState& ui) {
-  OverlayRequest request;
+render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui) {
+  render::OverlayRequest request;
   request.shown = ui.overlays;
-  request.bucket = session.bucket();
-  request.bucket_cell = session.selected_cell();
-  request.selected_body = session.selected_body();
+  request.bucket = session.inspector.bucket();
+  request.bucket_cell = session.inspector.selected_cell();
+  request.selected_body = session.bodies.selected();
   const bool needs_debug = request.shown.boxes || request.shown.cells || request.bucket;
-  if (needs_debug) request.debug = &session.debug();
-  if (request.shown.areas) request.areas = session.areas();
-  request.missed = session.missed();
-  if (request.shown.touches) request.touches = session.touches();
-  request.marks = session.surfaces().report().marks;
-  request.spotlight = ui.tour.spotlight();
-  const Ghost* ghost = ui.tour.open() ? nullptr : session.ghost();
+  if (needs_debug) request.debug = &session.inspector.shown_geometry();
+  if (request.shown.areas) request.areas = session.inspector.search_areas();
+  request.missed = session.comparison.missed();
+  if (request.shown.touches) request.touches = session.inspector.surface_contacts();
+  request.marks = session.surfaces.report().marks;
+  request.highlight = ui.tour.highlight();
+  const session::Ghost* ghost = ui.tour.open() ? nullptr : session.ghost().get();
   if (ghost && !ghost->blown_up()) {
     request.ghost = &ghost->world();
-    request.ghost_positions = ghost->drawn_positions(whole_steps(session, ui.overlays) ? 1.0f : session.between());
+    request.ghost_positions =
+        ghost->drawn_positions(shows_present_state(session, ui.overlays) ? 1.0f : session.simulation.between());
   }
   return request;
 }
 
-}  // namespace app
+}  // namespace app::window

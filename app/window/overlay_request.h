@@ -1,16 +1,17 @@
 #pragma once
-// What the demo shows over the bodies.
+// What the demo asks the scene view to draw over the bodies.
 
 #include "app/render/scene_view.h"
 #include "app/session/session.h"
 #include "app/ui/ui_state.h"
 
-namespace app {
+namespace app::window {
 
-/// Boxes, cells and the like are of the present state: then so are the bodies.
-bool whole_steps(const Session& session, const Overlays& shown);
+/// True if boxes, cells, areas or a bucket are shown. These belong to the present state, so the bodies must be drawn in
+/// it too, not between two steps.
+bool shows_present_state(const Session& session, const render::Overlays& shown);
 
-/// Of what is chosen now; good until the next step.
-OverlayRequest overlay_request(const Session& session, const UiState& ui);
+/// Returns the request for what is switched on and selected now. It is valid until the next step.
+render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui);
 
-}  // namespace app
+}  // namespace app::window

@@ -7,31 +7,32 @@
 #include "softbody/toml_table.h"
 #include "softbody/toml_text.h"
 
-namespace app {
+namespace app::window {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int least_side = 240, most_side = 16384;  // of the window
+constexpr int min_side = 240, max_side = 16384;  // of the window
 
 struct Flag {
   const char* key;
   bool Preferences::*value;
 };
-constexpr std::array flags{Flag{"panel", &Preferences::panel},       //
-                           Flag{"hash_table", &Preferences::table},  //
-                           Flag{"error_time", &Preferences::sweep},  //
-                           Flag{"compare", &Preferences::compare},   //
+constexpr std::array flags{Flag{"panel", &Preferences::panel},            //
+                           Flag{"hash_table", &Preferences::hash_table},  //
+                           Flag{"error_time", &Preferences::sweep},       //
+                           Flag{"compare", &Preferences::compare},        //
                            Flag{"picture_with_panel", &Preferences::picture_with_panel}};
 
-/// Keys of other versions of the program are passed over.
+/// Ignores the keys of other versions of the program.
 Preferences read(softbody::Table root) {
   Preferences p;
-  p.size.x = root.integer("width", p.size.x, least_side, most_side);
-  p.size.y = root.integer("height", p.size.y, least_side, most_side);
-  p.slow_factor = root.number("slow_motion", p.slow_factor, Session::slowest, Session::fastest);
+  p.size.x = root.integer("width", p.size.x, min_side, max_side);
+  p.size.y = root.integer("height", p.size.y, min_side, max_side);
+  p.slow_factor = root.number("slow_motion", p.slow_factor, session::SimulationClock::min_slow_factor,
+                              session::SimulationClock::max_slow_factor);
   for (const auto& [key, value] : flags) p.*value = root.boolean(key, p.*value);
   softbody::Table shown = root.child("show");
-  for (const OverlayRow& row : overlay_table) {
+  for (const render::OverlayRow& row : render::overlay_table) {
     bool& on = p.overlays.*row.shown;
     on = shown.boolean(std::string(row.key), on);
   }
@@ -45,12 +46,12 @@ std::string text_of(const Preferences& p) {
   out.add("width", p.size.x).add("height", p.size.y).add("slow_motion", p.slow_factor);
   for (const auto& [key, value] : flags) out.add(key, p.*value);
   out.heading("[show]");
-  for (const OverlayRow& row : overlay_table) out.add(row.key, p.overlays.*row.shown);
+  for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.overlays.*row.shown);
   for (const auto& [name, open] : p.sections) out.heading("[[section]]").add("name", name).add("open", open);
   return out.text();
 }
 
-/// An absolute path from the environment; others are to be ignored, says the XDG specification.
+/// Returns an absolute path from the environment. The XDG specification asks to ignore relative ones.
 fs::path folder_in(const char* variable) {
   const char* value = std::getenv(variable);
   const fs::path folder = value ? value : "";
@@ -59,26 +60,26 @@ fs::path folder_in(const char* variable) {
 
 }  // namespace
 
-Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2 size) {
+Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size) {
   return {.size = size,
-          .overlays = ui.tour.kept_overlays().value_or(ui.overlays),
+          .overlays = ui.tour.saved_overlays().value_or(ui.overlays),
           .panel = ui.panel,
-          .table = ui.table,
+          .hash_table = ui.hash_table,
           .sweep = ui.sweep,
-          .compare = session.compare.on,
-          .picture_with_panel = ui.take_away.with_panel,
-          .slow_factor = session.slow_factor,
+          .compare = session.comparison.choice.on,
+          .picture_with_panel = ui.exporter.with_panel,
+          .slow_factor = session.simulation.clock.slow_factor,
           .sections = ui.sections};
 }
 
-void apply(const Preferences& p, Session& session, UiState& ui) {
+void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   ui.overlays = p.overlays;
-  session.compare.on = p.compare;
-  session.slow_factor = p.slow_factor;
+  session.comparison.choice.on = p.compare;
+  session.simulation.clock.slow_factor = p.slow_factor;
   ui.panel = p.panel;
-  ui.table = p.table;
+  ui.hash_table = p.hash_table;
   ui.sweep = p.sweep;
-  ui.take_away.with_panel = p.picture_with_panel;
+  ui.exporter.with_panel = p.picture_with_panel;
   ui.sections = p.sections;
 }
 
@@ -97,32 +98,32 @@ PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
   if (!file_.empty() && fs::exists(file_, error)) {
     try {
       const toml::table table = softbody::read_toml(file_);
-      kept_ = read(softbody::Table(table, file_.string(), ""));
+      stored_ = read(softbody::Table(table, file_.string(), ""));
     } catch (const std::exception& broken) {
       problem_ = std::string(broken.what()) + "; these preferences are ignored";
     }
   }
-  next_ = kept_;
+  pending_ = stored_;
 }
 
-void PreferencesFile::keep(const Preferences& now, double seconds, bool last) {
+void PreferencesFile::store(const Preferences& now, double seconds, bool last) {
   if (file_.empty()) return;
-  if (!(now == next_)) {
-    next_ = now;
-    changed_ = seconds;
+  if (!(now == pending_)) {
+    pending_ = now;
+    pending_since_ = seconds;
   }
-  if (next_ == kept_ || (!last && seconds - changed_ < settled)) return;
-  kept_ = next_;  // also if it fails: a problem is told once a change, not once a frame
+  if (pending_ == stored_ || (!last && seconds - pending_since_ < settling)) return;
+  stored_ = pending_;  // also if writing fails: the problem is reported once per change, not once per frame
   write();
 }
 
 void PreferencesFile::write() {
   try {
     fs::create_directories(file_.parent_path());
-    write_file(file_, text_of(kept_));
+    files::write_file(file_, text_of(stored_));
   } catch (const std::exception& error) {
     problem_ = "preferences cannot be kept: " + std::string(error.what());
   }
 }
 
-}  // namespace app
+}  // namespace app::window

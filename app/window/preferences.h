@@ -1,5 +1,5 @@
 #pragma once
-// What the demo remembers from one start to the next, in the platform's folder for such files.
+// What the demo remembers from one start to the next, in the platform's folder for preferences.
 
 #include <filesystem>
 #include <map>
@@ -10,12 +10,12 @@
 #include "app/session/session.h"
 #include "app/ui/ui_state.h"
 
-namespace app {
+namespace app::window {
 
 struct Preferences {
   glm::ivec2 size{1280, 720};  // of the window, as WindowOptions::size
-  Overlays overlays;
-  bool panel = true, table = true, sweep = false, compare = false;
+  render::Overlays overlays;
+  bool panel = true, hash_table = true, sweep = false, compare = false;
   bool picture_with_panel = false;
   double slow_factor = 0.1;
   std::map<std::string, bool> sections;  // of the panel: whether they are open
@@ -23,33 +23,35 @@ struct Preferences {
   bool operator==(const Preferences&) const = default;
 };
 
-Preferences preferences_of(const Session& session, const UiState& ui, glm::ivec2 size);
-void apply(const Preferences& preferences, Session& session, UiState& ui);  // all but the size
+Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size);
+/// Applies everything except the window's size.
+void apply(const Preferences& preferences, Session& session, ui::UiState& ui);
 
-/// $XDG_CONFIG_HOME/sbcollide/preferences.toml, or the same in ~/.config; empty if there is no such place.
+/// Returns $XDG_CONFIG_HOME/sbcollide/preferences.toml, or the same in ~/.config; empty if neither folder is known.
 std::filesystem::path preferences_path();
 
 class PreferencesFile {
  public:
-  /// Reads them; what is missing has its default. A file that is broken counts as empty, and problem() says so.
+  /// Reads the file. Missing values get their defaults. A broken file counts as empty, and take_problem() says so.
   explicit PreferencesFile(std::filesystem::path file);
 
-  const Preferences& kept() const { return kept_; }
-  /// Writes them if they are others than before and have stayed the same for some seconds, or if it is the last time.
-  /// `seconds`: a clock's. Never throws: problem() says what is wrong, and the file stays as it was.
-  void keep(const Preferences& now, double seconds, bool last = false);
-  /// Empty, or one line for the user, once.
+  const Preferences& stored() const { return stored_; }
+  /// Writes the preferences if they differ from the stored ones and have not changed for some seconds, or if this is
+  /// the last call (`last`). `seconds`: a clock's time. Never throws: on failure the file stays as it was, and
+  /// take_problem() says why.
+  void store(const Preferences& now, double seconds, bool last = false);
+  /// Returns one line for the user, once; empty if there is no problem.
   std::string take_problem() { return std::exchange(problem_, {}); }
 
  private:
   void write();
 
-  static constexpr double settled = 2;  // s
+  static constexpr double settling = 2;  // s
 
   std::filesystem::path file_;
-  Preferences kept_, next_;
-  double changed_ = 0;  // when next_ became what it is
+  Preferences stored_, pending_;
+  double pending_since_ = 0;  // s
   std::string problem_;
 };
 
-}  // namespace app
+}  // namespace app::window

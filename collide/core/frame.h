@@ -1,7 +1,9 @@
 #pragma once
 // The input of a detector: positions, as three spans of floats, and the bodies that own them.
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -65,6 +67,11 @@ struct Bodies {
   Index count() const { return static_cast<Index>(shape.size()); }
   Index vertex_count() const { return first.back(); }
   Index size(Index body) const { return first[body + 1] - first[body]; }
+  /// Returns the body that owns a vertex. Precondition: vertex < vertex_count().
+  Index body_of(Index vertex) const {
+    assert(vertex < vertex_count());
+    return static_cast<Index>(std::upper_bound(first.begin(), first.end(), vertex) - first.begin()) - 1;
+  }
   void add(std::shared_ptr<const Shape> mesh) {
     first.push_back(first.back() + mesh->vertex_count());
     shape.push_back(std::move(mesh));

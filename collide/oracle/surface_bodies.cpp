@@ -1,17 +1,9 @@
 #include "collide/oracle/surface_bodies.h"
 
-#include <algorithm>
-#include <cassert>
 #include <cmath>
 #include <stdexcept>
 
 namespace collide::oracle {
-
-Index body_of(const Bodies& bodies, Index vertex) {
-  assert(vertex < bodies.vertex_count());
-  return static_cast<Index>(std::upper_bound(bodies.first.begin(), bodies.first.end(), vertex) - bodies.first.begin()) -
-         1;
-}
 
 void require_match(const Frame& frame, const surface::Surfaces& surfaces) {
   const Bodies& bodies = *frame.bodies;

@@ -22,7 +22,7 @@ class ContactLookup {
  public:
   ContactLookup(std::span<const Contact> contacts, const Bodies& bodies) : contacts_(contacts) {
     for (const Contact& contact : contacts) {
-      const Index a = body_of(bodies, contact.a), b = body_of(bodies, contact.b);
+      const Index a = bodies.body_of(contact.a), b = bodies.body_of(contact.b);
       bodies_.push_back({a, b});  // a <= b, since the vertices ascend
       vertex_and_body_.push_back({contact.a, b});
       vertex_and_body_.push_back({contact.b, a});
@@ -51,7 +51,7 @@ class ContactLookup {
 std::vector<OverlappingPair> overlapping_pairs(const Frame& frame, const Overlaps& overlaps) {
   std::vector<OverlappingPair> pairs;
   for (const Penetration& in : overlaps.penetrations)
-    pairs.push_back(pair_of(body_of(*frame.bodies, in.vertex), in.body));
+    pairs.push_back(pair_of(frame.bodies->body_of(in.vertex), in.body));
   for (const Piercing& through : overlaps.piercings) pairs.push_back(pair_of(through.edge_body, through.triangle_body));
   sort_unique(pairs);
   return pairs;

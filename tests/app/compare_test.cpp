@@ -6,7 +6,7 @@
 #include <chrono>
 #include <set>
 
-#include "app/session/compare_worker.h"
+#include "app/session/live/live_comparison.h"
 #include "softbody/world.h"
 #include "tests/app/scenes.h"
 
@@ -17,19 +17,19 @@ using namespace std::chrono_literals;
 
 constexpr std::uint32_t seed = 7;
 
-Snapshot snapshot_of(const softbody::World& world) {
-  Snapshot snapshot;
+compare::FrameSnapshot snapshot_of(const softbody::World& world) {
+  compare::FrameSnapshot snapshot;
   snapshot.id = snapshot.world = 1;
   snapshot.at.copy(world.positions());
   snapshot.bodies = world.bodies();
   snapshot.settings = world.collision();
-  snapshot.driver = method_index(world.method().key);
+  snapshot.driver = compare::method_index(world.method().key);
   snapshot.found = world.detection();
   snapshot.chosen.assign(collide::method_table().size(), true);
   return snapshot;
 }
 
-/// The true contacts, counted here once more and on their own.
+/// Returns the true contacts, by an independent double loop.
 std::vector<collide::Contact> true_contacts(const softbody::World& world) {
   const collide::Frame f = world.positions();
   const float tolerance2 = world.collision().tolerance * world.collision().tolerance;
@@ -50,13 +50,13 @@ softbody::World world_with(std::string_view method, float cell) {
   softbody::World world(touching_pair(), {});
   collide::Settings settings = world.collision();
   settings.cell_size = glm::vec3(cell);
-  settings.buckets = 1'000'003;  // practically no aliasing, which would hide misses
+  settings.buckets = 1'000'003;  // almost no aliasing, which would hide missed contacts
   world.set_method(method);
   world.set_collision(settings, false);
   return world;
 }
 
-/// Three bodies: brute force takes 117,855 pair tests, and every other method less than the budget.
+// With three bodies brute force takes 117,855 pair tests; all other methods stay within the budget.
 constexpr std::uint64_t tight_budget = 110'000;
 softbody::World three_bodies(std::string_view method) {
   softbody::World world = world_with(method, 2.0f);
@@ -65,18 +65,20 @@ softbody::World three_bodies(std::string_view method) {
   return world;
 }
 
-const CompareRow& row(const CompareReport& report, std::string_view key) { return report.rows[method_index(key)]; }
+const compare::CompareRow& row(const compare::CompareReport& report, std::string_view key) {
+  return report.rows[compare::method_index(key)];
+}
 
-TEST(Comparison, RowsAreWhatTheDetectorsFindThemselves) {
+TEST(Comparison, ReportsWhatTheDetectorsFind) {
   const softbody::World world = world_with("multi-level-sb", 0.13f);
-  const CompareReport report = Comparison(seed).run(snapshot_of(world));
+  const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world));
   EXPECT_EQ(report.id, 1u);
   ASSERT_EQ(report.rows.size(), collide::method_table().size());
   for (const collide::Method& method : collide::method_table()) {
     collide::Workers alone(1);
     collide::Result expected;
     method.make()->detect(world.positions(), world.collision(), alone, expected);
-    const CompareRow& measured = row(report, method.key);
+    const compare::CompareRow& measured = row(report, method.key);
     ASSERT_TRUE(measured.scored) << method.key;
     EXPECT_EQ(measured.contacts, expected.contacts.size()) << method.key;
     EXPECT_EQ(measured.counters.pair_tests, expected.counters.pair_tests) << method.key;
@@ -87,7 +89,7 @@ TEST(Comparison, RowsAreWhatTheDetectorsFindThemselves) {
   }
 }
 
-TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
+TEST(Comparison, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
   const softbody::World world = world_with("grid-hash", 0.13f);
   const auto truth = true_contacts(world);
   ASSERT_FALSE(truth.empty());
@@ -95,9 +97,9 @@ TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
   const softbody::World literal = world_with("multi-level-sb", 0.13f);
   std::ranges::set_intersection(truth, literal.detection().contacts, std::back_inserter(hit));
   std::ranges::set_difference(truth, hit, std::back_inserter(missed));
-  const CompareReport report = Comparison(seed).run(snapshot_of(world));
+  const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world));
   EXPECT_EQ(report.true_contacts, truth.size());
-  const CompareRow& measured = row(report, "multi-level-sb");
+  const compare::CompareRow& measured = row(report, "multi-level-sb");
   EXPECT_LT(measured.recall, 1.0);
   EXPECT_EQ(measured.recall, static_cast<double>(hit.size()) / static_cast<double>(truth.size()));
   EXPECT_EQ(measured.precision, 1.0);
@@ -105,9 +107,9 @@ TEST(Comparison, CountsWhatTheLiteralMethodMissesWithTooSmallCells) {
   EXPECT_EQ(measured.coverage, collide::Coverage::exceeded);
 }
 
-TEST(Comparison, FindsNothingMissingInExactMethods) {
+TEST(Comparison, FindsNoMissedContactsOfExactMethods) {
   for (const float cell : {0.05f, 0.13f, 0.7f}) {
-    const CompareReport report = Comparison(seed).run(snapshot_of(world_with("brute-force", cell)));
+    const compare::CompareReport report = compare::Comparison(seed).run(snapshot_of(world_with("brute-force", cell)));
     for (const collide::Method& method : collide::method_table()) {
       if (!method.exact) continue;
       EXPECT_EQ(row(report, method.key).recall, 1.0) << method.key;
@@ -117,91 +119,91 @@ TEST(Comparison, FindsNothingMissingInExactMethods) {
   }
 }
 
-TEST(Comparison, ScoresTheDriverByWhatItReallyFound) {
-  Snapshot snapshot = snapshot_of(world_with("grid-hash", 0.5f));
+TEST(Comparison, ScoresTheDriverByItsOwnResult) {
+  compare::FrameSnapshot snapshot = snapshot_of(world_with("grid-hash", 0.5f));
   snapshot.chosen.clear();
   const std::size_t all = snapshot.found.contacts.size();
   snapshot.found.contacts.erase(snapshot.found.contacts.begin());
   snapshot.found.contacts.push_back({100'000, 100'001});
-  const CompareReport report = Comparison(seed).run(snapshot);
-  const CompareRow& driver = row(report, "grid-hash");
+  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
+  const compare::CompareRow& driver = row(report, "grid-hash");
   EXPECT_EQ(driver.missed.size(), 1u);
   EXPECT_EQ(driver.recall, static_cast<double>(all - 1) / static_cast<double>(all));
   EXPECT_EQ(driver.precision, driver.recall);
   EXPECT_FALSE(driver.ms);
-  EXPECT_FALSE(row(report, "bounding-box").scored);  // nothing else was asked for
+  EXPECT_FALSE(row(report, "bounding-box").scored);  // no other method was chosen
   EXPECT_TRUE(report.order.empty());
 }
 
-TEST(Comparison, CountsTheDriverFromScratchAsItTimesIt) {
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
+TEST(Comparison, CountsTheDriversWorkFromScratch) {
+  compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
   snapshot.found.counters = {};  // of a frame in which all bodies rested
-  const CompareReport report = Comparison(seed).run(snapshot);
+  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
   EXPECT_GT(row(report, "multi-level-sb-exact").counters.pair_tests, 0u);
 }
 
-TEST(Comparison, WithoutContactsRecallAndPrecisionAreOne) {
-  Snapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
+TEST(Comparison, HasRecallAndPrecisionOneWithoutContacts) {
+  compare::FrameSnapshot snapshot = snapshot_of(world_with("brute-force", 0.5f));
   snapshot.settings.tolerance = 1e-6f;
   snapshot.found = {};
-  for (const CompareRow& each : Comparison(seed).run(snapshot).rows) {
+  for (const compare::CompareRow& each : compare::Comparison(seed).run(snapshot).rows) {
     EXPECT_EQ(each.recall, 1.0);
     EXPECT_EQ(each.precision, 1.0);
   }
 }
 
-TEST(Comparison, RunsOnlyWhatIsChosen) {
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
+TEST(Comparison, RunsOnlyChosenMethods) {
+  compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.5f));
   snapshot.chosen.assign(collide::method_table().size(), false);
-  snapshot.chosen[method_index("bounding-box")] = true;
-  const CompareReport report = Comparison(seed).run(snapshot);
-  EXPECT_EQ(report.order, std::vector{method_index("bounding-box")});
+  snapshot.chosen[compare::method_index("bounding-box")] = true;
+  const compare::CompareReport report = compare::Comparison(seed).run(snapshot);
+  EXPECT_EQ(report.order, std::vector{compare::method_index("bounding-box")});
   for (const collide::Method& method : collide::method_table()) {
     EXPECT_EQ(row(report, method.key).ms.has_value(), method.key == "bounding-box") << method.key;
   }
 }
 
-TEST(Comparison, ShufflesAnewEveryTimeAndAlikeForOneSeed) {
-  const Snapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
-  Comparison one(seed), same(seed);
+TEST(Comparison, ShufflesEachRunAndRepeatsForTheSameSeed) {
+  const compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb-exact", 0.5f));
+  compare::Comparison one(seed), same(seed);
   std::set<std::vector<std::size_t>> orders;
   for (int i = 0; i < 12; ++i) {
     const auto order = one.run(snapshot).order;
     EXPECT_EQ(order, same.run(snapshot).order);
     EXPECT_EQ(order.size(), collide::method_table().size() - 1);
-    EXPECT_EQ(std::ranges::count(order, method_index("brute-force")), 0);
+    EXPECT_EQ(std::ranges::count(order, compare::method_index("brute-force")), 0);
     orders.insert(order);
   }
   EXPECT_GT(orders.size(), 6u);
 }
 
-TEST(Comparison, RefusesWhatExceedsTheBudgetAndSaysSo) {
-  const Snapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
-  const CompareReport report = Comparison(seed, tight_budget).run(snapshot);
+TEST(Comparison, ReportsMethodsThatExceedTheBudget) {
+  const compare::FrameSnapshot snapshot = snapshot_of(three_bodies("multi-level-sb-exact"));
+  const compare::CompareReport report = compare::Comparison(seed, tight_budget).run(snapshot);
   EXPECT_EQ(row(report, "brute-force").not_run, "not run: 117,855 pair tests predicted");
   EXPECT_FALSE(row(report, "brute-force").scored);
   EXPECT_TRUE(row(report, "multi-level-sb-exact").scored);  // the driver has run anyway
-  const CompareReport none = Comparison(seed, 10).run(snapshot);
+  const compare::CompareReport none = compare::Comparison(seed, 10).run(snapshot);
   EXPECT_TRUE(none.order.empty());
   EXPECT_FALSE(none.reference);
-  EXPECT_EQ(none.stands_in, "brute force would take 117,855 pair tests");
+  EXPECT_EQ(none.reference_note, "brute force would take 117,855 pair tests");
 }
 
-TEST(Comparison, LetsAnIndependentExactMethodStandInForBruteForce) {
+TEST(Comparison, UsesAnIndependentExactReferenceIfBruteForceIsTooSlow) {
   for (const collide::Method& driver : collide::method_table()) {
     if (driver.key == "brute-force") continue;
     const softbody::World world = three_bodies(driver.key);
-    const CompareReport report = Comparison(seed, tight_budget).run(snapshot_of(world));
+    const compare::CompareReport report = compare::Comparison(seed, tight_budget).run(snapshot_of(world));
     ASSERT_TRUE(report.reference) << driver.key;
     const collide::Method& reference = collide::method_table()[*report.reference];
     EXPECT_EQ(reference.key, driver.uses_levels ? "grid-hash" : "multi-level-sb-exact") << driver.key;
     EXPECT_EQ(report.true_contacts, true_contacts(world).size());
-    EXPECT_EQ(report.stands_in, "brute force would take 117,855 pair tests");
+    EXPECT_EQ(report.reference_note, "brute force would take 117,855 pair tests");
   }
 }
 
-/// Waits for a report, as the demo never does.
-std::optional<CompareReport> wait_for_report(CompareWorker& worker) {
+/// Waits for a report, which the demo never does.
+std::optional<compare::CompareReport> wait_for_report(session::CompareWorker& worker) {
   for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
     if (auto report = worker.take()) return report;
     std::this_thread::sleep_for(1ms);
@@ -209,12 +211,12 @@ std::optional<CompareReport> wait_for_report(CompareWorker& worker) {
   return std::nullopt;
 }
 
-TEST(CompareWorker, ReportsOnWhatItWasGiven) {
-  CompareWorker worker;
+TEST(CompareWorker, ReportsOnTheOfferedSnapshot) {
+  session::CompareWorker worker;
   EXPECT_TRUE(worker.ready());
-  Snapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
+  compare::FrameSnapshot snapshot = snapshot_of(world_with("multi-level-sb", 0.13f));
   snapshot.id = 42;
-  const CompareReport expected = Comparison(seed).run(snapshot);
+  const compare::CompareReport expected = compare::Comparison(seed).run(snapshot);
   worker.offer(snapshot);
   const auto report = wait_for_report(worker);
   ASSERT_TRUE(report);
@@ -224,9 +226,9 @@ TEST(CompareWorker, ReportsOnWhatItWasGiven) {
   EXPECT_FALSE(worker.take());
 }
 
-TEST(CompareWorker, MayBeDestroyedWhileItWorks) {
+TEST(CompareWorker, CanBeDestroyedWhileItWorks) {
   for (int i = 0; i < 20; ++i) {
-    CompareWorker worker;
+    session::CompareWorker worker;
     worker.offer(snapshot_of(world_with("brute-force", 0.5f)));
   }
 }

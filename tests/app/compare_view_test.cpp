@@ -1,6 +1,4 @@
 #include <algorithm>
-#include <chrono>
-#include <thread>
 
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
@@ -10,39 +8,37 @@
 namespace app {
 namespace {
 
-using namespace std::chrono_literals;
-
-/// Draws until a report meets the condition; the worker takes its time.
+/// Runs frames until the rows of a report meet the condition.
 template <class Condition>
 bool wait_until(PanelRig& rig, const Condition& condition) {
-  for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
-    rig.frame();
-    const CompareReport& report = rig.session.comparison();
-    if (!report.rows.empty() && condition(report.rows)) return true;
-  }
-  return false;
+  return rig.frames_until([&] {
+    const compare::CompareReport& report = rig.session.comparison.report();
+    return !report.rows.empty() && condition(report.rows);
+  });
 }
 
-bool all_timed(const std::vector<CompareRow>& rows) {
-  return std::ranges::count(rows, true, [](const CompareRow& row) { return row.ms.has_value(); }) == 5;
+bool all_timed(const std::vector<compare::CompareRow>& rows) {
+  return std::ranges::count(rows, true, [](const compare::CompareRow& row) { return row.ms.has_value(); }) == 5;
 }
 
 TEST(CompareView, IsOffAtFirstAndSwitchedByPanelAndKey) {
   PanelRig rig;
-  EXPECT_FALSE(rig.session.compare.on);
+  EXPECT_FALSE(rig.session.comparison.choice.on);
   EXPECT_EQ(rig.recorder.find("Drive Grid Hash"), nullptr);
-  ASSERT_TRUE(wait_until(rig, [](const auto& rows) { return std::ranges::any_of(rows, &CompareRow::scored); }));
-  EXPECT_EQ(std::ranges::count(rig.session.comparison().rows, true, &CompareRow::scored), 2);  // driver and reference
+  ASSERT_TRUE(
+      wait_until(rig, [](const auto& rows) { return std::ranges::any_of(rows, &compare::CompareRow::scored); }));
+  EXPECT_EQ(std::ranges::count(rig.session.comparison.report().rows, true, &compare::CompareRow::scored),
+            2);  // driver and reference
   rig.click("Compare methods");
-  EXPECT_TRUE(rig.session.compare.on);
+  EXPECT_TRUE(rig.session.comparison.choice.on);
   EXPECT_NE(rig.recorder.find("Drive Grid Hash"), nullptr);
-  press(GLFW_KEY_V, false, rig.session, rig.ui);
-  EXPECT_FALSE(rig.session.compare.on);
+  ui::handle_key(GLFW_KEY_V, false, rig.session, rig.ui);
+  EXPECT_FALSE(rig.session.comparison.choice.on);
 }
 
-TEST(CompareView, AClickOnANameMakesItTheDriver) {
+TEST(CompareView, MakesTheClickedMethodTheDriver) {
   PanelRig rig;
-  rig.session.compare.on = true;
+  rig.session.comparison.choice.on = true;
   rig.frames(3);
   for (const collide::Method& method : collide::method_table()) {
     rig.click("Drive " + std::string(method.name));
@@ -50,55 +46,48 @@ TEST(CompareView, AClickOnANameMakesItTheDriver) {
   }
 }
 
-TEST(CompareView, ChoosesWhatRuns) {
+TEST(CompareView, RunsOnlyTheChosenMethods) {
   PanelRig rig;
-  rig.session.compare.on = true;
+  rig.session.comparison.choice.on = true;
   ASSERT_TRUE(wait_until(rig, all_timed));
-  EXPECT_EQ(rig.recorder.find("Run Brute force"), nullptr);  // the reference is not a matter of choice
+  EXPECT_EQ(rig.recorder.find("Run Brute force"), nullptr);  // the reference always runs
   rig.click("Run Bounding Box");
-  const std::size_t method = method_index("bounding-box");
+  const std::size_t method = compare::method_index("bounding-box");
   ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return !rows[method].ms; }));
-  EXPECT_FALSE(rig.session.comparison().rows[method].scored);
-  EXPECT_EQ(rig.session.history().method_ms[method].size(), 0u);
+  EXPECT_FALSE(rig.session.comparison.report().rows[method].scored);
+  EXPECT_EQ(rig.session.comparison.method_ms()[method].size(), 0u);
   rig.click("Run Bounding Box");
   EXPECT_TRUE(wait_until(rig, all_timed));
 }
 
-TEST(CompareView, ShowsWhatAnyMethodMisses) {
+TEST(CompareView, ShowsWhatTheChosenMethodMisses) {
   PanelRig rig;
-  rig.session.paused = true;
+  rig.session.simulation.clock.paused = true;
   collide::Settings settings = rig.session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
-  rig.session.set_collision(settings, false);
-  rig.session.compare.on = true;
-  const std::size_t literal = method_index("multi-level-sb");
+  rig.session.settings.set_collision(settings, false);
+  rig.session.comparison.choice.on = true;
+  const std::size_t literal = compare::method_index("multi-level-sb");
   ASSERT_TRUE(wait_until(rig, [&](const auto& rows) { return rows[literal].scored && rows[literal].recall < 1; }));
-  ASSERT_NE(rig.session.missed(), nullptr);
-  EXPECT_TRUE(rig.session.missed()->empty());  // the driver is exact
+  ASSERT_NE(rig.session.comparison.missed(), nullptr);
+  EXPECT_TRUE(rig.session.comparison.missed()->empty());  // the driver is exact
   rig.click("Misses of Multi-Level SB");
   EXPECT_TRUE(rig.ui.overlays.missed);
-  EXPECT_FALSE(rig.session.missed()->empty());
-  rig.session.compare.on = false;
-  EXPECT_TRUE(rig.session.missed()->empty());
+  EXPECT_FALSE(rig.session.comparison.missed()->empty());
+  rig.session.comparison.choice.on = false;
+  EXPECT_TRUE(rig.session.comparison.missed()->empty());
 }
 
-TEST(CompareView, NothingMovesWhileItMeasures) {
+TEST(CompareView, KeepsEverythingInPlaceWhileItMeasures) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
-    rig.session.compare.on = true;
+    rig.session.comparison.choice.on = true;
     rig.frames(3);
     const auto before = rig.recorder.widgets;
     ASSERT_TRUE(wait_until(rig, all_timed));
     rig.frames(2);
-    for (const Recorder::Widget& was : before) {
-      const Recorder::Widget is = rig.widget(was.label);
-      if (was.label == "Coverage") continue;  // a sentence of its own length
-      EXPECT_EQ(is.min.x, was.min.x) << was.label;
-      EXPECT_EQ(is.min.y, was.min.y) << was.label;
-      EXPECT_EQ(is.max.x, was.max.x) << was.label;
-      EXPECT_EQ(is.max.y, was.max.y) << was.label;
-    }
+    rig.expect_in_place(before, "Coverage");  // whose sentence changes
   }
 }
 

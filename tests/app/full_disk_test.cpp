@@ -1,4 +1,4 @@
-// A full disk under the demo: it says so, goes on, and what was saved before is as it was.
+// The demo on a full disk: it reports the error, continues, and leaves saved files unchanged.
 
 #include "tests/full_disk.h"
 
@@ -7,7 +7,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "app/session/export/take_away.h"
+#include "app/session/export/exporter.h"
 #include "app/window/preferences.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -19,7 +19,7 @@ class FullDisk : public testing::Test {
  protected:
   static constexpr rlim_t too_little = 16;  // bytes
 
-  /// The folder holds what it held, and nothing else.
+  /// Expects that the folder holds this file alone, with the old text.
   void expect_unchanged(const std::string& name, const std::string& text) {
     std::ostringstream now;
     now << std::ifstream(folder.path() / name).rdbuf();
@@ -31,38 +31,39 @@ class FullDisk : public testing::Test {
   Session session{touching_pair(), {}, 1};
 };
 
-TEST_F(FullDisk, KeepsTheSceneThatWasSaved) {
+TEST_F(FullDisk, LeavesASavedSceneUnchanged) {
   const auto file = folder.write("a.toml", "saved before");
   const tests::FullDisk full(too_little);
-  session.save_scene(file, {});
-  EXPECT_NE(session.notice().find("a.toml: cannot be written: File too large"), std::string::npos) << session.notice();
-  EXPECT_EQ(session.scene_file().name(), "pair");
+  session.scenes.save(file, {});
+  EXPECT_NE(session.simulation.notice.text().find("a.toml: cannot be written: File too large"), std::string::npos)
+      << session.simulation.notice.text();
+  EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
   expect_unchanged("a.toml", "saved before");
 }
 
-TEST_F(FullDisk, KeepsThePreferences) {
+TEST_F(FullDisk, LeavesThePreferencesUnchanged) {
   const std::string saved = "panel = false\n";
-  PreferencesFile file(folder.write("preferences.toml", saved));
-  Preferences other;
+  window::PreferencesFile file(folder.write("preferences.toml", saved));
+  window::Preferences other;
   other.slow_factor = 0.5;
   const tests::FullDisk full(too_little);
-  file.keep(other, 0, true);
+  file.store(other, 0, true);
   EXPECT_NE(file.take_problem().find("cannot be written"), std::string::npos);
   expect_unchanged("preferences.toml", saved);
 }
 
-TEST_F(FullDisk, IsSaidOfPicturesAndCurves) {
+TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   folder.write("curves_0001.csv", "saved before");
-  TakeAway take_away;
-  take_away.folder = folder.path().string();
+  session::Exporter exporter;
+  exporter.folder = folder.path().string();
   const tests::FullDisk full(too_little);
-  take_away.write_curves(session);
-  EXPECT_TRUE(take_away.failed());
-  EXPECT_NE(take_away.message().find("curves_0002.csv: cannot be written"), std::string::npos) << take_away.message();
-  take_away.picture_asked = true;
-  take_away.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
-  EXPECT_TRUE(take_away.failed());
-  EXPECT_NE(take_away.message().find("picture_0001.png: cannot be written"), std::string::npos) << take_away.message();
+  exporter.write_curves(session);
+  EXPECT_TRUE(exporter.failed());
+  EXPECT_NE(exporter.message().find("curves_0002.csv: cannot be written"), std::string::npos) << exporter.message();
+  exporter.picture_asked = true;
+  exporter.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
+  EXPECT_TRUE(exporter.failed());
+  EXPECT_NE(exporter.message().find("picture_0001.png: cannot be written"), std::string::npos) << exporter.message();
   expect_unchanged("curves_0001.csv", "saved before");
 }
 

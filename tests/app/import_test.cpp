@@ -1,4 +1,4 @@
-// Meshes and scenes of the user's own: what joins, where, what is reported, what is refused.
+// Import of the user's own meshes and scenes: what is added, where, and what is reported or refused.
 
 #include <gtest/gtest.h>
 
@@ -12,6 +12,7 @@
 
 #include "app/session/import.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 #include "softbody/prototype_set.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
@@ -24,8 +25,8 @@ using tests::TemporaryFolder;
 
 struct Globe {
   int rows = 16, columns = 24;
-  double scale = 1, bump = 0;  // bump: concave by so much
-  bool seam = false;           // the first meridian's vertices twice, as exporters do for texture coordinates
+  double scale = 1, bump = 0;  // bump: depth of the concave parts
+  bool seam = false;           // duplicates the first meridian's vertices, as exporters do for texture coordinates
   bool open = false;           // without the top
 };
 
@@ -48,7 +49,7 @@ std::string obj_of(const Globe& g) {
   return text.str();
 }
 
-class Importing : public testing::Test {
+class ImportTest : public testing::Test {
  protected:
   void load(const std::filesystem::path& file) {
     import.path = file.string();
@@ -58,20 +59,20 @@ class Importing : public testing::Test {
   void wait() {
     for (const auto end = std::chrono::steady_clock::now() + 60s;
          import.busy() && std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
-      import.follow(session);
+      import.update(session);
     ASSERT_FALSE(import.busy());
   }
   void drop(const std::vector<std::string>& files) {
     import.drop(files, session);
     for (std::size_t i = 0; i < files.size(); ++i) {
       wait();
-      import.follow(session);  // begins the next one
+      import.update(session);  // begins the next one
     }
   }
   std::string report() const {
     std::string text;
-    for (const Import::Verdict& verdict : import.report())
-      for (const std::string& line : verdict.lines) text += line + "\n";
+    for (const session::Import::FileReport& file_report : import.report())
+      for (const std::string& line : file_report.lines) text += line + "\n";
     return text;
   }
   bool refused() const { return !import.report().empty() && import.report().back().refused; }
@@ -83,15 +84,15 @@ class Importing : public testing::Test {
 
   TemporaryFolder folder;
   Session session{touching_pair(), {}, 1};
-  Import import;
+  session::Import import;
 };
 
-TEST_F(Importing, AMeshJoinsTheRunningSceneClearOfAll) {
+TEST_F(ImportTest, AddsAMeshClearOfEverything) {
   for (int i = 0; i < 5; ++i) session.advance(tick);
   load(folder.write("seamed.obj", obj_of({.scale = 0.001, .bump = 0.3, .seam = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
   EXPECT_FALSE(refused());
-  EXPECT_EQ(session.world().frame(), 5) << "the world was not started anew";
+  EXPECT_EQ(session.world().frame(), 5) << "the world was not restarted";
   EXPECT_TRUE(last().mesh.closed);
   EXPECT_NEAR(last().mesh.vertices.size(), 24 * 15 + 2, 0);
   EXPECT_NE(report().find("welded"), std::string::npos) << report();
@@ -107,7 +108,7 @@ TEST_F(Importing, AMeshJoinsTheRunningSceneClearOfAll) {
   expect_finite_after(30);
 }
 
-TEST_F(Importing, AnOpenMeshIsReportedAsSuch) {
+TEST_F(ImportTest, ReportsAnOpenMesh) {
   load(folder.write("bowl.obj", obj_of({.scale = 500, .open = true})));
   ASSERT_EQ(session.world().bodies().count(), 3u);
   EXPECT_FALSE(last().mesh.closed);
@@ -115,7 +116,7 @@ TEST_F(Importing, AnOpenMeshIsReportedAsSuch) {
   expect_finite_after(30);
 }
 
-TEST_F(Importing, SizeAndUpAreAsAsked) {
+TEST_F(ImportTest, AppliesSizeAndUpAxis) {
   import.size = 0.25f;
   import.z_is_up = true;
   load(folder.write("flat.obj", "v 0 0 0\nv 4 0 0\nv 4 1 0\nv 0 1 0\nv 0 0 2\nf 1 3 2\nf 1 4 3\nf 1 2 5\nf 2 3 5\n"));
@@ -126,7 +127,7 @@ TEST_F(Importing, SizeAndUpAreAsAsked) {
   EXPECT_NEAR(hi.y - lo.y, 0.125, 1e-6);
 }
 
-TEST_F(Importing, AHundredThousandFacesFall) {
+TEST_F(ImportTest, AddsAMeshOfAHundredThousandFaces) {
   load(folder.write("big.obj", obj_of({.rows = 224, .columns = 225, .scale = 37, .bump = 0.2})));
   ASSERT_EQ(session.world().bodies().count(), 3u) << report();
   EXPECT_GT(last().mesh.triangles.size(), 100'000u);
@@ -134,26 +135,26 @@ TEST_F(Importing, AHundredThousandFacesFall) {
   expect_finite_after(2);
 }
 
-TEST_F(Importing, TwoOfAKindShareTheMaterialAndAreGoneAfterAReset) {
+TEST_F(ImportTest, SharesMaterialsAndRemovesMeshesAtAReset) {
   const auto file = folder.write("ball.obj", obj_of({}));
   load(file);
   for (int i = 0; i < 4; ++i) session.advance(tick);
   load(file);
   ASSERT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(session.world().scene().materials.size(), 2u);
-  session.reset();
-  EXPECT_EQ(session.notice(), "");
+  session.simulation.reset();
+  EXPECT_EQ(session.simulation.notice.text(), "");
   for (int i = 0; i < 6; ++i) session.advance(tick);
   EXPECT_EQ(session.world().bodies().count(), 2u);
-  session.undo();
+  session.simulation.undo();
   EXPECT_EQ(session.world().bodies().count(), 4u);
 }
 
-TEST_F(Importing, ASavedSceneHasTheMesh) {
+TEST_F(ImportTest, SavesTheMeshWithTheScene) {
   import.weld = 0.001;
   load(folder.write("ball.obj", obj_of({.bump = 0.1})));
-  session.save_scene(folder.path() / "with mesh.toml", {});
-  ASSERT_EQ(session.notice(), "");
+  session.scenes.save(folder.path() / "with mesh.toml", {});
+  ASSERT_EQ(session.simulation.notice.text(), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "with mesh.toml");
   EXPECT_EQ(saved.bodies.back().mesh.file.weld, 0.001);
   Session again(saved, {}, 1);
@@ -162,52 +163,53 @@ TEST_F(Importing, ASavedSceneHasTheMesh) {
   EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
 }
 
-TEST_F(Importing, ASceneReplacesTheRunningOne) {
+TEST_F(ImportTest, ReplacesTheRunningScene) {
   load(folder.write("lone.toml", "[[body]]\n"));
   EXPECT_EQ(session.world().scene().key, "lone");
   EXPECT_EQ(session.world().bodies().count(), 1u);
   EXPECT_FALSE(refused());
   EXPECT_EQ(report(), "scene lone.toml\n");
-  session.undo();
+  session.simulation.undo();
   EXPECT_EQ(session.world().bodies().count(), 2u);
 }
 
-TEST_F(Importing, TheWorldGoesOnWhileASceneIsRead) {
+TEST_F(ImportTest, LetsTheWorldRunWhileItReadsAScene) {
   import.path = folder.write("lone.toml", "[[body]]\n").string();
   import.load(session);
   EXPECT_TRUE(import.busy());
   session.advance(tick);
   EXPECT_EQ(session.world().frame(), 1);
-  EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next picture asks for it";
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "until the next update";
   EXPECT_TRUE(import.progress().starts_with("reading lone.toml")) << import.progress();
   wait();
   EXPECT_EQ(import.progress(), "");
   EXPECT_EQ(session.world().bodies().count(), 1u);
 }
 
-TEST_F(Importing, ABodyIsMadeBesideTheWindow) {
-  FileReader reader;
+TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
+  session::FileReader reader;
   const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
-  const FileReader::Answer answer = reader.answer(file, {});
-  const auto& mesh = std::get<FileReader::Mesh>(answer);
-  EXPECT_EQ(softbody::shared_prototype(mesh.mesh, imported_material(mesh.mesh.imported->findings.extent)),
+  const session::FileReader::Answer answer = reader.answer(file, {});
+  const auto& mesh = std::get<session::FileReader::Mesh>(answer);
+  EXPECT_EQ(softbody::shared_prototype(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
             mesh.prototype);
-  session.add_body(place_above(session.world(), mesh.mesh), imported_material(mesh.mesh.imported->findings.extent));
+  session.bodies.add(session::place_above(session.world(), mesh.mesh),
+                     session::imported_material(mesh.mesh.imported->findings.extent));
   EXPECT_EQ(&last(), mesh.prototype.get());
 }
 
-TEST_F(Importing, FilesDroppedOnTheWindowComeOneAfterAnother) {
+TEST_F(ImportTest, ReadsDroppedFilesOneAfterAnother) {
   const std::string ball = folder.write("ball.obj", obj_of({})).string(),
                     bowl = folder.write("BOWL.OBJ", obj_of({.open = true})).string();
   import.drop({ball, bowl}, session);
   for (const auto end = std::chrono::steady_clock::now() + 60s;
        session.world().bodies().count() < 4 && std::chrono::steady_clock::now() < end;)
-    import.follow(session);
+    import.update(session);
   EXPECT_EQ(session.world().bodies().count(), 4u);
   EXPECT_EQ(import.path, bowl);
 }
 
-TEST_F(Importing, EveryFileOfABatchHasItsVerdict) {
+TEST_F(ImportTest, ReportsOnEachFileOfABatch) {
   const std::string ball = folder.write("ball.obj", obj_of({})).string(), none = (folder.path() / "none.obj").string(),
                     stl = (folder.path() / "model.stl").string();
   drop({none, ball, stl, ball});
@@ -215,17 +217,18 @@ TEST_F(Importing, EveryFileOfABatchHasItsVerdict) {
   ASSERT_EQ(import.report().size(), 4u) << report();
   for (std::size_t i = 0; i < 4; ++i) EXPECT_EQ(import.report()[i].refused, i % 2 == 0) << report();
   drop({ball, ball, ball});
-  ASSERT_EQ(import.report().size(), 5u) << "the oldest that were taken are gone: " << report();
+  ASSERT_EQ(import.report().size(), 5u) << "the oldest that were accepted are gone: " << report();
   EXPECT_NE(report().find("none.obj"), std::string::npos) << report();
   EXPECT_NE(report().find("model.stl"), std::string::npos) << report();
   drop({none, none, none, none, ball});
-  EXPECT_EQ(std::ranges::count(import.report(), true, &Import::Verdict::refused), 6) << "no refusal is lost";
-  EXPECT_FALSE(refused()) << "nor is the newest verdict";
+  EXPECT_EQ(std::ranges::count(import.report(), true, &session::Import::FileReport::refused), 6)
+      << "no refusal is lost";
+  EXPECT_FALSE(refused()) << "nor is the newest report";
   load(ball);
   EXPECT_EQ(import.report().size(), 1u) << report();
 }
 
-TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
+TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
   const std::string fan = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nf 1 2 3\nf 1 2 4\nf 1 2 5\n";
   struct Case {
     std::filesystem::path file;
@@ -240,13 +243,13 @@ TEST_F(Importing, RefusesWithTheReasonInTheWindow) {
   for (const auto& [file, says] : cases) {
     load(file);
     EXPECT_TRUE(refused()) << file;
-    EXPECT_EQ(session.notice(), "") << "it would stand there twice";
+    EXPECT_EQ(session.simulation.notice.text(), "") << "it would be shown twice";
     EXPECT_NE(report().find(says), std::string::npos) << report();
     EXPECT_EQ(session.world().bodies().count(), 2u);
-    EXPECT_FALSE(session.paused);
+    EXPECT_FALSE(session.simulation.clock.paused);
   }
   load(folder.write("ball.obj", obj_of({})));
-  EXPECT_EQ(session.notice(), "");
+  EXPECT_EQ(session.simulation.notice.text(), "");
   EXPECT_EQ(session.world().bodies().count(), 3u);
 }
 

@@ -1,5 +1,5 @@
-// Preloaded, it makes the driver say once that its context was lost: software drivers never lose one by themselves.
-// For each context that is made it writes a line to the file that LOST_CONTEXT_LOG names.
+// A library to preload: it reports once that the OpenGL context was lost, as software drivers never lose one. For each
+// new context it writes a line to the file that LOST_CONTEXT_LOG names.
 
 #include <dlfcn.h>
 
@@ -11,21 +11,21 @@ namespace {
 
 using Function = void (*)();
 
-/// In the place of glGetGraphicsResetStatus, which the program asks once a frame. A reset takes some time. With
-/// LOST_CONTEXT_AGAIN there is another one in the first frame after it.
+/// Replaces glGetGraphicsResetStatus, which the program calls once a frame. The reset lasts a few calls. With
+/// LOST_CONTEXT_AGAIN there is another reset in the first frame after it.
 unsigned reset_status() {
-  constexpr int first = 60, takes = 3;  // calls
+  constexpr int first = 60, duration = 3;  // calls
   constexpr unsigned guilty_context_reset = 0x8253;
-  static const int again = std::getenv("LOST_CONTEXT_AGAIN") ? first + takes + 1 : -takes;
+  static const int again = std::getenv("LOST_CONTEXT_AGAIN") ? first + duration + 1 : -duration;
   static int calls = 0;
   ++calls;
-  const bool lost = (calls >= first && calls < first + takes) || (calls >= again && calls < again + takes);
+  const bool lost = (calls >= first && calls < first + duration) || (calls >= again && calls < again + duration);
   return lost ? guilty_context_reset : 0;
 }
 
 }  // namespace
 
-/// What GLEW asks for every function's address.
+/// GLEW calls this for each function's address.
 extern "C" Function glXGetProcAddressARB(const unsigned char* name) {
   using Lookup = Function (*)(const unsigned char*);
   if (std::strcmp(reinterpret_cast<const char*>(name), "glGetGraphicsResetStatus") == 0) {

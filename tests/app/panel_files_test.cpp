@@ -1,8 +1,9 @@
-// The panel's sections of files, by mouse and keyboard.
+// The panel's sections for files, used by mouse and keyboard.
 
 #include <algorithm>
 #include <fstream>
 
+#include "softbody/prototype.h"
 #include "softbody/scene_write.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
@@ -12,13 +13,13 @@ namespace {
 
 using tests::TemporaryFolder;
 
-/// Opens a section and folds those above it, so that it is in sight.
+/// Opens a section and folds those above it, so that it is visible.
 void open_only(PanelRig& rig, std::string_view section) {
   for (const char* above : {"Numbers", "Show", "Detection"}) rig.click(above);
   rig.click(section);
 }
 
-TEST(FilesPanel, LoadsWhatIsNamed) {
+TEST(FilesPanel, LoadsTheNamedFile) {
   const TemporaryFolder folder;
   const auto file = folder.write("lone.toml", "name = \"Lone\"\n[[body]]\n");
   PanelRig rig;
@@ -43,59 +44,60 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
                                  "f 1 2 3\nf 1 3 4\nf 3 2 4\nf 5 4 6\n");
   PanelRig rig;
   open_only(rig, "Files");
-  const auto drop_and_see_if_closed = [&] {
+  const auto import_is_closed = [&] {
     const std::size_t before = rig.session.world().bodies().count();
     rig.ui.import.drop({mesh.string()}, rig.session);
     for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
     return rig.session.world().prototype(rig.session.world().bodies().count() - 1).mesh.closed;
   };
   EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
-  EXPECT_FALSE(drop_and_see_if_closed());
+  EXPECT_FALSE(import_is_closed());
   rig.drag("Weld distance", -2000);
-  EXPECT_EQ(rig.ui.import.weld, Import::least_weld);
+  EXPECT_EQ(rig.ui.import.weld, session::Import::min_weld);
   rig.drag("Weld distance", 2000);
-  EXPECT_EQ(rig.ui.import.weld, Import::most_weld);
+  EXPECT_EQ(rig.ui.import.weld, session::Import::max_weld);
   rig.double_click("Weld distance");
   rig.type("2");
-  EXPECT_EQ(rig.ui.import.weld, 0.02) << "a hundredth of what is typed, no more digits";
-  EXPECT_TRUE(drop_and_see_if_closed());
+  EXPECT_EQ(rig.ui.import.weld, 0.02) << "exactly the typed percentage";
+  EXPECT_TRUE(import_is_closed());
 }
 
-TEST(FilesPanel, ShowsTheVerdictOnEveryFileBelowTheStatus) {
+TEST(ImportReport, ListsEveryFileBelowTheStatus) {
   PanelRig rig;
   rig.resize(800, 600);
   rig.ui.import.drop(std::vector<std::string>(20, "/none/with a path that takes more than one line here.stl"),
                      rig.session);
   for (int i = 0; i < 40; ++i) rig.frame();
-  EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &Recorder::Widget::label), 20);
-  const float most = rig.widget("Step light").max.y;
-  const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &Recorder::Widget::label);
-  EXPECT_GT(first->min.y, most) << "it scrolls if it has to";
+  EXPECT_EQ(std::ranges::count(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label), 20);
+  const float status_end = rig.widget("Step light").max.y;
+  const auto first = std::ranges::find(rig.recorder.widgets, "Import report", &ui::WidgetRecorder::Widget::label);
+  EXPECT_GT(first->min.y, status_end) << "a long report scrolls";
 }
 
-TEST(FilesPanel, SavesAndSaysWhenItReplaces) {
+TEST(FilesPanel, SavesAndReplacesAScene) {
   const TemporaryFolder folder;
   const std::string file = (folder.path() / "saved.toml").string();
   PanelRig rig;
   open_only(rig, "Files");
-  rig.session.set_method("grid-hash");
+  rig.session.settings.set_method("grid-hash");
   rig.type("Scene file", file);
   rig.click("Save");
-  EXPECT_EQ(rig.session.notice(), "");
+  EXPECT_EQ(rig.session.simulation.notice.text(), "");
   EXPECT_EQ(softbody::load_scene(file).method, "grid-hash");
-  rig.session.set_method("brute-force");
+  rig.session.settings.set_method("brute-force");
   rig.click("Save");
   EXPECT_EQ(softbody::load_scene(file).method, "brute-force");
   rig.type("Scene file", "/none/x.toml");
   rig.click("Save");
-  EXPECT_NE(rig.session.notice().find("/none/x.toml"), std::string::npos) << rig.session.notice();
+  EXPECT_NE(rig.session.simulation.notice.text().find("/none/x.toml"), std::string::npos)
+      << rig.session.simulation.notice.text();
 }
 
 TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   PanelRig rig;
   open_only(rig, "Files");
-  rig.session.paused = true;
-  rig.session.set_method("grid-hash");
+  rig.session.simulation.clock.paused = true;
+  rig.session.settings.set_method("grid-hash");
   rig.click("Copy");
   const std::string demo = ImGui::GetClipboardText();
   EXPECT_NE(demo.find(" --scene pair --method grid-hash "), std::string::npos) << demo;
@@ -104,38 +106,31 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   const std::string end = " --frames " + std::to_string(rig.session.world().frame());
   EXPECT_NE(simulate.find(" simulate --scene pair "), std::string::npos) << simulate;
   EXPECT_NE(simulate.find(end), std::string::npos) << simulate;
-  rig.session.add_body({}, {.name = "new", .mass = 2, .shape_frequency = {}});
+  rig.session.bodies.add({}, {.name = "new", .mass = 2, .shape_frequency = {}});
   rig.frames(2);
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }
 
-TEST(TakeAwayPanel, AsksForAPictureAndRecords) {
+TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   const TemporaryFolder folder;
   PanelRig rig;
   open_only(rig, "Take away");
   rig.type("Output folder", folder.path().string());
-  EXPECT_EQ(rig.ui.take_away.folder, folder.path().string());
+  EXPECT_EQ(rig.ui.exporter.folder, folder.path().string());
   rig.click("Picture");
-  EXPECT_TRUE(rig.ui.take_away.picture_asked);
+  EXPECT_TRUE(rig.ui.exporter.picture_asked);
   rig.click("Curves");
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
-  for (const RecordingKind& kind : recording_kinds) {
+  for (const session::RecordingKind& kind : session::recording_kinds) {
     rig.click("Kind of recording");
     rig.click(kind.name);
-    EXPECT_EQ(recording_kinds[rig.ui.take_away.kind].key, kind.key);
+    EXPECT_EQ(session::recording_kinds[rig.ui.exporter.kind].key, kind.key);
   }
   rig.click("Record");
-  EXPECT_TRUE(rig.ui.take_away.recording());
+  EXPECT_TRUE(rig.ui.exporter.recording());
   EXPECT_FALSE(rig.widget("Kind of recording").enabled);
   rig.click("Record");
-  EXPECT_FALSE(rig.ui.take_away.recording());
-}
-
-TEST(Sections, AreRemembered) {
-  PanelRig rig;
-  EXPECT_TRUE(rig.ui.sections.at("Numbers"));
-  rig.click("Numbers");
-  EXPECT_FALSE(rig.ui.sections.at("Numbers"));
+  EXPECT_FALSE(rig.ui.exporter.recording());
 }
 
 }  // namespace

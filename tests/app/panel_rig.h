@@ -1,9 +1,11 @@
 #pragma once
-// The demo's whole interface without a window: simulated mouse in, recorded widgets out.
+// The demo's whole user interface without a window: tests move a simulated mouse and look at the recorded widgets.
 
 #include <gtest/gtest.h>
 
-#include "app/ui/interface.h"
+#include <chrono>
+
+#include "app/ui/user_interface.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
 #include "engine/headless.h"
@@ -16,11 +18,11 @@ class PanelRig {
   explicit PanelRig(float scale = 1, const softbody::Scene& scene = touching_pair())
       : gui_(scale), scale_(scale), session(scene, {}, 1) {
     input_.display_size = {static_cast<int>(1280 * scale), static_cast<int>(1150 * scale)};
-    ImGui::GetIO().MouseDoubleClickTime = 0;  // a test's clicks follow one another faster than a hand's
+    ImGui::GetIO().MouseDoubleClickTime = 0;  // two fast clicks of a test are no double-click
     frames(3);                                // ImGui sizes its windows in the first frames
   }
 
-  /// One frame of the demo's loop, a 60th of a second of real time.
+  /// Runs one frame of the demo's loop, a 60th of a second.
   void frame() {
     session.advance(tick);
     target_.bind();
@@ -32,6 +34,16 @@ class PanelRig {
   }
   void frames(int count) {
     for (int i = 0; i < count; ++i) frame();
+  }
+  /// Runs frames until the condition is true. Returns false if it stays false for two minutes.
+  template <class Condition>
+  bool frames_until(const Condition& condition) {
+    using Clock = std::chrono::steady_clock;
+    for (const auto end = Clock::now() + std::chrono::minutes(2); Clock::now() < end;) {
+      frame();
+      if (condition()) return true;
+    }
+    return false;
   }
 
   void resize(int width, int height) {
@@ -69,10 +81,19 @@ class PanelRig {
     release();
   }
 
-  Recorder::Widget widget(std::string_view label) const {
-    const Recorder::Widget* found = recorder.find(label);
+  ui::WidgetRecorder::Widget widget(std::string_view label) const {
+    const ui::WidgetRecorder::Widget* found = recorder.find(label);
     if (!found) ADD_FAILURE() << "no widget '" << label << "'";
-    return found ? *found : Recorder::Widget{};
+    return found ? *found : ui::WidgetRecorder::Widget{};
+  }
+  /// Expects that each widget recorded before is where it was; `except`: the label of one that may move.
+  void expect_in_place(const std::vector<ui::WidgetRecorder::Widget>& before, std::string_view except = "") const {
+    for (const ui::WidgetRecorder::Widget& was : before) {
+      const ui::WidgetRecorder::Widget is = widget(was.label);
+      if (was.label == except) continue;
+      EXPECT_TRUE(is.min.x == was.min.x && is.min.y == was.min.y && is.max.x == was.max.x && is.max.y == was.max.y)
+          << was.label << " moved";
+    }
   }
   void click(std::string_view label) {
     const auto [name, min, max, enabled] = widget(label);
@@ -94,7 +115,7 @@ class PanelRig {
     for (const char c : text) ImGui::GetIO().AddInputCharacter(static_cast<unsigned char>(c));
     frames(static_cast<int>(text.size()) + 2);  // newer versions of ImGui take one key a frame
   }
-  /// Presses in the middle of a slider and drags far beyond its end.
+  /// Presses in the middle of a slider and drags it sideways.
   void drag(std::string_view label, float by) {
     const auto [name, min, max, enabled] = widget(label);
     const float x = 0.5f * (min.x + max.x), y = 0.5f * (min.y + max.y);
@@ -114,9 +135,9 @@ class PanelRig {
 
  public:
   Session session;
-  UiState ui;
-  Interface interface;
-  Recorder recorder;
+  ui::UiState ui;
+  ui::UserInterface interface;
+  ui::WidgetRecorder recorder;
 };
 
 }  // namespace app

@@ -1,7 +1,6 @@
-// The panel's choice of integrator and substeps.
+// The panel's section on stability.
 
-#include <gtest/gtest.h>
-
+#include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {
@@ -9,39 +8,68 @@ namespace {
 
 TEST(StabilityPanel, ChoosesEveryIntegratorAndItsSubsteps) {
   PanelRig rig;
-  rig.click("Detection");  // folded, so that all has room
+  rig.click("Detection");  // folds it to make room
   rig.click("Stability");
-  const float at_work = rig.widget("At work").min.y;  // what auto takes, and why
+  const float used_integrator_y = rig.widget("At work").min.y;
   for (const softbody::Integrator& i : softbody::integrators()) {
     if (i.automatic) continue;
     rig.click("Integrator");
     rig.click(i.name);
-    EXPECT_EQ(rig.session.world().integrator().key, i.key);
-    EXPECT_FALSE(rig.session.world().substeps());
-    EXPECT_EQ(rig.widget("At work").min.y, at_work) << "nothing jumps";
+    EXPECT_EQ(rig.session.world().integrator_choice().integrator().key, i.key);
+    EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
+    EXPECT_EQ(rig.widget("At work").min.y, used_integrator_y) << "nothing moves";
   }
   rig.click("Fixed substeps");
-  EXPECT_TRUE(rig.session.world().substeps());
+  EXPECT_TRUE(rig.session.world().integrator_choice().substeps);
   rig.drag("Substeps", -400);
-  EXPECT_EQ(rig.session.world().substeps(), 1);
+  EXPECT_EQ(rig.session.world().integrator_choice().substeps, 1);
   rig.click("Fixed substeps");
-  EXPECT_FALSE(rig.session.world().substeps());
+  EXPECT_FALSE(rig.session.world().integrator_choice().substeps);
 }
 
-TEST(StabilityPanel, GoingOnTakesTheAlarmAway) {
+TEST(StabilityPanel, DismissesTheAlarmWhenTheWorldResumes) {
   PanelRig rig(1, doomed_pair());
   rig.frames(40);
-  ASSERT_TRUE(rig.session.paused);
+  ASSERT_TRUE(rig.session.simulation.clock.paused);
   ASSERT_TRUE(rig.recorder.find("Alarm"));
   ASSERT_TRUE(rig.recorder.find("Rewind to the last good frame"));
-  rig.session.single_step();
+  rig.session.simulation.clock.single_step();
   rig.frames(2);
-  EXPECT_TRUE(rig.recorder.find("Alarm")) << "steps are for looking at it";
+  EXPECT_TRUE(rig.recorder.find("Alarm")) << "a single step keeps it";
   rig.click("Pause");
   rig.frames(2);
-  EXPECT_FALSE(rig.session.paused);
+  EXPECT_FALSE(rig.session.simulation.clock.paused);
   EXPECT_FALSE(rig.recorder.find("Alarm"));
   EXPECT_FALSE(rig.recorder.find("Rewind to the last good frame"));
+}
+
+TEST(StabilityPanel, RewindsByASlider) {
+  PanelRig rig;
+  rig.click("Detection");  // folds it to make room
+  rig.click("Numbers");
+  rig.click("Stability");
+  rig.frames(60);
+  const int frame = rig.session.world().frame();
+  rig.drag("Go back to", -400);
+  EXPECT_EQ(rig.session.world().frame(), 0);
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  rig.drag("Go back to", 400);
+  EXPECT_GE(rig.session.world().frame(), frame);
+  rig.click("Pause when a body explodes");
+  EXPECT_FALSE(rig.session.simulation.pause_on_blow_up);
+  EXPECT_TRUE(rig.recorder.find("Total"));
+  EXPECT_TRUE(rig.recorder.find("Step light"));
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+}
+
+TEST(StabilityPanel, ShowsAnAlarmAndRewinds) {
+  PanelRig rig(1, doomed_pair());
+  rig.frames(10);
+  EXPECT_TRUE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  rig.click("Rewind to the last good frame");
+  EXPECT_FALSE(rig.recorder.find("Alarm"));
+  EXPECT_TRUE(softbody::measure(rig.session.world()).finite);
 }
 
 }  // namespace

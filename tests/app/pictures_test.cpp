@@ -1,6 +1,6 @@
-// The paper's four moments as pictures, against pictures kept beside this file. They were made by
+// Compares pictures of the paper's four moments with the golden pictures, which were made by
 //   sbcollide simulate --frames 800 --capture 100,400,600,800 --size 320x180 --out tests/app/golden
-// and change only when the scene or the look is meant to change.
+// and change only if the scene or the drawing is meant to change.
 
 #include <gtest/gtest.h>
 
@@ -35,13 +35,13 @@ Difference difference(const engine::Image& a, const engine::Image& b) {
   return {d.mean / pixels, d.far_pixels / pixels};
 }
 
-// Another driver rounds edges and shadows differently; another picture differs in many pixels: those of two of the
-// four moments do in more than a tenth of theirs.
+// Another driver draws edges and shadows slightly differently. Pictures of two different moments differ in more than a
+// tenth of their pixels.
 TEST(Pictures, OfTheDropSceneShowThePapersFourMoments) {
   const std::filesystem::path golden = SBCOLLIDE_GOLDEN_DIR;
   const std::filesystem::path made = std::filesystem::path(testing::TempDir()) / "picture_test.png";
   softbody::World world(softbody::find_scene("drop", engine::find_folder("assets") / "scenes"), {});
-  Capture capture(320, 180);
+  render::Capture capture(320, 180);
   engine::Image before;
   for (const int frame : {100, 400, 600, 800}) {
     while (world.frame() < frame) world.step();

@@ -1,5 +1,3 @@
-// What is remembered from one start to the next.
-
 #include <gtest/gtest.h>
 #include <stdlib.h>
 
@@ -12,87 +10,87 @@ namespace {
 
 using tests::TemporaryFolder;
 
-/// All of them other than the defaults. Taken apart, so that a new one does not compile before it is tested.
-Preferences other() {
-  Preferences p;
-  auto& [size, overlays, panel, table, sweep, compare, with_panel, slow_factor, sections] = p;
+/// Returns preferences that all differ from the defaults. The structured binding does not compile if one is missing.
+window::Preferences changed() {
+  window::Preferences p;
+  auto& [size, overlays, panel, hash_table, sweep, compare, with_panel, slow_factor, sections] = p;
   size = {900, 700};
-  for (const OverlayRow& row : overlay_table) overlays.*row.shown = true;
-  panel = table = false;
+  for (const render::OverlayRow& row : render::overlay_table) overlays.*row.shown = true;
+  panel = hash_table = false;
   sweep = compare = with_panel = true;
   slow_factor = 0.5;
   sections = {{"Detection", false}, {"A \"new\" one", true}};
   return p;
 }
 
-TEST(PreferencesFile, KeepsAllOfThem) {
+TEST(PreferencesFile, StoresEveryPreference) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a" / "b" / "preferences.toml";
-  PreferencesFile first(file);
-  EXPECT_TRUE(first.kept() == Preferences());
-  first.keep(other(), 0, true);
+  window::PreferencesFile first(file);
+  EXPECT_TRUE(first.stored() == window::Preferences());
+  first.store(changed(), 0, true);
   EXPECT_EQ(first.take_problem(), "");
-  EXPECT_TRUE(PreferencesFile(file).kept() == other());
+  EXPECT_TRUE(window::PreferencesFile(file).stored() == changed());
 }
 
-TEST(PreferencesFile, IsWrittenOnceTheyHaveSettled) {
+TEST(PreferencesFile, WritesOnceNothingHasChangedForAWhile) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "preferences.toml";
-  PreferencesFile preferences(file);
-  preferences.keep(Preferences(), 0);
-  preferences.keep(Preferences(), 100);
-  EXPECT_FALSE(std::filesystem::exists(file)) << "nothing to keep";
-  preferences.keep(other(), 100);
-  preferences.keep(other(), 101);
+  window::PreferencesFile preferences(file);
+  preferences.store(window::Preferences(), 0);
+  preferences.store(window::Preferences(), 100);
+  EXPECT_FALSE(std::filesystem::exists(file)) << "nothing to store";
+  preferences.store(changed(), 100);
+  preferences.store(changed(), 101);
   EXPECT_FALSE(std::filesystem::exists(file));
-  preferences.keep(other(), 103);
-  EXPECT_TRUE(PreferencesFile(file).kept() == other());
+  preferences.store(changed(), 103);
+  EXPECT_TRUE(window::PreferencesFile(file).stored() == changed());
 }
 
-TEST(PreferencesFile, IsIgnoredWithANoticeIfItIsBroken) {
+TEST(PreferencesFile, IgnoresABrokenFileAndSaysSo) {
   const TemporaryFolder folder;
   for (const std::string text :
        {"width = \"wide\"", "width = 7", "= [", "[show]\nboxes = 3", "section = 1", "\xff\xfe"}) {
-    PreferencesFile preferences(folder.write("preferences.toml", text));
-    EXPECT_TRUE(preferences.kept() == Preferences()) << text;
+    window::PreferencesFile preferences(folder.write("preferences.toml", text));
+    EXPECT_TRUE(preferences.stored() == window::Preferences()) << text;
     EXPECT_NE(preferences.take_problem().find("ignored"), std::string::npos) << text;
-    EXPECT_EQ(preferences.take_problem(), "") << "told once";
-    preferences.keep(other(), 0, true);
-    EXPECT_TRUE(PreferencesFile(folder.path() / "preferences.toml").kept() == other());
+    EXPECT_EQ(preferences.take_problem(), "") << "reported once";
+    preferences.store(changed(), 0, true);
+    EXPECT_TRUE(window::PreferencesFile(folder.path() / "preferences.toml").stored() == changed());
   }
 }
 
-TEST(PreferencesFile, OfANewerProgramIsReadAsFarAsKnown) {
+TEST(PreferencesFile, IgnoresUnknownKeys) {
   const TemporaryFolder folder;
-  PreferencesFile preferences(
+  window::PreferencesFile preferences(
       folder.write("preferences.toml", "width = 500\ncolour = \"red\"\n[show]\nghosts = true\n"));
-  EXPECT_EQ(preferences.kept().size.x, 500);
+  EXPECT_EQ(preferences.stored().size.x, 500);
   EXPECT_EQ(preferences.take_problem(), "");
 }
 
-TEST(PreferencesFile, SaysOnceThatItCannotBeWritten) {
+TEST(PreferencesFile, ReportsOnceThatItCannotBeWritten) {
   const TemporaryFolder folder;
-  PreferencesFile preferences(folder.write("in the way", "") / "preferences.toml");
-  preferences.keep(other(), 0, true);
+  window::PreferencesFile preferences(folder.write("in the way", "") / "preferences.toml");
+  preferences.store(changed(), 0, true);
   EXPECT_NE(preferences.take_problem().find("cannot be kept"), std::string::npos);
-  preferences.keep(other(), 10, true);
+  preferences.store(changed(), 10, true);
   EXPECT_EQ(preferences.take_problem(), "");
 }
 
-TEST(Preferences, AreThoseOfTheWindowAndGoBackIntoIt) {
+TEST(Preferences, AreReadFromTheWindowAndAppliedToIt) {
   Session session(touching_pair(), {}, 1);
-  UiState ui;
-  apply(other(), session, ui);
-  EXPECT_TRUE(preferences_of(session, ui, {900, 700}) == other());
+  ui::UiState ui;
+  window::apply(changed(), session, ui);
+  EXPECT_TRUE(window::preferences_of(session, ui, {900, 700}) == changed());
 }
 
-TEST(Preferences, LieInThePlatformsFolder) {
+TEST(Preferences, AreInThePlatformsFolder) {
   const char* before = ::getenv("XDG_CONFIG_HOME");
   const std::string kept = before ? before : "";
   ::setenv("XDG_CONFIG_HOME", "/some/where", 1);
-  EXPECT_EQ(preferences_path(), "/some/where/sbcollide/preferences.toml");
+  EXPECT_EQ(window::preferences_path(), "/some/where/sbcollide/preferences.toml");
   ::setenv("XDG_CONFIG_HOME", "not/absolute", 1);
-  EXPECT_EQ(preferences_path(), std::filesystem::path(::getenv("HOME")) / ".config/sbcollide/preferences.toml");
+  EXPECT_EQ(window::preferences_path(), std::filesystem::path(::getenv("HOME")) / ".config/sbcollide/preferences.toml");
   before ? ::setenv("XDG_CONFIG_HOME", kept.c_str(), 1) : ::unsetenv("XDG_CONFIG_HOME");
 }
 

@@ -1,4 +1,4 @@
-// Saving the scene that runs, and the commands that reproduce it.
+// Saves the running scene, and checks the commands that reproduce it.
 
 #include <gtest/gtest.h>
 
@@ -15,7 +15,7 @@ namespace {
 
 using tests::TemporaryFolder;
 
-/// What a shell makes of a command: its words.
+/// Returns the words into which a shell splits a command.
 std::vector<std::string> words_of(const std::string& command) {
   const std::string line = "printf '%s\\0' " + command;
   FILE* shell = ::popen(line.c_str(), "r");
@@ -30,14 +30,14 @@ std::vector<std::string> words_of(const std::string& command) {
   return words;
 }
 
-Options parse(const std::string& command) {
+cli::Options parse(const std::string& command) {
   const std::vector<std::string> words = words_of(command);
   std::vector<const char*> argv;
   for (const std::string& word : words) argv.push_back(word.c_str());
-  return parse_options(static_cast<int>(argv.size()), argv.data()).value();
+  return cli::parse_options(static_cast<int>(argv.size()), argv.data()).value();
 }
 
-/// With settings that none of the shipped scenes has.
+/// Returns the scene with settings that no shipped scene has.
 softbody::Scene changed(softbody::Scene scene) {
   scene.method = "grid-hash";
   scene.contact_surface = softbody::ContactSurface::surfaces;
@@ -52,78 +52,77 @@ softbody::Scene changed(softbody::Scene scene) {
   return scene;
 }
 
-TEST(Commands, MakeTheSceneAsItRuns) {
-  for (const std::string& key : softbody::scene_keys(scene_folder())) {
+TEST(SceneCommands, ReproduceTheRunningScene) {
+  for (const std::string& key : softbody::scene_keys(files::scene_folder())) {
     SCOPED_TRACE(key);
-    const softbody::Scene scene = softbody::find_scene(key, scene_folder());
+    const softbody::Scene scene = softbody::find_scene(key, files::scene_folder());
     for (const softbody::Scene& used : {scene, changed(scene)}) {
-      const Options demo = parse(demo_command(key, used, {}));
-      EXPECT_EQ(demo.command, Command::demo);
-      softbody::Scene made = load_scene(demo);
+      const cli::Options demo = parse(session::demo_command(key, used, {}));
+      EXPECT_EQ(demo.command, cli::Command::demo);
+      softbody::Scene made = cli::load_scene(demo);
       if (used.default_cell_size) made.collision.cell_size = used.collision.cell_size;  // not in use
       ASSERT_EQ(made.bodies.size(), used.bodies.size());
       made.bodies = used.bodies;  // meshes from files are read anew
       made.dropper = used.dropper;
       EXPECT_TRUE(made == used);
-      const Options simulate = parse(simulate_command(key, used, {"xpbd", 7}, 17));
-      EXPECT_EQ(simulate.command, Command::simulate);
+      const cli::Options simulate = parse(session::simulate_command(key, used, {"xpbd", 7}, 17));
+      EXPECT_EQ(simulate.command, cli::Command::simulate);
       EXPECT_EQ(simulate.frames, 17);
-      EXPECT_EQ(simulate.integrator, "xpbd");
-      EXPECT_EQ(simulate.substeps, 7);
+      EXPECT_EQ(simulate.integrator, (softbody::IntegratorChoice{"xpbd", 7}));
       EXPECT_EQ(simulate.captures, std::vector{17});
-      EXPECT_TRUE(load_scene(simulate).collision == made.collision);
+      EXPECT_TRUE(cli::load_scene(simulate).collision == made.collision);
     }
   }
 }
 
-TEST(Commands, AreQuotedForAShell) {
+TEST(SceneCommands, QuoteNamesForAShell) {
   for (const std::string name :
        {"it's a \"scene\" $HOME `id`\\.toml", "a b.toml", "-x.toml", "D", "é\n*?[a].toml", "~"})
-    EXPECT_EQ(parse(demo_command(name, touching_pair(), {})).scene, name);
-  EXPECT_EQ(shell_word("D"), "D");
-  EXPECT_EQ(shell_word(""), "''");
+    EXPECT_EQ(parse(session::demo_command(name, touching_pair(), {})).scene, name);
+  EXPECT_EQ(session::shell_word("D"), "D");
+  EXPECT_EQ(session::shell_word(""), "''");
 }
 
-TEST(Commands, OfASavedSceneMakeAllOfIt) {
+TEST(SceneCommands, ReproduceASavedScene) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
   const auto file = folder.path() / "it's saved.toml";
   const softbody::View view = changed({}).view;
-  session.set_method("multi-level-sb");
-  session.save_scene(file, view);
-  ASSERT_EQ(session.notice(), "");
-  EXPECT_EQ(session.scene_file().name(), file.string());
-  softbody::Scene used = session.scene_in_use();
+  session.settings.set_method("multi-level-sb");
+  session.scenes.save(file, view);
+  ASSERT_EQ(session.simulation.notice.text(), "");
+  EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
+  softbody::Scene used = session.simulation.scene_in_use();
   used.view = view;
-  EXPECT_TRUE(session.scene_file().makes(used));
-  softbody::Scene made = load_scene(parse(demo_command(session.scene_file().name(), used, {})));
+  EXPECT_TRUE(session.simulation.loaded.file.reproduces(used));
+  softbody::Scene made = cli::load_scene(parse(session::demo_command(session.simulation.loaded.file.name(), used, {})));
   made.key = used.key;
   made.collision.cell_size = used.collision.cell_size;
   EXPECT_TRUE(made == used);
 }
 
-TEST(SceneFile, KnowsWhatTheCommandLineCannotSay) {
-  const SceneFile file("D", touching_pair());
+TEST(SceneFile, TellsWhatOptionsCannotReproduce) {
+  const session::SceneFile file("D", touching_pair());
   softbody::Scene used = touching_pair();
-  EXPECT_TRUE(file.makes(used));
-  EXPECT_TRUE(file.makes(changed(used)));
+  EXPECT_TRUE(file.reproduces(used));
+  EXPECT_TRUE(file.reproduces(changed(used)));
   used.gravity.y = -1;
-  EXPECT_FALSE(file.makes(used));
+  EXPECT_FALSE(file.reproduces(used));
   used = touching_pair();
   used.bodies.pop_back();
-  EXPECT_FALSE(file.makes(used));
+  EXPECT_FALSE(file.reproduces(used));
 }
 
-TEST(SavedSession, HasTheSettingsInUse) {
+TEST(SaveScene, WritesTheSettingsInUse) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
-  session.set_method("multi-level-sb");
-  session.set_contact_surface(softbody::ContactSurface::surfaces);
+  session.settings.set_method("multi-level-sb");
+  session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
   collide::Settings settings = session.world().collision();
   settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
-  session.set_collision(settings, false);
-  session.save_scene(folder.path() / "a.toml", {.distance = 3});
-  ASSERT_EQ(session.notice(), "");
+  session.settings.set_collision(settings, false);
+  session.scenes.save(folder.path() / "a.toml", {.distance = 3});
+  ASSERT_EQ(session.simulation.notice.text(), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
   EXPECT_EQ(saved.method, "multi-level-sb");
   EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
@@ -133,74 +132,76 @@ TEST(SavedSession, HasTheSettingsInUse) {
   EXPECT_EQ(saved.bodies.size(), 2u);
 }
 
-TEST(SavedSession, BringsWhatWasAddedInTheFrameInWhichItCame) {
+TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   const TemporaryFolder folder;
   const auto file = folder.path() / "a.toml";
-  Session session(softbody::find_scene("drop", scene_folder()), {}, 1);
+  Session session(softbody::find_scene("drop", files::scene_folder()), {}, 1);
   const auto go_on = [](Session& s, int frames) {
     for (int i = 0; i < frames; ++i) s.advance_one(1.0 / 60, true);
   };
   const auto begin = session.world().scene().bodies.size();
-  session.drop(2);
+  session.bodies.drop(2);
   go_on(session, 40);
-  session.throw_body({6, 2, 0}, {-1, 0, 0});
-  session.drop();
+  session.bodies.throw_body({6, 2, 0}, {-1, 0, 0});
+  session.bodies.drop();
   go_on(session, 30);
   ASSERT_EQ(session.world().added().size(), 4u);
-  session.save_scene(file, {});
-  ASSERT_EQ(session.notice(), "");
-  EXPECT_TRUE(session.scene_file().makes(session.scene_as_it_is()));
+  session.scenes.save(file, {});
+  ASSERT_EQ(session.simulation.notice.text(), "");
+  EXPECT_TRUE(session.simulation.loaded.file.reproduces(session.scenes.with_added_bodies()));
   Session again(softbody::load_scene(file), {}, 1);
   EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
   go_on(again, 70);
   EXPECT_EQ(again.world().state_hash(), session.world().state_hash());
   EXPECT_TRUE(again.world().added().empty());  // they are the scene's now
-  session.select_body(session.world().added()[1].body);
-  session.remove_selected();
-  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 3);
-  session.undo();
-  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin + 4);
-  session.reset();
-  EXPECT_EQ(session.scene_as_it_is().bodies.size(), begin);
+  session.bodies.select(session.world().added()[1].body);
+  session.bodies.remove_selected();
+  EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin + 3);
+  session.simulation.undo();
+  EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin + 4);
+  session.simulation.reset();
+  EXPECT_EQ(session.scenes.with_added_bodies().bodies.size(), begin);
 }
 
-TEST(Reset, KeepsTheIntegrator) {
+TEST(Session, KeepsTheIntegratorAtAReset) {
   Session session(touching_pair(), {}, 1);
-  session.set_integrator("xpbd", 7);
-  session.reset();
-  EXPECT_EQ(session.integrator(), (IntegratorChoice{"xpbd", 7}));
+  session.settings.set_integrator({"xpbd", 7});
+  session.simulation.reset();
+  EXPECT_EQ(session.world().integrator_choice(), (softbody::IntegratorChoice{"xpbd", 7}));
 }
 
-TEST(SavedSession, RefusesWithTheReasonAndWritesNothing) {
+TEST(SaveScene, ReportsErrorsAndWritesNothing) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
-  session.save_scene(folder.path() / "a.txt", {});
-  EXPECT_NE(session.notice().find(".toml"), std::string::npos) << session.notice();
-  session.save_scene(folder.path() / "none" / "a.toml", {});
-  EXPECT_NE(session.notice().find("cannot be written"), std::string::npos) << session.notice();
+  session.scenes.save(folder.path() / "a.txt", {});
+  EXPECT_NE(session.simulation.notice.text().find(".toml"), std::string::npos) << session.simulation.notice.text();
+  session.scenes.save(folder.path() / "none" / "a.toml", {});
+  EXPECT_NE(session.simulation.notice.text().find("cannot be written"), std::string::npos)
+      << session.simulation.notice.text();
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
-  EXPECT_EQ(session.scene_file().name(), "pair");
-  EXPECT_FALSE(session.paused);
+  EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
+  EXPECT_FALSE(session.simulation.clock.paused);
 }
 
-TEST(SavedSession, ReplacesItsSceneButNoMesh) {
+TEST(SaveScene, ReplacesASceneFileButNoMesh) {
   const TemporaryFolder folder;
   const std::string tetrahedron = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 3 1 4\n";
   const auto mesh = folder.write("mesh.obj", tetrahedron), added = folder.write("added.obj", tetrahedron);
   const auto file = folder.write("a.toml", "[[body]]\nmesh = {kind = \"file\", path = \"mesh.obj\", size = 1}\n");
   Session session(softbody::load_scene(file), {}, 1, file);
-  session.add_body({.mesh = softbody::MeshSource::from_file({.path = added, .size = 1}), .position = {0, 9, 0}},
-                   session.world().scene().materials[0]);
-  ASSERT_EQ(session.notice(), "");
+  session.bodies.add({.mesh = softbody::MeshSource::from_file({.path = added, .size = 1}), .position = {0, 9, 0}},
+                     session.world().scene().materials[0]);
+  ASSERT_EQ(session.simulation.notice.text(), "");
   for (const auto& each : {mesh, added}) {
     const auto link = each.string() + ".toml";
     std::filesystem::create_hard_link(each, link);
-    session.save_scene(link, {});
-    EXPECT_NE(session.notice().find("is the input " + each.string()), std::string::npos) << session.notice();
+    session.scenes.save(link, {});
+    EXPECT_NE(session.simulation.notice.text().find("is the input " + each.string()), std::string::npos)
+        << session.simulation.notice.text();
     EXPECT_TRUE(std::filesystem::equivalent(each, link));
   }
-  session.save_scene(file, {.distance = 3});
-  EXPECT_EQ(session.notice(), "");
+  session.scenes.save(file, {.distance = 3});
+  EXPECT_EQ(session.simulation.notice.text(), "");
   EXPECT_EQ(softbody::load_scene(file).view.distance, 3);
 }
 

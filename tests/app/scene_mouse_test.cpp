@@ -1,4 +1,4 @@
-// What the mouse meets in the scene, and what it does there.
+// Picking with the mouse in the scene, and what its clicks and drags do.
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,9 @@
 #include <glm/matrix.hpp>
 
 #include "app/window/scene_mouse.h"
+#include "softbody/prototype.h"
 #include "tests/app/hands.h"
+#include "tests/support/world_insides.h"
 
 namespace app {
 namespace {
@@ -27,12 +29,13 @@ glm::vec2 pixel_of(const engine::Camera& camera, const glm::vec3& point) {
   return glm::vec2(*camera.project(point, size));
 }
 
-/// The first of all triangles that the ray meets, by Cramer's rule in double.
+/// The first triangle that the ray hits, found by Cramer's rule in double.
 struct Nearest {
   double distance = std::numeric_limits<double>::infinity();
   softbody::BodyId body = 0;
   softbody::Triangle corners{};
 };
+/// Tests all triangles, by Cramer's rule in double.
 Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   Nearest nearest;
   const collide::Frame f = world.positions();
@@ -50,7 +53,7 @@ Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   return nearest;
 }
 
-TEST(Pick, IsWhatBruteForceFinds) {
+TEST(Pick, FindsWhatBruteForceFinds) {
   softbody::World world(without_solids(), {});
   const engine::Camera camera = camera_at({0, 3, 0}, 4);
   std::mt19937 random(1);
@@ -58,7 +61,7 @@ TEST(Pick, IsWhatBruteForceFinds) {
   for (int i = 0; i < 2000; ++i) {
     const auto share = [&] { return static_cast<float>(random() % 10000) / 10000.0f; };
     const engine::Ray ray = camera.pick_ray({share() * size.x, share() * size.y}, size);
-    const auto found = pick(ray, world, {.now = world.positions()});
+    const auto found = render::pick(ray, world, {.now = world.positions()});
     const Nearest expected = brute_force(ray, world);
     ASSERT_EQ(found.has_value(), std::isfinite(expected.distance));
     if (!found) continue;
@@ -77,36 +80,35 @@ TEST(Pick, IsWhatBruteForceFinds) {
   EXPECT_GT(hits, 100);
 }
 
-TEST(Pick, ASolidHidesWhatIsBehindItAndNotWhatIsBeforeIt) {
+TEST(Pick, IgnoresBodiesBehindASolid) {
   softbody::Scene scene = without_solids();
   softbody::World bare(scene, {});
   const engine::Ray ray{{-0.51f, 3.03f, 10}, {0, 0, -1}};
-  ASSERT_TRUE(pick(ray, bare, {.now = bare.positions()}));
+  ASSERT_TRUE(render::pick(ray, bare, {.now = bare.positions()}));
   for (const double z : {5.0, -5.0}) {
     softbody::Scene solids;
     solids.spheres.push_back({.centre = {-0.5, 3, z}, .radius = 1});
     bare.set_solids(solids);
-    EXPECT_EQ(pick(ray, bare, {.now = bare.positions()}).has_value(), z < 0);
+    EXPECT_EQ(render::pick(ray, bare, {.now = bare.positions()}).has_value(), z < 0);
   }
 }
 
-TEST(Pick, MeetsBodiesWhereTheyAreDrawn) {
+TEST(Pick, HitsBodiesWhereTheyAreDrawn) {
   softbody::World world(without_solids(), {});
-  Positions before;
+  compare::Positions before;
   before.copy(world.positions());
   for (float& y : before.y) y += 2;
   const engine::Ray ray{{-0.51f, 4.03f, 10}, {0, 0, -1}};
-  EXPECT_FALSE(pick(ray, world, {.now = world.positions()}));
-  EXPECT_TRUE(pick(ray, world, {world.positions(), before.x, before.y, before.z, 0.5f}));
+  EXPECT_FALSE(render::pick(ray, world, {.now = world.positions()}));
+  EXPECT_TRUE(render::pick(ray, world, {world.positions(), before.x, before.y, before.z, 0.5f}));
 }
 
-/// A session, a camera and a hand on the mouse.
-class Mouse : public testing::Test {
+class SceneMouseTest : public testing::Test {
  protected:
   void frame(int times = 1) {
     for (int i = 0; i < times; ++i) {
       session.advance(tick);
-      mouse.follow(input, session, camera, size);
+      mouse.update(input, session, camera, size);
       camera.advance(tick);
       input.moved = {};
       input.double_click = false;
@@ -125,91 +127,91 @@ class Mouse : public testing::Test {
 
   Session session{without_solids(), {}, 1};
   engine::Camera camera = camera_at({0, 3, 0}, 8);
-  SceneMouse mouse;
-  MouseInput input;
+  window::SceneMouse mouse;
+  window::MouseInput input;
 };
 
-/// Between two frames the camera follows the mouse, and the next frame adds but what is left.
-TEST_F(Mouse, GoesOnTurningBetweenFrames) {
-  const auto turn = [&](bool between) {
+/// Between two frames the camera follows the mouse, and the next frame adds only the rest of the way.
+TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
+  const auto orbit_after_drag = [&](bool between) {
     camera = camera_at({0, 3, 0}, 8);
-    input.at = {5, 5};  // beside all bodies
+    input.at = {5, 5};  // on the background
     button(0, true);
     if (between) {
       const engine::Orbit before = camera.orbit();
-      mouse.turn_on({60, 20}, camera, size);
-      camera.settle();
+      mouse.orbit_between_frames({60, 20}, camera, size);
+      camera.finish_glide();
       EXPECT_NE(camera.orbit().azimuth, before.azimuth);
     }
     move({100, 40});
-    camera.settle();
+    camera.finish_glide();
     button(0, false);
     return camera.orbit();
   };
-  const engine::Orbit whole = turn(false), parts = turn(true);
+  const engine::Orbit whole = orbit_after_drag(false), parts = orbit_after_drag(true);
   EXPECT_NEAR(whole.azimuth, parts.azimuth, 1e-5);
   EXPECT_NEAR(whole.elevation, parts.elevation, 1e-5);
   const engine::Orbit before = camera.orbit();
-  mouse.turn_on({400, 300}, camera, size);  // nobody drags
-  camera.settle();
+  mouse.orbit_between_frames({400, 300}, camera, size);  // there is no drag
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
 }
 
-TEST_F(Mouse, GrabsPullsAndThrows) {
+TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   move(body_pixel(1));
   EXPECT_TRUE(mouse.on_body());
-  EXPECT_FALSE(session.selected_body());
+  EXPECT_FALSE(session.bodies.selected());
   button(0, true);
   ASSERT_TRUE(session.world().grabbed());
   EXPECT_EQ(session.world().grabbed()->body, 1u);
-  EXPECT_EQ(session.selected_body(), 1u);
+  EXPECT_EQ(session.bodies.selected(), 1u);
   const engine::Orbit orbit = camera.orbit();
   const glm::vec2 target = input.at + glm::vec2(150, -60);
   for (int i = 1; i <= 30; ++i) move(input.at + (target - input.at) * 0.2f);
   frame(90);
-  const glm::vec3 point(session.world().dynamics().grabbed_point());
+  const glm::vec3 point(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
-  EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // hangs by it
+  EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // the body hangs from the mouse
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-  const glm::dvec3 held(session.world().dynamics().grabbed_point());
+  const glm::dvec3 held(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
               glm::distance(glm::dvec3(camera.eye()), centre(session.world(), 0)), 1);
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));
   button(0, false);
   EXPECT_FALSE(session.world().grabbed());
-  const glm::vec2 let_go = body_pixel(1);
+  const glm::vec2 at_release = body_pixel(1);
   frame(10);
-  EXPECT_LT(body_pixel(1).x, let_go.x - 10);  // it flies on
-  EXPECT_EQ(session.selected_body(), 1u);
+  EXPECT_LT(body_pixel(1).x, at_release.x - 10);  // the body flies on
+  EXPECT_EQ(session.bodies.selected(), 1u);
 }
 
-TEST_F(Mouse, BesideAllBodiesTurnsAndAClickSelectsNothing) {
-  session.select_body(0);
+TEST_F(SceneMouseTest, OrbitsByADragOfTheBackgroundAndDeselectsByAClick) {
+  session.bodies.select(0);
   move({5, 5});
   EXPECT_FALSE(mouse.on_body());
   const float azimuth = camera.orbit().azimuth;
   button(0, true);
   move({205, 5});
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
-  EXPECT_EQ(session.selected_body(), 0u);  // that was no click
+  EXPECT_EQ(session.bodies.selected(), 0u);  // that was a drag
   move({5, 5});
   button(0, true);
   button(0, false);
-  EXPECT_FALSE(session.selected_body());
+  EXPECT_FALSE(session.bodies.selected());
 }
 
-/// In one slow frame: the way to the place of the press is no drag, and the way from there to the release is one.
-TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
+/// In one slow frame, the way to the place of the press is no drag, but the way from there to the release is one.
+TEST_F(SceneMouseTest, IgnoresTheWayBeforeAPress) {
   const engine::Orbit before = camera.orbit();
   const auto jump = [&](const glm::vec2& to, std::size_t which, bool down) {
     input.moved = to - input.at;
     input.at = to;
     button(which, down);
-    camera.settle();
+    camera.finish_glide();
   };
-  session.select_body(0);
+  session.bodies.select(0);
   for (const std::size_t which : {0u, 1u}) {
     jump({400, 5}, which, true);
     jump({400, 5}, which, false);
@@ -217,51 +219,51 @@ TEST_F(Mouse, TheWayBeforeAPressIsNoDrag) {
     EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
     EXPECT_EQ(camera.orbit().target, before.target);
   }
-  EXPECT_FALSE(session.selected_body()) << "that was a click beside all bodies";
-  session.paused = true;
+  EXPECT_FALSE(session.bodies.selected()) << "that was a click on the background";
+  session.simulation.clock.paused = true;
   jump(body_pixel(1), 0, true);
   jump(input.at, 0, false);
-  EXPECT_EQ(session.selected_body(), 1u);
+  EXPECT_EQ(session.bodies.selected(), 1u);
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
   jump({5, 5}, 0, true);
   jump({205, 5}, 0, false);
   EXPECT_GT(std::abs(camera.orbit().azimuth - before.azimuth), 0.1f);
-  EXPECT_EQ(session.selected_body(), 1u) << "that was a drag";
+  EXPECT_EQ(session.bodies.selected(), 1u) << "that was a drag";
 }
 
-TEST_F(Mouse, WhilePausedSelectsAndTurns) {
-  session.paused = true;
+TEST_F(SceneMouseTest, SelectsAndOrbitsWhilePaused) {
+  session.simulation.clock.paused = true;
   move(body_pixel(0));
   const float azimuth = camera.orbit().azimuth;
   button(0, true);
-  EXPECT_EQ(session.selected_body(), 0u);
+  EXPECT_EQ(session.bodies.selected(), 0u);
   EXPECT_FALSE(session.world().grabbed());
   move(input.at + glm::vec2(100, 0));
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(std::abs(camera.orbit().azimuth - azimuth), 0.1f);
-  EXPECT_EQ(session.selected_body(), 0u);
+  EXPECT_EQ(session.bodies.selected(), 0u);
 }
 
-TEST_F(Mouse, ADoubleClickLooksAtTheBody) {
-  session.paused = true;
+TEST_F(SceneMouseTest, FocusesOnADoubleClickedBody) {
+  session.simulation.clock.paused = true;
   move(body_pixel(1));
   input.double_click = true;
   button(0, true);
   button(0, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_LT(glm::distance(glm::dvec3(camera.orbit().target), centre(session.world(), 1)), 0.05);
   EXPECT_LT(camera.orbit().distance, 5);
   EXPECT_FALSE(session.world().grabbed());
 }
 
-TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
+TEST_F(SceneMouseTest, PansByTheOtherButtonsAndIgnoresThePanelsMouse) {
   move(body_pixel(0));
   const glm::vec3 target = camera.orbit().target;
   button(1, true);
   move(input.at + glm::vec2(50, 0));
   button(1, false);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(glm::distance(camera.orbit().target, target), 0.05f);
   const engine::Orbit before = camera.orbit();
   input.over_scene = false;
@@ -269,13 +271,13 @@ TEST_F(Mouse, PansByTheOtherButtonsAndLeavesAPanelsMouseAlone) {
   move(body_pixel(0));
   button(0, true);
   move(input.at + glm::vec2(50, 0));
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().distance, before.distance);
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
-  EXPECT_FALSE(session.selected_body());
+  EXPECT_FALSE(session.bodies.selected());
 }
 
-TEST_F(Mouse, ThrowsToWhereItPointsOrToTheMiddle) {
+TEST_F(SceneMouseTest, AimsAtTheMouseOrAtTheMiddle) {
   move({200, 150});
   EXPECT_EQ(mouse.ray(camera, size).direction, camera.pick_ray({200, 150}, size).direction);
   input.over_scene = false;

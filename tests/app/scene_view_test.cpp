@@ -21,13 +21,13 @@ constexpr glm::ivec2 size{240, 160};
 class SceneViewTest : public testing::Test {
  protected:
   SceneViewTest() {
-    session_.set_method("multi-level-sb");
+    session_.settings.set_method("multi-level-sb");
     collide::Settings settings = session_.world().collision();
     settings.cell_size = glm::vec3(0.3f);
-    session_.set_collision(settings, false);
+    session_.settings.set_collision(settings, false);
   }
 
-  std::vector<std::uint8_t> picture(const OverlayRequest& request, DrawnPositions positions = {}) {
+  std::vector<std::uint8_t> picture(const render::OverlayRequest& request, compare::DrawnPositions positions = {}) {
     positions.now = session_.world().positions();
     target_.bind();
     const engine::Camera camera = view_.camera(session_.world().scene(), size);
@@ -36,41 +36,42 @@ class SceneViewTest : public testing::Test {
     return target_.read().rgba;
   }
 
-  engine::HeadlessContext context_;  // first: the others need it
+  engine::HeadlessContext context_;  // first member: the others require it
   engine::Framebuffer target_{size, 0};
-  SceneView view_{engine::find_folder("shaders")};
+  render::SceneView view_{engine::find_folder("shaders")};
   Session session_{touching_pair(), {}, 1};
 };
 
-TEST_F(SceneViewTest, EveryOverlayShows) {
+TEST_F(SceneViewTest, DrawsEachOverlay) {
   const std::vector<collide::Contact> missed{{0, 200}};
-  OverlayRequest request;
-  request.debug = &session_.debug();
+  render::OverlayRequest request;
+  request.debug = &session_.inspector.shown_geometry();
   request.missed = &missed;
-  const std::vector<softbody::SurfaceTouch> touches{{0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
-  const std::vector<SurfaceMark> marks{{0, {0, 0.3f, 0}, false}, {200, {0, 0.1f, 0}, true}};
+  const std::vector<softbody::SurfaceContactPoint> touches{
+      {0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
+  const std::vector<compare::SurfaceMark> marks{{0, {0, 0.3f, 0}, false}, {200, {0, 0.1f, 0}, true}};
   request.touches = touches;
   request.marks = marks;
   const auto plain = picture(request);
   EXPECT_EQ(picture(request), plain);
-  for (const OverlayRow& row : overlay_table) {
+  for (const render::OverlayRow& row : render::overlay_table) {
     request.shown = {};
     request.shown.*row.shown = true;
     EXPECT_NE(picture(request), plain) << row.key;
   }
 }
 
-TEST_F(SceneViewTest, ASelectedBucketShowsWithoutAnyOverlay) {
-  OverlayRequest request;
+TEST_F(SceneViewTest, DrawsTheSelectedBucketWithoutOverlays) {
+  render::OverlayRequest request;
   const auto plain = picture(request);
-  request.debug = &session_.debug();
-  session_.select_bucket(request.debug->box_bucket.at(0));
-  request.bucket = session_.bucket();
+  request.debug = &session_.inspector.shown_geometry();
+  session_.inspector.select_bucket(request.debug->box_bucket.at(0));
+  request.bucket = session_.inspector.bucket();
   EXPECT_NE(picture(request), plain);
 }
 
-TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
-  Positions earlier;
+TEST_F(SceneViewTest, InterpolatesFromEarlierPositions) {
+  compare::Positions earlier;
   earlier.copy(session_.world().positions());
   const auto now = picture({});
   EXPECT_EQ(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
@@ -79,11 +80,11 @@ TEST_F(SceneViewTest, BlendsFromEarlierPositions) {
   EXPECT_NE(picture({}, {{}, earlier.x, earlier.y, earlier.z, 0.5f}), now);
 }
 
-/// Two surfaces that all but coincide would show through each other in patches.
-TEST_F(SceneViewTest, AGhostThatHardlyDiffersIsBehind) {
-  OverlayRequest request;
+/// Two surfaces that nearly coincide would otherwise show through each other in patches.
+TEST_F(SceneViewTest, DrawsAGhostThatHardlyDiffersBehind) {
+  render::OverlayRequest request;
   const auto plain = picture(request);
-  Positions nearly;
+  compare::Positions nearly;
   nearly.copy(session_.world().positions());
   for (std::size_t i = 0; i < nearly.x.size(); ++i) nearly.x[i] += i % 2 ? 0.003f : -0.003f;
   request.ghost = &session_.world();
@@ -91,14 +92,14 @@ TEST_F(SceneViewTest, AGhostThatHardlyDiffersIsBehind) {
   const auto with_ghost = picture(request);
   std::size_t differ = 0;
   for (std::size_t i = 0; i < plain.size(); i += 4) differ += !std::equal(&plain[i], &plain[i] + 3, &with_ghost[i]);
-  EXPECT_LT(differ, plain.size() / 4 / 100) << "but for outlines";
+  EXPECT_LT(differ, plain.size() / 4 / 100) << "except outlines";
   for (float& x : nearly.x) x += 0.5f;
   EXPECT_NE(picture(request), with_ghost);
 }
 
-TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {
+TEST(Capture, WritesAPictureOfTheRequestedSize) {
   const auto file = std::filesystem::path(testing::TempDir()) / "sbcollide_capture_test.png";
-  Capture capture(321, 123);
+  render::Capture capture(321, 123);
   capture.write(softbody::World(touching_pair(), {}), file);
   const engine::Image image = engine::load_png(file);
   EXPECT_EQ(image.width, 321);
@@ -107,19 +108,19 @@ TEST(Capture, WritesAPictureOfExactlyTheSizeAskedFor) {
   std::filesystem::remove(file);
 }
 
-TEST(Palette, TellsDozensOfBodiesApart) {
+TEST(Palette, HasDistinctColoursForDozensOfBodies) {
   for (std::uint32_t a = 0; a < 47; ++a) {
     for (std::uint32_t b = a + 1; b < 47; ++b) {
-      EXPECT_GT(glm::distance(body_colour(a), body_colour(b)), 0.03f) << a << " and " << b;
+      EXPECT_GT(glm::distance(render::body_colour(a), render::body_colour(b)), 0.03f) << a << " and " << b;
     }
   }
 }
 
-TEST(Palette, LoadsGetLighterAllTheWay) {
+TEST(Palette, GetsLighterWithTheLoad) {
   const auto lightness = [](const glm::vec3& c) { return 0.2126f * c.x + 0.7152f * c.y + 0.0722f * c.z; };
   for (int i = 1; i <= 32; ++i) {
-    EXPECT_GT(lightness(sequential_colour(static_cast<float>(i) / 32)),
-              lightness(sequential_colour(static_cast<float>(i - 1) / 32)));
+    EXPECT_GT(lightness(render::sequential_colour(static_cast<float>(i) / 32)),
+              lightness(render::sequential_colour(static_cast<float>(i - 1) / 32)));
   }
 }
 

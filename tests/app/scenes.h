@@ -1,5 +1,5 @@
 #pragma once
-// Scenes for the demo's tests, small and in motion from the first frame.
+// Small scenes for the demo's tests, in motion from the first frame.
 
 #include <limits>
 
@@ -9,7 +9,7 @@ namespace app {
 
 inline constexpr double tick = 1.0001 / 60;  // s, a little more than a frame
 
-/// Two bodies that touch side by side in the air, ground and solid sphere below, and a dropper.
+/// Two bodies side by side in contact, in the air above a solid sphere and the ground, and a dropper.
 inline softbody::Scene touching_pair() {
   softbody::Scene scene;
   scene.key = "pair";
@@ -29,7 +29,7 @@ inline softbody::Scene touching_pair() {
   return scene;
 }
 
-/// The same, but the second body comes in a little later, and is lost.
+/// The same, but the second body appears later and is not finite.
 inline softbody::Scene doomed_pair() {
   softbody::Scene scene = touching_pair();
   scene.bodies[1].velocity.y = std::numeric_limits<double>::quiet_NaN();

@@ -19,65 +19,67 @@ const softbody::World& pair_world() {
   return world;
 }
 
-/// Quick ones: one bucket count of each configuration of the whole sweep.
-std::vector<Configuration> some_configurations() {
-  std::vector<Configuration> some;
-  for (const Configuration& c : sweep_configurations(pair_world())) {
+/// Returns configurations that run quickly: those of the whole sweep with one of the bucket counts.
+std::vector<compare::Configuration> some_configurations() {
+  std::vector<compare::Configuration> some;
+  for (const compare::Configuration& c : compare::sweep_configurations(pair_world())) {
     const bool hashes = collide::method_table()[c.method].uses_hash;
-    if (!hashes || c.settings.buckets == sweep_buckets.back()) some.push_back(c);
+    if (!hashes || c.settings.buckets == compare::sweep_buckets.back()) some.push_back(c);
   }
   return some;
 }
 
-SweepReport run(const std::vector<Configuration>& configurations, const SweepLimits& limits) {
-  Sweep sweep(pair_world().positions(), configurations, limits, alone());
+compare::SweepReport run(const std::vector<compare::Configuration>& configurations,
+                         const compare::SweepLimits& limits) {
+  compare::Sweep sweep(pair_world().positions(), configurations, limits, alone());
   while (sweep.step()) continue;
   return sweep.report();
 }
 
 std::size_t count(std::string_view method) {
-  return static_cast<std::size_t>(
-      std::ranges::count(sweep_configurations(pair_world()), method_index(method), &Configuration::method));
+  return static_cast<std::size_t>(std::ranges::count(compare::sweep_configurations(pair_world()),
+                                                     compare::method_index(method), &compare::Configuration::method));
 }
 
-TEST(SweepConfigurations, EveryMethodTakesAllCombinationsOfTheAxesThatItUses) {
+TEST(SweepConfigurations, CombineAllAxesThatAMethodUses) {
   std::size_t expected = 0;
   for (const collide::Method& method : collide::method_table()) {
     const std::size_t own = (method.uses_levels ? 4 : 1) * (method.uses_hash ? 4 * 5 : 1);
     EXPECT_EQ(count(method.key), own) << method.key;
     expected += own;
   }
-  const auto all = sweep_configurations(pair_world());
+  const auto all = compare::sweep_configurations(pair_world());
   EXPECT_EQ(all.size(), expected);
-  for (const Configuration& c : all) EXPECT_EQ(collide::problem(c.settings), "");
+  for (const compare::Configuration& c : all) EXPECT_EQ(collide::problem(c.settings), "");
   EXPECT_EQ(count("multi-level-sb"), 80u);
   EXPECT_EQ(count("brute-force"), 1u);
 }
 
-TEST(SweepConfigurations, TheAutomaticCellIsTheWorldsOwn) {
+TEST(SweepConfigurations, UseTheWorldsAutomaticCellSize) {
   const softbody::World& world = pair_world();
-  EXPECT_EQ(automatic_cell_size(world, world.collision().levels), world.collision().cell_size);
-  EXPECT_LT(automatic_cell_size(world, 9).x, automatic_cell_size(world, 0).x);
-  for (const Configuration& c : sweep_configurations(world)) {
+  EXPECT_EQ(compare::automatic_cell_size(world, world.collision().levels), world.collision().cell_size);
+  EXPECT_LT(compare::automatic_cell_size(world, 9).x, compare::automatic_cell_size(world, 0).x);
+  for (const compare::Configuration& c : compare::sweep_configurations(world)) {
     if (!collide::method_table()[c.method].uses_hash) continue;
-    EXPECT_EQ(c.settings.cell_size, automatic_cell_size(world, c.settings.levels) * static_cast<float>(c.cell));
+    EXPECT_EQ(c.settings.cell_size,
+              compare::automatic_cell_size(world, c.settings.levels) * static_cast<float>(c.cell));
   }
 }
 
-TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
+TEST(Sweep, ReportsWhatNewDetectorsFind) {
   const auto configurations = some_configurations();
-  const SweepReport report = run(configurations, {.repetitions = 1});
+  const compare::SweepReport report = run(configurations, {.repetitions = 1});
   ASSERT_EQ(report.rows.size(), configurations.size());
   ASSERT_TRUE(report.reference);
-  EXPECT_EQ(report.reference->method, method_index("brute-force"));
-  EXPECT_EQ(report.stands_in, "");
+  EXPECT_EQ(report.reference->method, compare::method_index("brute-force"));
+  EXPECT_EQ(report.reference_note, "");
   EXPECT_GT(report.true_contacts, 0u);
   for (std::size_t i = 0; i < configurations.size(); ++i) {
-    const Configuration& c = configurations[i];
+    const compare::Configuration& c = configurations[i];
     const collide::Method& method = collide::method_table()[c.method];
     collide::Result expected;
     method.make()->detect(pair_world().positions(), c.settings, alone(), expected);
-    const SweepRow& row = report.rows[i];
+    const compare::SweepRow& row = report.rows[i];
     ASSERT_TRUE(row.checked) << method.key;
     EXPECT_EQ(row.not_run, "");
     EXPECT_EQ(row.times.ms.size(), 1u);
@@ -90,56 +92,57 @@ TEST(Sweep, RowsAreWhatFreshDetectorsFind) {
     EXPECT_EQ(row.missed, report.true_contacts - row.contacts);
     EXPECT_TRUE(row.recall == 1.0 || !method.exact) << method.key;
     if (method.key == "grid-hash") {
-      EXPECT_TRUE(row.memory > c.settings.buckets || heap_in_use() == 0) << "a byte a bucket at the least";
+      EXPECT_TRUE(row.memory > c.settings.buckets || compare::heap_in_use() == 0) << "at least a byte per bucket";
     }
   }
 }
 
-TEST(Sweep, SeesWhatTheLiteralMethodMissesWithSmallCells) {
-  const SweepReport report = run(some_configurations(), {.repetitions = 0});
+TEST(Sweep, CountsContactsThatTheLiteralMethodMissesWithSmallCells) {
+  const compare::SweepReport report = run(some_configurations(), {.repetitions = 0});
   bool missed = false;
-  for (const SweepRow& row : report.rows) {
-    if (row.configuration.method != method_index("multi-level-sb")) continue;
+  for (const compare::SweepRow& row : report.rows) {
+    if (row.configuration.method != compare::method_index("multi-level-sb")) continue;
     EXPECT_LE(row.recall, 1.0);
     if (row.configuration.settings.levels == 0 && row.configuration.cell == 0.25) missed = row.recall < 0.5;
   }
   EXPECT_TRUE(missed);
 }
 
-TEST(Sweep, WhatExceedsTheBudgetIsListedAndNotRun) {
+TEST(Sweep, ListsButDoesNotRunWhatExceedsTheBudget) {
   softbody::World world(touching_pair(), {});
-  world.drop();  // a third body, out of reach of the others: only brute force tests all 117,855 pairs of vertices
-  Sweep sweep(world.positions(), sweep_configurations(world), {.budget = 110'000, .repetitions = 1}, alone());
+  world.drop();  // a third body, far from the others: only brute force tests all 117,855 pairs of vertices
+  compare::Sweep sweep(world.positions(), compare::sweep_configurations(world), {.budget = 110'000, .repetitions = 1},
+                       alone());
   while (sweep.step()) continue;
-  const SweepReport& report = sweep.report();
-  EXPECT_EQ(report.rows[method_index("brute-force")].not_run, "over budget: 117,855 pair tests predicted");
-  for (const SweepRow& row : report.rows) {
+  const compare::SweepReport& report = sweep.report();
+  EXPECT_EQ(report.rows[compare::method_index("brute-force")].not_run, "over budget: 117,855 pair tests predicted");
+  for (const compare::SweepRow& row : report.rows) {
     EXPECT_EQ(row.checked, row.not_run.empty());
     EXPECT_EQ(row.times.ms.empty(), !row.not_run.empty());
   }
-  ASSERT_TRUE(report.reference) << "another exact method stands in";
+  ASSERT_TRUE(report.reference) << "another exact method is the reference";
   const collide::Method& reference = collide::method_table()[report.reference->method];
   EXPECT_TRUE(reference.exact);
   EXPECT_FALSE(reference.uses_levels);
-  EXPECT_EQ(report.stands_in, "brute force is over budget: 117,855 pair tests predicted");
+  EXPECT_EQ(report.reference_note, "brute force is over budget: 117,855 pair tests predicted");
   EXPECT_EQ(report.true_contacts, world.detection().contacts.size());
 }
 
-TEST(Sweep, WithoutAnyBudgetThereIsNoReferenceAndNothingRuns) {
-  const SweepReport report = run(some_configurations(), {.budget = 0});
+TEST(Sweep, RunsNothingWithoutABudget) {
+  const compare::SweepReport report = run(some_configurations(), {.budget = 0});
   EXPECT_FALSE(report.reference);
-  for (const SweepRow& row : report.rows) EXPECT_FALSE(row.checked);
+  for (const compare::SweepRow& row : report.rows) EXPECT_FALSE(row.checked);
 }
 
-TEST(Sweep, TimesEachAsOftenAsAskedForUnlessItTakesTooLong) {
-  for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e9}).rows)
+TEST(Sweep, RepeatsEachConfigurationUntilItTakesTooLong) {
+  for (const compare::SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e9}).rows)
     EXPECT_EQ(row.times.ms.size(), 3u);
-  for (const SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e-9}).rows)
-    EXPECT_EQ(row.times.ms.size(), 1u) << "but once at least";
+  for (const compare::SweepRow& row : run(some_configurations(), {.repetitions = 3, .repeat_ms = 1e-9}).rows)
+    EXPECT_EQ(row.times.ms.size(), 1u) << "but at least once";
 }
 
-TEST(Sweep, CanBeLeftAtAnyStepAndTellsItsProgress) {
-  Sweep sweep(pair_world().positions(), some_configurations(), {.repetitions = 2}, alone());
+TEST(Sweep, CanStopAfterAnyStepAndReportsItsProgress) {
+  compare::Sweep sweep(pair_world().positions(), some_configurations(), {.repetitions = 2}, alone());
   EXPECT_EQ(sweep.progress(), 0.0);
   double before = 0;
   for (int i = 0; i < 10; ++i) {
@@ -147,22 +150,23 @@ TEST(Sweep, CanBeLeftAtAnyStepAndTellsItsProgress) {
     EXPECT_GE(sweep.progress(), before);
     before = sweep.progress();
   }
-  EXPECT_EQ(std::ranges::count(sweep.report().rows, true, &SweepRow::checked), 9) << "the first step is the reference";
+  EXPECT_EQ(std::ranges::count(sweep.report().rows, true, &compare::SweepRow::checked), 9)
+      << "the first step is the reference";
   while (sweep.step()) continue;
   EXPECT_EQ(sweep.progress(), 1.0);
   EXPECT_FALSE(sweep.step());
 }
 
-TEST(ParetoFront, HoldsWhatNothingElseBeats) {
-  EXPECT_TRUE(pareto_front({}).empty());
-  const std::vector<Tradeoff> points{{3, 0.1}, {1, 0.5}, {2, 0.5}, {4, 0.2}, {5, 0.0}, {5, 0.0}, {9, 0.0}};
-  EXPECT_EQ(pareto_front(points), (std::vector<std::size_t>{1, 0, 4}));
+TEST(ParetoFront, HasThePointsThatNoOtherBeats) {
+  EXPECT_TRUE(compare::pareto_front({}).empty());
+  const std::vector<compare::Tradeoff> points{{3, 0.1}, {1, 0.5}, {2, 0.5}, {4, 0.2}, {5, 0.0}, {5, 0.0}, {9, 0.0}};
+  EXPECT_EQ(compare::pareto_front(points), (std::vector<std::size_t>{1, 0, 4}));
 }
 
-TEST(TimesTest, MedianIsTheMiddleOrTheMeanOfTheTwoMiddleOnes) {
-  EXPECT_EQ((Times{{3, 1, 2}}.median()), 2);
-  EXPECT_EQ((Times{{4, 1, 2, 9}}.median()), 3);
-  EXPECT_EQ((Times{{4, 1, 2, 9}}.least()), 1);
+TEST(Timings, HasTheMiddleValueAsMedian) {
+  EXPECT_EQ((Timings{{3, 1, 2}}.median()), 2);
+  EXPECT_EQ((Timings{{4, 1, 2, 9}}.median()), 3);
+  EXPECT_EQ((Timings{{4, 1, 2, 9}}.min()), 1);
 }
 
 }  // namespace

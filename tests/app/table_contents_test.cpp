@@ -15,7 +15,7 @@ namespace {
 
 using collide::Index;
 
-/// Bodies of a few points each, strewn about.
+/// Bodies of twelve points each, at random places.
 struct Points {
   explicit Points(int number) {
     std::mt19937 random(7);
@@ -45,12 +45,12 @@ collide::DebugGeometry structure(std::string_view method, const Points& points, 
   return detector->debug();
 }
 
-/// Pair by pair, from the definition.
-Sharing counted_one_by_one(const BucketContents& bucket) {
+/// Counts pair by pair, from the definition.
+compare::Sharing counted_one_by_one(const compare::BucketContents& bucket) {
   std::vector<std::pair<std::size_t, Index>> entries;  // group, item
   for (std::size_t g = 0; g < bucket.groups.size(); ++g)
     for (const Index item : bucket.groups[g].items) entries.emplace_back(g, item);
-  Sharing sharing;
+  compare::Sharing sharing;
   for (std::size_t i = 0; i < entries.size(); ++i) {
     for (std::size_t j = 0; j < i; ++j) {
       if (entries[i].second == entries[j].second) continue;
@@ -62,27 +62,27 @@ Sharing counted_one_by_one(const BucketContents& bucket) {
 
 class TableContentsOf : public testing::TestWithParam<std::tuple<const char*, std::uint32_t, float>> {};
 
-TEST_P(TableContentsOf, HoldsWhatTheMethodHasPutIntoItsBuckets) {
+TEST_P(TableContentsOf, HasTheEntriesOfEachBucket) {
   const auto [method, buckets, cell] = GetParam();
   const Points points(30);
   collide::Settings settings;
   settings.buckets = buckets;
   settings.cell_size = glm::vec3(cell);
   const collide::DebugGeometry debug = structure(method, points, settings);
-  const TableContents table(debug, points.frame(), settings);
+  const compare::TableContents table(debug, points.frame(), settings);
   const collide::methods::CellHash hash(settings);
   const std::vector<std::uint32_t> loads = tests::bucket_loads(debug);
-  Sharing sum;
+  compare::Sharing sum;
   for (std::uint32_t b = 0; b < buckets; ++b) {
-    const BucketContents bucket = table.bucket(b);
+    const compare::BucketContents bucket = table.bucket(b);
     ASSERT_EQ(bucket.items, loads[b]);
-    std::set<Cell> cells;
+    std::set<compare::Cell> cells;
     for (std::size_t g = 0; g < bucket.groups.size(); ++g) {
       ASSERT_EQ(hash.bucket(bucket.groups[g].cell), b);
       ASSERT_TRUE(cells.insert(bucket.groups[g].cell).second);
       ASSERT_LE(bucket.groups[g].items.size(), bucket.groups[g == 0 ? 0 : g - 1].items.size());
     }
-    const Sharing expected = counted_one_by_one(bucket);
+    const compare::Sharing expected = counted_one_by_one(bucket);
     ASSERT_EQ(bucket.sharing.same_cell, expected.same_cell);
     ASSERT_EQ(bucket.sharing.aliased, expected.aliased);
     sum.same_cell += expected.same_cell;
@@ -96,20 +96,20 @@ INSTANTIATE_TEST_SUITE_P(Methods, TableContentsOf,
                          testing::Combine(testing::Values("multi-level-sb", "grid-hash", "bounding-box-grid-hash"),
                                           testing::Values(1u, 7u, 1001u), testing::Values(0.1f, 0.8f)));
 
-TEST(TableContents, OfABucketThatIsEmptyHasNoGroup) {
-  const TableContents table;
+TEST(TableContents, HasNoGroupInAnEmptyBucket) {
+  const compare::TableContents table;
   EXPECT_EQ(table.bucket(3).items, 0u);
   EXPECT_EQ(table.bucket(3).group(std::nullopt), nullptr);
 }
 
-TEST(TableContents, GivesTheGroupOfACellOrTheFullest) {
-  const BucketContents bucket{.bucket = 1, .groups = {{{0, 0, 0}, {1, 2}}, {{5, 5, 5}, {7}}}};
+TEST(TableContents, ReturnsTheGroupOfACellOrTheFullest) {
+  const compare::BucketContents bucket{.bucket = 1, .groups = {{{0, 0, 0}, {1, 2}}, {{5, 5, 5}, {7}}}};
   EXPECT_EQ(bucket.group(std::nullopt), &bucket.groups[0]);
-  EXPECT_EQ(bucket.group(Cell{5, 5, 5}), &bucket.groups[1]);
-  EXPECT_EQ(bucket.group(Cell{9, 9, 9}), &bucket.groups[0]);
+  EXPECT_EQ(bucket.group(compare::Cell{5, 5, 5}), &bucket.groups[1]);
+  EXPECT_EQ(bucket.group(compare::Cell{9, 9, 9}), &bucket.groups[0]);
 }
 
-TEST(PaperStructure, IsThatOfAWholeDetection) {
+TEST(PaperStructure, EqualsThatOfAFullDetection) {
   const Points points(30);
   const collide::Settings settings;
   collide::Workers alone(1);

@@ -3,7 +3,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/ui/shortcuts.h"
-#include "app/ui/tour/excerpt.h"
+#include "app/ui/tour/body_subset.h"
+#include "app/ui/tour/figures.h"
 #include "app/window/preferences.h"
 #include "engine/resources.h"
 #include "tests/app/hands.h"
@@ -14,11 +15,11 @@
 namespace app {
 namespace {
 
-const std::size_t last_step = tour_steps().size() - 1;
+const std::size_t last_step = ui::tour_steps().size() - 1;
 
-bool all_shown(const PanelRig& rig, const std::vector<TourFigure>& figures) {
+bool all_shown(const PanelRig& rig, const std::vector<ui::TourFigure>& figures) {
   return std::ranges::all_of(figures,
-                             [&](const TourFigure& figure) { return rig.recorder.find(figure.label) != nullptr; });
+                             [&](const ui::TourFigure& figure) { return rig.recorder.find(figure.label) != nullptr; });
 }
 
 TEST(Tour, GoesThroughEveryStepByMouse) {
@@ -27,10 +28,10 @@ TEST(Tour, GoesThroughEveryStepByMouse) {
   ASSERT_TRUE(rig.ui.tour.open());
   for (std::size_t step = 0; step <= last_step; ++step) {
     ASSERT_EQ(rig.ui.tour.step(), step);
-    const auto view = rig.ui.tour.view(rig.session);
-    ASSERT_TRUE(view);
-    EXPECT_TRUE(all_shown(rig, tour_steps()[step].figures(*view))) << step;
-    EXPECT_TRUE(all_shown(rig, tour_work(*view)));
+    const auto context = rig.ui.tour.context(rig.session);
+    ASSERT_TRUE(context);
+    EXPECT_TRUE(all_shown(rig, ui::tour_steps()[step].figures(*context))) << step;
+    EXPECT_TRUE(all_shown(rig, ui::figures_of_frame(*context)));
     EXPECT_EQ(rig.widget("Back").enabled, step > 0);
     EXPECT_EQ(rig.widget("Next").enabled, step < last_step);
     if (step < last_step) rig.click("Next");
@@ -43,7 +44,7 @@ TEST(Tour, GoesThroughEveryStepByMouse) {
 
 TEST(Tour, GoesThroughEveryStepByKeys) {
   PanelRig rig;
-  const auto key = [&](int which) { press(which, false, rig.session, rig.ui); };
+  const auto key = [&](int which) { ui::handle_key(which, false, rig.session, rig.ui); };
   key(GLFW_KEY_RIGHT);
   EXPECT_FALSE(rig.ui.tour.open());
   key(GLFW_KEY_G);
@@ -57,36 +58,36 @@ TEST(Tour, GoesThroughEveryStepByKeys) {
   EXPECT_EQ(rig.ui.tour.step(), 0u);
 }
 
-TEST(Tour, GivesBackWhatItPutsAside) {
+TEST(Tour, RestoresPauseOverlaysAndBucket) {
   for (const bool paused : {false, true}) {
     PanelRig rig;
-    rig.session.paused = paused;
+    rig.session.simulation.clock.paused = paused;
     rig.ui.overlays.contacts = true;
-    rig.session.select_bucket(3);
+    rig.session.inspector.select_bucket(3);
     rig.ui.tour.start(rig.session, rig.ui.overlays);
-    EXPECT_TRUE(rig.session.paused);
+    EXPECT_TRUE(rig.session.simulation.clock.paused);
     EXPECT_FALSE(rig.ui.overlays.any());
-    EXPECT_FALSE(rig.session.selected_bucket());
-    EXPECT_TRUE(preferences_of(rig.session, rig.ui, {}).overlays.contacts);
+    EXPECT_FALSE(rig.session.inspector.selected_bucket());
+    EXPECT_TRUE(window::preferences_of(rig.session, rig.ui, {}).overlays.contacts);
     rig.frames(3);
     rig.ui.tour.close(rig.session, rig.ui.overlays);
-    EXPECT_EQ(rig.session.paused, paused);
+    EXPECT_EQ(rig.session.simulation.clock.paused, paused);
     EXPECT_TRUE(rig.ui.overlays.contacts);
-    EXPECT_EQ(rig.session.selected_bucket(), 3u);
+    EXPECT_EQ(rig.session.inspector.selected_bucket(), 3u);
   }
 }
 
-TEST(Tour, LetsTheWorldGoOnIfAsked) {
+TEST(Tour, LetsTheUserResumeTheWorld) {
   PanelRig rig;
-  rig.session.paused = true;
+  rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  press(GLFW_KEY_SPACE, false, rig.session, rig.ui);
+  ui::handle_key(GLFW_KEY_SPACE, false, rig.session, rig.ui);
   const int frame = rig.session.world().frame();
   rig.frames(5);
   EXPECT_GT(rig.session.world().frame(), frame);
-  EXPECT_TRUE(rig.ui.tour.view(rig.session));
+  EXPECT_TRUE(rig.ui.tour.context(rig.session));
   rig.ui.tour.close(rig.session, rig.ui.overlays);
-  EXPECT_FALSE(rig.session.paused);
+  EXPECT_FALSE(rig.session.simulation.clock.paused);
 }
 
 TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
@@ -98,52 +99,53 @@ TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
   const collide::methods::CellHash hash(rig.session.world().collision());
   for (std::size_t corner = 0; corner < 8; ++corner) {
     rig.click("Corner " + std::to_string(corner + 1));
-    const auto view = rig.ui.tour.view(rig.session);
-    ASSERT_EQ(view->corner, corner);
-    const HashedCorner& chosen = view->chosen();
+    const auto context = rig.ui.tour.context(rig.session);
+    ASSERT_EQ(context->corner, corner);
+    const ui::HashedCorner& chosen = context->chosen();
     EXPECT_EQ(chosen.bucket, hash.bucket(hash.cell(chosen.at.x, chosen.at.y, chosen.at.z)));
-    const std::string result = tour_steps()[2].figures(*view).back().value;
+    const std::string result = ui::tour_steps()[2].figures(*context).back().value;
     EXPECT_TRUE(result.ends_with("->  " + grouped(chosen.bucket))) << result;
   }
 }
 
-/// The formula as it is written out leads to the bucket that it states, negative cells included.
-TEST(Tour, WritesTheHashOut) {
+/// The formula that the tour writes out gives the bucket that it states, negative cells included.
+TEST(Tour, WritesOutTheHashOfItsBucket) {
   Session session(touching_pair(), {}, 1);
-  Tour tour;
-  Overlays shown;
+  ui::Tour tour;
+  render::Overlays shown;
   tour.start(session, shown);
-  tour.follow(session);
+  tour.update(session);
   for (std::size_t i = 0; i < 8; ++i) {
     tour.choose_corner(i);
-    const auto view = tour.view(session);
+    const auto context = tour.context(session);
     std::int64_t sum = 0;
     const auto& settings = session.world().collision();
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += view->chosen().cell[axis] * settings.primes[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += context->chosen().cell[axis] * settings.primes[axis];
     const std::int64_t n = settings.buckets;
-    EXPECT_EQ(((sum % n) + n) % n, view->chosen().bucket);
+    EXPECT_EQ(((sum % n) + n) % n, context->chosen().bucket);
   }
 }
 
-TEST(Tour, PicksBodiesThatTouchAndAllTheirContacts) {
+TEST(ExampleFinder, FindsTouchingBodiesAndAllTheirContacts) {
   Session session(touching_pair(), {}, 1);
-  const auto found = Finder().find(session.world(), std::nullopt);
+  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
   ASSERT_TRUE(found);
   EXPECT_TRUE(found->touching);
   EXPECT_EQ(found->body, 0u);
   EXPECT_EQ(found->other, 1u);
-  EXPECT_EQ(found->contacts, session.world().detection().contacts);  // the exact method drives, nothing else touches
+  EXPECT_EQ(found->contacts,
+            session.world().detection().contacts);  // the exact method drives, and no other bodies touch
   EXPECT_LT(found->distance, session.world().collision().tolerance);
-  const BucketContents bucket = found->table.bucket(found->corners[found->corner].bucket);
+  const compare::BucketContents bucket = found->table.bucket(found->corners[found->corner].bucket);
   EXPECT_GT(bucket.groups.size() + bucket.items, 2u);
 }
 
-TEST(Tour, FindsTheSameWhicheverMethodDrives) {
+TEST(ExampleFinder, FindsTheSameWhicheverMethodDrives) {
   Session session(touching_pair(), {}, 1);
-  const auto before = Finder().find(session.world(), std::nullopt);
+  const auto before = ui::ExampleFinder().find(session.world(), std::nullopt);
   for (const collide::Method& method : collide::method_table()) {
-    session.set_method(method.key);
-    const auto now = Finder().find(session.world(), std::nullopt);
+    session.settings.set_method(method.key);
+    const auto now = ui::ExampleFinder().find(session.world(), std::nullopt);
     EXPECT_EQ(now->box, before->box) << method.key;
     EXPECT_EQ(now->contacts, before->contacts) << method.key;
     EXPECT_EQ(now->missed, before->missed) << method.key;
@@ -151,86 +153,86 @@ TEST(Tour, FindsTheSameWhicheverMethodDrives) {
   }
 }
 
-TEST(Tour, ShowsWhatSmallCellsMiss) {
+TEST(ExampleFinder, FindsWhatSmallCellsMiss) {
   Session session(touching_pair(), {}, 1);
   collide::Settings settings = session.world().collision();
   settings.cell_size = glm::vec3(0.13f);
   settings.buckets = 1'000'003;
-  session.set_collision(settings, false);
-  const auto found = Finder().find(session.world(), std::nullopt);
+  session.settings.set_collision(settings, false);
+  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
   ASSERT_TRUE(found->missed);
   EXPECT_FALSE(found->missed->empty());
-  session.set_method("multi-level-sb");
+  session.settings.set_method("multi-level-sb");
   EXPECT_EQ(found->contacts.size() - found->missed->size(), session.world().detection().contacts.size());
 }
 
-TEST(Tour, WithoutContactsFindsTheClosestVertices) {
+TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
   Session session(without_solids(), {}, 1);
-  const auto found = Finder().find(session.world(), std::nullopt);
+  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
   ASSERT_TRUE(found && found->closest);
   EXPECT_FALSE(found->touching);
   const collide::Frame f = session.world().positions();
-  float least = 1e9f;
+  float min_squared = 1e9f;
   for (collide::Index a = 0; a < f.bodies->first[1]; ++a)
     for (collide::Index b = f.bodies->first[1]; b < f.bodies->first[2]; ++b)
-      least = std::min(least, collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]));
-  EXPECT_NEAR(found->distance, std::sqrt(least), 1e-6);
+      min_squared = std::min(min_squared, collide::squared_distance(f.x[a], f.y[a], f.z[a], f.x[b], f.y[b], f.z[b]));
+  EXPECT_NEAR(found->distance, std::sqrt(min_squared), 1e-6);
   PanelRig rig(1, without_solids());
-  rig.session.paused = true;
+  rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
   for (std::size_t i = 0; i < last_step; ++i) rig.ui.tour.next();
   rig.frames(3);
   EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none yet", and what to wait for
 }
 
-TEST(Tour, TakesTheSelectedBodyIfItTouches) {
+TEST(ExampleFinder, PrefersTheSelectedBodyIfItTouches) {
   softbody::Scene scene = touching_pair();
   softbody::BodySource third = scene.bodies[1];
   third.position.x += 1.02;
   scene.bodies.push_back(third);
   Session session(scene, {}, 1);
-  const auto found = Finder().find(session.world(), 2);
+  const auto found = ui::ExampleFinder().find(session.world(), 2);
   EXPECT_EQ(found->other, 2u);
 }
 
-TEST(Tour, OfAWorldWithoutBodiesSaysSo) {
+TEST(Tour, SaysThatTheWorldHasNoBodies) {
   softbody::Scene scene = touching_pair();
   scene.bodies.clear();
   PanelRig rig(1, scene);
   rig.click("Tour");
-  EXPECT_FALSE(rig.ui.tour.view(rig.session));
+  EXPECT_FALSE(rig.ui.tour.context(rig.session));
   EXPECT_TRUE(rig.recorder.find("Tour problem"));
-  EXPECT_EQ(rig.ui.tour.spotlight(), nullptr);
+  EXPECT_EQ(rig.ui.tour.highlight(), nullptr);
 }
 
 TEST(Tour, WorksInEveryScene) {
   const auto folder = engine::find_folder("assets") / "scenes";
   for (const std::string& key : softbody::scene_keys(folder)) {
-    if (key == "drop-3000") continue;  // a minute under the sanitizers
+    if (key == "drop-3000") continue;  // takes a minute under the sanitizers
     Session session(softbody::find_scene(key, folder), folder, 1);
     for (int i = 0; i < 5; ++i) session.advance(tick);
-    Tour tour;
-    Overlays shown;
+    ui::Tour tour;
+    render::Overlays shown;
     tour.start(session, shown);
     for (std::size_t step = 0; step <= last_step; ++step, tour.next()) {
-      tour.follow(session);
-      const auto view = tour.view(session);
-      ASSERT_EQ(view.has_value(), session.world().bodies().count() > 0) << key;
-      if (!view) break;
-      EXPECT_FALSE(tour_steps()[step].figures(*view).empty()) << key;
-      EXPECT_GT(tour.spotlight()->radius, 0) << key;
-      EXPECT_FALSE(tour.spotlight()->bodies.empty()) << key;
+      tour.update(session);
+      const auto context = tour.context(session);
+      ASSERT_EQ(context.has_value(), session.world().bodies().count() > 0) << key;
+      if (!context) break;
+      EXPECT_FALSE(ui::tour_steps()[step].figures(*context).empty()) << key;
+      EXPECT_GT(tour.highlight()->radius, 0) << key;
+      EXPECT_FALSE(tour.highlight()->bodies.empty()) << key;
     }
   }
 }
 
-TEST(Excerpt, NamesVerticesAsTheWorldDoes) {
+TEST(BodySubset, HasTheWorldsPositionsAndIndices) {
   Session session(touching_pair(), {}, 1);
   const collide::Frame all = session.world().positions();
-  const Excerpt second(session.world(), 1, 1);
+  const ui::BodySubset second(session.world(), 1, 1);
   ASSERT_EQ(second.frame().x.size(), all.bodies->size(1));
   EXPECT_EQ(second.frame().x[5], all.x[all.bodies->first[1] + 5]);
-  EXPECT_EQ(second.in_world({3, 4}).b, all.bodies->first[1] + 4);
+  EXPECT_EQ(second.to_world({3, 4}).b, all.bodies->first[1] + 4);
 }
 
 }  // namespace

@@ -21,7 +21,7 @@ fail() {
   exit 1
 }
 
-# Waits until a command succeeds. Machines may be slow, so the limit is generous.
+# Waits until a command succeeds, for up to a minute, as machines may be slow.
 until_true() {
   local what=$1
   shift
@@ -36,13 +36,13 @@ for tool in Xvfb xdotool setxkbmap; do
   command -v $tool >/dev/null || { echo "window: $tool is missing, skipped"; exit 77; }
 done
 
-# Xvfb picks a free display itself and says which; it stays as it is when its last client leaves.
+# Xvfb chooses a free display and writes its number. With -noreset it keeps its state when its last client leaves.
 Xvfb -displayfd 3 -screen 0 1600x1000x24 -noreset -nolisten tcp 3>"$work/display" >/dev/null 2>&1 &
 pids+=($!)
 until_true "the X server" test -s "$work/display"
 DISPLAY=:$(cat "$work/display")
-# For builds with sanitizers: the driver's own leaks and threads are not the program's.
-export XDG_CONFIG_HOME=$work/config  # its preferences, not those of whoever runs this
+export XDG_CONFIG_HOME=$work/config  # preferences of its own, not the user's
+# For builds with sanitizers: leaks and threads of the driver are not the program's.
 export DISPLAY LIBGL_ALWAYS_SOFTWARE=1 LP_NUM_THREADS=0 ASAN_OPTIONS="${ASAN_OPTIONS:-}:detect_leaks=0"
 
 start() {
@@ -57,7 +57,7 @@ has_window() {
   window=$(xdotool search --onlyvisible --name "Multi-Level SB Collide" 2>/dev/null | head -1)
   [ -n "$window" ]
 }
-# Held so long that even a slow machine draws two frames meanwhile.
+# Holds a key so long that even a slow machine draws two frames meanwhile.
 press() {
   xdotool keydown "$1"
   sleep 0.3
@@ -85,13 +85,13 @@ has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|H
 start
 xdotool windowfocus "$window" 2>/dev/null
 for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b Delete r ctrl+z r; do press $key; done
-click 30 369 1            # a switch of the panel
+click 30 369 1            # a checkbox of the panel
 click 700 400 1           # the scene
-sleep 1                   # the first body hangs above the middle of the scene
+sleep 1                   # now the first body is above the middle of the scene
 xdotool mousemove 800 160; sleep 0.3; xdotool mousedown 1; sleep 0.3
 for _ in $(seq 10); do xdotool mousemove_relative 15 10; sleep 0.05; done
 xdotool mouseup 1
-press Delete              # what was pulled, if the mouse met it
+press Delete              # the pulled body, if the mouse has hit it
 xdotool mousemove 700 400 mousedown 1 mousemove_relative 120 40; sleep 0.3; xdotool mouseup 1
 xdotool click 4 click 5
 for size in "700 500" "1500 950" "320 240" "1280 720"; do
@@ -108,14 +108,14 @@ xdotool windowfocus "$window" 2>/dev/null
 press q
 expect_clean_end "the key Q"
 
-# What is named by keyboard comes, what is saved and taken is there, and the window comes back as it was left.
+# A mesh named by keyboard is loaded, the saved scene and the picture exist, and the window keeps its size.
 folder=$work/a\ \ folder
 mkdir "$folder"
 cd "$folder" || exit 1
 printf 'v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n' >mesh.obj
 preferences=$XDG_CONFIG_HOME/sbcollide/preferences.toml
 grep -q '^width = 1280$' "$preferences" || fail "the window's size was not kept"
-# All sections of the panel folded but one, so that its fields stand below the headings before it, 29 pixels each.
+# Folds all sections of the panel but one, so that its fields stand below the headings above it, 29 pixels each.
 mapfile -t sections < <(grep -o 'w.section("[^"]*"' "$sources/app/ui/panel/panel.cpp" | cut -d '"' -f 2)
 open_only() {
   local i open
@@ -128,12 +128,12 @@ open_only() {
 open_only Files
 start
 xdotool windowfocus "$window" 2>/dev/null
-# Into the field of the file to open, faster than many a frame: nothing is lost, and nothing taken for a shortcut.
+# Types into the field of the file to open, faster than slow frames: no key may be lost or be taken for a shortcut.
 xdotool mousemove 150 "$field"; sleep 0.3
 xdotool click 1 type --delay 20 mesh.obj
 xdotool key Return
 sleep 1
-click 150 $((field + 87)) 1  # and that of the scene to save
+click 150 $((field + 87)) 1  # the field of the scene to save
 xdotool keydown ctrl; press a; xdotool keyup ctrl
 xdotool type --delay 300 kept.toml
 press Return
@@ -149,7 +149,8 @@ press q
 expect_clean_end "the key Q, the second time"
 grep -q '^width = 1100$' "$preferences" || fail "the window's size was not kept"
 
-# Keyboard layouts, changed while it runs. By keycodes, for xdotool would look for another key of that name.
+# Keyboard layouts, changed while the program runs. Keys are given by keycodes: by name, xdotool would look for a key of
+# that name in the new layout.
 press_with() {
   xdotool keydown "$1"
   press "$2"
@@ -161,22 +162,22 @@ xdotool windowfocus "$window" 2>/dev/null
 setxkbmap fr
 press 47            # m: the next method
 press 58            # a comma: nothing
-press 10            # & on the digit key 1: body boxes
-press 34; press 26  # a dead key, which makes ê of e: nothing
+press 10            # the digit key 1, which types &: body boxes
+press 34; press 26  # a dead key and e, which type ê: nothing
 setxkbmap de
 press_with 108 17   # AltGr+8 is [: fewer boxes, and no surface contacts
 press_with 64 41    # Alt+F: nothing
 setxkbmap ru
-press 58            # where M is on a US keyboard: one more method
-press 28            # where T is: no hash table
-press_with 50 40    # where D is, with Shift: twenty bodies
-press_with 37 52    # where Z is, with Ctrl: none of them
+press 58            # the key of M on a US keyboard: the next method
+press 28            # that of T: the hash table is hidden
+press_with 50 40    # that of D, with Shift: twenty bodies
+press_with 37 52    # that of Z, with Ctrl: undoes them
 setxkbmap fr
 click 150 $((field + 87)) 1  # the field of the scene to save
 press End
-press_with 37 24    # Ctrl+A, where Q is on a US keyboard: what follows replaces all
+press_with 37 24    # Ctrl+A, the key of Q on a US keyboard: the next text replaces all
 setxkbmap us
-sleep 0.5  # until a slow machine knows of it
+sleep 0.5  # a slow machine needs time for the change
 xdotool type --delay 100 keys.toml
 press Return
 until_true "the scene of other keyboards" test -s keys.toml
@@ -189,7 +190,7 @@ for line in 'body-boxes = true' 'touches = false' 'error_time = false' 'hash_tab
   kept "$preferences" "$line"
 done
 
-# A recording begins and ends by its button; the video is whatever the program called ffmpeg makes of the pictures.
+# A button starts and stops a recording. A script that stands in for ffmpeg writes the pictures to the video's file.
 mkdir "$work/bin"
 printf '#!/bin/sh\nfor last; do :; done\ncat >"$last"\n' >"$work/bin/ffmpeg"
 chmod +x "$work/bin/ffmpeg"
@@ -203,7 +204,7 @@ click 1100 400 1
 press q
 expect_clean_end "the key Q, the third time"
 
-# The driver is reset: another context shows the same world, with what was added before.
+# The driver is reset: a new context shows the same world, with the bodies added before.
 contexts=$work/contexts
 has_another_context() { [ "$(wc -l <"$contexts")" = 2 ] && has_window; }
 export ASAN_OPTIONS="$ASAN_OPTIONS:verify_asan_link_order=0"
@@ -226,7 +227,7 @@ until_true "a picture after a reset of the driver" test -s picture_0002.png
 press q
 expect_clean_end "the key Q, after a reset of the driver"
 
-# Reset again at once: it ends and says why.
+# The driver is reset again at once: the program ends and says why.
 LOST_CONTEXT_AGAIN=1 LOST_CONTEXT_LOG=$contexts LD_PRELOAD=$lost_context "$program" >"$work/out" 2>"$work/err"
 [ $? -eq 2 ] || fail "the exit status after two resets of the driver"
 [ "$(wc -l <"$work/err")" = 1 ] && grep -q "again and again" "$work/err" || fail "one line about two resets"

@@ -26,7 +26,7 @@ struct Options {
 }
 
 void record(const Options& options) {
-  app::prepare_folder(options.folder);
+  app::files::prepare_folder(options.folder);
   bool any = false;
   for (const bench::Pile& pile : bench::piles()) {
     if (options.bodies > 0 && pile.bodies != options.bodies) continue;

@@ -94,7 +94,7 @@ double mean_displacement(const State& state) {
 }
 
 void save(const State& state, const fs::path& folder) {
-  app::OutputFile file(folder / (state.key + ".state"));
+  app::files::OutputFile file(folder / (state.key + ".state"));
   file.write(magic);
   file.write(bytes_of(std::vector{std::uint32_t(state.radius.size()), std::uint32_t(state.frames.size())}));
   file.write(bytes_of(state.radius));

@@ -1,4 +1,4 @@
-// Pictures of `simulate --capture`.
+// Checks the pictures of `simulate --capture`.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ void expect_picture(const std::filesystem::path& file, unsigned width, unsigned 
   EXPECT_TRUE(p.colour == 2 || p.colour == 6) << "RGB or RGBA";
 }
 
-TEST(Capture, WritesEachFrameUnderItsNameAndLeavesNothingElse) {
+TEST(Capture, WritesEachFrameUnderItsNameAndNothingElse) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "new" / "folder";
   const auto document =
@@ -55,7 +55,7 @@ TEST(Capture, DoesNotChangeTheSimulation) {
   EXPECT_EQ(simulate(with)["state_hash"], simulate(plain)["state_hash"]);
 }
 
-TEST(Capture, GoesToTheWorkingDirectoryAndReplacesOldPictures) {
+TEST(Capture, WritesToTheWorkingDirectoryAndReplacesOldPictures) {
   const TemporaryFolder folder;
   folder.write("frame_0002.png", "an old one");
   const Outcome o =

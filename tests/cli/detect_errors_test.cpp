@@ -1,4 +1,4 @@
-// `detect` on bad input: one line that names the file and the line or the option, nothing half written, status 2.
+// `detect` on bad input: status 2, no incomplete file, and one line that names the option, or the file and its line.
 
 #include <gtest/gtest.h>
 
@@ -97,14 +97,14 @@ class DetectErrors : public testing::Test {
   std::set<std::string> before = file_names(folder.path());
 };
 
-TEST_F(DetectErrors, FilesThatDoNotMatchBodyByBodyAreNamed) {
+TEST_F(DetectErrors, NameFilesThatDoNotMatch) {
   refuse({fewer, "--tolerance", "1"}, {fewer, good, "body 0", "2", "3"});
   refuse({lone, "--tolerance", "1"}, {lone, good, "number of bodies"});
   refuse({"--rest", fewer, "--tolerance", "1"}, {fewer, "body 0"});
   refuse({"--rest", lone, "--tolerance", "1"}, {lone, "number of bodies"});
 }
 
-TEST_F(DetectErrors, FilesThatCannotBeReadAreNamed) {
+TEST_F(DetectErrors, NameFilesThatCannotBeRead) {
   const std::string missing = folder.path() / "missing.obj", inside = good + "/x.obj";
   refuse({missing, "--tolerance", "1"}, {missing, "cannot be read"});
   refuse({inside, "--tolerance", "1"}, {inside, "cannot be read"});
@@ -113,7 +113,7 @@ TEST_F(DetectErrors, FilesThatCannotBeReadAreNamed) {
   expect_refused({"detect", "/dev/zero", "--tolerance", "1"}, {"/dev/zero:1: "});
 }
 
-/// A piece of text, again and again.
+/// Returns a text, repeated so many times.
 std::string repeated(const std::string& piece, std::size_t times) {
   std::string text;
   text.reserve(piece.size() * times);
@@ -121,7 +121,7 @@ std::string repeated(const std::string& piece, std::size_t times) {
   return text;
 }
 
-TEST_F(DetectErrors, LargerFilesThanMayBeAreRefusedAtTheFirstLineBeyond) {
+TEST_F(DetectErrors, NameTheFirstLineBeyondALimit) {
   const std::string more = ":4000001: more than 4000000 ";
   const std::vector<std::array<std::string, 2>> files{
       {repeated("v 0 0 0\n", 4'000'001), more + "vertices"},
@@ -133,21 +133,21 @@ TEST_F(DetectErrors, LargerFilesThanMayBeAreRefusedAtTheFirstLineBeyond) {
   }
 }
 
-TEST_F(DetectErrors, MoreFramesThanMemoryMayHoldAreRefusedAfterTheFirst) {
+TEST_F(DetectErrors, RefuseTooManyFramesAfterTheFirst) {
   std::vector<std::string> words{"detect"};
   words.insert(words.end(), 1000, folder.write("one.obj", repeated("v 0 0 0\n", 134'218)));
   words.insert(words.end(), {"--tolerance", "1"});
   expect_refused(words, {"1000 files of 134218 vertices each", "at most 134217728", "fewer files"});
 }
 
-TEST_F(DetectErrors, FacesOfLaterFilesAreCheckedToo) {
+TEST_F(DetectErrors, NameBadFacesOfLaterFiles) {
   const std::string bad = folder.write("bad.obj", three + "f 1 2 9\no b\nv 0 0 1\n");
   before.insert("bad.obj");
   refuse({bad, "--tolerance", "1"}, {bad + ":4: "});
   refuse({"--rest", bad, "--tolerance", "1"}, {bad + ":4: "});
 }
 
-TEST_F(DetectErrors, OptionsAreNamed) {
+TEST_F(DetectErrors, NameTheOption) {
   expect_refused({"detect", "--tolerance", "1"}, {"FILE"});
   expect_refused({"detect"}, {"required"});
   refuse({}, {"--tolerance"});
@@ -175,7 +175,7 @@ TEST_F(DetectErrors, OptionsAreNamed) {
   }
 }
 
-TEST_F(DetectErrors, AContactsFileThatCannotBeWrittenIsNamedAndWhatIsThereStays) {
+TEST_F(DetectErrors, NameAContactsFileThatCannotBeWritten) {
   const std::string nowhere = folder.path() / "none" / "out.csv", below_file = good + "/out.csv", dir = folder.path();
   for (const std::string& out : {nowhere, below_file, dir})
     refuse({"--tolerance", "1", "--json", "--contacts", out}, {out, "cannot be written"});
@@ -183,12 +183,12 @@ TEST_F(DetectErrors, AContactsFileThatCannotBeWrittenIsNamedAndWhatIsThereStays)
     refuse({"--tolerance", "1", "--contacts", "/dev/full"}, {"/dev/full", "not a regular file"});
 }
 
-TEST_F(DetectErrors, AForgottenFileNameIsNotTheOptionAfterIt) {
+TEST_F(DetectErrors, NameAnOptionWithoutItsValue) {
   refuse({"--tolerance", "1", "--contacts", "--json"}, {"--contacts", "its value is missing"});
   refuse({"--tolerance", "1", "--rest", "--json"}, {"--rest", "its value is missing"});
 }
 
-TEST_F(DetectErrors, ContactsNeverReplaceAMesh) {
+TEST_F(DetectErrors, NeverReplaceAMeshByContacts) {
   const std::string text = read_file(good);
   const std::string lone_text = read_file(lone);
   refuse({"--tolerance", "1", "--contacts", good}, {good, "is the input"});
@@ -199,14 +199,14 @@ TEST_F(DetectErrors, ContactsNeverReplaceAMesh) {
   EXPECT_EQ(read_file(lone), lone_text);
 }
 
-TEST_F(DetectErrors, StandardOutputIsNotAppendedToAMesh) {
+TEST_F(DetectErrors, NeverAppendStandardOutputToAMesh) {
   const std::string text = read_file(good);
   const std::string command = SBCOLLIDE_PROGRAM " detect " + good + " --tolerance 1 >> " + good + " 2>/dev/null";
   EXPECT_NE(std::system(command.c_str()), 0);
   EXPECT_EQ(read_file(good), text);
 }
 
-TEST_F(DetectErrors, FailingLateLeavesTheOldContacts) {
+TEST_F(DetectErrors, LeaveTheOldContactsAfterALateError) {
   const std::string old = folder.write("old.csv", "old");
   before.insert("old.csv");
   refuse({lone, "--tolerance", "1", "--contacts", old}, {lone});

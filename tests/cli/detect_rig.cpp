@@ -1,5 +1,6 @@
 #include "tests/cli/detect_rig.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,11 +11,7 @@
 namespace cli::test {
 namespace {
 
-std::string text_of(float value) {
-  std::array<char, 32> text{};
-  std::snprintf(text.data(), text.size(), "%.9g", static_cast<double>(value));
-  return text.data();
-}
+std::string text_of(float value) { return fmt::format("{:.9g}", value); }
 
 float squared_distance(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   const float dx = a[0] - b[0], dy = a[1] - b[1], dz = a[2] - b[2];
@@ -112,9 +109,9 @@ State random_state(unsigned seed) {
   return state;
 }
 
-State moved(const State& state, float most, unsigned seed) {
+State moved(const State& state, float max, unsigned seed) {
   std::mt19937 random(seed);
-  std::uniform_real_distribution<float> step(-most, most);
+  std::uniform_real_distribution<float> step(-max, max);
   State result = state;
   for (Body& body : result.bodies) {
     body.faces.clear();
@@ -137,10 +134,8 @@ std::vector<Row> read_contacts(const std::filesystem::path& file) {
     Row r{};
     std::sscanf(line.c_str(), "%u,%u,%u,%u,%u,%g", &r.frame, &r.vertex_a, &r.vertex_b, &r.body_a, &r.body_b,
                 &r.distance);
-    std::array<char, 128> again{};
-    std::snprintf(again.data(), again.size(), "%u,%u,%u,%u,%u,%.9g", r.frame, r.vertex_a, r.vertex_b, r.body_a,
-                  r.body_b, static_cast<double>(r.distance));
-    EXPECT_EQ(line, again.data());
+    EXPECT_EQ(line,
+              fmt::format("{},{},{},{},{},{:.9g}", r.frame, r.vertex_a, r.vertex_b, r.body_a, r.body_b, r.distance));
     rows.push_back(r);
   }
   return rows;

@@ -1,5 +1,5 @@
 #pragma once
-// States for `detect`, and an oracle that knows nothing of the program but its contract.
+// States for `detect`, and an oracle that knows only the contract of the program.
 
 #include <array>
 #include <cstdint>
@@ -19,11 +19,11 @@ struct Body {
 /// All bodies of one frame.
 struct State {
   std::vector<Body> bodies;
-  /// As an OBJ file, with the first body before the first `o`.
+  /// Returns an OBJ file, with the first body before the first `o`.
   std::string obj() const;
 };
 
-/// A line of the contacts file, or what it should be.
+/// A line of the contacts file, as found or as expected.
 struct Row {
   unsigned frame, vertex_a, vertex_b, body_a, body_b;
   float distance;
@@ -37,15 +37,15 @@ struct Rules {
   const State* rest = nullptr;
 };
 
-/// All pairs in a plain double loop.
+/// Returns the contacts, by a plain double loop over all pairs.
 std::vector<Row> oracle(unsigned frame, const State& state, const Rules& rules);
 
-/// Crumpled grids of mixed sizes that overlap, a body of one vertex and an empty one.
+/// Returns crumpled, overlapping grids of mixed sizes, a body of one vertex and an empty body.
 State random_state(unsigned seed);
-/// The same bodies, each vertex moved by up to `most` along each axis, without faces.
-State moved(const State& state, float most, unsigned seed);
+/// Returns the same bodies without faces, each vertex moved by up to `max` along each axis.
+State moved(const State& state, float max, unsigned seed);
 
-/// Reads a contacts file; fails the test where it is not of the contract's form.
+/// Reads a contacts file. Fails the test if it is not of the contract's form.
 std::vector<Row> read_contacts(const std::filesystem::path& file);
 
 }  // namespace cli::test

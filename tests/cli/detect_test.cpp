@@ -1,4 +1,4 @@
-// `detect`: the contacts of every method against a plain double loop, and the form of what it prints and writes.
+// Compares the contacts of `detect` with a plain double loop, and checks the form of its output.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +31,7 @@ class Detect : public testing::Test {
 constexpr const char* exact[]{"brute-force", "grid-hash", "bounding-box", "bounding-box-grid-hash",
                               "multi-level-sb-exact"};
 
-TEST_F(Detect, ExactMethodsFindWhatADoubleLoopFinds) {
+TEST_F(Detect, FindsTheSameAsADoubleLoopByExactMethods) {
   for (const unsigned seed : {1u, 2u, 3u}) {
     const State state = random_state(seed);
     const std::string obj = file("state.obj", state);
@@ -51,7 +51,7 @@ TEST_F(Detect, ExactMethodsFindWhatADoubleLoopFinds) {
   }
 }
 
-TEST_F(Detect, TheLiteralMethodFindsASubsetAndNothingElse) {
+TEST_F(Detect, FindsASubsetByTheLiteralMethod) {
   const State state = random_state(4);
   const std::string obj = file("state.obj", state);
   const auto expected = oracle(0, state, {.tolerance = 0.09f});
@@ -66,7 +66,7 @@ TEST_F(Detect, TheLiteralMethodFindsASubsetAndNothingElse) {
   EXPECT_LT(literal({"--cell-size", "0.02", "--buckets", "16000057"}), expected.size()) << "corners skip cells";
 }
 
-TEST_F(Detect, SettingsOfTheHashDoNotChangeWhatExactMethodsFind) {
+TEST_F(Detect, FindsTheSameForAllHashSettingsByExactMethods) {
   const State state = random_state(5);
   const std::string obj = file("state.obj", state);
   const auto expected = oracle(0, state, {.tolerance = 0.06f});
@@ -86,7 +86,7 @@ TEST_F(Detect, SettingsOfTheHashDoNotChangeWhatExactMethodsFind) {
   }
 }
 
-TEST_F(Detect, SelfCollisionAndRestLeaveOutWhatTheySay) {
+TEST_F(Detect, LeavesOutPairsByTheOptionsSelfAndRest) {
   const State rest = random_state(6), state = moved(rest, 0.05f, 7);
   State with_faces = state;
   for (std::size_t b = 0; b < rest.bodies.size(); ++b) with_faces.bodies[b].faces = rest.bodies[b].faces;
@@ -110,7 +110,7 @@ TEST_F(Detect, SelfCollisionAndRestLeaveOutWhatTheySay) {
   }
 }
 
-TEST_F(Detect, PolygonEdgesAreLeftOutAndDiagonalsAreNot) {
+TEST_F(Detect, LeavesOutPolygonEdgesButNotDiagonals) {
   const auto quad = folder.write("quad.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
   const auto found = contacts({quad, "--tolerance", "2"});
   ASSERT_EQ(found.size(), 2u);
@@ -119,7 +119,7 @@ TEST_F(Detect, PolygonEdgesAreLeftOutAndDiagonalsAreNot) {
   EXPECT_EQ(contacts({quad, "--tolerance", "1.4142"}).size(), 0u);
 }
 
-TEST_F(Detect, SeveralFilesAreFramesWithTheEdgesOfTheFirst) {
+TEST_F(Detect, UsesTheEdgesOfTheFirstFileInAllFrames) {
   const State first = random_state(8), second = moved(first, 0.05f, 9), third = moved(first, 0.1f, 10);
   const std::vector<std::string> base{file("1.obj", first), file("2.obj", second), file("3.obj", third), "--tolerance",
                                       "0.07"};
@@ -140,7 +140,7 @@ TEST_F(Detect, SeveralFilesAreFramesWithTheEdgesOfTheFirst) {
   }
 }
 
-TEST_F(Detect, JsonHasTheContractsForm) {
+TEST_F(Detect, PrintsJsonOfTheContractsForm) {
   const State state = random_state(11);
   const std::string obj = file("state.obj", state);
   const json d = detect({obj, obj, "--tolerance", "0.0375", "--threads", "2", "--repeat", "4"});
@@ -175,7 +175,7 @@ TEST_F(Detect, JsonHasTheContractsForm) {
   }
 }
 
-TEST_F(Detect, WarningsNamePrimesThatSpoilTheHashOfMethodsThatHaveOne) {
+TEST_F(Detect, WarnsOfPrimesThatSpoilTheHash) {
   const std::string obj = file("state.obj", random_state(14));
   const std::vector<std::string> no_hash{obj, "--tolerance", "0.05", "--primes", "2002,5,1006"};
   auto base = no_hash;
@@ -190,7 +190,7 @@ TEST_F(Detect, WarningsNamePrimesThatSpoilTheHashOfMethodsThatHaveOne) {
   EXPECT_EQ(detect(other_count)["warnings"], json::array());
 }
 
-TEST_F(Detect, LinesMayEndAsOnAnySystem) {
+TEST_F(Detect, ReadsLineEndsOfAnySystem) {
   for (const std::string end : {"\n", "\r\n", "\r"}) {
     const std::string text = "o a" + end + "v 0 0 0" + end + "v .01 0 0" + end + "o b" + end + "v .02 0 0" + end;
     for (const std::string padding : {"", "\x1a"}) {
@@ -202,7 +202,7 @@ TEST_F(Detect, LinesMayEndAsOnAnySystem) {
   }
 }
 
-TEST_F(Detect, WarningsSayWhatMayNotBeMeant) {
+TEST_F(Detect, WarnsOfFilesThatMayMeanSomethingElse) {
   const std::string mesh = "v 0 0 0 2\nv 1 0 0\nv 2 0 0\no a\nf 1 2 3\no b\nf 1 2 3\n";
   const std::string obj = folder.write("a.obj", mesh);
   const json warnings = detect({obj, "--tolerance", "1"})["warnings"];
@@ -213,14 +213,14 @@ TEST_F(Detect, WarningsSayWhatMayNotBeMeant) {
   EXPECT_NE(table.out.find("note: 2 objects have faces"), std::string::npos) << table.out;
 }
 
-TEST_F(Detect, BruteForceTestsEveryPair) {
+TEST_F(Detect, TestsEveryPairByBruteForce) {
   const auto three = folder.write("three.obj", "v 0 0 0\nv 9 0 0\no b\nv 0 9 0\n");
   const json frame = detect({three, "--tolerance", "1", "--method", "brute-force"})["frames"][0];
   EXPECT_EQ(frame["pair_tests"], 3);
   EXPECT_EQ(frame["hashes"], 0);
 }
 
-TEST_F(Detect, BodiesWithoutVerticesAreBodies) {
+TEST_F(Detect, CountsBodiesWithoutVertices) {
   const auto empty = folder.write("empty.obj", "o nothing\no nothing\n");
   const json d = detect({empty, "--tolerance", "1"});
   EXPECT_EQ(d["bodies"], 2);
@@ -228,7 +228,7 @@ TEST_F(Detect, BodiesWithoutVerticesAreBodies) {
   EXPECT_EQ(d["frames"][0]["contacts"], 0);
 }
 
-TEST_F(Detect, WithoutJsonPrintsAShortTable) {
+TEST_F(Detect, PrintsAShortTableWithoutJson) {
   const std::string obj = file("state.obj", random_state(12));
   const Outcome o = run({"detect", obj, obj, "--tolerance", "0.09"});
   EXPECT_EQ(o.status, 0);
@@ -241,7 +241,7 @@ TEST_F(Detect, WithoutJsonPrintsAShortTable) {
   EXPECT_NE(one_bucket.out.find("note: prime"), std::string::npos) << "a poor hash is said to be one";
 }
 
-TEST_F(Detect, ContactsAreWrittenBesideNothingElseAndReplaceWhatWasThere) {
+TEST_F(Detect, WritesOnlyTheContactsFileAndReplacesAnEarlierOne) {
   const State state = random_state(13);
   const std::string obj = file("state.obj", state);
   for (const char* tolerance : {"0.08", "0.05"}) contacts({obj, "--tolerance", tolerance});

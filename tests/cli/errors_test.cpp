@@ -1,4 +1,4 @@
-// Bad input: one line on standard error that names what is wrong, nothing on standard output, status 2.
+// Bad input: status 2, nothing on standard output, and one line on standard error that names what is wrong.
 
 #include <gtest/gtest.h>
 
@@ -129,7 +129,7 @@ const Bad bad_lines[]{
 INSTANTIATE_TEST_SUITE_P(Lines, BadCommandLine, testing::ValuesIn(bad_lines),
                          [](const auto& i) { return i.param.name; });
 
-TEST(Errors, ABrokenSceneFileIsNamedWithItsLine) {
+TEST(Errors, NameABrokenSceneFileWithItsLine) {
   const TemporaryFolder folder;
   const auto key = folder.write("key.toml", "[[body]]\n\ncolour = 3\n");
   expect_refused({"simulate", "--scene", key, "--frames", "2"}, {key.string() + ":3: ", "colour"});
@@ -142,7 +142,7 @@ TEST(Errors, ABrokenSceneFileIsNamedWithItsLine) {
 }
 
 #if SBCOLLIDE_GRAPHICS
-TEST(Errors, PicturesWithoutOpenGLAreRefusedBeforeAnythingIsWritten) {
+TEST(Errors, RefusePicturesWithoutOpenGLBeforeAnythingIsWritten) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "pictures";
   // The loader of EGL drivers finds none.
@@ -152,15 +152,15 @@ TEST(Errors, PicturesWithoutOpenGLAreRefusedBeforeAnythingIsWritten) {
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
 }
 
-TEST(Errors, TheDemoWithoutADisplaySaysWhatToDo) {
+TEST(Errors, SayWhatToDoWithoutADisplay) {
   expect_refused({}, {"window", "DISPLAY", "simulate"}, {"DISPLAY=", "WAYLAND_DISPLAY=none", "XDG_RUNTIME_DIR="});
 }
 
-TEST(Errors, TheWindowTakesNoLengthThatASceneFileRefuses) {
+TEST(Errors, RefuseALengthInTheWindowThatASceneFileRefuses) {
   expect_refused({"--tolerance", "1e-10"}, {"--tolerance 1e-10: must be a number of metres from 1e-09 to 10"});
 }
 
-TEST(Errors, AFolderForPicturesThatCannotBeMadeIsNamedBeforeAnythingRuns) {
+TEST(Errors, NameAFolderThatCannotBeMadeBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto file = folder.write("file", "not a folder");  // a regular file stops even root
   for (const auto& out : {file, file / "below"})
@@ -169,8 +169,10 @@ TEST(Errors, AFolderForPicturesThatCannotBeMadeIsNamedBeforeAnythingRuns) {
   EXPECT_EQ(read_file(file), "not a folder");
 }
 #else
-TEST(Errors, CapturesNeedABuildWithGraphics) { expect_refused(drop({"--capture", "1"}), {"--capture", "graphics"}); }
-TEST(Errors, TheWindowNeedsABuildWithGraphics) { expect_refused({}, {"simulate"}); }
+TEST(Errors, RefusePicturesInABuildWithoutGraphics) {
+  expect_refused(drop({"--capture", "1"}), {"--capture", "graphics"});
+}
+TEST(Errors, RefuseTheWindowInABuildWithoutGraphics) { expect_refused({}, {"simulate"}); }
 #endif
 
 }  // namespace

@@ -1,4 +1,4 @@
-// `list`: key, tab, name, a line each.
+// Checks `list`: it prints a line "KEY<tab>NAME" for each choice.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@
 namespace cli::test {
 namespace {
 
-/// Name by key; fails the test on a line of another form.
+/// Returns the names by key. Fails the test on a line of another form.
 std::map<std::string, std::string> rows(const std::string& what) {
   const Outcome o = run({"list", what});
   EXPECT_EQ(o.status, 0);
@@ -31,7 +31,7 @@ std::map<std::string, std::string> rows(const std::string& what) {
   return names;
 }
 
-TEST(List, ScenesNamesEachFileOfTheFolder) {
+TEST(List, PrintsEachSceneFile) {
   const auto scenes = rows("scenes");
   EXPECT_EQ(scenes.at("drop"), "Drop");
   std::size_t files = 0;
@@ -43,7 +43,7 @@ TEST(List, ScenesNamesEachFileOfTheFolder) {
   EXPECT_EQ(scenes.size(), files);
 }
 
-TEST(List, ABrokenSceneFileIsNamedAndTheOthersAreListed) {
+TEST(List, NamesABrokenSceneFileAndPrintsTheOthers) {
   const TemporaryFolder folder;
   const auto scenes = folder.path() / "assets" / "scenes";
   std::filesystem::create_directories(scenes);
@@ -57,22 +57,22 @@ TEST(List, ABrokenSceneFileIsNamedAndTheOthersAreListed) {
   EXPECT_EQ(std::ranges::count(o.err, '\n'), 1) << o.err;
 }
 
-TEST(List, MethodsHasTheKeysOfTheContract) {
+TEST(List, PrintsTheKeysOfAllMethods) {
   const auto methods = rows("methods");
   for (const char* key :
        {"brute-force", "grid-hash", "bounding-box", "bounding-box-grid-hash", "multi-level-sb", "multi-level-sb-exact"})
     EXPECT_TRUE(methods.contains(key)) << key;
 }
 
-TEST(List, IntegratorsHasTheDefault) { EXPECT_TRUE(rows("integrators").contains("semi-implicit-euler")); }
+TEST(List, PrintsIntegrators) { EXPECT_TRUE(rows("integrators").contains("semi-implicit-euler")); }
 
-TEST(List, ContactSurfacesHasThePapersAndTheTrueOne) {
+TEST(List, PrintsBothContactSurfaces) {
   const auto surfaces = rows("contact-surfaces");
   EXPECT_EQ(surfaces.size(), 2u);
   EXPECT_TRUE(surfaces.contains("vertex-vertex") && surfaces.contains("surface"));
 }
 
-TEST(List, EveryMethodAndIntegratorListedRuns) {
+TEST(List, PrintsOnlyMethodsAndIntegratorsThatRun) {
   for (const auto& [key, name] : rows("methods"))
     EXPECT_EQ(simulate({"--scene", "drop", "--frames", "3", "--method", key})["method"], key);
   for (const auto& [key, name] : rows("integrators"))

@@ -1,4 +1,4 @@
-// `simulate --obj-every`: the motion as OBJ files, which `detect` reads back and finds the same contacts in.
+// Checks `simulate --obj-every`: `detect` finds the same contacts in its OBJ files.
 
 #include <gtest/gtest.h>
 
@@ -11,7 +11,7 @@ class ObjEvery : public testing::TestWithParam<const char*> {};
 
 TEST_P(ObjEvery, ReadsBackWithTheContactsOfTheSimulation) {
   const TemporaryFolder folder;
-  // Both have contacts then: between bodies, and inside a sheet whose quads must come back as such.
+  // Both scenes have contacts by then: between bodies, and inside a sheet whose quads must be read back as quads.
   const nlohmann::json run = simulate({"--scene", GetParam(), "--frames", "60", "--obj-every", "20", "--tolerance",
                                        "0.07", "--out", folder.path().string()});
   ASSERT_EQ(file_names(folder.path()),
@@ -36,7 +36,7 @@ TEST_P(ObjEvery, ReadsBackWithTheContactsOfTheSimulation) {
 INSTANTIATE_TEST_SUITE_P(Scenes, ObjEvery, testing::Values("B", "cloth"),
                          [](const auto& scene) { return scene.param; });
 
-TEST(ObjEvery, WritesTheBodiesAtRestAgainWhenThereAreOthers) {
+TEST(ObjEvery, WritesTheBodiesAtRestWhenTheyChange) {
   const TemporaryFolder folder;
   const auto scene = folder.write("two.toml", "[[body]]\n[[body]]\nposition = [3, 3, 0]\nappear = 3\n");
   simulate({"--scene", scene.string(), "--frames", "5", "--obj-every", "2", "--out", folder.path().string()});

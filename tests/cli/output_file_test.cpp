@@ -1,4 +1,4 @@
-// Files that are written whole or not at all.
+// Files that become complete or do not change.
 
 #include "app/files/output_file.h"
 
@@ -15,10 +15,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Why a file cannot be written there; fails the test if it can.
+/// Returns why a file cannot be written there. Fails the test if it can be.
 std::string refusal(const fs::path& path) {
   try {
-    app::OutputFile file(path);
+    app::files::OutputFile file(path);
     file.write("new");
     file.commit();
   } catch (const app::UsageError& error) {
@@ -28,11 +28,11 @@ std::string refusal(const fs::path& path) {
   return "";
 }
 
-TEST(OutputFile, IsWholeOnceCommittedAndReplacesWhatWasThere) {
+TEST(OutputFile, ReplacesTheOldFileOnCommit) {
   const TemporaryFolder folder;
   const fs::path path = folder.write("file", "old");
   {
-    app::OutputFile file(path);
+    app::files::OutputFile file(path);
     file.write("ne");
     file.write("w");
     EXPECT_EQ(read_file(path), "old");
@@ -42,15 +42,15 @@ TEST(OutputFile, IsWholeOnceCommittedAndReplacesWhatWasThere) {
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
 }
 
-TEST(OutputFile, LeavesNothingAndChangesNothingWithoutACommit) {
+TEST(OutputFile, ChangesNothingWithoutACommit) {
   const TemporaryFolder folder;
   const fs::path path = folder.write("file", "old");
-  for (const fs::path& each : {path, folder.path() / "other"}) app::OutputFile(each).write("new");
+  for (const fs::path& each : {path, folder.path() / "other"}) app::files::OutputFile(each).write("new");
   EXPECT_EQ(read_file(path), "old");
   EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"file"});
 }
 
-TEST(OutputFile, NeverReplacesAnInputByWhateverNameOrLink) {
+TEST(OutputFile, NeverReplacesAnInputUnderAnyNameOrLink) {
   const TemporaryFolder folder;
   const fs::path mesh = folder.write("mesh.obj", "v 0 0 0\n"), linked = folder.write("linked.obj", "v 1 0 0\n"),
                  link = folder.path() / "link", hard = folder.path() / "hard", to_linked = folder.path() / "to linked";
@@ -58,40 +58,40 @@ TEST(OutputFile, NeverReplacesAnInputByWhateverNameOrLink) {
   fs::create_symlink("mesh.obj", link);
   fs::create_hard_link(mesh, hard);
   fs::create_symlink("linked.obj", to_linked);
-  app::protect_input(mesh);
-  app::protect_input(to_linked);
+  app::files::protect_input(mesh);
+  app::files::protect_input(to_linked);
   const auto before = file_names(folder.path());
   for (const fs::path& path :
        {mesh, folder.path() / "sub/../mesh.obj", fs::relative(mesh), link, hard, linked, to_linked})
     EXPECT_NE(refusal(path).find(path.string() + ": cannot be written: it is the input "), std::string::npos) << path;
   EXPECT_EQ(file_names(folder.path()), before);
   EXPECT_EQ(read_file(mesh) + read_file(linked), "v 0 0 0\nv 1 0 0\n");
-  app::OutputFile(folder.path() / "sub/../new").commit();
+  app::files::OutputFile(folder.path() / "sub/../new").commit();
   EXPECT_TRUE(file_names(folder.path()).contains("new"));
 }
 
-TEST(OutputFile, WithAHeadingReplacesOnlyWhatHasIt) {
+TEST(OutputFile, ReplacesOnlyFilesWithItsHeading) {
   const TemporaryFolder folder;
   for (const char* text : {"", "a,b\n", "a,b\n1,2\n"}) {
-    app::OutputFile(folder.write("file", text), "a,b\n").commit();
+    app::files::OutputFile(folder.write("file", text), "a,b\n").commit();
     EXPECT_EQ(read_file(folder.path() / "file"), "a,b\n");
   }
   for (const std::string text : {"a,b", "a,c\n1,2\n", "x"}) {
-    EXPECT_THROW(app::OutputFile(folder.write("file", text), "a,b\n"), app::UsageError) << text;
+    EXPECT_THROW(app::files::OutputFile(folder.write("file", text), "a,b\n"), app::UsageError) << text;
     EXPECT_EQ(read_file(folder.path() / "file"), text);
   }
 }
 
-TEST(OutputFile, HasTheRightsOfAnOrdinaryFile) {
+TEST(OutputFile, HasThePermissionsOfAnOrdinaryFile) {
   const TemporaryFolder folder;
   const fs::path path = folder.path() / "file", ordinary = folder.write("ordinary", "x");
-  app::OutputFile(path).commit();
+  app::files::OutputFile(path).commit();
   EXPECT_EQ(fs::status(path).permissions(), fs::status(ordinary).permissions());
 }
 
-TEST(OutputFile, RefusalsNameThePathAndLeaveNothing) {
+TEST(OutputFile, NamesThePathInErrorsAndLeavesNoFile) {
   const TemporaryFolder folder;
-  const fs::path file = folder.write("file", "old");  // no folder; permissions would not stop root
+  const fs::path file = folder.write("file", "old");  // not a folder; permissions would not stop root
   const auto before = file_names(folder.path());
   for (const auto& [path, why] :
        {std::pair(folder.path() / "none" / "file", "No such file"), std::pair(file / "below", "Not a directory"),

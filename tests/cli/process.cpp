@@ -16,7 +16,7 @@
 namespace cli::test {
 namespace {
 
-/// The test's own environment with `changes` in it.
+/// Returns the test's own environment with these changes.
 std::vector<std::string> environment_with(const std::vector<std::string>& changes) {
   std::vector<std::string> all = changes;
   for (char** entry = environ; *entry; ++entry) {
@@ -27,7 +27,7 @@ std::vector<std::string> environment_with(const std::vector<std::string>& change
   return all;
 }
 
-/// As C wants a list of strings, which must outlive it.
+/// Returns pointers to the strings, and a null pointer, as C requires. The strings must outlive them.
 std::vector<char*> pointers(std::vector<std::string>& strings) {
   std::vector<char*> list;
   for (std::string& string : strings) list.push_back(string.data());
@@ -86,7 +86,7 @@ nlohmann::json document(const std::string& command, std::vector<std::string> arg
   const Outcome o = run(arguments);
   EXPECT_EQ(o.status, 0) << o.err;
   EXPECT_EQ(o.err, "");
-  nlohmann::json parsed = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error too
+  nlohmann::json parsed = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error, too
   EXPECT_FALSE(parsed.is_discarded()) << o.out.substr(0, 200);
   return parsed;
 }

@@ -1,5 +1,5 @@
 #pragma once
-// Runs the program as its users do.
+// Runs the program as a user does.
 
 #include <sys/types.h>
 
@@ -18,11 +18,11 @@ using tests::TemporaryFolder;
 struct Outcome {
   int status;  // -1: ended by a signal
   std::string out, err;
-  int signal = 0;  // that ended it
+  int signal = 0;  // the signal that ended it
 };
 
-/// `sbcollide arguments...` in a working directory; neither output is a terminal. environment: "NAME=value" of what
-/// differs from the test's own. No signal is ignored.
+/// Runs `sbcollide arguments...` in a working directory. Neither output is a terminal. environment: changes of the
+/// test's own environment, as "NAME=value". No signal is ignored.
 class Process {
  public:
   explicit Process(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
@@ -39,17 +39,17 @@ class Process {
   pid_t id_ = 0;
 };
 
-/// Runs it to its end.
+/// Runs the program to its end.
 Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
             const std::vector<std::string>& environment = {});
 
-/// What `command arguments... --json` prints; fails the test unless it is one document, standard error empty and the
-/// status 0.
+/// Returns what `command arguments... --json` prints. Fails the test unless it is one document, standard error is empty
+/// and the status is 0.
 nlohmann::json document(const std::string& command, std::vector<std::string> arguments);
 inline nlohmann::json simulate(const std::vector<std::string>& arguments) { return document("simulate", arguments); }
 inline nlohmann::json detect(const std::vector<std::string>& arguments) { return document("detect", arguments); }
 
-/// Fails the test unless the program refuses in one line with these words in it, and prints nothing else.
+/// Fails the test unless the program refuses the arguments in one line with these words, and prints nothing else.
 void expect_refused(const std::vector<std::string>& arguments, const std::vector<std::string>& words,
                     const std::vector<std::string>& environment = {});
 

@@ -1,4 +1,4 @@
-// `report contact`: the files that it leaves, and that its figures are those of known states.
+// `report contact`: its files, and its figures on known states.
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,8 @@
 namespace cli::test {
 namespace {
 
-/// The rows of a quick report on one scene without gravity; by "surface", "multi-level-sb", "multi-level-sb-exact".
+/// Returns the rows of a quick report on one scene without gravity; by "surface", "multi-level-sb",
+/// "multi-level-sb-exact".
 std::map<std::string, Row> rows_of(const std::string& bodies, std::string* markdown = nullptr) {
   const TemporaryFolder folder;
   const auto scene = folder.write("state.toml", "gravity = [0, 0, 0]\n[collision]\ntolerance = 0.1\n" + bodies);
@@ -26,7 +27,7 @@ std::map<std::string, Row> rows_of(const std::string& bodies, std::string* markd
   return rows;
 }
 
-TEST(ContactReport, AKnownPenetrationIsCountedInEveryRow) {
+TEST(ContactReport, CountsAKnownPenetrationInEveryRow) {
   std::string markdown;
   const auto rows = rows_of("[[body]]\nrelease = 9999\n[[body]]\nposition = [0.8, 3, 0]\nrelease = 9999\n", &markdown);
   for (auto [key, row] : rows) {
@@ -56,7 +57,7 @@ TEST(ContactReport, AKnownPenetrationIsCountedInEveryRow) {
   EXPECT_NE(markdown.find("| Surface | 1 of 1 |"), std::string::npos) << markdown;
 }
 
-TEST(ContactReport, WhatFliesThroughIsSeenThoughItNeverOverlapsInAFrame) {
+TEST(ContactReport, SeesABodyThatFliesThroughAnotherBetweenTwoFrames) {
   const std::string ball = "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1}\n";  // of 42 vertices
   const auto rows = rows_of(ball + ball + "position = [0, 9.25, 0.1]\nvelocity = [0, -150, 0]\n");
   for (const char* key : {"multi-level-sb", "multi-level-sb-exact"}) {
@@ -67,7 +68,7 @@ TEST(ContactReport, WhatFliesThroughIsSeenThoughItNeverOverlapsInAFrame) {
   }
 }
 
-TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
+TEST(ContactReport, FindsNothingWrongWithBodiesThatLieApart) {
   for (auto [key, row] : rows_of("[[body]]\n[[body]]\nposition = [3, 3, 0]\n")) {
     EXPECT_EQ(row["failures"], "") << key;
     EXPECT_EQ(row["penetrations"], "0");
@@ -75,15 +76,15 @@ TEST(ContactReport, WhatLiesStillAndApartIsInOrder) {
   }
 }
 
-TEST(ContactReport, WhatComesOutOfABodyThatItStartedInHasNotPassed) {
+TEST(ContactReport, DoesNotCountABodyThatComesOutOfWhereItStarted) {
   Row surface = rows_of("[[body]]\n[[body]]\nposition = [0.8, 3, 0]\n").at("surface");
   EXPECT_EQ(surface["end_overlapping_pairs"], "0") << "they came apart";
   EXPECT_GT(number(surface["crossed_vertices"]), 0) << "else this test holds nothing";
   EXPECT_EQ(surface["passed"], "0");
 }
 
-/// From frame to frame it goes twice its own size: straight lines over that lead through the sheet that it carries off.
-TEST(ContactReport, WhatFliesFastIsLookedAtAlongItsWay) {
+/// The ball moves twice its own size in a frame. Straight lines over that lead through the sheet that it carries along.
+TEST(ContactReport, FollowsAFastBodyAlongItsPath) {
   Row surface = rows_of(
                     "[[body]]\nmesh = {kind = \"grid\", columns = 8, rows = 8, width = 2, depth = 2}\n"
                     "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 1}\n"
@@ -96,14 +97,14 @@ TEST(ContactReport, WhatFliesFastIsLookedAtAlongItsWay) {
   EXPECT_EQ(surface["passed"], "0");
 }
 
-TEST(ContactReport, FramesThatAreCutShortGiveNoFigures) {
+TEST(ContactReport, GivesNoFiguresOfFramesThatAreCutShort) {
   const std::string ball = "[[body]]\nmesh = {kind = \"icosphere\", subdivisions = 2, radius = 0.02}\n";
   Row surface = rows_of(ball + "velocity = [1000, 0, 0]\n" + ball + "position = [5, 3, 0]\nvelocity = [-1000, 0, 0]\n")
                     .at("surface");
   EXPECT_NE(surface["not_run"].find("more substeps than there may be"), std::string::npos) << surface["not_run"];
 }
 
-TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
+TEST(ContactReport, ListsASceneOverBudgetAndDoesNotRunIt) {
   const TemporaryFolder folder;
   const Outcome o = run({"report", "contact", "--quick", "--scene", "drop-3000", "--out", folder.path()});
   EXPECT_EQ(o.status, 0) << o.err;
@@ -116,7 +117,7 @@ TEST(ContactReport, ASceneOverBudgetIsListedAndNotRun) {
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"contact.csv", "contact.md"})) << "nothing to plot";
 }
 
-TEST(ContactReport, TheMarkdownShowsThePlotThatIsThere) {
+TEST(ContactReport, ShowsThePlotsOnThePage) {
   const TemporaryFolder folder;
   const auto scene = folder.write("pair.toml", "gravity = [0, 0, 0]\n[[body]]\n[[body]]\nposition = [3, 3, 0]\n");
   const auto out = folder.path() / "new" / "out";

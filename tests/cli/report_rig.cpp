@@ -8,7 +8,7 @@
 namespace cli::test {
 namespace {
 
-/// One line of CSV; a quoted field may hold commas and doubled quotes.
+/// Returns the fields of a line of CSV. A quoted field may hold commas and doubled quotes.
 std::vector<std::string> fields(const std::string& line) {
   std::vector<std::string> all(1);
   bool quoted = false;

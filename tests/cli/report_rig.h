@@ -1,5 +1,5 @@
 #pragma once
-// Reading what reports leave.
+// Reads what reports write.
 
 #include <map>
 
@@ -9,10 +9,10 @@ namespace cli::test {
 
 using Row = std::map<std::string, std::string>;  // by column
 
-/// Fails the test on a row with another number of fields than the header.
+/// Reads all rows. Fails the test if a row has another number of fields than the header.
 std::vector<Row> read_csv(const std::filesystem::path& file);
 
-/// -1 if it is none, which fails the test.
+/// Returns the number; fails the test and returns -1 if the text is none.
 double number(const std::string& text);
 
 }  // namespace cli::test

@@ -1,4 +1,4 @@
-// `report solver`: the files that it leaves, and that its figures say what is known beforehand.
+// `report solver`: its files, and figures that are known beforehand.
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 namespace cli::test {
 namespace {
 
-/// Of one integrator, the rows in order.
+/// Returns the rows of each integrator, in order.
 std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& csv) {
   std::map<std::string, std::vector<Row>> curves;
   for (Row& row : read_csv(csv)) curves[row["integrator"]].push_back(row);
@@ -17,7 +17,7 @@ std::map<std::string, std::vector<Row>> curves_of(const std::filesystem::path& c
 
 class SolverReport : public testing::Test {
  protected:
-  /// A small ball that falls, for the time of the report, without meeting anything.
+  /// Makes a report on a small ball that falls freely.
   void make(const std::string& more = "") {
     const auto scene = folder_.write(
         "ball.toml",
@@ -63,10 +63,10 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
   const std::string text = read_file(out_ / "solver.md");
   EXPECT_NE(text.find("RK4 in double"), std::string::npos);
   EXPECT_EQ(text.find("nan"), std::string::npos);
-  EXPECT_NE(text.find(cut_short ? "as runs took longer than" : "All curves end"), std::string::npos);
+  EXPECT_NE(text.find(cut_short ? "since runs took longer than" : "All curves end"), std::string::npos);
 }
 
-TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
+TEST_F(SolverReport, SaysThatTheReferenceDoesNotModelAScene) {
   make("internal_damping = 5\n");
   EXPECT_NE(read_file(out_ / "solver.md").find("rk4 in floats"), std::string::npos);
   for (auto& [key, curve] : curves_of(out_ / "solver.csv")) {
@@ -74,12 +74,18 @@ TEST_F(SolverReport, ASceneThatTheReferenceDoesNotModelSaysSo) {
   }
 }
 
-TEST(SolverReportErrors, AreSaidBeforeAnythingRuns) {
+TEST(SolverReportErrors, ComeBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
   const Outcome none = run({"report", "solver", "--quick", "--scene", empty, "--out", folder.path() / "out"});
   EXPECT_EQ(none.status, 2);
   EXPECT_NE(none.err.find("no body"), std::string::npos) << none.err;
+  for (const char* appear : {"appear = 5\n", "appear = 500\n", "\n[[body]]\nposition = [3, 3, 0]\nappear = 5\n"}) {
+    const auto late = folder.write("late.toml", std::string("[[body]]\n") + appear);
+    const Outcome o = run({"report", "solver", "--quick", "--scene", late, "--out", folder.path() / "out"});
+    EXPECT_EQ(o.status, 2) << appear;
+    EXPECT_NE(o.err.find("join after the start"), std::string::npos) << o.err;
+  }
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "out"));
   EXPECT_EQ(run({"report", "solver", "--scene", "nowhere", "--out", folder.path()}).status, 2);
 }

@@ -1,4 +1,4 @@
-// `report stability`: the files that it leaves, and that known cells come out as they must.
+// `report stability`: its files, and cells that are known.
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@ namespace {
 
 const std::vector<std::string> dts{"0.0333333333", "0.0166666667", "0.00416666667"};
 
-/// Cells by "case integrator dt stiffness".
+/// Returns the cells by "case integrator dt stiffness".
 std::map<std::string, Row> cells_of(const std::filesystem::path& csv) {
   std::map<std::string, Row> cells;
   for (Row& row : read_csv(csv)) {
@@ -21,7 +21,7 @@ std::map<std::string, Row> cells_of(const std::filesystem::path& csv) {
   return cells;
 }
 
-TEST(StabilityReport, TheQuickOneHasEveryCellAndTheMap) {
+TEST(StabilityReport, HasEveryCellAndTheStableStepsIfQuick) {
   const TemporaryFolder folder;
   const auto out = folder.path() / "out";
   const Outcome o = run({"report", "stability", "--quick", "--out", out});
@@ -79,8 +79,8 @@ TEST(StabilityReport, TakesASceneAndScalesItsStiffness) {
   EXPECT_EQ(file_names(out), (std::set<std::string>{"stability.csv", "stability.md"})) << "no map of another scene";
 }
 
-/// High up, one inside another: neither its height is energy of the others, nor what they are pushed apart with.
-TEST(StabilityReport, BodiesThatAppearBringTheirEnergy) {
+/// Two bodies appear high up, one inside the other. Their height and the energy that pushes them apart are their own.
+TEST(StabilityReport, CreditsBodiesThatAppearWithTheirEnergy) {
   const TemporaryFolder folder;
   const auto scene = folder.write(
       "two.toml",
@@ -100,7 +100,7 @@ TEST(StabilityReport, BodiesThatAppearBringTheirEnergy) {
       << "what they gain is not theirs: see stability_cell_test.cpp";
 }
 
-TEST(StabilityReport, ErrorsAreSaidBeforeAnythingRuns) {
+TEST(StabilityReport, RefusesBadInputBeforeAnythingRuns) {
   const TemporaryFolder folder;
   const auto empty = folder.write("empty.toml", "name = \"nothing\"\n");
   const Outcome none = run({"report", "stability", "--scene", empty, "--out", folder.path() / "out"});

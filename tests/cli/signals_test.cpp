@@ -1,4 +1,4 @@
-// What a signal leaves behind when it ends the program.
+// Checks what remains when a signal ends the program.
 
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 class Signals : public testing::TestWithParam<int> {};
 
-TEST_P(Signals, EndTheProgramAsEverAndLeaveNoTemporaryFile) {
+TEST_P(Signals, EndTheProgramAndLeaveNoTemporaryFile) {
   const TemporaryFolder folder;
   std::string crowd;
   for (int i = 0; i < 300; ++i) crowd += "v 0 0 0\n";

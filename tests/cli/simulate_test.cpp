@@ -1,4 +1,4 @@
-// `simulate`: the JSON document and what the options do to it.
+// The JSON document of `simulate`, and the effect of the options.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +23,7 @@ std::set<std::string> keys(const json& object) {
 
 using Keys = std::set<std::string>;
 
-/// A ball with gas a hand above the ground: something happens within a few frames.
+/// A ball with gas, close above the ground, so that something happens within a few frames.
 constexpr const char* small_scene = R"(
 [collision]
 tolerance = 0.1
@@ -62,11 +62,11 @@ TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   }
 }
 
-TEST(Simulate, WholeNumbersAreDecimalWithZerosInFront) {
+TEST(Simulate, ReadsLeadingZerosAsDecimal) {
   EXPECT_EQ(simulate({"--scene", "drop", "--frames", "010"})["frames"].size(), 10u);
 }
 
-TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
+TEST(Simulate, NamesEachStageOnceAndWhyOthersAreLeftOut) {
   const TemporaryFolder folder;
   const auto scene = folder.write("small.toml", small_scene);
   const json d = simulate({"--scene", scene, "--frames", "1"});
@@ -110,7 +110,7 @@ TEST(Simulate, ThePlanNamesEveryStageOnceAndSaysWhyOthersAreLeftOut) {
   EXPECT_FALSE(runs("solid-spheres") || runs("arrive") || runs("shear-springs"));
 }
 
-TEST(Simulate, FiguresAreThoseOfThePhysics) {
+TEST(Simulate, PrintsFiguresThatAgreeWithPhysics) {
   const TemporaryFolder folder;
   const auto scene = folder.write("fall.toml",
                                   "[collision]\nself_collision = false\n[[material]]\nmass = 2\n[[body]]\n"
@@ -123,7 +123,7 @@ TEST(Simulate, FiguresAreThoseOfThePhysics) {
   EXPECT_EQ(last["deepest_penetration"], 0.0);
 }
 
-TEST(Simulate, OpenMeshesHaveNoVolumeRatio) {
+TEST(Simulate, PrintsNoVolumeRatioOfOpenMeshes) {
   const TemporaryFolder folder;
   const auto scene = folder.write("sheet.toml", "[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
   const json ratio = simulate({"--scene", scene, "--frames", "1"})["frames"][0]["volume_ratio"];
@@ -132,7 +132,7 @@ TEST(Simulate, OpenMeshesHaveNoVolumeRatio) {
   EXPECT_TRUE(std::regex_search(table, std::regex("\n +1 .* - +- .*\n"))) << table;
 }
 
-TEST(Simulate, TheStateHashIsTheSameOverRunsThreadsAndExactMethods) {
+TEST(Simulate, PrintsTheSameStateHashForAllThreadsAndExactMethods) {
   const auto hash = [](std::vector<std::string> more) {
     more.insert(more.end(), {"--scene", "drop", "--frames", "260"});
     return simulate(more)["state_hash"];
@@ -145,7 +145,7 @@ TEST(Simulate, TheStateHashIsTheSameOverRunsThreadsAndExactMethods) {
   EXPECT_NE(hash({"--dt", "0.02"}), once);
 }
 
-TEST(Simulate, ToleranceDtAndMethodAreRespected) {
+TEST(Simulate, AppliesToleranceAndFrameTime) {
   const TemporaryFolder folder;
   const auto scene = folder.write("small.toml", small_scene);
   const auto last = [&](std::vector<std::string> more) {
@@ -159,7 +159,7 @@ TEST(Simulate, ToleranceDtAndMethodAreRespected) {
   EXPECT_LT(last({"--dt", "0.001"})["max_speed"], 0.1) << "a shorter frame, a shorter fall";
 }
 
-TEST(Simulate, LevelsBucketsAndCellSizeReachTheLiteralMethod) {
+TEST(Simulate, AppliesLevelsBucketsAndCellSize) {
   const TemporaryFolder folder;  // two balls that overlap, held, so that only detection differs
   const auto scene = folder.write("held.toml",
                                   "gravity = [0, 0, 0]\n[collision]\ntolerance = 0.1\nself_collision = false\n"
@@ -183,7 +183,7 @@ TEST(Simulate, LevelsBucketsAndCellSizeReachTheLiteralMethod) {
       << "finer boxes fit the cells";
 }
 
-TEST(Simulate, PrimesReachTheHashAndPoorOnesAreNamed) {
+TEST(Simulate, AppliesPrimesAndWarnsOfPoorOnes) {
   const std::vector<std::string> no_hash{"--scene", "drop", "--frames", "1", "--primes", "1001,5,7"};
   auto poor = no_hash;
   poor.insert(poor.end(), {"--method", "grid-hash"});
@@ -197,7 +197,7 @@ TEST(Simulate, PrimesReachTheHashAndPoorOnesAreNamed) {
   EXPECT_EQ(simulate({"--scene", "drop", "--frames", "1"})["warnings"], json::array());
 }
 
-TEST(Simulate, TheContactSurfaceIsTheOneAskedFor) {
+TEST(Simulate, AppliesTheContactSurface) {
   const auto stages = [](std::vector<std::string> more) {
     more.insert(more.end(), {"--scene", "drop", "--frames", "1"});
     const json d = simulate(more);
@@ -209,7 +209,7 @@ TEST(Simulate, TheContactSurfaceIsTheOneAskedFor) {
   EXPECT_EQ(stages({}), paper) << "the scene's own";
 }
 
-TEST(Simulate, TheOracleCountsWhatOverlapsAndWhatPassesThrough) {
+TEST(Simulate, CountsOverlapsAndCrossingsByTheOracle) {
   const TemporaryFolder folder;  // one ball held in another, a third that flies through both in frame 2
   const auto scene = folder.write("through.toml",
                                   "gravity = [0, 0, 0]\n[[body]]\nrelease = 99\n[[body]]\nposition = [0.8, 3, 0]\n"
@@ -228,7 +228,7 @@ TEST(Simulate, TheOracleCountsWhatOverlapsAndWhatPassesThrough) {
   EXPECT_EQ(second["penetrating_vertices"], first["penetrating_vertices"]) << "and below them after";
 }
 
-TEST(Simulate, WithoutJsonPrintsAShortTable) {
+TEST(Simulate, PrintsAShortTableWithoutJson) {
   const Outcome o = run({"simulate", "--scene", "drop", "--frames", "100"});
   EXPECT_EQ(o.status, 0);
   EXPECT_EQ(o.err, "") << "progress is for terminals";
@@ -238,7 +238,7 @@ TEST(Simulate, WithoutJsonPrintsAShortTable) {
   EXPECT_LT(std::count(o.out.begin(), o.out.end(), '\n'), 40);
 }
 
-TEST(Simulate, WorksFromAnyWorkingDirectoryAndWithoutADisplay) {
+TEST(Simulate, RunsInAnyFolderAndWithoutADisplay) {
   const TemporaryFolder folder;
   folder.write("here.toml", small_scene);
   unsetenv("DISPLAY");

@@ -9,10 +9,10 @@ namespace {
 
 constexpr double bound = 2e-5;  // R
 
-/// With 1, 2, 4 ... steps; an error of 0 blew up.
+/// Returns the order of a curve with these errors at 1, 2, 4 ... steps. An error of 0 means that it blew up.
 std::optional<double> order(const std::vector<double>& errors, bool at_rest = false) {
-  const SolverCase c{.key = "ball", .name = "Ball", .at_rest = at_rest, .reference = "", .change = 1e-6};
-  WorkCurve curve{nullptr};
+  const report::SolverCase c{.key = "ball", .name = "Ball", .at_rest = at_rest, .reference = "", .change = 1e-6};
+  report::WorkCurve curve{nullptr};
   int steps = 1;
   for (const double e : errors) {
     curve.points.push_back({.substeps = steps, .blew_up = e <= 0, .error = e});
@@ -21,33 +21,33 @@ std::optional<double> order(const std::vector<double>& errors, bool at_rest = fa
   return c.order(curve, bound);
 }
 
-TEST(SolverOrder, IsThatOfFallingErrors) {
+TEST(SolverCaseOrder, IsTheSlopeOfFallingErrors) {
   EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}).value_or(0), 2, 1e-9);
   EXPECT_NEAR(order({0, 0, 8e-3, 4e-3, 2e-3}).value_or(0), 1, 1e-9);
 }
 
-TEST(SolverOrder, IsTheMeanOfTheMiddleTwoOfAnEvenNumber) {
+TEST(SolverCaseOrder, IsTheMeanOfTheMiddleTwoOfAnEvenNumber) {
   EXPECT_NEAR(order({1.6e-1, 8e-2, 2e-2}).value_or(0), 1.5, 1e-9);
   EXPECT_NEAR(order({1.28e-1, 6.4e-2, 1.6e-2, 2e-3, 1e-3}).value_or(0), 1.5, 1e-9) << "1, 2, 3, 1";
 }
 
-TEST(SolverOrder, OfRowsOfOneLengthThatOfTheMostStepsTellsIt) {
+TEST(SolverCaseOrder, IsOfTheRowWithTheMostStepsIfRowsAreEquallyLong) {
   EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 1.1e-2, 5.5e-3, 2.75e-3}).value_or(0), 1, 1e-9);
   EXPECT_NEAR(order({1.6e-1, 4e-2, 1e-2, 2.5e-3, 2.4e-3, 1.2e-3, 6e-4}).value_or(0), 2, 1e-9) << "a longer one";
 }
 
-TEST(SolverOrder, LeavesOutWhatIsTooCoarseAndRounding) {
+TEST(SolverCaseOrder, LeavesOutCoarseErrorsAndRounding) {
   EXPECT_NEAR(order({5, 1.6e-1, 4e-2, 1e-2}).value_or(0), 2, 1e-9);
   EXPECT_NEAR(order({9e-4, 7.5e-4, 1e-3, 1.6e-3, 4e-4, 1e-4}).value_or(0), 2, 1e-9);
   EXPECT_NEAR(order({1.6e-2, 4e-3, 1e-3, 1.1e-3, 7e-4}).value_or(0), 2, 1e-9);
 }
 
-TEST(SolverOrder, OneStepTellsItOnlyIfItComesAsFarAsTheReferenceIsKnown) {
+TEST(SolverCaseOrder, NeedsTwoFallsOrOneThatReachesTheUncertainty) {
   EXPECT_EQ(order({1.1e-4, 5.6e-5, 1.2e-4}), std::nullopt);
   EXPECT_NEAR(order({0, 0, 1.6e-4, 1e-5}).value_or(0), 4, 1e-9);
 }
 
-TEST(SolverOrder, IsNoneWhereErrorsDoNotFallAndWhereNothingMoves) {
+TEST(SolverCaseOrder, IsNothingIfErrorsDoNotFallOrNothingMoves) {
   EXPECT_EQ(order({}), std::nullopt);
   EXPECT_EQ(order({0, 0}), std::nullopt);
   EXPECT_EQ(order({1.9, 1.8, 1.5, 1.4}), std::nullopt);
@@ -55,22 +55,22 @@ TEST(SolverOrder, IsNoneWhereErrorsDoNotFallAndWhereNothingMoves) {
   EXPECT_EQ(order({1.6e-1, 4e-2, 1e-2, 2.5e-3}, true), std::nullopt);
 }
 
-/// What the report says of curves that end early, each of one error after so many steps.
+/// Returns what the page says about curves that end early. Each has one point, with so many steps.
 std::string left_out(const std::vector<int>& ends) {
-  SolverResults r;
-  r.bound = bound, r.longest_run = 0.5, r.most_substeps = 64;
-  SolverCase& c = r.cases.emplace_back(SolverCase{.key = "ball", .name = "Ball", .reference = ""});
+  report::SolverResults r;
+  r.bound = bound, r.max_run_seconds = 0.5, r.max_substeps = 64;
+  report::SolverCase& c = r.cases.emplace_back(report::SolverCase{.key = "ball", .name = "Ball", .reference = ""});
   for (const int n : ends)
     c.curves.push_back({softbody::find_integrator("rk4"), {{.substeps = n, .error = n == 1 ? 1e-6 : 1e-2}}});
-  const std::string text = solver_markdown(r, {});
+  const std::string text = report::solver_page(r).markdown(false);
   const std::size_t at = text.find("Left out");
   return at == std::string::npos ? "" : text.substr(at, text.find("With the fewest") - at);
 }
 
-TEST(SolverReportText, SaysWhyCurvesEnd) {
-  const std::string known = "Left out, short of the 2e-05 R to which the reference is known, as ";
-  const std::string long_runs = known + "runs took longer than 0.5 s: Runge-Kutta 4 beyond 16 steps a frame.\n\n";
-  const std::string most = known + "no more steps were tried: Runge-Kutta 4 beyond 64 steps a frame.\n\n";
+TEST(SolverPage, SaysWhyCurvesEnd) {
+  const std::string known = "Left out, above the reference's uncertainty of 2e-05 R, since ";
+  const std::string long_runs = known + "runs took longer than 0.5 s: Runge-Kutta 4 beyond 16 steps per frame.\n\n";
+  const std::string most = known + "no more steps were tried: Runge-Kutta 4 beyond 64 steps per frame.\n\n";
   EXPECT_EQ(left_out({16, 1}), long_runs);
   EXPECT_EQ(left_out({1, 64}), most);
   EXPECT_EQ(left_out({64, 16}), long_runs + most);

@@ -1,4 +1,5 @@
-// Cells of `report stability` in which bodies join a world that is under way: what they bring is theirs, and no more.
+// Cells of `report stability` in which bodies join a running world: they are credited with what they bring, and no
+// more.
 
 #include "app/report/stability/cell.h"
 
@@ -8,16 +9,15 @@
 #include <cmath>
 
 #include "app/report/stability/cases.h"
-#include "app/report/stability/joiners.h"
 
 namespace app::test {
 namespace {
 
 constexpr double dt = 1.0 / 30;  // s
 
-/// Balls in balance, R = 0.5 m, that join one after another; no gravity, no solids, no sleep.
+/// Returns balls in balance, R = 0.5 m, that join one after another, without gravity, solids and sleep.
 softbody::Scene balls(std::initializer_list<softbody::BodySource> sources, double stiffness = 1e3) {
-  softbody::Scene scene = lone_scene(ball_material(stiffness, 0.1));
+  softbody::Scene scene = report::lone_scene(report::ball_material(stiffness, 0.1));
   const softbody::MeshSource mesh = scene.bodies[0].mesh;
   scene.bodies = sources;
   for (softbody::BodySource& body : scene.bodies) body.mesh = mesh;
@@ -31,31 +31,32 @@ softbody::BodySource joiner(int appear, const glm::dvec3& position, const glm::d
   return body;
 }
 
-StabilityFigures run(const softbody::Scene& scene, std::string_view integrator, int frames) {
-  StabilityStart start = prepare({.scene = scene}, frames * dt);
-  start.untold = "bodies join";
-  const StabilityFigures figures = run_cell(start, *softbody::find_integrator(integrator), dt);
+reference::StabilityFigures run(const softbody::Scene& scene, std::string_view integrator, int frames) {
+  report::StabilityStart start = report::prepare({.scene = scene}, frames * dt);
+  start.not_judged = "bodies join";
+  const reference::StabilityFigures figures = report::run_cell(start, *softbody::find_integrator(integrator), dt);
   EXPECT_EQ(figures.refused, "");
   return figures;
 }
 
 /// An explicit Euler step adds 1/2 m (g dt)^2 to a body that begins to fall, a Verlet step nothing.
-TEST(StabilityCell, WhatAJoinerGainsInItsFirstFrameIsAGain) {
+TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
   constexpr int appear = 5;
   for (const double height : {-40.0, 40.0}) {  // m: also one whose energy is negative
     softbody::Scene scene = balls({joiner(0, {9, 0, 0}), joiner(appear, {0, height, 0}, {0, 3, 0})});
     scene.bodies[0].release = 1000;  // held in place: it gains nothing
     scene.gravity = {0, -98.1, 0};
-    const double gain = 0.5 * std::pow(98.1 * dt, 2) / (2 * 9.81 * prepare({.scene = scene}, 1).limits.radius);
-    const StabilityFigures before = run(scene, "explicit-euler", appear), after = run(scene, "explicit-euler", 6);
+    const double gain = 0.5 * std::pow(98.1 * dt, 2) / (2 * 9.81 * report::prepare({.scene = scene}, 1).limits.radius);
+    const reference::StabilityFigures before = run(scene, "explicit-euler", appear),
+                                      after = run(scene, "explicit-euler", 6);
     EXPECT_NEAR(before.energy, 0, 1e-4) << height;
     EXPECT_NEAR(after.energy, gain, 0.01 * gain) << height;
-    EXPECT_GT(gain, 5 * stability_bounds.energy) << height;
+    EXPECT_GT(gain, 5 * reference::stability_bounds.energy) << height;
     EXPECT_NEAR(run(scene, "velocity-verlet", 6).energy, 0, 1e-3) << height;
   }
 }
 
-/// A stiff shield around a ball, and a second one that joins.
+/// Returns a ball with a stiff shield, and a second ball that joins.
 softbody::Scene joined_by(const softbody::BodySource& second) {
   softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
   scene.materials[0].contact_stiffness = 1e8;
@@ -63,35 +64,35 @@ softbody::Scene joined_by(const softbody::BodySource& second) {
   return scene;
 }
 
-TEST(StabilityCell, JoinersHaveWhatPairsHoldWhereTheyJoin) {
+TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
   softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
   scene.materials[0].contact_stiffness = 1e3;
-  EXPECT_LE(run(scene, "auto", 12).energy, stability_bounds.energy);
+  EXPECT_LE(run(scene, "auto", 12).energy, reference::stability_bounds.energy);
 }
 
-/// It flies into the other one from afar: in that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
-TEST(StabilityCell, WhatAJoinersFirstFrameLeadsIntoIsNotItsOwn) {
+/// It flies into the other ball from afar. In that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
+TEST(StabilityCell, DoesNotCreditWhatAJoinersFirstFrameCarriesItInto) {
   constexpr int appear = 3;
   constexpr double speed = 100, g = speed / dt;  // m/s, m/s^2
   softbody::Scene scene = joined_by(joiner(appear, {0.7 + speed * dt, 0.01, 0.02}, {-speed, 0, 0}));
   scene.gravity = {0, -g, 0};
-  softbody::World world(scene, {.frame_time = dt, .integrator = "explicit-euler", .substeps = 1});
+  softbody::World world(scene, {.frame_time = dt, .integrator = {"explicit-euler", 1}});
   for (int frame = 0; frame < appear; ++frame) world.step();
-  EXPECT_EQ(softbody::total(shield_energies_with(world, std::span(scene.bodies).subspan(1))), 0);
+  EXPECT_EQ(softbody::total(report::shield_energies_with(world, std::span(scene.bodies).subspan(1))), 0);
   world.step();
-  EXPECT_GT(softbody::total(world.shield_energies()), 2 * speed * speed) << "J, more than was gained";
+  EXPECT_GT(softbody::total(world.pair_energies().next), 2 * speed * speed) << "J, more than was gained";
   EXPECT_NEAR(run(scene, "explicit-euler", appear + 1).energy, 1, 1e-3);
 }
 
-TEST(StabilityCell, AskingWhatJoinersHoldLeavesTheWorldAsItWas) {
+TEST(StabilityCell, LeavesTheWorldAsItWasWhenAskedWhatJoinersHold) {
   for (const char* integrator : {"auto", "implicit", "velocity-verlet"}) {
     softbody::Scene scene = balls({joiner(0, {0, 0, 0}), joiner(0, {1.22, 0, 0}, {-1, 0, 0})});
-    const softbody::World::Options options{.integrator = integrator};
+    const softbody::World::Options options{.integrator = {integrator}};
     softbody::World asked(scene, options), other(scene, options);
     softbody::BodySource third = scene.bodies[0];
     third.position = {0, 0.7, 0};
     for (int frame = 0; frame < 30; ++frame) {
-      EXPECT_GT(softbody::total(shield_energies_with(asked, {{third}})), 0);
+      EXPECT_GT(softbody::total(report::shield_energies_with(asked, {{third}})), 0);
       ASSERT_EQ(asked.bodies().count(), 2u);
       asked.step();
       other.step();
@@ -100,57 +101,57 @@ TEST(StabilityCell, AskingWhatJoinersHoldLeavesTheWorldAsItWas) {
   }
 }
 
-/// Nobody is there at the start: what may be gained and how deep a solid may be entered is known all the same.
-TEST(StabilityCell, ASceneWhoseBodiesAllJoinLaterIsJudged) {
+/// No body is there at the start. The bounds of energy and depth are known all the same.
+TEST(StabilityCell, JudgesASceneWhoseBodiesAllJoinLater) {
   softbody::Scene falling = balls({joiner(2, {0, 40, 0})});
   falling.gravity = {0, -9.81, 0};
-  EXPECT_NEAR(prepare({.scene = falling}, 1).limits.radius, 0.5, 0.01);
-  const StabilityFigures in_order = run(falling, "auto", 8);
-  EXPECT_EQ(failures(in_order), std::vector<std::string>{});
+  EXPECT_NEAR(report::prepare({.scene = falling}, 1).limits.radius, 0.5, 0.01);
+  const reference::StabilityFigures in_order = run(falling, "auto", 8);
+  EXPECT_EQ(reference::failures(in_order), std::vector<std::string>{});
   EXPECT_GT(in_order.extent, 0) << "its springs tell how far it can be drawn";
 
   falling.ground = softbody::Ground{};
   falling.bodies[0].position.y = 0.2;
-  EXPECT_GT(run(falling, "auto", 4).transient, stability_bounds.transient);
+  EXPECT_GT(run(falling, "auto", 4).transient, reference::stability_bounds.transient);
 
   softbody::Scene stiff = balls({joiner(2, {0, 0, 0}), joiner(2, {3, 0, 0}, {1, 0, 0})}, 1e8);
-  EXPECT_GT(run(stiff, "explicit-euler", 20).energy, stability_bounds.energy);
+  EXPECT_GT(run(stiff, "explicit-euler", 20).energy, reference::stability_bounds.energy);
 }
 
-/// Explicit Euler gains with every frame; what a heavy body will bring, which is not there yet, allows it no more.
-TEST(StabilityCell, WhoIsYetToJoinLoosensNothing) {
+/// Explicit Euler gains energy in every frame. A heavy body that is still to join must not allow it more.
+TEST(StabilityCell, AllowsNoMoreForBodiesThatAreStillToJoin) {
   softbody::Scene lone = balls({joiner(0, {0, 0, 0})}), awaiting = balls({joiner(0, {0, 0, 0}), joiner(5, {9, 0, 0})});
   for (softbody::Scene* scene : {&lone, &awaiting}) scene->gravity = {0, -98.1, 0};
-  awaiting.materials.push_back(ball_material(1e3, 0.1));
+  awaiting.materials.push_back(report::ball_material(1e3, 0.1));
   awaiting.materials[1].mass = 1000;
   awaiting.bodies[1].material = 1;
   const double gain = run(lone, "explicit-euler", 1).energy;
-  EXPECT_GT(gain, 5 * stability_bounds.energy);
+  EXPECT_GT(gain, 5 * reference::stability_bounds.energy);
   EXPECT_DOUBLE_EQ(run(awaiting, "explicit-euler", 1).energy, gain);
 }
 
-/// Joining order is not the file's.
-TEST(StabilityCell, BodiesAreToldApartByWhenTheyJoin) {
+/// Bodies join in another order than that of the file.
+TEST(StabilityCell, TellsBodiesApartByWhenTheyJoin) {
   softbody::Scene scene = balls({joiner(4, {9, -30, 0}), joiner(0, {0, 0, 0}), joiner(2, {0, 50, 0}, {0, 20, 0})});
   scene.gravity = {0, -9.81, 0};
-  scene.materials.push_back(ball_material(1e3, 0.1));
+  scene.materials.push_back(report::ball_material(1e3, 0.1));
   scene.materials[1].mass = 7;
   scene.bodies[0].material = 1;
   EXPECT_NEAR(run(scene, "auto", 8).energy, 0, 1e-3);
 }
 
-/// The hardest of the report's own cases: frames of 1/30 s, in which a stiff ball flies 33 m.
-TEST(StabilityCell, AHitWith1000MetresASecondTakesNoMoreStepsThanThereMayBe) {
-  const auto all = stability_cases();
-  const auto hit = std::ranges::find(all, "impact-1000", &StabilityCase::key);
+/// The hardest case of the report: frames of 1/30 s, in which a stiff ball flies 33 m.
+TEST(StabilityCell, RunsAHitWith1000MetresASecondWithinTheAllowedSteps) {
+  const auto all = report::stability_cases();
+  const auto hit = std::ranges::find(all, "impact-1000", &report::StabilityCase::key);
   ASSERT_NE(hit, all.end());
   for (const double stiffness : {1e6, 1e8}) {
-    StabilityStart start = prepare(hit->make(stiffness), 2);
-    start.untold = "only what needs no reference";
-    const StabilityFigures figures = run_cell(start, *softbody::find_integrator("auto"), dt);
+    report::StabilityStart start = report::prepare(hit->make(stiffness), 2);
+    start.not_judged = "only what needs no reference";
+    const reference::StabilityFigures figures = report::run_cell(start, *softbody::find_integrator("auto"), dt);
     EXPECT_EQ(figures.refused, "");
-    EXPECT_LE(figures.energy, stability_bounds.energy) << stiffness << " N/m";
-    EXPECT_EQ(figures.through, 0) << stiffness << " N/m";
+    EXPECT_LE(figures.energy, reference::stability_bounds.energy) << stiffness << " N/m";
+    EXPECT_EQ(figures.passed_through, 0) << stiffness << " N/m";
   }
 }
 

@@ -1,4 +1,4 @@
-// Full disks, places that cannot be written to, and a sudden end: what was saved before stays whole.
+// Full disks, folders that cannot be written to, and a sudden end: saved files stay complete.
 
 #include <gtest/gtest.h>
 
@@ -40,7 +40,7 @@ class Survival : public testing::TestWithParam<Writer> {
   }
 };
 
-TEST_P(Survival, AFullDiskIsSaidAndChangesNothing) {
+TEST_P(Survival, ReportsAFullDiskAndChangesNothing) {
   const TemporaryFolder folder;
   folder.write(GetParam().file, "saved before");
   const tests::FullDisk full;
@@ -52,7 +52,7 @@ TEST_P(Survival, AFullDiskIsSaidAndChangesNothing) {
 }
 
 /// Not even root writes to /proc.
-TEST_P(Survival, APlaceThatTakesNoFilesIsSaid) {
+TEST_P(Survival, ReportsAFolderThatTakesNoFiles) {
   const Outcome o = write_to("/proc");
   EXPECT_EQ(o.status, 2);
   EXPECT_NE(o.err.find("/proc"), std::string::npos) << o.err;
@@ -62,9 +62,9 @@ TEST_P(Survival, APlaceThatTakesNoFilesIsSaid) {
 INSTANTIATE_TEST_SUITE_P(Writers, Survival, testing::ValuesIn(writers()),
                          [](const auto& writer) { return writer.param.name; });
 
-/// Files that were there, of which it comes to half, are as they were or new; what is new is whole, whether it had a
-/// file to write over or not.
-TEST(SuddenEnd, LeavesWhatWasSavedBeforeOrWhatIsNewWhole) {
+/// The program is killed after it has replaced half of the saved files. Each file is the old or the new one, and each
+/// new file is complete.
+TEST(SuddenEnd, LeavesOnlyCompleteFiles) {
   const TemporaryFolder folder;
   std::set<std::string> saved;
   for (const int first : {10, 30})

@@ -10,14 +10,14 @@ namespace {
 
 constexpr glm::ivec2 size{1280, 720};
 
-Camera looking_at_scene() {
+Camera scene_camera() {
   Camera camera;
   camera.fit(glm::vec3(0.5f, 1.0f, -0.25f), 3.0f, size);
   return camera;
 }
 
-TEST(Camera, PickRayGoesThroughTheProjectedPoint) {
-  const Camera camera = looking_at_scene();
+TEST(Camera, PickRayPassesThroughTheProjectedPoint) {
+  const Camera camera = scene_camera();
   for (const glm::vec3 point : {glm::vec3(0, 0, 0), glm::vec3(1, 2, 0.5f), glm::vec3(-1.5f, 0.2f, 1)}) {
     const auto pixel = camera.project(point, size);
     ASSERT_TRUE(pixel);
@@ -28,8 +28,8 @@ TEST(Camera, PickRayGoesThroughTheProjectedPoint) {
   }
 }
 
-TEST(Camera, TargetIsInTheMiddleAndPixelsGoDown) {
-  const Camera camera = looking_at_scene();
+TEST(Camera, TargetIsInTheMiddleAndPixelRowsGoDown) {
+  const Camera camera = scene_camera();
   const glm::vec3 target = camera.orbit().target;
   const auto middle = camera.project(target, size);
   ASSERT_TRUE(middle);
@@ -38,53 +38,53 @@ TEST(Camera, TargetIsInTheMiddleAndPixelsGoDown) {
   EXPECT_LT(camera.project(target + glm::vec3(0, 1, 0), size)->y, 360.0f);
 }
 
-TEST(Camera, NothingIsProjectedFromBehindTheEye) {
-  const Camera camera = looking_at_scene();
+TEST(Camera, DoesNotProjectPointsBehindTheEye) {
+  const Camera camera = scene_camera();
   const glm::vec3 behind = camera.eye() + (camera.eye() - camera.orbit().target);
   EXPECT_FALSE(camera.project(behind, size));
 }
 
-TEST(Camera, RotatingStopsBelowThePoles) {
-  Camera camera = looking_at_scene();
+TEST(Camera, RotationStopsBelowThePoles) {
+  Camera camera = scene_camera();
   for (int i = 0; i < 100; ++i) camera.rotate(glm::vec2(0, 200), size);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().elevation, Camera::max_elevation);
   EXPECT_GT(camera.view()[1][1], 0.0f);  // up is still up
   for (int i = 0; i < 200; ++i) camera.rotate(glm::vec2(0, -200), size);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().elevation, -Camera::max_elevation);
 }
 
-TEST(Camera, StaysAboveAFloor) {
+TEST(Camera, StaysAboveTheFloor) {
   Camera camera;
   camera.fit({0, 1, 0}, 3, size);
   camera.set_floor(0.0f);
   for (const float distance : {0.5f, 4.0f, 30.0f}) {
     camera.set_orbit({{0, 1, 0}, distance, 0, 0.5f});
     camera.rotate({0, -3000}, size);
-    camera.settle();
+    camera.finish_glide();
     EXPECT_GT(camera.eye().y, 0.0f) << distance;
   }
   camera.set_floor({});
   camera.rotate({0, -3000}, size);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_LT(camera.eye().y, 0.0f);
 }
 
-TEST(Camera, DraggingRightTurnsTheSceneRight) {
-  Camera camera = looking_at_scene();
+TEST(Camera, DragToTheRightTurnsTheSceneToTheRight) {
+  Camera camera = scene_camera();
   const glm::vec3 front = camera.orbit().target + 0.3f * (camera.eye() - camera.orbit().target);
   const float before = camera.project(front, size)->x;
   camera.rotate(glm::vec2(40, 0), size);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_GT(camera.project(front, size)->x, before + 1.0f);
 }
 
-TEST(Camera, PanningKeepsTheTargetsDepthUnderTheCursor) {
-  Camera camera = looking_at_scene();
+TEST(Camera, PanMovesPointsAtTheTargetsDepthWithTheCursor) {
+  Camera camera = scene_camera();
   const glm::vec3 point = camera.orbit().target;
   camera.pan(glm::vec2(100, -60), size);
-  camera.settle();
+  camera.finish_glide();
   const auto pixel = camera.project(point, size);
   ASSERT_TRUE(pixel);
   EXPECT_NEAR(pixel->x, 740.0f, 0.1f);
@@ -92,17 +92,17 @@ TEST(Camera, PanningKeepsTheTargetsDepthUnderTheCursor) {
 }
 
 TEST(Camera, ZoomHasLimitsAndStaysFinite) {
-  Camera camera = looking_at_scene();
+  Camera camera = scene_camera();
   camera.zoom(1e6f);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_NEAR(camera.orbit().distance, 0.02f * 3.0f, 1e-5f);
   camera.zoom(-1e6f);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_NEAR(camera.orbit().distance, 20.0f * 3.0f, 1e-3f);
   EXPECT_TRUE(std::isfinite(camera.projection(size)[2][2]));
 }
 
-TEST(Camera, FitShowsTheWholeSphereInAnyShape) {
+TEST(Camera, FitShowsTheWholeSphereInAnyViewport) {
   for (const glm::ivec2 shape : {glm::ivec2(1280, 720), glm::ivec2(300, 900), glm::ivec2(1, 1)}) {
     Camera camera;
     camera.fit(glm::vec3(0.0f), 2.0f, shape);
@@ -120,8 +120,8 @@ TEST(Camera, FitShowsTheWholeSphereInAnyShape) {
   }
 }
 
-TEST(Camera, GlidesToRestAndThenStaysEqualToTheBit) {
-  Camera camera = looking_at_scene();
+TEST(Camera, GlideEndsAndTheViewThenStaysBitEqual) {
+  Camera camera = scene_camera();
   camera.rotate(glm::vec2(300, 50), size);
   camera.zoom(5.0f);
   int frames = 0;
@@ -133,8 +133,8 @@ TEST(Camera, GlidesToRestAndThenStaysEqualToTheBit) {
   EXPECT_EQ(camera.view(), before);
 }
 
-TEST(Camera, GlidesAlikeAtAnyFrameRate) {
-  Camera fine = looking_at_scene(), coarse = fine;
+TEST(Camera, GlideDoesNotDependOnTheFrameRate) {
+  Camera fine = scene_camera(), coarse = fine;
   fine.rotate(glm::vec2(200, 0), size);
   coarse.rotate(glm::vec2(200, 0), size);
   for (int i = 0; i < 8; ++i) fine.advance(0.01);
@@ -142,24 +142,24 @@ TEST(Camera, GlidesAlikeAtAnyFrameRate) {
   EXPECT_NEAR(fine.orbit().azimuth, coarse.orbit().azimuth, 1e-3f);
 }
 
-TEST(Camera, GlidesToASphereThatThenFillsHalfTheViewport) {
-  Camera camera = looking_at_scene();
+TEST(Camera, GlideToASphereFillsHalfTheViewport) {
+  Camera camera = scene_camera();
   const Orbit before = camera.orbit();
   const glm::vec3 centre(1, 0.5f, 0);
   const float radius = 0.5f;
   camera.glide_to(centre, radius, size);
-  camera.settle();
+  camera.finish_glide();
   EXPECT_EQ(camera.orbit().azimuth, before.azimuth);
   EXPECT_EQ(camera.orbit().elevation, before.elevation);
-  const float opening = std::asin(radius / glm::distance(camera.eye(), centre));  // half the angle that it takes
-  EXPECT_NEAR(std::sin(opening) / std::sin(0.5f * camera.fov), 0.5f, 1e-3f);
+  const float half_angle = std::asin(radius / glm::distance(camera.eye(), centre));  // of the sphere
+  EXPECT_NEAR(std::sin(half_angle) / std::sin(0.5f * camera.fov), 0.5f, 1e-3f);
   camera.zoom(-100);
-  camera.settle();
-  EXPECT_GT(camera.orbit().distance, before.distance);  // the scene's limits still hold
+  camera.finish_glide();
+  EXPECT_GT(camera.orbit().distance, before.distance);  // the limits are still those of the scene
 }
 
-TEST(Camera, ManyTurnsDoNotWearItOut) {
-  Camera camera = looking_at_scene();
+TEST(Camera, AzimuthStaysSmallAfterManyTurns) {
+  Camera camera = scene_camera();
   for (int i = 0; i < 10000; ++i) {
     camera.rotate(glm::vec2(500, 0), size);
     camera.advance(0.016);

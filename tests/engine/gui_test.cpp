@@ -9,7 +9,7 @@
 namespace engine {
 namespace {
 
-/// One frame of a window with a button at a known place. True if the button was clicked.
+/// Runs one frame with a button at a known place. Returns true if the button was clicked.
 bool frame_with_button(Gui& gui, const GuiInput& input) {
   gui.begin_frame(input);
   ImGui::SetNextWindowPos({20.0f, 20.0f});
@@ -22,7 +22,7 @@ bool frame_with_button(Gui& gui, const GuiInput& input) {
   return clicked;
 }
 
-TEST(Gui, FedMousePressesAButton) {
+TEST(Gui, MouseClickPressesAButton) {
   const HeadlessContext context;
   const Framebuffer framebuffer({320, 240}, 0);
   framebuffer.bind();
@@ -50,14 +50,14 @@ TEST(Gui, PanelIsLightWithDarkText) {
   glClear(GL_COLOR_BUFFER_BIT);
   Gui gui;
   const GuiInput input{.display_size = {320, 240}};
-  for (int i = 0; i < 3; ++i) frame_with_button(gui, input);  // a new window sizes itself in its first
+  for (int i = 0; i < 3; ++i) frame_with_button(gui, input);  // ImGui sizes a new window in its first frame
   EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
   const Image image = framebuffer.read();
   EXPECT_EQ(image.at(300, 200), glm::u8vec4(0, 0, 0, 255));
   EXPECT_GT(image.at(210, 110).r, 220);
 }
 
-TEST(Gui, HighDensityScalesFontAndSizes) {
+TEST(Gui, ScaleAppliesToFontAndSizes) {
   const HeadlessContext context;
   float ordinary = 0.0f;
   for (const float scale : {1.0f, 2.0f}) {

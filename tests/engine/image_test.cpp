@@ -7,7 +7,7 @@
 namespace engine {
 namespace {
 
-Image pattern(int width, int height) {
+Image test_picture(int width, int height) {
   Image image{width, height, {}};
   for (int i = 0; i < width * height; ++i) {
     for (const int value : {i, 3 * i, 7 * i}) image.rgba.push_back(static_cast<std::uint8_t>(value));
@@ -25,10 +25,10 @@ std::string message_of(const auto& action) {
   return "";
 }
 
-TEST(Image, ComesBackFromPngAsItWas) {
+TEST(EncodePng, KeepsAllPixels) {
   const tests::TemporaryFolder folder;
   for (const auto& [width, height] : {std::pair{37, 21}, std::pair{1, 1}, std::pair{640, 3}}) {
-    const Image image = pattern(width, height);
+    const Image image = test_picture(width, height);
     const Image read = load_png(folder.write("picture.png", encode_png(image)));
     EXPECT_EQ(read.width, width);
     EXPECT_EQ(read.height, height);
@@ -36,14 +36,14 @@ TEST(Image, ComesBackFromPngAsItWas) {
   }
 }
 
-TEST(Image, EmptyOnesAreRefused) {
+TEST(EncodePng, RefusesEmptyPictures) {
   EXPECT_THROW(encode_png(Image{}), ImageError);
   EXPECT_THROW(encode_png(Image{2, 2, {}}), ImageError);
 }
 
-TEST(Image, ReadingNamesTheFile) {
+TEST(LoadPng, ErrorNamesTheFile) {
   const tests::TemporaryFolder folder;
-  folder.write("broken.png", "no picture");
+  folder.write("broken.png", "not a picture");
   for (const char* name : {"broken.png", "missing.png"}) {
     const std::string message = message_of([&] { load_png(folder.path() / name); });
     EXPECT_NE(message.find(name), std::string::npos) << message;

@@ -8,8 +8,9 @@
 namespace engine {
 namespace {
 
-/// Keys in capitals, their characters in small letters, keys without one as #, their release as '-'; a mouse button as
-/// ( and ), the wheel as *.
+/// Writes one sign per event: a letter key as a capital, its character as a small letter, ^ for Ctrl, < for Backspace,
+/// > for Tab, a line break for Enter, # for other function keys, - for the release of any key, ( and ) for press and
+/// release of a mouse button, * for the wheel.
 std::string text_of(const std::vector<InputEvent>& events) {
   std::string text;
   for (const InputEvent& event : events) {
@@ -32,7 +33,8 @@ std::string text_of(const std::vector<InputEvent>& events) {
   return text;
 }
 
-struct Hands {
+/// Sends mouse and keyboard events to a queue.
+struct User {
   InputQueue queue;
 
   void key(int code, int action) { queue.push(KeyEvent{code, {code, false}, 0, action, 0}); }
@@ -45,90 +47,90 @@ struct Hands {
     key(code, GLFW_PRESS);
     key(code, GLFW_RELEASE);
   }
-  void button(bool down) { queue.push(ButtonEvent{.button = 0, .down = down, .at = {1, 2}}); }
+  void button(bool down) { queue.push(ButtonEvent{.button = 0, .down = down, .position = {1, 2}}); }
   void click() {
     button(true);
     button(false);
   }
-  std::string told() { return text_of(queue.take()); }
+  std::string next_frame() { return text_of(queue.take()); }
 };
 
-TEST(InputQueue, WhatIsTypedAfterAClickWaitsForItsFrame) {
-  Hands hands;
-  hands.type('A');
-  hands.click();
-  hands.type('B');
-  EXPECT_EQ(hands.told(), "Aa(");
-  EXPECT_EQ(hands.told(), "-)Bb");
-  EXPECT_EQ(hands.told(), "-");
-  EXPECT_TRUE(hands.queue.empty());
-  EXPECT_EQ(hands.told(), "");
+TEST(InputQueue, CharactersAfterAClickWaitForTheNextFrame) {
+  User user;
+  user.type('A');
+  user.click();
+  user.type('B');
+  EXPECT_EQ(user.next_frame(), "Aa(");
+  EXPECT_EQ(user.next_frame(), "-)Bb");
+  EXPECT_EQ(user.next_frame(), "-");
+  EXPECT_TRUE(user.queue.empty());
+  EXPECT_EQ(user.next_frame(), "");
 }
 
-TEST(InputQueue, NoClickOfADoubleClickIsMissed) {
-  Hands hands;
-  hands.click();
-  hands.click();
-  hands.queue.push(ScrollEvent{{0, 1}});
-  for (const char* frame : {"(", ")", "(", ")*", ""}) EXPECT_EQ(hands.told(), frame);
+TEST(InputQueue, BothClicksOfADoubleClickArrive) {
+  User user;
+  user.click();
+  user.click();
+  user.queue.push(ScrollEvent{{0, 1}});
+  for (const char* frame : {"(", ")", "(", ")*", ""}) EXPECT_EQ(user.next_frame(), frame);
 }
 
-TEST(InputQueue, AKeyIsDownForAFrameAndTheRestDoNotWait) {
-  Hands hands;
-  for (const char c : std::string("EVEN")) hands.type(c);
-  EXPECT_EQ(hands.told(), "EeVvEeNn");
-  EXPECT_EQ(hands.told(), "----");
+TEST(InputQueue, AKeyStaysDownForOneFrameAndOthersDoNotWait) {
+  User user;
+  for (const char c : std::string("EVEN")) user.type(c);
+  EXPECT_EQ(user.next_frame(), "EeVvEeNn");
+  EXPECT_EQ(user.next_frame(), "----");
 }
 
-TEST(InputQueue, WhatFollowsEnterOrControlWaits) {
-  Hands hands;
-  hands.type('A');
-  hands.tap(GLFW_KEY_ENTER);
-  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
-  hands.key('Z', GLFW_PRESS);
-  hands.key('Z', GLFW_RELEASE);
-  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
-  hands.type('B');
-  EXPECT_EQ(hands.told(), "Aa");
-  EXPECT_EQ(hands.told(), "-\n");
-  EXPECT_EQ(hands.told(), "-^Z");
-  EXPECT_EQ(hands.told(), "--Bb");
+TEST(InputQueue, EventsAfterEnterOrControlWait) {
+  User user;
+  user.type('A');
+  user.tap(GLFW_KEY_ENTER);
+  user.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
+  user.key('Z', GLFW_PRESS);
+  user.key('Z', GLFW_RELEASE);
+  user.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
+  user.type('B');
+  EXPECT_EQ(user.next_frame(), "Aa");
+  EXPECT_EQ(user.next_frame(), "-\n");
+  EXPECT_EQ(user.next_frame(), "-^Z");
+  EXPECT_EQ(user.next_frame(), "--Bb");
 }
 
-TEST(InputQueue, WhatIsTypedBeforeAControlKeyIsToldBeforeIt) {
-  Hands hands;
-  hands.type('A');
-  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
-  hands.key('V', GLFW_PRESS);
-  hands.key('V', GLFW_RELEASE);
-  hands.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
-  for (const char* frame : {"Aa", "-^V", "--", ""}) EXPECT_EQ(hands.told(), frame);
+TEST(InputQueue, CharactersBeforeControlComeBeforeIt) {
+  User user;
+  user.type('A');
+  user.key(GLFW_KEY_LEFT_CONTROL, GLFW_PRESS);
+  user.key('V', GLFW_PRESS);
+  user.key('V', GLFW_RELEASE);
+  user.key(GLFW_KEY_LEFT_CONTROL, GLFW_RELEASE);
+  for (const char* frame : {"Aa", "-^V", "--", ""}) EXPECT_EQ(user.next_frame(), frame);
 }
 
-TEST(InputQueue, EachBackspaceHasItsFrame) {
-  Hands hands;
-  hands.type('A');
-  hands.tap(GLFW_KEY_BACKSPACE);
-  hands.tap(GLFW_KEY_BACKSPACE);
-  hands.type('B');
-  for (const char* frame : {"Aa", "-<", "-", "<", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame);
+TEST(InputQueue, EachBackspaceHasAFrameOfItsOwn) {
+  User user;
+  user.type('A');
+  user.tap(GLFW_KEY_BACKSPACE);
+  user.tap(GLFW_KEY_BACKSPACE);
+  user.type('B');
+  for (const char* frame : {"Aa", "-<", "-", "<", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame);
 }
 
-TEST(InputQueue, WhatMovesTheCaretStandsBetweenWhatIsTypedBeforeAndAfter) {
+TEST(InputQueue, KeysThatMoveTheCursorKeepTheirPlaceBetweenCharacters) {
   for (const int key : {GLFW_KEY_HOME, GLFW_KEY_END, GLFW_KEY_LEFT, GLFW_KEY_RIGHT, GLFW_KEY_DELETE}) {
-    Hands hands;
-    hands.type('A');
-    hands.tap(key);
-    hands.type('B');
-    for (const char* frame : {"Aa", "-#", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame) << key;
+    User user;
+    user.type('A');
+    user.tap(key);
+    user.type('B');
+    for (const char* frame : {"Aa", "-#", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame) << key;
   }
 }
 
-TEST(InputQueue, ATabHasTwoFrames) {
-  Hands hands;
-  hands.tap(GLFW_KEY_TAB);
-  hands.type('B');
-  for (const char* frame : {">", "", "-Bb", "-", ""}) EXPECT_EQ(hands.told(), frame);
+TEST(InputQueue, NoEventsFollowInTheFrameAfterTab) {
+  User user;
+  user.tap(GLFW_KEY_TAB);
+  user.type('B');
+  for (const char* frame : {">", "", "-Bb", "-", ""}) EXPECT_EQ(user.next_frame(), frame);
 }
 
 }  // namespace

@@ -17,11 +17,11 @@ namespace {
 
 constexpr glm::ivec2 size{320, 240};
 
-/// A red sphere of radius 0.5 that floats above the floor, and the pictures of it.
+/// Draws a frame with a floor, seen from above.
 class RendererTest : public testing::Test {
  protected:
   RendererTest() {
-    frame.ground = 0.0f;
+    frame.floor_height = 0.0f;
     frame.bounds_centre = glm::vec3(0.0f, 0.5f, 0.0f);
     frame.bounds_radius = 3.0f;
     camera.set_orbit({glm::vec3(0.0f, 0.5f, 0.0f), 5.0f, 0.0f, 0.6f});
@@ -35,8 +35,8 @@ class RendererTest : public testing::Test {
     return framebuffer.read();
   }
 
-  glm::ivec3 colour(const Image& image, const glm::vec3& place) const {
-    const auto pixel = camera.project(place, {image.width, image.height});
+  glm::ivec3 colour(const Image& image, const glm::vec3& point) const {
+    const auto pixel = camera.project(point, {image.width, image.height});
     return glm::ivec3(image.at(static_cast<int>(pixel->x), static_cast<int>(pixel->y)));
   }
 
@@ -52,15 +52,15 @@ class RendererTest : public testing::Test {
 const glm::vec3 middle(0.0f, 1.0f, 0.0f);
 const Sphere red_sphere{middle, 0.5f, glm::vec3(0.9f, 0.2f, 0.2f)};
 
-TEST_F(RendererTest, EmptyFrameIsACalmBackdrop) {
-  frame.ground.reset();
+TEST_F(RendererTest, EmptyFrameShowsABrightBackdrop) {
+  frame.floor_height.reset();
   const Image image = picture();
-  const auto [least, most] = std::ranges::minmax(image.rgba);
-  EXPECT_GT(least, 140);
-  EXPECT_LE(most, 255);
+  const auto [min, max] = std::ranges::minmax(image.rgba);
+  EXPECT_GT(min, 140);
+  EXPECT_LE(max, 255);
 }
 
-TEST_F(RendererTest, SphereIsWhereItShouldBe) {
+TEST_F(RendererTest, DrawsASphereAtItsPlace) {
   frame.spheres = {red_sphere};
   for (const int samples : {0, 4}) {
     const Image image = picture(samples);
@@ -73,7 +73,7 @@ TEST_F(RendererTest, SphereIsWhereItShouldBe) {
   }
 }
 
-TEST_F(RendererTest, CapsuleIsWhereItShouldBe) {
+TEST_F(RendererTest, DrawsACapsuleAtItsPlace) {
   const glm::vec3 half(0.8f, 0.3f, 0.0f);
   frame.capsules = {{middle - half, middle + half, 0.25f, red_sphere.colour}};
   const Image image = picture();
@@ -88,14 +88,14 @@ TEST_F(RendererTest, CapsuleIsWhereItShouldBe) {
 }
 
 /// A cube on its edge.
-Block red_block() {
+OrientedBox red_box() {
   const glm::vec3 x(0.36f, 0.36f, 0.0f), y(-0.36f, 0.36f, 0.0f), z(0.0f, 0.0f, 0.5f);
   return {middle, glm::mat3(x, y, z), red_sphere.colour};
 }
 
-TEST_F(RendererTest, BlockIsWhereItShouldBeAndCastsAShadow) {
+TEST_F(RendererTest, DrawsAnOrientedBoxAtItsPlaceWithAShadow) {
   const Image empty = picture();
-  frame.blocks = {red_block()};
+  frame.oriented_boxes = {red_box()};
   const Image image = picture();
   const glm::vec3 front(0.0f, 0.0f, 0.5f), right(0.65f, 0.0f, 0.0f), up(0.0f, 0.65f, 0.0f);
   for (const glm::vec3& corner : {right, -right, up, -up}) EXPECT_TRUE(red(colour(image, middle + front + corner)));
@@ -104,37 +104,38 @@ TEST_F(RendererTest, BlockIsWhereItShouldBeAndCastsAShadow) {
   EXPECT_LT(brightness(colour(image, shadow)), brightness(colour(empty, shadow)) - 30);
 }
 
-TEST_F(RendererTest, PlaneIsSeenFromItsFrontAlone) {
-  frame.ground.reset();
+TEST_F(RendererTest, DrawsOnlyTheFrontOfAPlane) {
+  frame.floor_height.reset();
   frame.spheres = {red_sphere};
   for (const float side : {-1.0f, 1.0f}) {  // before or behind the sphere, facing the camera
     frame.planes = {{middle + glm::vec3(0.0f, 0.0f, 0.7f * side), glm::vec3(0.0f, 0.0f, 1.0f)}};
     EXPECT_EQ(red(colour(picture(), middle)), side < 0.0f);
   }
   frame.planes[0].normal = {0.0f, 0.0f, -1.0f};
-  EXPECT_TRUE(red(colour(picture(), middle))) << "from behind one looks through it";
+  EXPECT_TRUE(red(colour(picture(), middle))) << "its back is invisible";
 }
 
-TEST_F(RendererTest, SphereCastsItsShadowAwayFromTheLight) {
+TEST_F(RendererTest, SphereCastsAShadowAwayFromTheLight) {
   const Image empty = picture();
   frame.spheres = {red_sphere};
   const Image image = picture();
-  // The light comes from (-0.40, 1, 0.42): 1 m lower, the middle of the shadow lies 0.40 to the right, 0.42 behind.
+  // The light comes from (-0.40, 1, 0.42). The sphere's centre is 1 m above the floor, so its shadow is centred 0.40 m
+  // to the right and 0.42 m behind.
   const glm::vec3 shadow(0.40f, 0.0f, -0.42f), opposite(-0.9f, 0.0f, 0.9f);
   EXPECT_LT(brightness(colour(image, shadow + glm::vec3(0.3f, 0.0f, 0.0f))),
             brightness(colour(empty, shadow + glm::vec3(0.3f, 0.0f, 0.0f))) - 30);
   EXPECT_NEAR(brightness(colour(image, opposite)), brightness(colour(empty, opposite)), 12);
 }
 
-TEST_F(RendererTest, LitSurfacesShowNoSpecklesOfShadow) {
+TEST_F(RendererTest, LitFloorShowsNoShadowAcne) {
   const Image empty = picture();
-  // The floor in the light varies slowly: only the grid's thin lines stand out a little.
+  // The colour of the lit floor varies slowly; only the thin grid lines differ a little.
   for (int y = size.y / 2; y < size.y; ++y) {
     for (int x = 1; x < size.x; ++x) EXPECT_LT(std::abs(empty.at(x, y).r - empty.at(x - 1, y).r), 20);
   }
 }
 
-TEST_F(RendererTest, BodyIsDrawnInItsColourOverItsOwnVertices) {
+TEST_F(RendererTest, DrawsABodyInItsColourAtItsVertices) {
   const Mesh mesh = icosahedron();
   const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
   std::vector<glm::vec3> positions(5, glm::vec3(9.0f)), normals(5, glm::vec3(0, 1, 0));  // another body's
@@ -145,22 +146,22 @@ TEST_F(RendererTest, BodyIsDrawnInItsColourOverItsOwnVertices) {
   frame.positions = positions;
   frame.normals = normals;
   frame.meshes = {{handle, 5, 12, red_sphere.colour}};
-  for (const bool rounded : {false, true}) {
-    frame.rounded = rounded;
+  for (const bool tessellated : {false, true}) {
+    frame.tessellated = tessellated;
     const Image image = picture();
     EXPECT_TRUE(red(colour(image, middle)));
     EXPECT_FALSE(red(colour(image, middle + glm::vec3(0.6f, 0, 0))));
   }
 }
 
-TEST_F(RendererTest, RoundedBodyFillsTheSphereBetterThanItsTriangles) {
+TEST_F(RendererTest, TessellatedBodyFillsTheSphereBetterThanFlatTriangles) {
   const Mesh mesh = icosahedron();
   frame.meshes = {{renderer.add_mesh(mesh.triangles, 12), 0, 12, red_sphere.colour}};
   std::vector<glm::vec3> positions = mesh.positions;
   frame.positions = positions;
   frame.normals = mesh.positions;
-  const auto covered = [&](bool rounded) {
-    frame.rounded = rounded;
+  const auto covered = [&](bool tessellated) {
+    frame.tessellated = tessellated;
     const Image image = picture();
     int count = 0;
     for (int i = 0; i < size.x * size.y; ++i) count += red(glm::ivec3(image.at(i % size.x, i / size.x)));
@@ -169,21 +170,21 @@ TEST_F(RendererTest, RoundedBodyFillsTheSphereBetterThanItsTriangles) {
   EXPECT_GT(covered(true), covered(false) * 105 / 100);
 }
 
-TEST_F(RendererTest, LineAndPointShowInFrontAndFaintlyBehind) {
+TEST_F(RendererTest, LinesAndPointsAreFaintBehindASphere) {
   const glm::vec4 blue(0.0f, 0.0f, 1.0f, 1.0f);
-  const auto blueness = [&](const glm::vec3& place) {
-    const glm::ivec3 c = colour(picture(), place);
+  const auto blueness = [&](const glm::vec3& point) {
+    const glm::ivec3 c = colour(picture(), point);
     return c.b - c.r;
   };
   for (const bool as_point : {false, true}) {
     const glm::vec3 place(0.0f, 1.2f, 0.0f);
-    const auto show = [&](float hidden) {
+    const auto show = [&](float occluded_alpha) {
       frame.lines.clear();
       frame.points.clear();
       if (as_point) {
-        frame.points = {{{{place, blue}}, 8.0f, hidden}};
+        frame.points = {{{{place, blue}}, 8.0f, occluded_alpha}};
       } else {
-        frame.lines = {{{{place - glm::vec3(1, 0, 0), place + glm::vec3(1, 0, 0), blue}}, 4.0f, hidden}};
+        frame.lines = {{{{place - glm::vec3(1, 0, 0), place + glm::vec3(1, 0, 0), blue}}, 4.0f, occluded_alpha}};
       }
       return blueness(place);
     };
@@ -197,8 +198,8 @@ TEST_F(RendererTest, LineAndPointShowInFrontAndFaintlyBehind) {
   }
 }
 
-TEST_F(RendererTest, LineThroughTheEyeIsCutNotTurnedRound) {
-  frame.ground.reset();
+TEST_F(RendererTest, LineThroughTheEyeIsClipped) {
+  frame.floor_height.reset();
   const glm::vec3 eye = camera.eye();
   frame.lines = {{{{middle, eye + 2.0f * (eye - middle), glm::vec4(0, 0, 1, 1)}}, 4.0f, 0.0f}};
   const Image image = picture();
@@ -211,7 +212,7 @@ TEST_F(RendererTest, LineThroughTheEyeIsCutNotTurnedRound) {
   EXPECT_LT(blue, size.x * size.y / 4);
 }
 
-TEST_F(RendererTest, BoxHasEdgesAndFaintFaces) {
+TEST_F(RendererTest, DrawsABoxWithEdgesAndFaintFaces) {
   const Image empty = picture();
   frame.boxes = {{{{glm::vec3(-0.5f, 0.5f, -0.5f), glm::vec3(0.5f, 1.5f, 0.5f), glm::vec4(0, 0, 1, 1)}}, 3.0f}};
   const Image image = picture();
@@ -221,7 +222,7 @@ TEST_F(RendererTest, BoxHasEdgesAndFaintFaces) {
   EXPECT_LT(face.b - face.r, 80);
 }
 
-TEST_F(RendererTest, AnySizeDownToOnePixelWorks) {
+TEST_F(RendererTest, DrawsAtAnySizeDownToOnePixel) {
   frame.spheres = {red_sphere};
   for (const glm::ivec2 any : {glm::ivec2(1, 1), glm::ivec2(3, 500), glm::ivec2(640, 480)}) {
     for (const int samples : {0, 4}) {
@@ -233,13 +234,13 @@ TEST_F(RendererTest, AnySizeDownToOnePixelWorks) {
   renderer.draw(camera, {glm::ivec2(0), glm::ivec2(0)}, frame);  // a minimised window
 }
 
-TEST_F(RendererTest, SameFrameGivesTheSamePicture) {
+TEST_F(RendererTest, EqualFramesGiveEqualPictures) {
   frame.spheres = {red_sphere};
   const Image first = picture(4);
   EXPECT_EQ(picture(4).rgba, first.rgba);
 }
 
-TEST_F(RendererTest, DrawsIntoItsViewportAlone) {
+TEST_F(RendererTest, DrawsOnlyIntoTheViewport) {
   const Framebuffer framebuffer(size, 0);
   framebuffer.bind();
   glClearColor(0.0f, 1.0f, 0.0f, 1.0f);
@@ -251,7 +252,7 @@ TEST_F(RendererTest, DrawsIntoItsViewportAlone) {
   EXPECT_NE(image.at(160, 120), glm::u8vec4(0, 255, 0, 255));
 }
 
-TEST_F(RendererTest, DrawsThatDoNotFitAreRefused) {
+TEST_F(RendererTest, RefusesDrawsThatDoNotFit) {
   const Mesh mesh = icosahedron();
   frame.positions = frame.normals = mesh.positions;
   frame.meshes = {{{0}, 0, 12}};
@@ -266,7 +267,7 @@ TEST_F(RendererTest, DrawsThatDoNotFitAreRefused) {
   EXPECT_THROW(renderer.add_mesh(mesh.triangles, 11), std::invalid_argument);
 }
 
-TEST_F(RendererTest, TranslucentBodiesLetThroughWhatIsBehindAndCastNoShadow) {
+TEST_F(RendererTest, TranslucentBodiesShowWhatIsBehindThemAndCastNoShadow) {
   const Mesh mesh = icosahedron();
   const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
   std::vector<glm::vec3> positions = mesh.positions;
@@ -284,13 +285,13 @@ TEST_F(RendererTest, TranslucentBodiesLetThroughWhatIsBehindAndCastNoShadow) {
     const Image image = picture();
     EXPECT_GT(redness(image), before + 20) << opacity;
     before = redness(image);
-    int differing = 0;  // outside the body nothing changes, its shadow included
+    int differing = 0;  // beside the body nothing changes, so it casts no shadow
     for (int x = 0; x < size.x; ++x) differing += image.at(x, size.y - 20) != empty.at(x, size.y - 20);
     EXPECT_EQ(differing, 0);
   }
 }
 
-TEST_F(RendererTest, OfTranslucentBodiesOnlyThoseThatHideCoverOthers) {
+TEST_F(RendererTest, OnlyTranslucentBodiesThatWriteDepthHideOthers) {
   const Mesh mesh = icosahedron();
   const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
   std::vector<glm::vec3> positions, normals;
@@ -304,8 +305,8 @@ TEST_F(RendererTest, OfTranslucentBodiesOnlyThoseThatHideCoverOthers) {
   frame.positions = positions;
   frame.normals = normals;
   const MeshDraw front{handle, 0, 12, red_sphere.colour}, back{handle, 12, 12, glm::vec3(0.1f, 0.1f, 0.9f)};
-  const auto blue = [&](const std::vector<MeshDraw>& meshes, bool hides) {
-    frame.translucent = {{meshes, 0.4f, hides}};
+  const auto blue = [&](const std::vector<MeshDraw>& meshes, bool writes_depth) {
+    frame.translucent = {{meshes, 0.4f, writes_depth}};
     const glm::ivec3 c = colour(picture(), middle + glm::vec3(0, 0, 0.5f));
     return c.b - c.g;
   };
@@ -313,7 +314,7 @@ TEST_F(RendererTest, OfTranslucentBodiesOnlyThoseThatHideCoverOthers) {
   EXPECT_GT(blue({front, back}, false), blue({front}, false) + 10);
 }
 
-TEST_F(RendererTest, EdgesThatBoxesShareAreDrawnOnce) {
+TEST_F(RendererTest, DrawsEdgesThatBoxesShareOnce) {
   const Box box{middle - 0.5f, middle + 0.5f, glm::vec4(0, 0, 1, 0.5f)};
   const auto with = [&](std::vector<Box> boxes) {
     frame.boxes = {{std::move(boxes), 2.0f, 0.2f, 0.0f}};

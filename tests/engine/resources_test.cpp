@@ -9,14 +9,14 @@ namespace engine {
 namespace {
 namespace fs = std::filesystem;
 
-TEST(Resources, AreFoundFromAnyWorkingDirectory) {
+TEST(FindFolder, WorksFromAnyWorkingDirectory) {
   const fs::path before = fs::current_path();
   fs::current_path("/");
   EXPECT_TRUE(fs::exists(find_folder("shaders") / "surface.frag"));
   fs::current_path(before);
 }
 
-TEST(Resources, VariableComesFirstAndIsNeverIgnored) {
+TEST(FindFolder, SearchesOnlyWhereTheVariableSays) {
   ::setenv("SBCOLLIDE_DATA", "/nowhere", 1);
   try {
     find_folder("shaders");
@@ -27,7 +27,7 @@ TEST(Resources, VariableComesFirstAndIsNeverIgnored) {
   ::unsetenv("SBCOLLIDE_DATA");
 }
 
-TEST(Resources, MissingFolderSaysWhereItWasLookedFor) {
+TEST(FindFolder, ErrorNamesTheFoldersSearched) {
   try {
     find_folder("no_such_folder");
     ADD_FAILURE();

@@ -1,5 +1,5 @@
 #pragma once
-// A body for the tests.
+// Meshes for the tests.
 
 #include <cstdint>
 #include <glm/geometric.hpp>
@@ -13,7 +13,7 @@ struct Mesh {
   std::vector<std::uint32_t> triangles;
 };
 
-/// 12 vertices at distance 1 from the origin, counter-clockwise from outside.
+/// Returns 12 vertices at distance 1 from the origin; the triangles are counter-clockwise from outside.
 inline Mesh icosahedron() {
   constexpr float g = 1.618034f;
   Mesh mesh{{{-1, g, 0},

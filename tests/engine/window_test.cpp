@@ -12,21 +12,21 @@
 #include "engine/gui.h"
 #include "engine/renderer.h"
 #include "engine/resources.h"
-// After GLEW, which wants to be first.
+// After GLEW, which must be the first.
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
 namespace engine {
 namespace {
 
-TEST(WindowTest, SaysWhatToDoWithoutADisplay) {
+TEST(Window, ErrorWithoutADisplaySaysWhatToDo) {
   const char* display = std::getenv("DISPLAY");
   const std::string before = display != nullptr ? display : "";
   ::setenv("DISPLAY", ":9999", 1);
   try {
     const Window window;
     ADD_FAILURE() << "a window without a display";
-  } catch (const Unavailable& error) {
+  } catch (const ContextError& error) {
     const std::string message = error.what();
     EXPECT_NE(message.find("cannot open a window"), std::string::npos) << message;
     EXPECT_NE(message.find("simulate"), std::string::npos) << message;
@@ -35,14 +35,15 @@ TEST(WindowTest, SaysWhatToDoWithoutADisplay) {
   before.empty() ? ::unsetenv("DISPLAY") : ::setenv("DISPLAY", before.c_str(), 1);
 }
 
-TEST(WindowTest, ShowsASceneAndAPanel) {
+TEST(Window, ShowsASceneAndAPanel) {
   Window window({.title = "test", .size = {400, 300}, .samples = 4, .vsync = false});
   Gui gui(window);
   Renderer renderer(find_folder("shaders"));
   FrameData frame;
-  frame.ground = 0.0f;
+  frame.floor_height = 0.0f;
   frame.spheres = {{{0.0f, 1.0f, 0.0f}, 1.0f, {0.9f, 0.2f, 0.2f}}};
-  frame.lines = {{.lines = {{{-1, 0, 0}, {1, 2, 0}, glm::vec4(1)}}, .width = 3}};  // not every context has wide ones
+  frame.lines = {
+      {.lines = {{{-1, 0, 0}, {1, 2, 0}, glm::vec4(1)}}, .width = 3}};  // not every context supports wide lines
   Camera camera;
   for (int i = 0; i < 3; ++i) {
     window.poll();
@@ -55,23 +56,23 @@ TEST(WindowTest, ShowsASceneAndAPanel) {
     EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
     window.present();
   }
-  EXPECT_TRUE(window.open());
+  EXPECT_TRUE(window.is_open());
   EXPECT_FALSE(window.minimised());
   EXPECT_GE(window.content_scale(), 0.5f);
-  // As the desktop does when two files are dropped.
+  // Calls the callback as GLFW does when two files are dropped.
   const GLFWdropfun drop = glfwSetDropCallback(window.handle(), nullptr);
   ASSERT_NE(drop, nullptr);
   const char* files[]{"/a/star.obj", "/a/b c.toml"};
   drop(window.handle(), 2, files);
-  window.poll();  // polled again before it is taken: nothing gets lost
+  window.poll();  // another poll() does not lose the files
   EXPECT_EQ(window.take_dropped_files(), (std::vector<std::string>{"/a/star.obj", "/a/b c.toml"}));
   EXPECT_TRUE(window.take_dropped_files().empty());
   window.close();
-  EXPECT_FALSE(window.open());
+  EXPECT_FALSE(window.is_open());
 }
 
-/// Mouse and keyboard as they come to the window, and a frame with a field at a known place.
-class InputTest : public testing::Test {
+/// Sends mouse and keyboard events to a window that shows a text field at a known place.
+class WindowInputTest : public testing::Test {
  protected:
   void frame() {
     gui.begin_frame();
@@ -90,7 +91,7 @@ class InputTest : public testing::Test {
   }
   void frames() {
     do frame();
-    while (window.input_waits());
+    while (window.has_pending_input());
   }
   void move(double x, double y) { on_cursor(window.handle(), x, y); }
   void click() {
@@ -117,7 +118,7 @@ class InputTest : public testing::Test {
   glm::vec2 clicked_at{0.0f};
 };
 
-TEST_F(InputTest, KeysAfterAClickOfOnePollAreForWhatItChose) {
+TEST_F(WindowInputTest, KeysAfterAClickInTheSamePollGoToTheClickedWidget) {
   frames();
   type("12");
   move(30, 30);
@@ -134,7 +135,7 @@ TEST_F(InputTest, KeysAfterAClickOfOnePollAreForWhatItChose) {
   EXPECT_STREQ(text.data(), "34");
 }
 
-TEST_F(InputTest, AKeyGoesWithTheModifiersOfItsTime) {
+TEST_F(WindowInputTest, AKeyKeepsItsModifiers) {
   frames();
   move(30, 30);
   click();
@@ -143,13 +144,13 @@ TEST_F(InputTest, AKeyGoesWithTheModifiersOfItsTime) {
   on_key(window.handle(), GLFW_KEY_A, 0, GLFW_PRESS, GLFW_MOD_CONTROL);
   on_key(window.handle(), GLFW_KEY_A, 0, GLFW_RELEASE, GLFW_MOD_CONTROL);
   on_key(window.handle(), GLFW_KEY_LEFT_CONTROL, 0, GLFW_RELEASE, GLFW_MOD_CONTROL);
-  type("3");  // in place of all
+  type("3");  // replaces the selected text
   frames();
   EXPECT_STREQ(text.data(), "3");
   EXPECT_EQ(shortcuts, "");
 }
 
-TEST_F(InputTest, AClickIsWhereTheButtonWentDown) {
+TEST_F(WindowInputTest, AClickIsAtThePlaceOfThePress) {
   frames();
   move(321, 234);
   click();
@@ -160,7 +161,7 @@ TEST_F(InputTest, AClickIsWhereTheButtonWentDown) {
   EXPECT_FALSE(double_clicked);
 }
 
-TEST_F(InputTest, TwoClicksOfOnePollAreADoubleClick) {
+TEST_F(WindowInputTest, TwoClicksInOnePollAreADoubleClick) {
   frames();
   move(300, 200);
   click();

@@ -1,6 +1,6 @@
 // Arbitrary text as an OBJ file, for `detect` and as the mesh of a soft body: it is read or refused in one line.
 
-#include "app/files/obj.h"
+#include "app/files/obj_reader.h"
 #include "require.h"
 #include "softbody/mesh_import.h"
 #include "text_file.h"
@@ -9,7 +9,7 @@ namespace {
 
 using fuzz::require;
 
-void check(const app::ObjBodies& bodies) {
+void check(const app::files::ObjBodies& bodies) {
   require(!bodies.first.empty() && bodies.first.back() == bodies.x.size(), "bodies do not own all vertices");
   require(bodies.edges.size() == bodies.count(), "not a list of edges for each body");
   for (std::size_t b = 0; b < bodies.count(); ++b)
@@ -36,7 +36,7 @@ void try_to(const std::filesystem::path& file, const Read& read) {
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static fuzz::TextFile text(".obj");
   const std::filesystem::path& file = text.write(data, size);
-  try_to(file, [&] { return app::read_obj(file); });
+  try_to(file, [&] { return app::files::read_obj(file); });
   softbody::MeshFile mesh;
   mesh.path = file;
   try_to(file, [&] { return softbody::import_mesh(mesh).mesh; });

@@ -32,16 +32,16 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   std::vector<const char*> arguments;
   for (const std::string& word : words) arguments.push_back(word.c_str());
   try {
-    const auto options = app::parse_options(static_cast<int>(arguments.size()), arguments.data());
+    const auto options = app::cli::parse_options(static_cast<int>(arguments.size()), arguments.data());
     if (!options) return 0;
     require(options->threads >= 1 && options->frames >= 1, "no threads or no frames");
     require(options->frame_time > 0, "a frame that takes no time");
-    require(options->substeps.value_or(1) >= 1, "no substeps");
+    require(options->integrator.substeps.value_or(1) >= 1, "no substeps");
     require(options->width > 0 && options->height > 0, "a picture without pixels");
     for (const int frame : options->captures)
       require(frame >= 1 && frame <= options->frames, "a capture beyond the end");
     collide::Settings settings;
-    app::apply(options->detection, settings);
+    app::cli::apply(options->detection, settings);
     require(collide::problem(settings).empty(), "settings that no detector takes");
   } catch (const app::UsageError& error) {
     require(std::string_view(error.what()).find('\n') == std::string_view::npos, "a refusal of several lines");

@@ -50,16 +50,16 @@ void change(softbody::World& world, Bytes& bytes) {
         break;
       }
       case 4:
-        world.set_gravity(read_vector(bytes, bytes.one_of({10.0, 0.0, softbody::most_gravity})));
+        world.set_gravity(read_vector(bytes, bytes.one_of({10.0, 0.0, softbody::max_gravity})));
         break;
       case 5: {  // as in a window, whose mouse is not far from the body
         if (count == 0) break;
         const auto body = softbody::BodyId(bytes.below(count));
-        world.grab({.body = body, .target = world.body(body).origin + read_vector(bytes, 2)});
+        world.grab(softbody::Grab{.body = body, .target = world.body(body).origin + read_vector(bytes, 2)});
         break;
       }
       case 6:
-        world.release();
+        world.grab({});
         break;
       case 7:
         world.set_contact_surface(bytes.below(2) == 0 ? softbody::ContactSurface::vertices
@@ -70,7 +70,7 @@ void change(softbody::World& world, Bytes& bytes) {
         break;
       case 9: {
         const auto all = softbody::integrators();
-        world.set_integrator(all[std::size_t(bytes.below(int(all.size())))].key, std::nullopt);
+        world.set_integrator({std::string(all[std::size_t(bytes.below(int(all.size())))].key)});
         break;
       }
       default:
@@ -94,7 +94,7 @@ void step(softbody::World& world, bool thrice, const softbody::Scene& start, con
   require(world.state_hash() == once, "it goes on from a snapshot in another way");
   softbody::World::Options other_way = options;
   other_way.threads = 2;
-  other_way.least_shared = 1;
+  other_way.min_shared_particles = 1;
   other_way.isa = softbody::Isa::baseline;
   softbody::World twin(start, other_way);
   twin.restore(snapshot);
@@ -108,7 +108,7 @@ void run(Bytes bytes) {
   require(through_file(scene, file) == scene, "a scene does not read back as it was written");
   softbody::World::Options options;
   options.max_work = work;
-  if (bytes.below(4) == 0) options.integrator = "implicit";
+  if (bytes.below(4) == 0) options.integrator.key = "implicit";
   options.frame_time = bytes.one_of({1.0 / 600, 1.0 / 600, 1.0 / 600, 1.0 / 60, 1.0 / 60, 0.0});
   if (options.frame_time == 0) options.frame_time = bytes.one_of({1e-6, 0.1, 1.0});
   std::optional<softbody::World> world;
@@ -119,7 +119,7 @@ void run(Bytes bytes) {
   }
   for (int frame = 0, substeps = 0; frame < most_frames && substeps < most_substeps; ++frame) {
     step(*world, bytes.below(8) == 0, scene, options);
-    substeps += world->profile().substeps;
+    substeps += world->last_step().substeps;
     require(softbody::measure(*world).finite, "not finite");
     change(*world, bytes);
   }

@@ -15,7 +15,7 @@ using softbody::Scene;
 struct Range {
   double usual_least, usual_most, least, most;
 };
-constexpr Range lengths{0.05, 1, 1e-9, 1e6}, sizes{0.05, 1, softbody::least_body_size, softbody::most_body_size},
+constexpr Range lengths{0.05, 1, 1e-9, 1e6}, sizes{0.05, 1, softbody::min_body_size, softbody::max_body_size},
     stiffnesses{1, 1e5, 0, 1e9}, damping_ratios{0.01, 1, 0, 10}, masses{0.05, 20, 1e-9, 1e9},
     pressures{10, 2e5, 0, 1e9}, shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10}, rates{0.1, 100, 0, 1e6},
     frequencies{0.1, 100, 0, 1e3}, thicknesses{1e-3, 0.05, 0, 1e3};
@@ -110,14 +110,14 @@ void read_collision(Bytes& bytes, Scene& scene) {
       collide::method_table()[static_cast<std::size_t>(bytes.below(int(collide::method_table().size())))].key;
   scene.contact_surface = bytes.below(2) == 0 ? softbody::ContactSurface::vertices : softbody::ContactSurface::surfaces;
   collide::Settings& c = scene.collision;
-  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, softbody::least_length, softbody::most_tolerance}));
+  c.tolerance = static_cast<float>(read(bytes, {0.01, 0.2, softbody::min_length, softbody::max_tolerance}));
   c.self_collision = bytes.below(2) == 0;
   c.levels = bytes.one_of({3, 0, 6, collide::max_levels});
   c.buckets = bytes.one_of({1001u, 101u, 1u, 65536u});
   scene.default_cell_size = bytes.below(4) != 0;
   if (!scene.default_cell_size)
     for (int axis = 0; axis < 3; ++axis)
-      c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::least_length, softbody::most_length}));
+      c.cell_size[axis] = static_cast<float>(read(bytes, {0.1, 1, softbody::min_length, softbody::max_length}));
 }
 
 }  // namespace
@@ -158,7 +158,7 @@ softbody::BodySource read_body(Bytes& bytes, int materials) {
 softbody::Scene read_scene(Bytes& bytes, const std::string& key) {
   Scene scene;
   scene.key = scene.name = key;
-  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e2, softbody::most_gravity}));
+  if (bytes.below(4) == 0) scene.gravity = read_vector(bytes, bytes.one_of({10.0, 0.0, 1e2, softbody::max_gravity}));
   read_collision(bytes, scene);
   for (const char* name : {"a", "b"}) scene.materials.push_back(read_material(bytes, name));
   const int bodies = 1 + bytes.below(4), solids = bytes.below(3);

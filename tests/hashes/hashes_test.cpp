@@ -15,6 +15,7 @@
 #include <sstream>
 
 #include "softbody/snapshot.h"
+#include "softbody/world.h"
 #include "tests/cli/process.h"
 
 namespace softbody::test {
@@ -61,10 +62,10 @@ std::string hash_of(const Row& row, const Way& way) {
   Scene scene = find_scene(row.scene, SBCOLLIDE_SCENES);
   scene.contact_surface = find_contact_surface(row.surface)->value;
   World::Options options;
-  options.integrator = row.integrator;
+  options.integrator.key = row.integrator;
   options.threads = way.threads;
   options.isa = way.isa;
-  options.least_shared = 0;
+  options.min_shared_particles = 0;
   World world(scene, options);
   if (way.over_snapshot) {
     run(world, row.frames / 2);

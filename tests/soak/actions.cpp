@@ -12,29 +12,28 @@ namespace {
 using app::Session;
 
 void method(DemoRig& demo, Dice& dice) {
-  demo.session.set_method(collide::method_table()[dice.pick(collide::method_table().size())].key);
+  demo.session.settings.set_method(collide::method_table()[dice.pick(collide::method_table().size())].key);
 }
 
-void contact_surface(DemoRig& demo, Dice&) { demo.session.next_contact_surface(); }
+void contact_surface(DemoRig& demo, Dice&) { demo.session.settings.next_contact_surface(); }
 
-/// With steps that may be far too few: then it blows up, and the demo must say so. Implicit ones are a solve each.
+/// The substeps may be far too few: then the bodies explode, and the demo must say so. Implicit substeps are fewer, as
+/// each is a solve.
 void integrator(DemoRig& demo, Dice& dice) {
   const auto all = softbody::integrators();
   const softbody::Integrator& one = all[dice.pick(all.size())];
   const int substeps = 1 << dice.pick(one.implicit ? 3 : 6);
-  demo.session.set_integrator(one.key, dice.heads() ? std::nullopt : std::optional(substeps));
+  demo.session.settings.set_integrator({std::string(one.key), dice.heads() ? std::nullopt : std::optional(substeps)});
 }
 
-void automatic_integrator(DemoRig& demo, Dice&) {
-  demo.session.set_integrator(softbody::default_integrator, std::nullopt);
-}
+void automatic_integrator(DemoRig& demo, Dice&) { demo.session.settings.set_integrator({}); }
 
-/// Its ends, and what is in between.
+/// Returns an end of the range every other time, else a value in between.
 template <class T>
-T end_or_between(Dice& dice, T least, T most) {
+T end_or_between(Dice& dice, T min, T max) {
   const std::size_t which = dice.pick(4);
-  if (which == 0) return least;
-  return which == 1 ? most : static_cast<T>(dice.between(double(least), double(most)));
+  if (which == 0) return min;
+  return which == 1 ? max : static_cast<T>(dice.between(double(min), double(max)));
 }
 
 void detection(DemoRig& demo, Dice& dice) {
@@ -56,24 +55,27 @@ void detection(DemoRig& demo, Dice& dice) {
     default:
       s.self_collision = !s.self_collision;
   }
-  demo.session.set_collision(s, automatic);
+  demo.session.settings.set_collision(s, automatic);
 }
 
-void drop(DemoRig& demo, Dice& dice) { demo.session.drop(dice.heads() ? 1 : app::many_drops); }
+void drop(DemoRig& demo, Dice& dice) {
+  demo.session.bodies.drop(dice.heads() ? 1 : app::session::BodyControls::many_drops);
+}
 
 void throw_body(DemoRig& demo, Dice& dice) {
-  demo.session.throw_speed = end_or_between(dice, Session::least_throw, Session::most_throw);
-  const engine::Ray ray = demo.middle();
-  demo.session.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+  demo.session.bodies.throw_speed =
+      end_or_between(dice, app::session::BodyControls::min_throw_speed, app::session::BodyControls::max_throw_speed);
+  const engine::Ray ray = demo.centre_ray();
+  demo.session.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
 }
 
 void remove(DemoRig& demo, Dice& dice) {
   const auto count = demo.session.world().bodies().count();
-  if (count > 0) demo.session.select_body(static_cast<softbody::BodyId>(dice.pick(count)));
-  demo.session.remove_selected();
+  if (count > 0) demo.session.bodies.select(static_cast<softbody::BodyId>(dice.pick(count)));
+  demo.session.bodies.remove_selected();
 }
 
-/// Wherever it is: on a body, beside all, on the panel.
+/// Anywhere: on a body, on the background, on the panel.
 void mouse(DemoRig& demo, Dice& dice) {
   const glm::vec2 size(demo.input.display_size);
   demo.input.mouse = {float(dice.between(0, size.x)), float(dice.between(0, size.y))};
@@ -81,7 +83,7 @@ void mouse(DemoRig& demo, Dice& dice) {
   demo.input.wheel = float(dice.between(-2, 2));
 }
 
-void gravity(DemoRig& demo, Dice& dice) { demo.session.set_gravity(end_or_between(dice, 0.0, 30.0)); }
+void gravity(DemoRig& demo, Dice& dice) { demo.session.settings.set_gravity(end_or_between(dice, 0.0, 30.0)); }
 
 void material(DemoRig& demo, Dice& dice) {
   const auto& all = demo.session.world().scene().materials;
@@ -104,47 +106,47 @@ void material(DemoRig& demo, Dice& dice) {
     default:
       m.friction = end_or_between(dice, 0.0, 2.0);
   }
-  demo.session.set_material(index, m);
+  demo.session.settings.set_material(index, m);
 }
 
 void solids(DemoRig& demo, Dice& dice) {
-  app::SolidList list = demo.session.solids();
+  app::session::SolidList list = demo.session.settings.solids();
   if (list.empty()) return;
-  app::SolidEntry& one = list[dice.pick(list.size())];
+  app::session::SolidEntry& one = list[dice.pick(list.size())];
   one.on = !one.on;
-  demo.session.set_solids(list);
+  demo.session.settings.set_solids(list);
 }
 
-/// But the large one, of which a frame takes as long as a second of others.
+/// Any scene but the large one, of which one frame takes as long as a second of the others.
 void scene(DemoRig& demo, Dice& dice) {
-  std::vector<app::SceneChoice> small = demo.session.scenes();
-  std::erase_if(small, [](const app::SceneChoice& choice) { return choice.key == "drop-3000"; });
-  demo.session.choose_scene(small[dice.pick(small.size())].key);
+  std::vector<app::session::SceneChoice> small = demo.session.scenes.choices();
+  std::erase_if(small, [](const app::session::SceneChoice& choice) { return choice.key == "drop-3000"; });
+  demo.session.scenes.choose(small[dice.pick(small.size())].key);
 }
 
-void reset(DemoRig& demo, Dice&) { demo.session.reset(); }
-void undo(DemoRig& demo, Dice&) { demo.session.undo(); }
-void as_the_scene_has_it(DemoRig& demo, Dice&) {
-  demo.session.restore_settings();
-  demo.session.restore_world_settings();
+void reset(DemoRig& demo, Dice&) { demo.session.simulation.reset(); }
+void undo(DemoRig& demo, Dice&) { demo.session.simulation.undo(); }
+void restore_settings(DemoRig& demo, Dice&) {
+  demo.session.settings.restore_detection();
+  demo.session.settings.restore_world();
 }
 
 void rewind(DemoRig& demo, Dice& dice) {
-  const auto& past = demo.session.stability().past().snapshots();
+  const auto& past = demo.session.simulation.stability().past().snapshots();
   if (past.empty()) return;
-  demo.session.rewind_to(past[dice.pick(past.size())].frame);
-  demo.session.paused = false;
+  demo.session.simulation.rewind_to(past[dice.pick(past.size())].frame);
+  demo.session.simulation.clock.paused = false;
 }
 
-void save(DemoRig& demo, Dice&) { demo.session.save_scene(demo.ui.save_as, demo.ui.view); }
-void picture(DemoRig& demo, Dice&) { demo.ui.take_away.picture_asked = true; }
-void curves(DemoRig& demo, Dice&) { demo.ui.take_away.write_curves(demo.session); }
+void save(DemoRig& demo, Dice&) { demo.session.scenes.save(demo.ui.save_as, demo.ui.view); }
+void picture(DemoRig& demo, Dice&) { demo.ui.exporter.picture_asked = true; }
+void curves(DemoRig& demo, Dice&) { demo.ui.exporter.write_curves(demo.session); }
 
-/// A tetrahedron of any size; every other time something is wrong with the file.
+/// Imports a tetrahedron of any size; every other file is broken.
 void import_mesh(DemoRig& demo, Dice& dice) {
   constexpr std::array faces{"f 1 2 3\nf 1 4 2\nf 2 4 3\nf 3 4 1\n", "f 1 2 9\n", "f 1 2 3\nf 1 2 4\nf 1 2 4\n",
                              "f 1 2\n", "f 1 2 3\nv nan 0 0\n"};
-  const std::string file = demo.ui.take_away.folder + "/mesh.obj";
+  const std::string file = demo.ui.exporter.folder + "/mesh.obj";
   std::ofstream(file) << "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\n"
                       << faces[dice.heads() ? 0 : 1 + dice.pick(faces.size() - 1)];
   demo.ui.import.size = float(dice.between(0.2, 1));
@@ -154,13 +156,13 @@ void import_mesh(DemoRig& demo, Dice& dice) {
 void resize(DemoRig& demo, Dice& dice) { demo.resize({end_or_between(dice, 1, 900), end_or_between(dice, 1, 700)}); }
 
 void view(DemoRig& demo, Dice& dice) {
-  for (const app::OverlayRow& row : app::overlay_table) demo.ui.overlays.*row.shown = dice.pick(4) == 0;
+  for (const app::render::OverlayRow& row : app::render::overlay_table) demo.ui.overlays.*row.shown = dice.pick(4) == 0;
   demo.ui.panel = dice.heads();
-  demo.ui.table = dice.heads();
+  demo.ui.hash_table = dice.heads();
   demo.ui.help = dice.pick(8) == 0;
   demo.ui.sweep = dice.heads();
-  demo.session.compare.on = dice.heads();
-  demo.session.select_bucket(dice.pick(1001));
+  demo.session.comparison.choice.on = dice.heads();
+  demo.session.inspector.select_bucket(dice.pick(1001));
   demo.restart_camera();
 }
 
@@ -179,7 +181,7 @@ constexpr std::array table{Action{"method", method},
                            Action{"scene", scene},
                            Action{"reset", reset},
                            Action{"undo", undo},
-                           Action{"as the scene has it", as_the_scene_has_it},
+                           Action{"as the scene has it", restore_settings},
                            Action{"rewind", rewind},
                            Action{"save", save},
                            Action{"picture", picture},

@@ -1,6 +1,7 @@
 #pragma once
-// What a restless user does to the demo. One table: each row is as likely as any other.
+// The actions of a restless user of the demo, in one table. Each row is as likely as any other.
 
+#include <cassert>
 #include <random>
 #include <span>
 #include <string_view>
@@ -9,15 +10,18 @@
 
 namespace soak {
 
-/// The same numbers for a word with every standard library, others for another word.
+/// Random numbers that depend only on the word, not on the standard library.
 class Dice {
  public:
   explicit Dice(std::string_view word) {
     std::seed_seq seed(word.begin(), word.end());
     random_.seed(seed);
   }
-  /// 0 .. count - 1.
-  std::size_t pick(std::size_t count) { return random_() % count; }
+  /// Returns 0 .. count - 1. count > 0.
+  std::size_t pick(std::size_t count) {
+    assert(count > 0);
+    return random_() % count;
+  }
   double between(double lo, double hi) { return lo + (hi - lo) * double(random_()) / 4294967296.0; }
   bool heads() { return random_() % 2 == 0; }
 

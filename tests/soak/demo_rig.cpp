@@ -9,7 +9,7 @@ namespace soak {
 
 DemoRig::DemoRig(const std::filesystem::path& scenes, const std::filesystem::path& folder)
     : view_(engine::find_folder("shaders")), session(softbody::find_scene("drop", scenes), scenes, 2) {
-  ui.take_away.folder = ui.import.path = folder.string();
+  ui.exporter.folder = ui.import.path = folder.string();
   ui.save_as = (folder / "saved.toml").string();
   restart_camera();
 }
@@ -24,19 +24,19 @@ void DemoRig::frame(bool draw) {
   gui_.begin_frame(input);
   interface_.draw(session, ui, gui_.scale(), 10);
   const bool over_scene = !gui_.wants_mouse();
-  mouse_.follow(app::read_mouse({}, over_scene), session, camera_, input.display_size);
+  mouse_.update(app::window::read_mouse({}, over_scene), session, camera_, input.display_size);
   camera_.advance(input.seconds);
   if (draw)
-    canvas_.update(input.display_size, true, ui.take_away.wants_picture(), [this](const engine::Viewport& whole) {
-      view_.draw(session.world(), app::overlay_request(session, ui), camera_, whole, 1,
-                 session.drawn_positions(app::whole_steps(session, ui.overlays)));
+    canvas_.update(input.display_size, true, ui.exporter.wants_picture(), [this](const engine::Viewport& whole) {
+      view_.draw(session.world(), app::window::overlay_request(session, ui), camera_, whole, 1,
+                 session.simulation.drawn_positions(app::window::shows_present_state(session, ui.overlays)));
     });
   target_.bind();
   gui_.end_frame();
   gui_.draw();
-  ui.take_away.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
-  session.advance_one(input.seconds, !ui.take_away.recording() || ui.take_away.may_step());
-  glFinish();  // as a window that shows the picture: else drivers in software hold what they have not drawn yet
+  ui.exporter.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
+  session.advance_one(input.seconds, !ui.exporter.recording() || ui.exporter.may_step());
+  glFinish();  // as a window does: else software drivers keep the memory of pictures that they have not drawn yet
 }
 
 }  // namespace soak

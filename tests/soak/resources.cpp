@@ -1,11 +1,11 @@
 #include "tests/soak/resources.h"
 
 #include <GL/glew.h>
+#include <fmt/core.h>
 #include <malloc.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -13,8 +13,8 @@
 namespace soak {
 namespace {
 
-/// Drivers hand out the lowest name that is free, so that no object is far beyond this.
-constexpr GLuint names_tried = 4096;
+/// Drivers use the lowest free name, so the names of objects stay far below this.
+constexpr GLuint max_names = 4096;
 
 int count_gl_objects() {
   const auto alive = [](GLuint name) {
@@ -22,7 +22,7 @@ int count_gl_objects() {
            glIsRenderbuffer(name) + glIsProgram(name) + glIsShader(name);
   };
   int count = 0;
-  for (GLuint name = 1; name < names_tried; ++name) count += alive(name);
+  for (GLuint name = 1; name < max_names; ++name) count += alive(name);
   return count;
 }
 
@@ -30,21 +30,18 @@ int count_gl_objects() {
 
 Resources resources() {
   namespace fs = std::filesystem;
-  malloc_trim(0);  // what is freed is not held
-  Resources held;
+  malloc_trim(0);  // freed memory goes back to the system
+  Resources used;
   long pages = 0, resident = 0;
   std::ifstream("/proc/self/statm") >> pages >> resident;
-  held.megabytes = double(resident) * double(sysconf(_SC_PAGESIZE)) / (1 << 20);
-  held.descriptors = int(std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()));
-  held.gl_objects = count_gl_objects();
-  return held;
+  used.megabytes = double(resident) * double(sysconf(_SC_PAGESIZE)) / (1 << 20);
+  used.descriptors = int(std::distance(fs::directory_iterator("/proc/self/fd"), fs::directory_iterator()));
+  used.gl_objects = count_gl_objects();
+  return used;
 }
 
-std::string describe(const Resources& held) {
-  char text[96];
-  std::snprintf(text, sizeof text, "%.0f MiB, %d descriptors, %d GL objects", held.megabytes, held.descriptors,
-                held.gl_objects);
-  return text;
+std::string describe(const Resources& used) {
+  return fmt::format("{:.0f} MiB, {} descriptors, {} GL objects", used.megabytes, used.descriptors, used.gl_objects);
 }
 
 }  // namespace soak

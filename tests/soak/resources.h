@@ -1,5 +1,5 @@
 #pragma once
-// What the process holds of the machine's.
+// What the process uses of memory, files and OpenGL.
 
 #include <string>
 
@@ -11,8 +11,8 @@ struct Resources {
   int gl_objects = 0;    // buffers, textures, ... of the current context
 };
 
-/// Needs a current context.
+/// Counts what the process uses now. Needs a current context.
 Resources resources();
-std::string describe(const Resources& held);
+std::string describe(const Resources& used);
 
 }  // namespace soak

@@ -11,7 +11,7 @@ namespace {
 /// The hash after so many frames of a world whose scene brings what was added to this one.
 std::uint64_t hash_of_scene(const World& world) {
   Scene scene = world.scene();
-  scene.bodies = world.sources();
+  scene.bodies = body_sources(world);
   World again(std::move(scene), {.threads = 2});
   EXPECT_TRUE(again.added().empty());
   test::run(again, world.frame());
@@ -27,7 +27,7 @@ TEST(AddedBodies, BroughtByTheSceneItselfGoTheSameWayToTheBit) {
     world.drop();
     ASSERT_TRUE(world.throw_body({6, 2, 0}, {-5, 1, 0}));
     test::run(world, 60);
-    BodySource source = world.sources().front();
+    BodySource source = body_sources(world).front();
     source.position = {4, 6, 1};
     world.add(source);
     test::run(world, 10);

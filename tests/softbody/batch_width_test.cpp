@@ -7,6 +7,7 @@
 
 #include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -175,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
                          [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
 
 int width_of(const World& world, BodyId body) {
-  const DynamicsState state = world.dynamics().save();
+  const DynamicsState state = WorldInsides::dynamics(world).save();
   return state.batches[state.bodies[body].batch].width;
 }
 
@@ -220,9 +221,8 @@ class TwoLargeBodies : public testing::TestWithParam<Case> {};
 TEST_P(TwoLargeBodies, MoveTheSameByThemselvesAndInLanes) {
   const bool slow = GetParam().integrator == "explicit-euler";  // it would ask for hundreds of substeps
   const World::Options options{.threads = 2,
-                               .integrator = GetParam().integrator,
-                               .substeps = slow ? std::optional(60) : std::nullopt,
-                               .least_shared = 0};
+                               .integrator = {GetParam().integrator, slow ? std::optional(60) : std::nullopt},
+                               .min_shared_particles = 0};
   const Scene scene = large_bodies(GetParam().surface);
   World solo(scene, options), mixed(scene, options), wide(scene, options);
   visit(mixed, 1);
@@ -236,18 +236,18 @@ TEST_P(TwoLargeBodies, MoveTheSameByThemselvesAndInLanes) {
     for (World* world : {&solo, &mixed, &wide}) {
       world->step();
       if (frame == 8) visit(*world, 1);  // while it is touched
-      const auto touches = [](const World& w) { return w.dynamics().surface_contact().touches(w.bodies()).size(); };
+      const auto touches = [](const World& w) { return w.surface_contacts().size(); };
       ASSERT_EQ(world->state_hash(), solo.state_hash()) << "frame " << frame;
-      ASSERT_EQ(world->profile().substeps, solo.profile().substeps);
-      ASSERT_EQ(world->solid_contacts().size(), solo.solid_contacts().size());
+      ASSERT_EQ(world->last_step().substeps, solo.last_step().substeps);
+      ASSERT_EQ(solid_contacts(*world).size(), solid_contacts(solo).size());
       ASSERT_EQ(touches(*world), touches(solo));
-      ASSERT_EQ(total(world->last_shield_energies()), total(solo.last_shield_energies()));
+      ASSERT_EQ(total(world->pair_energies().last), total(solo.pair_energies().last));
       touched += touches(*world) + world->detection().contacts.size();
     }
   }
   EXPECT_TRUE(measure(solo).finite);
   EXPECT_GT(touched, 0u);
-  EXPECT_FALSE(solo.solid_contacts().empty());
+  EXPECT_FALSE(solid_contacts(solo).empty());
   EXPECT_EQ(std::pair(width_of(solo, 0), width_of(solo, 1)), std::pair(one_lane, lanes));
 }
 
@@ -270,10 +270,10 @@ INSTANTIATE_TEST_SUITE_P(All, TwoLargeBodies, testing::ValuesIn(cases()), [](con
 TEST(LargeBody, MovesTheSameAmongOthers) {
   Scene scene = large_bodies(ContactSurface::vertices);
   scene.bodies.pop_back();
-  World alone(scene, {.substeps = 100});
+  World alone(scene, {.integrator = {.substeps = 100}});
   EXPECT_EQ(width_of(alone, 0), one_lane);
   run(alone, 24);
-  EXPECT_FALSE(alone.solid_contacts().empty());
+  EXPECT_FALSE(solid_contacts(alone).empty());
   for (const int others : {1, 9}) {
     Scene more = scene;
     for (int i = 0; i < others; ++i) {
@@ -281,12 +281,13 @@ TEST(LargeBody, MovesTheSameAmongOthers) {
       more.bodies[0].position = {10.0 + 2 * i, 3, 0};
       more.bodies[0].release = 1000;
     }
-    World many(more, {.substeps = 100});
+    World many(more, {.integrator = {.substeps = 100}});
     const auto last = static_cast<BodyId>(others);
-    EXPECT_EQ(std::pair(width_of(many, last), many.body(last).lane), std::pair(lanes, others % lanes));
+    EXPECT_EQ(std::pair(width_of(many, last), WorldInsides::dynamics(many).body(last).lane),
+              std::pair(lanes, others % lanes));
     run(many, 24);
     for (Index i = 0; i < alone.bodies().vertex_count(); ++i) {
-      const Particle a = alone.dynamics().particle(0, i), b = many.dynamics().particle(last, i);
+      const Particle a = alone.particle(0, i), b = many.particle(last, i);
       ASSERT_TRUE(a.position == b.position && a.velocity == b.velocity) << i << ", " << others << " others";
     }
   }
@@ -302,12 +303,12 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
     Material soft = scene.materials[0];
     soft.structural.stiffness = 100;
     world->set_material(0, soft);
-    world->grab({.body = 1, .target = {1, 2, 0}});
+    world->grab(Grab{.body = 1, .target = {1, 2, 0}});
     run(*world, 4);
-    world->release();
+    world->grab({});
     std::vector<Particle> moved;
     for (Index i = 0; i < world->prototype(0).mesh.vertices.size(); ++i) {
-      moved.push_back(world->dynamics().particle(0, i));
+      moved.push_back(world->particle(0, i));
       moved.back().position += glm::dvec3(30, 0, 0);
     }
     world->set_particles(0, moved);
@@ -338,7 +339,7 @@ TEST(LargeBody, ComesToAPlaceThatOneLeft) {
   EXPECT_EQ(std::pair(width_of(world, 0), width_of(world, 1)), std::pair(lanes, one_lane));
   world.remove(1);
   EXPECT_EQ(width_of(world, world.add(scene.bodies[1])), one_lane);
-  EXPECT_EQ(world.dynamics().save().batches.size(), 2u);
+  EXPECT_EQ(WorldInsides::dynamics(world).save().batches.size(), 2u);
 }
 
 TEST(SmallBody, IsSolvedInLanes) {  // as implicit steps take it

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/shield.h"
 #include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -52,10 +54,11 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     Scene scene = lone_body(spring_ball());
     scene.materials[0].friction = 10;
     add_body(scene, {0, 1.03, 0}, {0.1, 0, 0});
-    World world(scene, {.frame_time = 1e-4, .integrator = integrator, .substeps = 1});
+    World world(scene, {.frame_time = 1e-4, .integrator = {integrator, 1}});
     run(world, 10);
     double sum = 0;
-    for (const ShieldPair& pair : world.snapshot().dynamics.shield_pairs) sum += double(glm::length(pair.stretch));
+    for (const ShieldPair& pair : WorldInsides::dynamics(world).save().shield_pairs)
+      sum += double(glm::length(pair.stretch));
     EXPECT_GT(sum, 5e-5) << integrator;
     return sum;
   };
@@ -85,7 +88,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     };
     EXPECT_GT(std::erase_if(contacts, both_held), 0u);
     world.step();
-    const std::vector<ShieldPair> pairs = world.snapshot().dynamics.shield_pairs;
+    const std::vector<ShieldPair> pairs = WorldInsides::dynamics(world).save().shield_pairs;
     ASSERT_EQ(pairs.size(), contacts.size());
     std::vector<int> count(world.bodies().vertex_count(), 0);
     for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
@@ -135,7 +138,7 @@ TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
         ++(facing ? by_surfaces : by_line);
       }
       world.step();
-      const std::vector<ShieldPair> pairs = world.snapshot().dynamics.shield_pairs;
+      const std::vector<ShieldPair> pairs = WorldInsides::dynamics(world).save().shield_pairs;
       ASSERT_EQ(pairs.size(), expected.size());
       for (std::size_t i = 0; i < pairs.size(); ++i)
         EXPECT_LT(glm::distance(glm::dvec3(pairs[i].normal), expected[i]), 1e-3) << i;
@@ -149,11 +152,11 @@ TEST(Collision, HoldsTheSameEnergyInFlight) {
     Scene scene = lone_body(gas_ball(), {speed, 0, 0});
     add_body(scene, {0, 0.83, 0}, {speed, 0, 0});
     scene.bodies[1].mesh.radius = 0.35;
-    World world(scene, {.integrator = "semi-implicit-euler", .substeps = 30});
+    World world(scene, {.integrator = {"semi-implicit-euler", 30}});
     std::vector<double> list;
     for (int i = 0; i < 6; ++i) {
       world.step();
-      list.push_back(total(world.last_shield_energies()));
+      list.push_back(total(world.pair_energies().last));
     }
     return list;
   };
@@ -182,7 +185,7 @@ TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
     scene.materials[0].friction = 1;
     add_body(scene, {1.2, 0.5, 0}, {-2, 0, 0});
-    World world(scene, {.integrator = integrator});
+    World world(scene, {.integrator = {integrator}});
     run(world, 45);
     return motion(world, 0).spin_momentum.z;
   };

@@ -20,7 +20,7 @@ constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
 std::set<BodyId> on_sphere(const World& world) {
   const SolidSphere& sphere = world.scene().spheres.front();
   std::set<BodyId> bodies;
-  for (const SolidContact& c : world.solid_contacts()) {
+  for (const SolidContact& c : solid_contacts(world)) {
     const collide::Frame p = world.positions();
     const glm::dvec3 x(p.x[c.vertex], p.y[c.vertex], p.z[c.vertex]);
     if (glm::distance(x, sphere.centre) < sphere.radius + touching) bodies.insert(world.vertex_body()[c.vertex]);
@@ -45,7 +45,7 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
   const glm::dvec3 first = motion(world, 0).centre;
   EXPECT_GT(first.y - radius, sphere.centre.y + sphere.radius);
   EXPECT_LT(std::hypot(first.x - sphere.centre.x, first.z - sphere.centre.z), sphere.radius);
-  EXPECT_TRUE(world.solid_contacts().empty());
+  EXPECT_TRUE(solid_contacts(world).empty());
 
   std::set<BodyId> hit, around;  // figure 11: it has hit the sphere
   while (world.frame() < 405) {
@@ -66,7 +66,7 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
     EXPECT_LT(centre.y, 1.05 * radius) << "body " << b;
     EXPECT_GT(centre.y, 0.6 * radius) << "body " << b;
     std::size_t floor = 0;
-    for (const SolidContact& c : world.solid_contacts())
+    for (const SolidContact& c : solid_contacts(world))
       floor += world.vertex_body()[c.vertex] == b && world.positions().y[c.vertex] < touching;
     EXPECT_GE(floor, 1u) << "body " << b << " is not on the floor";
   }
@@ -85,8 +85,8 @@ TEST(Drop, IsTheSameTwiceOnAnyThreadsAndOnAnyInstructionSet) {
   const std::string method(collide::default_method);
   const std::uint64_t hash = hash_of(method, {});
   EXPECT_EQ(hash_of(method, {}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 2, .least_shared = 0}), hash);
-  EXPECT_EQ(hash_of(method, {.threads = 5, .least_shared = 0}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 2, .min_shared_particles = 0}), hash);
+  EXPECT_EQ(hash_of(method, {.threads = 5, .min_shared_particles = 0}), hash);
   for (const Isa isa : isas()) EXPECT_EQ(hash_of(method, {.isa = isa}), hash);
 }
 

@@ -4,38 +4,39 @@
 
 #include "softbody/snapshot.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
 
 TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
-  World world(lone_body(gas_ball()), {.integrator = "semi-implicit-euler"});
+  World world(lone_body(gas_ball()), {.integrator = {"semi-implicit-euler"}});
   world.step();
-  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  EXPECT_EQ(world.last_step().seconds, world.frame_time());
   place(world, glm::dvec3(1.0), 1e6);
   for (int frame = 0; frame < 3; ++frame) {
     world.step();
-    EXPECT_EQ(world.profile().substeps, World::max_substeps);
-    EXPECT_GT(world.profile().seconds, 0);
-    EXPECT_LT(world.profile().seconds, world.frame_time());
+    EXPECT_EQ(world.last_step().substeps, max_substeps);
+    EXPECT_GT(world.last_step().seconds, 0);
+    EXPECT_LT(world.last_step().seconds, world.frame_time());
     EXPECT_TRUE(measure(world).finite);
   }
-  World fixed(lone_body(gas_ball()), {.integrator = "semi-implicit-euler", .substeps = World::max_substeps + 1});
+  World fixed(lone_body(gas_ball()), {.integrator = {"semi-implicit-euler", max_substeps + 1}});
   fixed.step();
-  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time()) << "who fixes substeps gets them";
+  EXPECT_EQ(fixed.last_step().seconds, fixed.frame_time()) << "who fixes substeps gets them";
 }
 
 /// A world of twice the particles gets half the substeps.
 TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
   const auto most = [](double particles) {
     World world(lone_body(gas_ball()),
-                {.integrator = "semi-implicit-euler", .max_work = {.most_particles = particles}});
+                {.integrator = {"semi-implicit-euler"}, .max_work = {.max_counted_particles = particles}});
     place(world, glm::dvec3(1.0), 1e6);
     world.step();
-    return world.profile().substeps;
+    return world.last_step().substeps;
   };
-  EXPECT_EQ(most(162), World::max_substeps) << "it has no more, whatever room its batch has";
-  EXPECT_LT(most(100), World::max_substeps);
+  EXPECT_EQ(most(162), max_substeps) << "it has no more, whatever room its batch has";
+  EXPECT_LT(most(100), max_substeps);
   EXPECT_NEAR(most(100), 2 * most(50), 1);
   EXPECT_EQ(most(0), 1);
 }
@@ -44,12 +45,12 @@ TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
   Scene scene = lone_body(spring_ball());
   scene.ground.emplace();
   const auto step = [&](double work, std::optional<int> substeps) {
-    World world(scene, {.integrator = "implicit", .substeps = substeps, .max_work = {.implicit = work}});
+    World world(scene, {.integrator = {"implicit", substeps}, .max_work = {.implicit = work}});
     place(world, glm::dvec3(1.0), 500);
     world.step();
-    return world.profile();
+    return world.last_step();
   };
-  const Profile whole = step(1e9, {}), part = step(1e4, {});
+  const StepReport whole = step(1e9, {}), part = step(1e4, {});
   ASSERT_GT(whole.substeps, 32);
   EXPECT_EQ(whole.seconds, 1.0 / 60);
   EXPECT_LE(part.substeps, 16);
@@ -62,13 +63,13 @@ TEST(Substeps, ThatAreImplicitAreFewer) {
   Scene scene = lone_body(spring_ball());
   scene.bodies[0].mesh.subdivisions = 0;
   scene.ground.emplace();
-  World world(scene, {.integrator = "implicit"});
+  World world(scene, {.integrator = {"implicit"}});
   place(world, glm::dvec3(1.0), 1e5);
   world.step();
-  EXPECT_EQ(world.profile().substeps, Dynamics::max_implicit_steps);
-  EXPECT_GT(world.profile().seconds, 0);
-  EXPECT_LT(world.profile().seconds, world.frame_time());
-  EXPECT_EQ(world.time(), world.profile().seconds);
+  EXPECT_EQ(world.last_step().substeps, max_implicit_steps);
+  EXPECT_GT(world.last_step().seconds, 0);
+  EXPECT_LT(world.last_step().seconds, world.frame_time());
+  EXPECT_EQ(world.last_step().time, world.last_step().seconds);
 }
 
 /// One body in another of its kind: each pair of the shield is worked out for the bound of the first substeps, in the
@@ -78,28 +79,29 @@ TEST(Substeps, OfManyContactsAreBoundByTheirWork) {
   add_body(scene, {0.3, 0, 0}, {});
   scene.gravity = {};
   const auto of_work = [&](double pairs, std::optional<int> substeps) {
-    World world(scene, {.integrator = "semi-implicit-euler", .substeps = substeps, .max_work = {.shield = pairs}});
+    World world(scene, {.integrator = {"semi-implicit-euler", substeps}, .max_work = {.shield = pairs}});
     world.step();
     EXPECT_TRUE(measure(world).finite);
     return world;
   };
   const World whole = of_work(1e9, {});
-  const double pairs = double(whole.dynamics().shield_energies().size());
+  const double pairs = double(whole.pair_energies().last.size());
   ASSERT_GT(pairs, 10);
-  ASSERT_EQ(whole.profile().seconds, whole.frame_time());
-  const auto substeps = [&](double times) { return of_work(times * pairs, {}).profile().substeps; };
+  ASSERT_EQ(whole.last_step().seconds, whole.frame_time());
+  const auto substeps = [&](double times) { return of_work(times * pairs, {}).last_step().substeps; };
   EXPECT_EQ(substeps(0), 1);
   EXPECT_EQ(substeps(2), 1) << "a bound and a substep";
   const int trusted = substeps(2.01);
   EXPECT_GT(trusted, 1);
-  EXPECT_LT(trusted, whole.profile().substeps);
+  EXPECT_LT(trusted, whole.last_step().substeps);
   EXPECT_EQ(substeps(1 + trusted), trusted);
   const int next = substeps(1 + trusted + 0.01);
   EXPECT_GT(next, trusted);
   EXPECT_EQ(substeps(1 + next + 0.5), next) << "two bounds";
   EXPECT_GT(substeps(2 + next + 0.01), next);
-  EXPECT_LT(of_work(0, {}).profile().seconds, whole.frame_time());
-  EXPECT_EQ(of_work(0, whole.profile().substeps).profile().seconds, whole.frame_time()) << "who fixes them gets them";
+  EXPECT_LT(of_work(0, {}).last_step().seconds, whole.frame_time());
+  EXPECT_EQ(of_work(0, whole.last_step().substeps).last_step().seconds, whole.frame_time())
+      << "who fixes them gets them";
 }
 
 /// Two bodies side by side in contact of their surfaces.
@@ -112,41 +114,41 @@ Scene touching_surfaces() {
 
 TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   const std::string integrator = "semi-implicit-euler";
-  World whole(touching_surfaces(), {.integrator = integrator});
+  World whole(touching_surfaces(), {.integrator = {integrator}});
   whole.step();
-  EXPECT_EQ(whole.profile().seconds, whole.frame_time());
-  ASSERT_GT(whole.profile().substeps, 8);
+  EXPECT_EQ(whole.last_step().seconds, whole.frame_time());
+  ASSERT_GT(whole.last_step().substeps, 8);
   const auto of_work = [&](double bound) {
-    World world(touching_surfaces(), {.integrator = integrator, .max_work = {.surface = bound}});
+    World world(touching_surfaces(), {.integrator = {integrator}, .max_work = {.surface = bound}});
     world.step();
-    EXPECT_NEAR(world.profile().seconds / world.frame_time(),
-                double(world.profile().substeps) / whole.profile().substeps, 0.05);
+    EXPECT_NEAR(world.last_step().seconds / world.frame_time(),
+                double(world.last_step().substeps) / whole.last_step().substeps, 0.05);
     return world;
   };
   const auto of_substep = [](const World& world) {
-    const Profile& p = world.profile();
-    return world.dynamics().surface_contact().work_of_substep(float(p.seconds / p.substeps));
+    const StepReport& p = world.last_step();
+    return WorldInsides::dynamics(world).surface_contact().work_of_substep(float(p.seconds / p.substeps));
   };
   // Candidates are found once, and looked at in one substep after the other; four are taken at a time, first one of
   // them.
   const World one = of_work(0);
-  EXPECT_EQ(one.profile().substeps, 1);
-  const collide::surface::SurfaceSearch& search = one.dynamics().surface_contact().search();
+  EXPECT_EQ(one.last_step().substeps, 1);
+  const collide::surface::SurfaceSearch& search = WorldInsides::dynamics(one).surface_contact().search();
   const double half = 0.5 * double(search.features().size()), least = of_substep(one);
   ASSERT_GT(half, 0);
   EXPECT_GT(double(search.work()), 2 * half);
   EXPECT_GT(least, 2 * half) << "contacts are solved";
   double work = double(search.work()) + least;
-  EXPECT_EQ(of_work(work).profile().substeps, 1);
+  EXPECT_EQ(of_work(work).last_step().substeps, 1);
   const World four = of_work(work + half);
-  EXPECT_EQ(four.profile().substeps, 4);
+  EXPECT_EQ(four.last_step().substeps, 4);
   work += 3 * of_substep(four);
-  EXPECT_EQ(of_work(work).profile().substeps, 4);
-  EXPECT_EQ(of_work(work + half).profile().substeps, 8);
+  EXPECT_EQ(of_work(work).last_step().substeps, 4);
+  EXPECT_EQ(of_work(work + half).last_step().substeps, 8);
 
-  World fixed(touching_surfaces(), {.integrator = integrator, .substeps = 20, .max_work = {.surface = 0}});
+  World fixed(touching_surfaces(), {.integrator = {integrator, 20}, .max_work = {.surface = 0}});
   fixed.step();
-  EXPECT_EQ(fixed.profile().seconds, fixed.frame_time());
+  EXPECT_EQ(fixed.last_step().seconds, fixed.frame_time());
 }
 
 /// Surfaces that pass each other fast have their candidates found anew many times in a frame, which shows in what it
@@ -160,8 +162,8 @@ TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
     double all() const { return found + looked_at; }
   };
   const auto work = [&](double bound, double h) {  // h: of a substep, s
-    World world(scene, {.integrator = "semi-implicit-euler", .max_work = {.surface = bound}});
-    const SurfaceContact& contact = world.dynamics().surface_contact();
+    World world(scene, {.integrator = {"semi-implicit-euler"}, .max_work = {.surface = bound}});
+    const SurfaceContact& contact = WorldInsides::dynamics(world).surface_contact();
     Work result;
     std::size_t last = 0;
     world.step([&] {
@@ -170,12 +172,12 @@ TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
       last = now;
       result.looked_at += contact.work_of_substep(float(h));
     });
-    result.seconds = world.profile().seconds;
+    result.seconds = world.last_step().seconds;
     return result;
   };
-  World free(scene, {.integrator = "semi-implicit-euler"});
+  World free(scene, {.integrator = {"semi-implicit-euler"}});
   free.step();
-  const double h = free.profile().seconds / free.profile().substeps;
+  const double h = free.last_step().seconds / free.last_step().substeps;
   const Work whole = work(1e9, h);
   ASSERT_GT(whole.found, 0.3 * whole.all());
   for (const double part : {0.25, 0.5, 0.75}) {
@@ -197,16 +199,16 @@ TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
     }
     World world(scene, options);
     world.step();
-    EXPECT_LT(world.profile().seconds, world.frame_time());
-    return world.profile().substeps;
+    EXPECT_LT(world.last_step().seconds, world.frame_time());
+    return world.last_step().substeps;
   };
   Scene fast = lone_body(spring_ball(), {0, -500, 0});
   fast.ground.emplace();
   const auto implicit = [&](std::size_t held, double work) {
-    return substeps(fast, held, {.integrator = "implicit", .max_work = {.implicit = work}});
+    return substeps(fast, held, {.integrator = {"implicit"}, .max_work = {.implicit = work}});
   };
   const auto surface = [&](std::size_t held, double work) {
-    return substeps(touching_surfaces(), held, {.integrator = "semi-implicit-euler", .max_work = {.surface = work}});
+    return substeps(touching_surfaces(), held, {.integrator = {"semi-implicit-euler"}, .max_work = {.surface = work}});
   };
   EXPECT_EQ(implicit(8, 4e4), implicit(0, 4e4)) << "5,298 particles";
   EXPECT_EQ(surface(8, 8e3), surface(0, 8e3));
@@ -225,13 +227,13 @@ TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
   Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
   add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});
   scene.contact_surface = ContactSurface::surfaces;
-  World world(scene, {.integrator = "semi-implicit-euler"});
+  World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  EXPECT_GE(world.profile().substeps, speed * world.frame_time() / (0.15 * world.prototype(0).mean_edge));
+  EXPECT_GE(world.last_step().substeps, speed * world.frame_time() / (0.15 * world.prototype(0).mean_edge));
   scene.contact_surface = ContactSurface::vertices;
-  World without(scene, {.integrator = "semi-implicit-euler"});
+  World without(scene, {.integrator = {"semi-implicit-euler"}});
   without.step();
-  EXPECT_LT(without.profile().substeps, world.profile().substeps / 2);
+  EXPECT_LT(without.last_step().substeps, world.last_step().substeps / 2);
 }
 
 /// Of 96 bytes each: what a world may hold must not grow beyond what a machine does.
@@ -245,7 +247,7 @@ TEST(Substeps, CandidatesAtOnceAreMoreInLargerWorldsUpToABound) {
 /// Those that were found before belong to another moment: nothing may look at them.
 TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   const auto candidates = [](const World& world) {
-    return double(world.dynamics().surface_contact().search().features().size());
+    return double(WorldInsides::dynamics(world).surface_contact().search().features().size());
   };
   World touching(touching_surfaces(), {});
   touching.step();
@@ -263,13 +265,13 @@ TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   for (Particle& p : near) p.position.x += 2;
   world.set_particles(1, near);
   world.step();
-  EXPECT_EQ(world.profile().seconds, world.frame_time());
+  EXPECT_EQ(world.last_step().seconds, world.frame_time());
 }
 
 TEST(Shield, GrowsInAFrameThatIsCutShortByWhatItsSecondsBring) {
   Scene scene = lone_body(gas_ball());
   add_body(scene, {5, 0, 0}, {});
-  World world(scene, {.integrator = "semi-implicit-euler"});
+  World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
   world.set_contact_surface(ContactSurface::surfaces);  // after which it grows from nothing
   world.set_contact_surface(ContactSurface::vertices);
@@ -277,9 +279,9 @@ TEST(Shield, GrowsInAFrameThatIsCutShortByWhatItsSecondsBring) {
   for (int frame = 0; frame < 3; ++frame) {
     place(world, glm::dvec3(1.0), 1e5);
     world.step();
-    ASSERT_LT(world.profile().seconds, 0.5 * world.frame_time());
-    grown += 0.05 * world.profile().seconds;
-    EXPECT_NEAR(double(world.snapshot().shield), grown, 1e-5 * grown) << frame;
+    ASSERT_LT(world.last_step().seconds, 0.5 * world.frame_time());
+    grown += 0.05 * world.last_step().seconds;
+    EXPECT_NEAR(double(WorldInsides::penalty_thickness(world)), grown, 1e-5 * grown) << frame;
   }
 }
 
@@ -288,11 +290,11 @@ TEST(Sleep, DoesNotCountFramesThatAreCutShort) {
   Scene scene = lone_body(gas_ball());
   scene.sleep = {.speed = 0.05};
   add_body(scene, {5, 0, 0}, {});
-  World world(scene, {.integrator = "semi-implicit-euler"});
+  World world(scene, {.integrator = {"semi-implicit-euler"}});
   for (int frame = 0; frame < 40; ++frame) {
     place(world, glm::dvec3(1.0), 1e6);
     world.step();
-    ASSERT_LT(world.profile().seconds, world.frame_time());
+    ASSERT_LT(world.last_step().seconds, world.frame_time());
     ASSERT_FALSE(world.body(1).asleep) << frame;
   }
 }

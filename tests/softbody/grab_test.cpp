@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody {
 namespace {
@@ -31,8 +32,9 @@ Grab on_top(const World& world) {
 /// Takes body 0 where it is and pulls by `stretch`.
 glm::dvec3 take(World& world, Grab grab, const glm::dvec3& stretch) {
   world.grab(grab);
-  const glm::dvec3 from = world.dynamics().grabbed_point();
-  world.pull_to(from + stretch);
+  const glm::dvec3 from = WorldInsides::dynamics(world).grabbed_point();
+  grab.target = from + stretch;
+  world.grab(grab);
   return from;
 }
 
@@ -66,7 +68,7 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
     world.step();
     const double t = frame * world.frame_time();
     const double left = stretch * std::exp(-decay * t) * (std::cos(swing * t) + decay / swing * std::sin(swing * t));
-    const glm::dvec3 moved = world.dynamics().grabbed_point() - from;
+    const glm::dvec3 moved = WorldInsides::dynamics(world).grabbed_point() - from;
     ASSERT_NEAR(moved.x, stretch - left, 1e-3 * stretch) << frame;
     ASSERT_NEAR(moved.y, 0, 1e-6);
   }
@@ -81,12 +83,12 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
       material.internal_damping = 10;
       Scene scene = test::lone_body(material);
       scene.gravity = {0, -9.81, 0};
-      World world(scene, {.integrator = std::string(integrator.key)});
+      World world(scene, {.integrator = {std::string(integrator.key)}});
       const Grab grab = on_top(world);
       const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
       test::run(world, 180);
       const double rate = 2 * std::numbers::pi * grab.frequency;
-      const glm::dvec3 sag = hand - world.dynamics().grabbed_point();
+      const glm::dvec3 sag = hand - WorldInsides::dynamics(world).grabbed_point();
       EXPECT_NEAR(sag.y, 9.81 / (rate * rate), 1e-3) << integrator.key << ", " << mass << " kg";
       EXPECT_LT(glm::length(glm::dvec2(sag.x, sag.z)), 5e-3);  // it may still swing a little
     }
@@ -98,12 +100,12 @@ TEST(Grab, ABodySagsByItsWeightInLongSubstepsToo) {
   material.internal_damping = 10;
   Scene scene = test::lone_body(material);
   scene.gravity = {0, -9.81, 0};
-  World world(scene, {.integrator = "semi-implicit-euler", .substeps = 8});
+  World world(scene, {.integrator = {"semi-implicit-euler", 8}});
   const Grab grab = on_top(world);
   const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
   test::run(world, 180);
   const double rate = 2 * std::numbers::pi * grab.frequency;
-  EXPECT_NEAR(hand.y - world.dynamics().grabbed_point().y, 9.81 / (rate * rate), 1e-3);
+  EXPECT_NEAR(hand.y - WorldInsides::dynamics(world).grabbed_point().y, 9.81 / (rate * rate), 1e-3);
 }
 
 TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
@@ -122,7 +124,7 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
         EXPECT_TRUE(m.finite) << frequency << " Hz, " << mass << " kg";
         EXPECT_LT(m.max_speed, 200) << frequency << " Hz, " << mass << " kg";
         if (frequency < 1e3 || ratio > 0) continue;
-        EXPECT_LT(glm::distance(world.dynamics().grabbed_point(), from + glm::dvec3(0.5, 0.5, 0)), 0.01);
+        EXPECT_LT(glm::distance(WorldInsides::dynamics(world).grabbed_point(), from + glm::dvec3(0.5, 0.5, 0)), 0.01);
       }
     }
   }
@@ -136,10 +138,8 @@ TEST(Grab, IsAStageOnlyWhileAHandHolds) {
   EXPECT_TRUE(world.plan().has(Stage::grab));
   test::run(world, 1);
   EXPECT_NE(world.state_hash(), at_rest);
-  world.release();
+  world.grab({});
   EXPECT_FALSE(world.plan().has(Stage::grab));
-  EXPECT_FALSE(world.grabbed());
-  world.pull_to({9, 9, 9});  // nothing to pull
   EXPECT_FALSE(world.grabbed());
 }
 
@@ -151,13 +151,13 @@ TEST(Grab, WakesASleeperKeepsItAwakeAndFreesAHeldBody) {
   ASSERT_TRUE(world.body(0).held);
   take(world, on_first_face(world), glm::dvec3(0.0));
   EXPECT_FALSE(world.body(0).held);
-  world.release();
+  world.grab({});
   test::run(world, 10);
   ASSERT_TRUE(world.body(0).asleep);
   take(world, on_first_face(world), glm::dvec3(0.0));
   test::run(world, 30);
   EXPECT_FALSE(world.body(0).asleep);
-  world.release();
+  world.grab({});
   test::run(world, 10);
   EXPECT_TRUE(world.body(0).asleep);
 }

@@ -70,8 +70,7 @@ void run(World& world, int frames) {
 
 std::vector<Particle> particles_of(const World& world, BodyId body) {
   std::vector<Particle> all;
-  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    all.push_back(world.dynamics().particle(body, i));
+  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) all.push_back(world.particle(body, i));
   return all;
 }
 
@@ -86,12 +85,12 @@ Motion motion(const World& world, BodyId body) {
   const auto count = static_cast<Index>(p.mesh.vertices.size());
   Motion m{p.material.mass, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
   for (Index i = 0; i < count; ++i) {
-    const Particle q = world.dynamics().particle(body, i);
+    const Particle q = world.particle(body, i);
     m.centre += q.position / double(count);
     m.velocity += q.velocity / double(count);
   }
   for (Index i = 0; i < count; ++i) {
-    const Particle q = world.dynamics().particle(body, i);
+    const Particle q = world.particle(body, i);
     m.spin_momentum += p.particle_mass * glm::cross(q.position - m.centre, q.velocity - m.velocity);
   }
   return m;

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <random>
 
+#include "softbody/lanes.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 #include "tests/temporary_folder.h"
 
 namespace softbody::test {

@@ -42,7 +42,7 @@ TEST(ImplicitSpin, GoesOnAsOnePiece) {
     for (const double stiffness : {1e5, 1e6, 1e8})
       for (const double spin : {2.0, 20.0}) {
         SCOPED_TRACE(testing::Message() << stiffness << " N/m, " << spin << " rad/s, " << dt << " s");
-        World world(lone_body(gas_ball(stiffness)), {.frame_time = dt, .integrator = "implicit", .substeps = 1});
+        World world(lone_body(gas_ball(stiffness)), {.frame_time = dt, .integrator = {"implicit", 1}});
         set_motion(world, glm::dvec3(0.0), spin * axis);
         const glm::dvec3 start = particles_of(world)[0].position;
         run(world, int(std::lround(1 / dt)));
@@ -59,7 +59,7 @@ TEST(ImplicitSpin, GoesOnAsOnePiece) {
 /// It swells as much as short explicit steps have it.
 TEST(ImplicitSpin, SwellsAsItShould) {
   const auto radius = [](const char* integrator, double dt, int substeps) {
-    World world(lone_body(gas_ball(1e3)), {.frame_time = dt, .integrator = integrator, .substeps = substeps});
+    World world(lone_body(gas_ball(1e3)), {.frame_time = dt, .integrator = {integrator, substeps}});
     set_motion(world, glm::dvec3(0.0), {0, 10, 0});
     run(world, int(std::lround(3 / dt)));
     double most = 0;
@@ -79,7 +79,7 @@ TEST(ImplicitSpin, LetsWhatIsFreeFlyStraight) {
   const auto error = [](int frames) {  // m, the root of the mean square after a quarter of a second
     Material loose = spring_ball();
     loose.structural = loose.bend = {1e-9, 0};
-    World world(lone_body(loose), {.frame_time = 0.25 / frames, .integrator = "implicit", .substeps = 1});
+    World world(lone_body(loose), {.frame_time = 0.25 / frames, .integrator = {"implicit", 1}});
     std::vector<Particle> start = particles_of(world);
     std::mt19937 random(3);
     for (Particle& p : start)
@@ -105,7 +105,7 @@ TEST(ImplicitSpin, RollsOn) {
     scene.gravity = {0, -9.81, 0};
     scene.ground.emplace();
     scene.bodies[0].position = {0, 0.6, 0};
-    World world(scene, {.integrator = "implicit", .substeps = 1});
+    World world(scene, {.integrator = {"implicit", 1}});
     run(world, 90);
     const double height = rigid(particles_of(world)).centre.y;
     set_motion(world, {20 * height, 0, 0}, {0, 0, -20});
@@ -132,7 +132,7 @@ TEST(ImplicitSpin, KeepsMomentumInTheAir) {
         m.bend = {stiffness / 10, 0.1};
         Scene scene = lone_body(m);
         scene.bodies[0].mesh = {.kind = "grid", .columns = 30, .rows = 1, .width = 2, .depth = width};
-        World world(scene, {.integrator = "implicit", .substeps = 1});
+        World world(scene, {.integrator = {"implicit", 1}});
         std::mt19937 random(seed);
         std::vector<Particle> all = particles_of(world);
         for (Particle& p : all)
@@ -162,7 +162,7 @@ TEST(ImplicitSpin, LeavesASmoothSolidNoFasterThanItShould) {
         scene.ground.emplace();
         scene.ground->friction = 0, scene.ground->restitution = 0.8;
         scene.bodies[0].position = {0, 2, 0};
-        World world(scene, {.frame_time = dt, .integrator = "implicit", .substeps = 1});
+        World world(scene, {.frame_time = dt, .integrator = {"implicit", 1}});
         set_motion(world, glm::dvec3(0.0), {0, 0, spin});
         const double energy = measure(world).energy;
         double fastest = 0;

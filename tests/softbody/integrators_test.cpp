@@ -23,11 +23,10 @@ Scene swinging_ball(double damping_ratio) {
 
 /// Its particles after some frames of 1/60 s with so many substeps each.
 std::vector<glm::dvec3> flight(const Scene& scene, std::string_view integrator, int substeps, int frames) {
-  World world(scene, {.integrator = std::string(integrator), .substeps = substeps});
+  World world(scene, {.integrator = {std::string(integrator), substeps}});
   run(world, frames);
   std::vector<glm::dvec3> list;
-  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
-    list.push_back(world.dynamics().particle(0, i).position);
+  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i) list.push_back(world.particle(0, i).position);
   return list;
 }
 
@@ -64,10 +63,7 @@ TEST_P(Integrators, KeepLinearAndAngularMomentum) {
   scene.materials[0].gas_pressure = 400;
   scene.materials[0].start_in_equilibrium = false;
   const Integrator& i = GetParam();
-  World world(scene, {.integrator = std::string(i.key),
-                      .substeps = i.order == 1 ? about(i, 100)
-                                  : i.implicit ? 2
-                                               : 20});
+  World world(scene, {.integrator = {std::string(i.key), i.order == 1 ? about(i, 100) : i.implicit ? 2 : 20}});
   const Motion start = motion(world, 0);
   run(world, 60);
   const Motion end = motion(world, 0);
@@ -80,7 +76,7 @@ TEST_P(Integrators, KeepLinearAndAngularMomentum) {
 
 TEST_P(Integrators, AreStableAtTheirBound) {
   for (const double zeta : {0.0, 0.02, 0.5, 3.0}) {
-    World world(swinging_ball(zeta), {.frame_time = 1e-3, .integrator = std::string(GetParam().key)});
+    World world(swinging_ball(zeta), {.frame_time = 1e-3, .integrator = {std::string(GetParam().key)}});
     const double start = measure(world).energy;
     run(world, 150);
     const Measures end = measure(world);
@@ -94,7 +90,7 @@ TEST_P(Integrators, LetNothingSinkIntoTheGround) {
   Scene scene = swinging_ball(0.3);
   scene.bodies[0].position = {0, 1, 0};
   scene.ground.emplace();
-  World world(scene, {.integrator = std::string(GetParam().key), .substeps = about(GetParam(), 100)});
+  World world(scene, {.integrator = {std::string(GetParam().key), about(GetParam(), 100)}});
   for (int frame = 0; frame < 100; ++frame) {
     world.step();
     const Measures m = measure(world);
@@ -108,9 +104,8 @@ TEST_P(Integrators, GiveTheSameBitsOnOneAndTwoThreads) {
   std::uint64_t hash[2];
   for (const int threads : {1, 2}) {
     World world(drop_scene(), {.threads = threads,
-                               .integrator = std::string(GetParam().key),
-                               .substeps = about(GetParam(), 30),
-                               .least_shared = 0});
+                               .integrator = {std::string(GetParam().key), about(GetParam(), 30)},
+                               .min_shared_particles = 0});
     run(world, 150);
     hash[threads - 1] = world.state_hash();
   }
@@ -128,15 +123,15 @@ TEST(Integrator, CanBeChangedWhileItRuns) {
   World world(drop_scene(), {});
   run(world, 100);
   for (const Integrator& i : integrators()) {
-    world.set_integrator(i.key, about(i, 60));
+    world.set_integrator({std::string(i.key), about(i, 60)});
     run(world, 3);
-    EXPECT_EQ(world.integrator().key, i.key);
-    EXPECT_EQ(world.profile().substeps, about(i, 60) * i.substeps) << i.key;
+    EXPECT_EQ(world.integrator_choice().key, i.key);
+    EXPECT_EQ(world.last_step().substeps, about(i, 60) * i.substeps) << i.key;
     EXPECT_TRUE(measure(world).finite) << i.key;
   }
-  world.set_integrator(default_integrator, std::nullopt);
+  world.set_integrator({});
   world.step();
-  EXPECT_FALSE(world.substeps());
+  EXPECT_FALSE(world.integrator_choice().substeps);
 }
 
 /// Modes across the springs have little damping for what tension and gas stiffen them.
@@ -148,7 +143,7 @@ TEST(Integrator, ExplicitEulerKeepsItsEnergyAtItsBound) {
     scene.materials[0].gas_pressure = 1.6 * stiffness;
     scene.materials[0].ambient_pressure = 0;
     scene.materials[0].start_in_equilibrium = false;  // it breathes
-    World world(scene, {.integrator = "explicit-euler"});
+    World world(scene, {.integrator = {"explicit-euler"}});
     const double start = measure(world).energy;
     for (int frame = 0; frame < 3; ++frame) {
       world.step();
@@ -161,7 +156,7 @@ TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
   for (const std::string_view key : {"semi-implicit-euler", "velocity-verlet", "rk4", "explicit-euler"}) {
     Scene scene = swinging_ball(0.02);
     scene.materials[0].structural.stiffness = 1e5;
-    World world(scene, {.integrator = std::string(key), .substeps = 1});
+    World world(scene, {.integrator = {std::string(key), 1}});
     run(world, 60);
     const Measures m = measure(world);
     EXPECT_TRUE(!m.finite || m.max_speed > 1e3) << key;
@@ -169,7 +164,7 @@ TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
 }
 
 TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
-  const World::Options options{.integrator = "explicit-euler"};
+  const World::Options options{.integrator = {"explicit-euler"}};
   Scene undamped = lone_body(gas_ball(100, 0));
   EXPECT_THROW(World(undamped, options), SceneError);
   add_body(undamped, {0, 0, 5}, {});
@@ -180,7 +175,7 @@ TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
   both.materials.push_back(stiff.materials[0]);
   add_body(both, {0, 0, 5}, {});
   both.bodies[1].material = 1;
-  const auto needed = [&](const Scene& scene) { return World(scene, options).dynamics().substeps(1 / 60.0); };
+  const auto needed = [&](const Scene& scene) { return World(scene, options).needed_substeps(); };
   EXPECT_EQ(needed(both), std::max(needed(slack), needed(stiff))) << "each by its own damping";
 }
 
@@ -192,7 +187,7 @@ TEST(Integrator, XpbdGoesWithShearSprings) {
   Scene scene = lone_body(m);
   scene.bodies[0].mesh = {.kind = "grid", .columns = 4, .rows = 4, .width = 1, .depth = 1};
   const auto positions = [&](const char* integrator, int frames) {
-    World world(scene, {.integrator = integrator, .substeps = 100});
+    World world(scene, {.integrator = {integrator, 100}});
     std::vector<Particle> sheared = particles_of(world);
     for (Particle& p : sheared) p.position.x += 0.3 * p.position.z;
     world.set_particles(0, sheared);
@@ -211,7 +206,7 @@ TEST(Integrator, XpbdIsStableHoweverStiffTheGas) {
   for (const double pressure : {1e5, 1e6, 1e7}) {
     Material m = gas_ball();
     m.gas_pressure = m.ambient_pressure = pressure;
-    World world(lone_body(m), {.integrator = "xpbd", .substeps = 10});
+    World world(lone_body(m), {.integrator = {"xpbd", 10}});
     place(world, glm::dvec3(0.95));
     for (int frame = 0; frame < 30; ++frame) {
       world.step();
@@ -223,7 +218,7 @@ TEST(Integrator, XpbdIsStableHoweverStiffTheGas) {
 }
 
 TEST(Integrator, XpbdKeepsTheVolumeOfABallInBalance) {
-  World world(lone_body(gas_ball()), {.integrator = "xpbd"});
+  World world(lone_body(gas_ball()), {.integrator = {"xpbd"}});
   run(world, 60);
   EXPECT_NEAR(measure(world).volume_ratio_min, 1, 0.1);
 }

@@ -65,7 +65,7 @@ double distortion(const World& world) {
   m.shape_frequency = 1;
   const auto p = make_prototype(world.scene().bodies[0].mesh, m);
   std::vector<glm::dvec3> x;
-  for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.dynamics().particle(0, i).position);
+  for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.particle(0, i).position);
   return std::sqrt(2 * shape_energy(*p, x) / (shape_stiffness(*p) * double(x.size())));
 }
 

@@ -92,8 +92,8 @@ TEST(MeshImport, WhatIsTooSmallOrTooLargeIsRefused) {
     return text + face({1, 3, 4, 2}) + face({5, 6, 8, 7}) + face({1, 2, 6, 5}) + face({2, 4, 8, 6}) +
            face({4, 3, 7, 8}) + face({3, 1, 5, 7});
   };
-  EXPECT_NEAR(read(cube(0.50001 * least_body_size)).findings.extent, least_body_size, 1e-7);
-  EXPECT_NEAR(read(cube(0.49999 * most_body_size)).findings.extent, most_body_size, 1);
+  EXPECT_NEAR(read(cube(0.50001 * min_body_size)).findings.extent, min_body_size, 1e-7);
+  EXPECT_NEAR(read(cube(0.49999 * max_body_size)).findings.extent, max_body_size, 1);
   EXPECT_THROW(read(cube(0.0004)), ObjError);
   EXPECT_THROW(read(cube(6e3)), ObjError);
   EXPECT_NEAR(read(cube(0.0004), {.size = 1}).findings.extent, 1, 1e-12);

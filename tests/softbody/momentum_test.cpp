@@ -22,7 +22,7 @@ TEST_P(StiffBodyInFreeFlight, KeepsItsMomenta) {
   const Flight& flight = GetParam();
   Scene scene = lone_body(gas_ball(1e6, 0.02));
   scene.gravity = {0, -9.81, 0};
-  World world(scene, {.integrator = flight.integrator, .substeps = flight.substeps});
+  World world(scene, {.integrator = {flight.integrator, flight.substeps}});
   std::vector<Particle> start = particles_of(world);
   for (Particle& p : start) p.velocity = glm::dvec3(1, 2, 0.5) + glm::cross(glm::dvec3(0.5, 3, 1), p.position);
   world.set_particles(0, start);
@@ -31,7 +31,7 @@ TEST_P(StiffBodyInFreeFlight, KeepsItsMomenta) {
     world.step();
     const Motion now = motion(world, 0);
     const glm::dvec3 velocity = before.velocity + frame / 60.0 * scene.gravity;
-    ASSERT_GE(world.profile().substeps, 64);
+    ASSERT_GE(world.last_step().substeps, 64);
     ASSERT_LT(glm::distance(now.velocity, velocity), 1e-5 * glm::length(before.velocity)) << "frame " << frame;
     if (!flight.keeps_spin) continue;
     ASSERT_LT(glm::distance(now.spin_momentum, before.spin_momentum), 2e-6 * glm::length(before.spin_momentum))
@@ -49,7 +49,7 @@ INSTANTIATE_TEST_SUITE_P(By, StiffBodyInFreeFlight,
 
 /// Explicit steps of a method that changes the angular momentum itself show it, however many they are.
 TEST(ExplicitEuler, ShowsWhatItDoesToTheSpin) {
-  World world(lone_body(gas_ball(1e3, 0.02)), {.integrator = "explicit-euler", .substeps = 512});
+  World world(lone_body(gas_ball(1e3, 0.02)), {.integrator = {"explicit-euler", 512}});
   std::vector<Particle> start = particles_of(world);
   for (Particle& p : start) p.velocity = glm::cross(glm::dvec3(0.5, 3, 1), p.position);
   world.set_particles(0, start);
@@ -60,7 +60,7 @@ TEST(ExplicitEuler, ShowsWhatItDoesToTheSpin) {
 }
 
 constexpr double stiffness = 1e5;
-const World::Options explicit_steps{.integrator = "semi-implicit-euler", .substeps = 200};
+const World::Options explicit_steps{.integrator = {"semi-implicit-euler", 200}};
 
 TEST(StiffBody, ThatIsHeldGetsNoMomentumBesideOneThatFalls) {
   Scene scene = lone_body(gas_ball(stiffness));
@@ -97,7 +97,7 @@ TEST(StiffBody, PassesItsMomentumOn) {
 
 TEST(StiffBody, FollowsAHand) {
   World world(lone_body(gas_ball(stiffness)), explicit_steps);
-  world.grab({.body = 0, .target = {0, 2, 0}});
+  world.grab(Grab{.body = 0, .target = {0, 2, 0}});
   run(world, 6);
   EXPECT_GT(motion(world, 0).velocity.y, 1);
 }
@@ -108,9 +108,10 @@ TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
   std::vector<std::uint64_t> hashes;
   for (const Isa isa : isas())
     for (const int threads : {1, 2}) {
-      World world(scene, {.threads = threads, .integrator = "velocity-verlet", .isa = isa, .least_shared = 0});
+      World world(scene,
+                  {.threads = threads, .integrator = {"velocity-verlet"}, .isa = isa, .min_shared_particles = 0});
       run(world, 5);
-      EXPECT_GE(world.profile().substeps, 64);
+      EXPECT_GE(world.last_step().substeps, 64);
       hashes.push_back(world.state_hash());
     }
   for (const std::uint64_t hash : hashes) EXPECT_EQ(hash, hashes[0]);
@@ -128,7 +129,7 @@ TEST(StiffBody, FliesTheSameWhateverItsNeighboursTouch) {
   for (World* world : {&hit, &miss}) run(*world, 20);
   EXPECT_LT(motion(hit, 1).velocity.y, 0.9) << "it hits";
   for (Index i = 0; i < hit.bodies().size(0); ++i) {
-    const Particle a = hit.dynamics().particle(0, i), b = miss.dynamics().particle(0, i);
+    const Particle a = hit.particle(0, i), b = miss.particle(0, i);
     ASSERT_TRUE(a.position == b.position && a.velocity == b.velocity) << i;
   }
 }

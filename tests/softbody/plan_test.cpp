@@ -112,14 +112,14 @@ TEST_P(StageLeftOut, ChangesNoBitOfTheTrajectory) {
   idle.without(absent);
   idle.with(present);
   for (const std::optional<int> substeps : {std::optional<int>(), std::optional(80)}) {  // many: momenta are kept
-    World a(absent, {.substeps = substeps}), b(present, {.substeps = substeps});
+    World a(absent, {.integrator = {.substeps = substeps}}), b(present, {.integrator = {.substeps = substeps}});
     EXPECT_FALSE(a.plan().has(idle.stage));
     EXPECT_TRUE(b.plan().has(idle.stage));
     for (int frame = 0; frame < 90; ++frame) {
       a.step();
       b.step();
       for (Index i = 0; i < a.bodies().size(0); ++i) {
-        const Particle p = a.dynamics().particle(0, i), q = b.dynamics().particle(0, i);
+        const Particle p = a.particle(0, i), q = b.particle(0, i);
         ASSERT_EQ(p.position, q.position) << "frame " << frame;
         ASSERT_LT(glm::distance(p.velocity, q.velocity), 1e-20) << "an exact 0 may become 1e-30 times something";
       }

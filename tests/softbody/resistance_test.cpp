@@ -18,7 +18,7 @@ double vibration(const World& world) {
   glm::dmat3 inertia(0.0);
   double kinetic = 0;
   for (Index i = 0; i < 162; ++i) {
-    const Particle q = world.dynamics().particle(0, i);
+    const Particle q = world.particle(0, i);
     const glm::dvec3 r = q.position - m.centre;
     inertia += mass * (glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r));
     kinetic += 0.5 * mass * glm::dot(q.velocity - m.velocity, q.velocity - m.velocity);
@@ -41,7 +41,7 @@ TEST(InternalDamping, StillsABodyButLeavesItsMomentumAndItsSpin) {
   double left[2];
   for (const int on : {0, 1}) {
     World world(shaken(on ? 10 : 0), {});
-    while (world.frame() < 30 || !world.solid_contacts().empty()) world.step();
+    while (world.frame() < 30 || !solid_contacts(world).empty()) world.step();
     const Motion before = motion(world, 0);
     ASSERT_GT(glm::length(before.spin_momentum), 0.05);
     run(world, 60);
@@ -125,7 +125,7 @@ std::vector<Particle> tumbled_sheet(double resistance) {
   bool touched = false;
   for (int frame = 0; frame < 40; ++frame) {
     world.step();
-    touched = touched || glm::length(world.dynamics().solid_impulse(0)) > 0;
+    touched = touched || glm::length(world.body(0).solid_impulse) > 0;
   }
   EXPECT_TRUE(touched);
   return particles_of(world, 0);
@@ -145,7 +145,7 @@ double rebound(double thrown, double limit) {
   scene.ground = Ground{0, 0.5};
   World world(scene, {});
   for (int i = 0; i < 240; ++i) world.step();
-  EXPECT_TRUE(world.solid_contacts().empty()) << "it left";
+  EXPECT_TRUE(solid_contacts(world).empty()) << "it left";
   return motion(world, 0).velocity.y;
 }
 

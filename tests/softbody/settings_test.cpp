@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -12,10 +13,10 @@ namespace {
 /// m/s, of the body that is fastest as a whole.
 double fastest_body(const World& world) {
   double fastest = 0;
-  for (BodyId body = 0; body < world.dynamics().body_count(); ++body) {
+  for (BodyId body = 0; body < WorldInsides::dynamics(world).body_count(); ++body) {
     const auto count = static_cast<Index>(world.prototype(body).mesh.vertices.size());
     glm::dvec3 sum(0.0);
-    for (Index v = 0; v < count; ++v) sum += world.dynamics().particle(body, v).velocity;
+    for (Index v = 0; v < count; ++v) sum += world.particle(body, v).velocity;
     fastest = std::max(fastest, glm::length(sum) / double(count));
   }
   return fastest;

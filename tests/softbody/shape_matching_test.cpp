@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "softbody/best_rotation.h"
 #include "softbody/shape_matching.h"
 #include "tests/softbody/helpers.h"
 

@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -115,7 +116,7 @@ TEST(Sleeping, ABodyWakesWhenHitAndAllSleepInTheEnd) {
   const std::uint64_t hash = world.state_hash();
   run(world, 10);
   EXPECT_EQ(world.state_hash(), hash);
-  EXPECT_EQ(world.profile().substeps, 0) << "sleepers cost nothing";
+  EXPECT_EQ(world.last_step().substeps, 0) << "sleepers cost nothing";
 }
 
 TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
@@ -166,10 +167,10 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   for (int i = 0; i < 60; ++i) {
     world.step();
     ASSERT_TRUE(world.detection().contacts.empty());
-    ASSERT_GT(world.dynamics().fastest(0), 0.2) << "it slides";
+    ASSERT_GT(WorldInsides::dynamics(world).fastest(0), 0.2) << "it slides";
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
-  EXPECT_LT(world.dynamics().fastest(1), 0.1) << "calm enough to sleep";
+  EXPECT_LT(WorldInsides::dynamics(world).fastest(1), 0.1) << "calm enough to sleep";
 }
 
 TEST(SleepWhereABodyIsRemoved, EndsForWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {

@@ -8,6 +8,7 @@
 #include <algorithm>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -32,9 +33,9 @@ Course follow(World& world, int frames) {
 /// Goes on from here for some frames, and again from a snapshot, here and in a world of `scene` that has just begun.
 void expect_the_same_again(World& world, const Scene& scene, int frames) {
   const Snapshot snapshot = world.snapshot();
-  const auto touches = [](const World& w) { return w.dynamics().surface_contact().touches(w.bodies()).size(); };
+  const auto touches = [](const World& w) { return w.surface_contacts().size(); };
   const std::size_t touched = touches(world);
-  const double held = total(world.last_shield_energies());
+  const double held = total(world.pair_energies().last);
   const Course first = follow(world, frames);
   world.restore(snapshot);
   EXPECT_EQ(world.frame(), snapshot.frame);
@@ -42,7 +43,7 @@ void expect_the_same_again(World& world, const Scene& scene, int frames) {
   EXPECT_TRUE(follow(world, frames) == first) << "from frame " << snapshot.frame;
   World fresh(scene, {.threads = 2});
   fresh.restore(snapshot);
-  EXPECT_EQ(total(fresh.last_shield_energies()), held);
+  EXPECT_EQ(total(fresh.pair_energies().last), held);
   EXPECT_TRUE(follow(fresh, frames) == first) << "in a new world from frame " << snapshot.frame;
 }
 
@@ -82,7 +83,7 @@ TEST(Snapshot, HoldsWhatHandsDid) {
   soft.structural.stiffness = 100;
   world.set_material(0, soft);
   world.set_gravity({0, -5, 0});
-  world.grab({.body = 0, .target = {1, 4, 0}});
+  world.grab(Grab{.body = 0, .target = {1, 4, 0}});
   run(world, 5);
   expect_the_same_again(world, scene, 10);
   EXPECT_TRUE(world.grabbed());
@@ -99,19 +100,19 @@ TEST(Snapshot, HoldsWhatWasAskedForSinceTheStart) {
   settings.tolerance *= 1.5f;
   settings.buckets = 17;
   world.set_collision(settings, false);
-  world.set_integrator("velocity-verlet", 40);
+  world.set_integrator({"velocity-verlet", 40});
   run(world, 50);
   const Snapshot snapshot = world.snapshot();
+  const double time = world.last_step().time;
   world.drop();
   const Course first = follow(world, 40);
   World fresh(scene, {});
   fresh.restore(snapshot);
   EXPECT_EQ(fresh.method().key, collide::paper_method);
-  EXPECT_EQ(fresh.integrator().key, "velocity-verlet");
-  EXPECT_EQ(fresh.substeps(), 40);
-  EXPECT_EQ(fresh.time(), snapshot.time);
+  EXPECT_EQ(fresh.integrator_choice(), (IntegratorChoice{"velocity-verlet", 40}));
+  EXPECT_EQ(fresh.last_step().time, time);
   EXPECT_EQ(fresh.collision(), world.collision());
-  EXPECT_FALSE(fresh.uses_default_cell_size());
+  EXPECT_FALSE(fresh.scene().default_cell_size);
   fresh.drop();
   EXPECT_TRUE(follow(fresh, 40) == first);
 }
@@ -172,7 +173,7 @@ TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
   world.set_contact_surface(ContactSurface::vertices);
   run(world, 100);
   const Snapshot snapshot = world.snapshot();
-  EXPECT_THROW(world.set_integrator("auto", std::nullopt), SceneError);
+  EXPECT_THROW(world.set_integrator({"auto"}), SceneError);
   const Course first = follow(world, 2);
   world.restore(snapshot);
   EXPECT_TRUE(follow(world, 2) == first);
@@ -191,7 +192,8 @@ TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
   const auto bytes = [](int bodies) {
     Scene scene = lone_body(spring_ball());
     for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
-    return World(scene, {}).snapshot().dynamics.bytes();
+    const World world(scene, {});
+    return WorldInsides::dynamics(world).save().bytes();
   };
   EXPECT_EQ(bytes(8) - bytes(7), sizeof(Body));
 }

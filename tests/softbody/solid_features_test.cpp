@@ -21,7 +21,7 @@ double least_distance(const World& world) {
   for (BodyId body = 0; body < world.bodies().count(); ++body) {
     for (const Triangle& t : world.prototype(body).mesh.triangles) {
       std::array<glm::dvec3, 3> c;
-      for (std::size_t k = 0; k < 3; ++k) c[k] = world.dynamics().particle(body, t[k]).position;
+      for (std::size_t k = 0; k < 3; ++k) c[k] = world.particle(body, t[k]).position;
       for (int i = 0; i <= cuts; ++i) {
         for (int j = 0; i + j <= cuts; ++j) {
           const glm::dvec3 p = (double(i) * c[0] + double(j) * c[1] + double(cuts - i - j) * c[2]) / double(cuts);

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -111,7 +112,7 @@ TEST(Restitution, OfASoftBallGrowsWithThatOfTheSolid) {
 TEST(Restitution, OfASoftBallForgetsAnImpactOnceTheBallHasLeft) {
   const auto rebound = [](bool hit_before) {
     const double speed = 4.5;
-    World world(soft_ball(0.3, hit_before ? 9 : speed), {.integrator = "semi-implicit-euler", .substeps = 40});
+    World world(soft_ball(0.3, hit_before ? 9 : speed), {.integrator = {"semi-implicit-euler", 40}});
     if (hit_before) {
       run(world, 40);
       EXPECT_GT(motion(world, 0).velocity.y, 2) << "it has left";

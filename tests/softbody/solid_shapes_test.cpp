@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "softbody/solid_placement.h"
 #include "softbody/solids.h"
 #include "tests/softbody/helpers.h"
 

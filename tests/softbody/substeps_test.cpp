@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -15,25 +16,25 @@ TEST(Substeps, AreThoseOfTheBodyThatNeedsMost) {
     scene.bodies.push_back(scene.bodies[0]);
     scene.bodies[std::size_t(i)].position.x += 5 * i;
   }
-  World world(scene, {.integrator = "semi-implicit-euler"});
+  World world(scene, {.integrator = {"semi-implicit-euler"}});
   for (const double size : {1.0, 0.6}) {  // of the second body
     double most = 0;
     for (BodyId body = 0; body < 3; ++body) {
       std::vector<Particle> particles;
       std::vector<glm::dvec3> x;
       for (Index v = 0; v < world.prototype(body).mesh.vertices.size(); ++v) {
-        particles.push_back(world.dynamics().particle(body, v));
+        particles.push_back(world.particle(body, v));
         if (body == 1)
           particles.back().position = world.body(1).origin + size * (particles.back().position - world.body(1).origin);
         x.push_back(particles.back().position);
       }
       world.set_particles(body, particles);
       const Prototype& p = world.prototype(body);
-      const double step = world.integrator().stable_step(stiffness_per_mass(p, measure_surface(p, x)),
-                                                         p.spring_damping_bound / p.particle_mass);
+      const double step = world.integrator_choice().integrator().stable_step(
+          stiffness_per_mass(p, measure_surface(p, x)), p.spring_damping_bound / p.particle_mass);
       most = std::max(most, world.frame_time() / step);
     }
-    EXPECT_NEAR(world.dynamics().substeps(100 * world.frame_time()), 100 * most, 1) << size;
+    EXPECT_NEAR(WorldInsides::dynamics(world).substeps(100 * world.frame_time()), 100 * most, 1) << size;
   }
 }
 
@@ -46,9 +47,9 @@ TEST(Substeps, AreThoseOfTheLighterBodyOfAPairWhicheverComesFirst) {
     for (Material& m : scene.materials) m.contact_stiffness = 1000;
     add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
-    World world(scene, {.integrator = "semi-implicit-euler"});
+    World world(scene, {.integrator = {"semi-implicit-euler"}});
     world.step();
-    return world.profile().substeps;
+    return world.last_step().substeps;
   };
   const int lighter_first = substeps(0.5, 50);
   EXPECT_GT(lighter_first, 3 * substeps(50, 50));
@@ -65,13 +66,14 @@ TEST(Substeps, CountTheStiffnessOfContacts) {
   const glm::dvec3 top = *std::max_element(start.begin(), start.end(), above);
   const glm::dvec3 bottom = *std::min_element(start.begin(), start.end(), above);
   add_body(scene, top - bottom + glm::dvec3(0, 5e-5, 0), glm::dvec3(0.0));
-  World world(scene, {.integrator = "semi-implicit-euler"});
+  World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
   const Prototype& p = world.prototype(0);
   const double own = stiffness_per_mass(p, {}), shield = Shield::stiffness_bound(1e4) / p.particle_mass;
   ASSERT_GT(shield, 4 * own);
-  EXPECT_GE(world.profile().substeps, world.frame_time() / world.integrator().stable_step(
-                                                               own + shield, p.spring_damping_bound / p.particle_mass));
+  EXPECT_GE(world.last_step().substeps,
+            world.frame_time() / world.integrator_choice().integrator().stable_step(
+                                     own + shield, p.spring_damping_bound / p.particle_mass));
 }
 
 /// A tenth of its radius in a substep, at most.
@@ -82,9 +84,9 @@ TEST(Substeps, KeepUpWithABodyNearASolidHoweverSoftItIs) {
     Scene scene = lone_body(soft, {60, 0, 0});
     scene.bodies[0].position = {0, height, 0};
     scene.ground.emplace();
-    World world(scene, {.integrator = "semi-implicit-euler"});
+    World world(scene, {.integrator = {"semi-implicit-euler"}});
     world.step();
-    return world.profile().substeps;
+    return world.last_step().substeps;
   };
   EXPECT_EQ(substeps(0.6), 20);
   EXPECT_LT(substeps(60), 5);
@@ -141,8 +143,8 @@ TEST(Substeps, AreNotTooLongForAnyBodyWhereOneAsksForMoreThanCanBe) {
   World world(scene, {});
   for (int frame = 0; frame < 5; ++frame) {
     world.step();
-    ASSERT_LE(world.profile().substeps, World::max_substeps);
-    ASSERT_LT(world.profile().seconds, world.frame_time());
+    ASSERT_LE(world.last_step().substeps, max_substeps);
+    ASSERT_LT(world.last_step().seconds, world.frame_time());
     ASSERT_LT(measure(world).max_speed, 11) << "frame " << frame;
     ASSERT_LT(measure(world, 0).largest_strain, 0.1) << "frame " << frame;
   }
@@ -156,7 +158,7 @@ TEST(Substeps, FollowTheBound) {
     const Prototype& p = world.prototype(0);
     world.step();
     const double h = stable_step(p.spring_stiffness_bound / p.particle_mass, p.spring_damping_bound / p.particle_mass);
-    EXPECT_EQ(world.profile().substeps, int(std::ceil(1.0 / 60 / h)));
+    EXPECT_EQ(world.last_step().substeps, int(std::ceil(1.0 / 60 / h)));
   }
 }
 
@@ -167,9 +169,9 @@ TEST(Substeps, AreNoLongerThanASixtiethOfASecondUnlessTheyAreFixed) {
     Material soft = spring_ball();
     soft.structural.stiffness = soft.bend.stiffness = 0.01;
     const auto substeps = [&](double frame_time, std::optional<int> fixed) {
-      World world(lone_body(soft), {.frame_time = frame_time, .integrator = integrator, .substeps = fixed});
+      World world(lone_body(soft), {.frame_time = frame_time, .integrator = {integrator, fixed}});
       world.step();
-      return world.profile().substeps;
+      return world.last_step().substeps;
     };
     EXPECT_GE(substeps(0.5, {}), 30) << integrator;
     EXPECT_LE(substeps(0.5, {}), 32) << integrator;
@@ -182,7 +184,7 @@ TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].structural.stiffness = 1e9;
   try {
-    World world(scene, {.integrator = "semi-implicit-euler"});
+    World world(scene, {.integrator = {"semi-implicit-euler"}});
     FAIL() << "took it";
   } catch (const SceneError& e) {
     EXPECT_NE(std::string(e.what()).find("'springs'"), std::string::npos) << e.what();

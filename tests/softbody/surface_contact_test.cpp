@@ -7,6 +7,7 @@
 #include <set>
 
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -161,7 +162,7 @@ TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
   scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
   World world(scene, {});
   run(world, 3);
-  EXPECT_FALSE(world.dynamics().surface_contact().search().features().empty());
+  EXPECT_FALSE(WorldInsides::dynamics(world).surface_contact().search().features().empty());
   EXPECT_LT(measure(world).max_speed, 1e-4);
 }
 
@@ -173,13 +174,13 @@ TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   EXPECT_GT(judge.look().deepest, 0.18);
   const double energy = measure(world).energy;
   world.step();
-  EXPECT_TRUE(world.dynamics().surface_contact().gives_energy());
+  EXPECT_TRUE(world.last_step().adds_energy);
   for (int i = 1; i < 30; ++i) {
     world.step();
-    ASSERT_LT(measure(world).max_speed, 2 * double(SurfaceContact::push_speed)) << frame_of(world);
+    ASSERT_LT(measure(world).max_speed, 2 * double(max_separation_speed)) << frame_of(world);
   }
   judge.expect_clean("after half a second");
-  EXPECT_LT(glm::length(motion(world, 0).velocity - motion(world, 1).velocity), 2 * double(SurfaceContact::push_speed));
+  EXPECT_LT(glm::length(motion(world, 0).velocity - motion(world, 1).velocity), 2 * double(max_separation_speed));
   EXPECT_LT(measure(world).energy - energy, 0.5 * 2 * 1.0) << "no more than both at the push's speed have";
 }
 
@@ -192,7 +193,7 @@ TEST(SurfaceContact, TellsWhereBodiesTouch) {
   World world(scene, {});
   run(world, 4);
   std::set<std::pair<Index, Index>> met;
-  for (const SurfaceTouch& touch : world.dynamics().surface_contact().touches(world.bodies())) {
+  for (const SurfaceContactPoint& touch : world.surface_contacts()) {
     met.insert({std::min(touch.a, touch.b), std::max(touch.a, touch.b)});
     glm::dvec3 apart(0.0);
     for (std::size_t k = 0; k < 4; ++k) {
@@ -200,8 +201,7 @@ TEST(SurfaceContact, TellsWhereBodiesTouch) {
       if (std::abs(touch.weight[k]) > 1e-6f) {
         EXPECT_EQ(body, touch.weight[k] > 0 ? touch.a : touch.b);
       }
-      apart += double(touch.weight[k]) *
-               world.dynamics().particle(body, touch.vertex[k] - world.bodies().first[body]).position;
+      apart += double(touch.weight[k]) * world.particle(body, touch.vertex[k] - world.bodies().first[body]).position;
     }
     EXPECT_LT(glm::distance(apart, 0.005 * glm::dvec3(touch.normal)), 0.004);
   }
@@ -214,7 +214,7 @@ TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
   const auto rate = [&] {
     World world(scene, {});
     world.step();
-    return world.dynamics().surface_contact().rate();
+    return WorldInsides::dynamics(world).surface_contact().rate();
   };
   const float alone = rate();
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -283,8 +283,8 @@ TEST(SurfaceContact, ASheetOnASlopingSheetSlidesOnlyAboveTheFrictionCone) {
   for (const double tangent : {0.3, 0.45, 0.55}) {
     World world(sheet_on_sheet(mu, tangent), {});
     run(world, 30);
-    EXPECT_GT(world.dynamics().surface_contact().rows(), 0u);
-    EXPECT_FALSE(world.dynamics().surface_contact().gives_energy());
+    EXPECT_GT(WorldInsides::dynamics(world).surface_contact().rows(), 0u);
+    EXPECT_FALSE(world.last_step().adds_energy);
     const double cosine = 1 / std::sqrt(1 + tangent * tangent), pull = g * cosine * std::max(0.0, tangent - mu);
     EXPECT_NEAR(motion(world, 1).velocity.x, pull * 0.5, 1e-4) << tangent;
     EXPECT_NEAR(motion(world, 1).centre.y, 0.01, 1e-4) << tangent;
@@ -303,7 +303,7 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   }
   World world(scene, {});
   run(world, 20);
-  EXPECT_GT(world.dynamics().surface_contact().touching().size(), 70u);
+  EXPECT_GT(WorldInsides::dynamics(world).surface_contact().touching().size(), 70u);
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 
@@ -364,7 +364,7 @@ TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
   bool met = false;
   for (int i = 0; i < 90; ++i) {
     world.step();
-    met = met || !world.dynamics().surface_contact().touches(world.bodies()).empty();
+    met = met || !world.surface_contacts().empty();
     if (i % 3 == 0) judge.expect_clean(frame_of(world));
   }
   EXPECT_TRUE(met);

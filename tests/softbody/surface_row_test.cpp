@@ -148,7 +148,7 @@ TEST(SurfaceContactRow, PushesOverlapsOutAtATenthASubstep) {
   const float depth = 0.0039f, beyond = depth - OneRow::reach;  // of half the distance
   const double spring = OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y;
   EXPECT_GE(spring, 0.1 * double(beyond / OneRow::h) - 1e-3);
-  EXPECT_LT(spring, double(SurfaceContact::push_speed));
+  EXPECT_LT(spring, double(max_separation_speed));
   const OneRow thrown_back({.gap = -depth, .velocity = {0, -1, 0}, .restitution = 0.01f});
   EXPECT_GE(thrown_back.relative().y, 0.1 * double(beyond / OneRow::h) - 1e-3) << "no slower for its restitution";
 }

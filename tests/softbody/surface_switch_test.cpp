@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/softbody/surface_rig.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody::test {
 namespace {
@@ -45,11 +46,11 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     World::Options options;
     options.threads = threads;
     options.isa = isa;
-    options.least_shared = 0;
+    options.min_shared_particles = 0;
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
       world.step();
-      most_rows = std::max(most_rows, world.dynamics().surface_contact().rows());
+      most_rows = std::max(most_rows, WorldInsides::dynamics(world).surface_contact().rows());
     }
     return world.state_hash();
   };

@@ -33,13 +33,13 @@ TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
   for (const double stiffness : {200.0, 2e4})
     for (const double pressure : {0.0, 5e4, 9e4, 116e3, 13e4, 15e4, 2e5}) {
       Material m = swinging_ball(stiffness, GetParam());
-      World world(lone_body(m), {.integrator = "auto"});
+      World world(lone_body(m), {.integrator = {"auto"}});
       run(world, 5);
       m.gas_pressure = pressure;
       world.set_material(0, m);
       run(world, 3);  // the sudden force may bring the first substep's work besides
       const auto energy = [&] {
-        const double h = world.dynamics().used_integrator().staggered ? world.dynamics().last_substep() : 0;
+        const double h = world.last_step().integrator->staggered ? world.last_step().last_substep : 0;
         const BodyMeasures b = measure_bodies(world, h)[0];
         return std::pair(b.energy.total() + b.staggering, b.energy.kinetic);
       };
@@ -61,13 +61,13 @@ TEST(StaggeredSteps, ConserveTheEnergyOfTheirStaggering) {
   Material m = spring_ball();
   m.structural.damping_ratio = m.bend.damping_ratio = 0;
   const Scene scene = lone_body(m);
-  const int least = World(scene, {.integrator = "semi-implicit-euler"}).dynamics().substeps(1.0 / 60);
-  World world(scene, {.integrator = "semi-implicit-euler", .substeps = least});
+  const int least = World(scene, {.integrator = {"semi-implicit-euler"}}).needed_substeps();
+  World world(scene, {.integrator = {"semi-implicit-euler", least}});
   place(world, {1.001, 1, 0.999});
   double motion = 0, lowest[2]{1e300, 1e300}, highest[2]{-1e300, -1e300};
   for (int frame = 0; frame < 120; ++frame) {
     world.step();
-    const BodyMeasures b = measure(world, 0, world.dynamics().last_substep());
+    const BodyMeasures b = measure(world, 0, world.last_step().last_substep);
     motion = std::max(motion, b.energy.kinetic);
     for (const int staggered : {0, 1}) {
       const double energy = b.energy.total() + staggered * b.staggering;
@@ -99,7 +99,7 @@ World bursting(std::string integrator) {
   Material m = gas_ball(1000);
   m.gas_pressure *= 100, m.ambient_pressure = 0;
   m.start_in_equilibrium = false;
-  World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = std::move(integrator)});
+  World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = {std::move(integrator)}});
   world.step();
   return world;
 }
@@ -107,25 +107,25 @@ World bursting(std::string integrator) {
 /// It comes together again.
 TEST(ImplicitSteps, LeaveABurstRound) {
   World world = bursting("semi-implicit-euler");
-  world.set_integrator("implicit", std::nullopt);
+  world.set_integrator({"implicit"});
   int most = 0;
   for (int frame = 0; frame < 60; ++frame) {
     world.step();
-    most = std::max(most, world.profile().substeps);
+    most = std::max(most, world.last_step().substeps);
     ASSERT_LT(out_of_round(particles_of(world)), 1e-3) << frame;
   }
   EXPECT_GT(most, 4);
   EXPECT_LE(most, 16);
   run(world, 420);
-  EXPECT_EQ(world.profile().substeps, 1) << "hardly deforming any more";
+  EXPECT_EQ(world.last_step().substeps, 1) << "hardly deforming any more";
 }
 
 /// Explicit substeps, more than one implicit step is worth, are fewer than all that it would take.
 TEST(ImplicitSteps, CountWhereTheIntegratorIsChosen) {
   World world = bursting("auto");
   world.step();
-  EXPECT_EQ(world.dynamics().used_integrator().key, "semi-implicit-euler");
-  EXPECT_GT(world.profile().substeps, 150);
+  EXPECT_EQ(world.last_step().integrator->key, "semi-implicit-euler");
+  EXPECT_GT(world.last_step().substeps, 150);
 }
 
 /// Squeezed for a frame and put back: nothing but memory asks for more substeps than before.
@@ -137,24 +137,24 @@ class HeldSubsteps : public testing::Test {
     world.step();
     world.set_particles(0, before);
     world.step();
-    squeezed = world.profile().substeps;
+    squeezed = world.last_step().substeps;
   }
 
-  World world{lone_body(swinging_ball(200, 0.1)), {.integrator = "semi-implicit-euler"}};
+  World world{lone_body(swinging_ball(200, 0.1)), {.integrator = {"semi-implicit-euler"}}};
   int squeezed = 0;  // substeps of the frame after
 };
 
 TEST_F(HeldSubsteps, StayForHalfASecondAndAreGoneAfterOne) {
   run(world, 5);
-  const int own = world.profile().substeps;
+  const int own = world.last_step().substeps;
   squeeze();
   ASSERT_GT(squeezed, 2 * own);
   for (int frame = 0; frame < 28; ++frame) {
     world.step();
-    ASSERT_EQ(world.profile().substeps, squeezed) << frame;
+    ASSERT_EQ(world.last_step().substeps, squeezed) << frame;
   }
   run(world, 32);
-  EXPECT_EQ(world.profile().substeps, own);
+  EXPECT_EQ(world.last_step().substeps, own);
 }
 
 TEST_F(HeldSubsteps, GoOnAfterGoingBack) {
@@ -162,31 +162,31 @@ TEST_F(HeldSubsteps, GoOnAfterGoingBack) {
   squeeze();
   const Snapshot then = world.snapshot();
   run(world, 60);
-  const std::uint64_t hash = world.dynamics().hash();
-  const int later = world.profile().substeps;
+  const std::uint64_t hash = world.state_hash();
+  const int later = world.last_step().substeps;
   world.restore(then);
   run(world, 10);
-  EXPECT_EQ(world.profile().substeps, squeezed);
+  EXPECT_EQ(world.last_step().substeps, squeezed);
   run(world, 50);
-  EXPECT_EQ(world.profile().substeps, later);
-  EXPECT_EQ(world.dynamics().hash(), hash);
+  EXPECT_EQ(world.last_step().substeps, later);
+  EXPECT_EQ(world.state_hash(), hash);
 }
 
 TEST_F(HeldSubsteps, AreForgottenWhileEverybodySleeps) {
   Scene scene = world.scene();
   scene.sleep = {.speed = 1e6, .frames = 2};
-  World sleeper(scene, {.integrator = "semi-implicit-euler"});
+  World sleeper(scene, {.integrator = {"semi-implicit-euler"}});
   const std::vector<Particle> before = particles_of(sleeper);
   sleeper.step();
-  const int own = sleeper.profile().substeps;
+  const int own = sleeper.last_step().substeps;
   place(sleeper, {0.3, 0.3, 0.3});
   sleeper.step();
-  ASSERT_GT(sleeper.profile().substeps, 2 * own);
+  ASSERT_GT(sleeper.last_step().substeps, 2 * own);
   run(sleeper, 62);
   ASSERT_TRUE(sleeper.all_at_rest());
   sleeper.set_particles(0, before);
   sleeper.step();
-  EXPECT_EQ(sleeper.profile().substeps, own);
+  EXPECT_EQ(sleeper.last_step().substeps, own);
 }
 
 /// They come and go, and are damped.
@@ -194,14 +194,14 @@ TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].contact_stiffness = 1e4;
   add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
-  World pair(scene, {.integrator = "semi-implicit-euler"});
+  World pair(scene, {.integrator = {"semi-implicit-euler"}});
   pair.step();
-  const int touching = pair.profile().substeps;
+  const int touching = pair.last_step().substeps;
   std::vector<Particle> apart = particles_of(pair, 1);
   for (Particle& p : apart) p.position.y += 1;
   pair.set_particles(1, apart);
   run(pair, 2);  // the first still goes by the contacts that were found before
-  EXPECT_LT(pair.profile().substeps, touching / 2);
+  EXPECT_LT(pair.last_step().substeps, touching / 2);
 }
 
 /// A body that no number of substeps carries must not have its next frames cut short too; nor one that has too many
@@ -209,7 +209,7 @@ TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
 TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
   Scene large = world.scene();
   large.bodies[0].mesh.subdivisions = 4;
-  World automatic(large, {.integrator = "auto"});
+  World automatic(large, {.integrator = {"auto"}});
   for (World* w : {&world, &automatic}) {
     run(*w, 5);
     const std::vector<Particle> before = particles_of(*w);
@@ -217,26 +217,26 @@ TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
     fast[0].velocity = {1e6, 0, 0};
     w->set_particles(0, fast);
     w->step();
-    ASSERT_EQ(w->dynamics().used_integrator().key, "semi-implicit-euler");
-    ASSERT_LT(w->profile().seconds, w->frame_time());
+    ASSERT_EQ(w->last_step().integrator->key, "semi-implicit-euler");
+    ASSERT_LT(w->last_step().seconds, w->frame_time());
     w->set_particles(0, before);
     w->step();
-    EXPECT_EQ(w->profile().seconds, w->frame_time());
+    EXPECT_EQ(w->last_step().seconds, w->frame_time());
   }
 }
 
 /// Else a body that swings would be moved in another way with every swing.
 TEST_F(HeldSubsteps, CountWhereTheIntegratorIsChosen) {
-  world = World(lone_body(swinging_ball(3000, 0.1)), {.integrator = "auto"});
-  const auto chosen = [&] { return world.dynamics().used_integrator().key; };
+  world = World(lone_body(swinging_ball(3000, 0.1)), {.integrator = {"auto"}});
+  const auto chosen = [&] { return world.last_step().integrator->key; };
   run(world, 5);
   ASSERT_EQ(chosen(), "semi-implicit-euler");
   squeeze();
   EXPECT_EQ(chosen(), "implicit") << "explicit substeps would be as many as when it was squeezed";
-  world.set_integrator("auto", 100);
+  world.set_integrator({"auto", 100});
   world.step();
   EXPECT_EQ(chosen(), "semi-implicit-euler") << "fixed ones are not";
-  world.set_integrator("auto", std::nullopt);
+  world.set_integrator({"auto"});
   run(world, 60);
   EXPECT_EQ(chosen(), "semi-implicit-euler");
 }

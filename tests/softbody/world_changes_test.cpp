@@ -6,6 +6,7 @@
 
 #include "softbody/limits.h"
 #include "tests/softbody/helpers.h"
+#include "tests/support/world_insides.h"
 
 namespace softbody {
 namespace {
@@ -28,19 +29,19 @@ Scene pile(int number) {
 std::vector<glm::dvec3> positions(const World& world, BodyId body) {
   std::vector<glm::dvec3> list;
   for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    list.push_back(world.dynamics().particle(body, i).position);
+    list.push_back(world.particle(body, i).position);
   return list;
 }
 
 void expect_consistent(const World& world) {
   const collide::Bodies& bodies = world.bodies();
   ASSERT_EQ(world.vertex_body().size(), bodies.vertex_count());
-  ASSERT_EQ(world.dynamics().body_count(), bodies.count());
+  ASSERT_EQ(WorldInsides::dynamics(world).body_count(), bodies.count());
   const collide::Frame frame = world.positions();
   for (BodyId b = 0; b < bodies.count(); ++b) {
     ASSERT_EQ(world.vertex_body()[bodies.first[b]], b);
     ASSERT_EQ(world.vertex_body()[bodies.first[b + 1] - 1], b);
-    const glm::dvec3 first = world.dynamics().particle(b, 0).position;
+    const glm::dvec3 first = world.particle(b, 0).position;
     ASSERT_EQ(frame.y[bodies.first[b]], float(first.y));
   }
 }
@@ -127,7 +128,7 @@ TEST(Remove, WhatLeantOnTheBodyWakesAndFalls) {
 
 TEST(Remove, OfTheBodyInTheHandOpensIt) {
   World world(pile(3), {});
-  world.grab({.body = 1});
+  world.grab(Grab{.body = 1});
   world.remove(0);
   ASSERT_TRUE(world.grabbed());
   EXPECT_EQ(world.grabbed()->body, 0u);
@@ -228,7 +229,7 @@ TEST(Changes, WakeAllWhoSleep) {
   scene.sleep = {0.05, 2};
   const std::pair<const char*, void (*)(World&)> changes[]{
       {"method", [](World& w) { w.set_method("brute-force"); }},
-      {"integrator", [](World& w) { w.set_integrator("rk4", std::nullopt); }},
+      {"integrator", [](World& w) { w.set_integrator({"rk4"}); }},
       {"collision", [](World& w) { w.set_collision(w.collision(), true); }},
       {"contact surface", [](World& w) { w.set_contact_surface(ContactSurface::surfaces); }},
       {"gravity",
@@ -285,7 +286,7 @@ TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
 }
 
 TEST(Changes, AMaterialThatIsTooStiffIsRefusedAndNothingChanges) {
-  World world(test::lone_body(test::spring_ball()), {.integrator = "semi-implicit-euler"});
+  World world(test::lone_body(test::spring_ball()), {.integrator = {"semi-implicit-euler"}});
   const std::vector<Stage> stages = world.plan().stages;
   Material stiff = world.scene().materials[0];
   stiff.structural.stiffness = 1e9;
@@ -334,17 +335,17 @@ TEST(Changes, RefuseCompanyToABodyTooStiffForSurfaceContact) {
 
 /// All that hands can do, one after another.
 std::uint64_t hash_after_much(int threads) {
-  World world(pile(10), {.threads = threads, .least_shared = 0});
+  World world(pile(10), {.threads = threads, .min_shared_particles = 0});
   Scene solids = world.scene();
   Material material = world.scene().materials[0];
   material.friction = 0.1;
   test::run(world, 20);
-  world.grab({.body = 3, .target = {2, 3, 1}});
+  world.grab(Grab{.body = 3, .target = {2, 3, 1}});
   test::run(world, 20);
-  world.pull_to({-1, 4, 0});
+  world.grab(Grab{.body = 3, .target = {-1, 4, 0}});
   world.drop(3);
   test::run(world, 10);
-  world.release();
+  world.grab({});
   world.remove(2);
   world.set_material(0, material);
   world.set_gravity({1, -5, 0});

@@ -39,7 +39,7 @@ TEST(World, VerticesAreListedBodyByBody) {
   EXPECT_EQ(std::count(world.vertex_body().begin(), world.vertex_body().end(), 0u), 162);
   const collide::Frame frame = world.positions();
   for (Index i = 0; i < 42; ++i) {
-    const glm::dvec3 p = world.dynamics().particle(1, i).position;
+    const glm::dvec3 p = world.particle(1, i).position;
     EXPECT_EQ(glm::vec3(frame.x[162 + i], frame.y[162 + i], frame.z[162 + i]), glm::vec3(p));
   }
 }
@@ -48,14 +48,14 @@ TEST(World, MoreBodiesThanLanesMoveLikeOne) {
   Scene scene = lone_body(gas_ball(), {1, 2, 3});
   scene.gravity = {0, -9.81, 0};
   for (int i = 1; i < 19; ++i) add_body(scene, {0, 0, 4.0 * i}, {1, 2, 3});
-  World many(scene, {.threads = 3, .least_shared = 0});
+  World many(scene, {.threads = 3, .min_shared_particles = 0});
   scene.bodies.resize(1);
   World one(scene, {});
   run(many, 30);
   run(one, 30);
   for (BodyId b = 0; b < 19; ++b)
     for (Index i = 0; i < 162; ++i)
-      EXPECT_EQ(many.dynamics().particle(b, i).velocity, one.dynamics().particle(0, i).velocity) << "body " << b;
+      EXPECT_EQ(many.particle(b, i).velocity, one.particle(0, i).velocity) << "body " << b;
 }
 
 TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
@@ -64,7 +64,7 @@ TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
   while (world.detection().contacts.size() < 20 && world.frame() < 800);
   const auto seen = world.detection().contacts;
   ASSERT_FALSE(seen.empty());
-  world.redetect();
+  world.set_method(world.method().key);
   EXPECT_EQ(world.detection().contacts, seen);
   const std::uint64_t hash = world.state_hash();
   world.set_method("brute-force");
@@ -73,7 +73,7 @@ TEST(World, TheContactsAreThoseOfThePositionsThatItShows) {
 }
 
 TEST(World, WhoLooksAfterASubstepSeesThePositionsOfThen) {
-  World world(lone_body(spring_ball(), {3, -6, 12}), {.substeps = 4});
+  World world(lone_body(spring_ball(), {3, -6, 12}), {.integrator = {.substeps = 4}});
   const glm::dvec3 start = motion(world, 0).centre;
   int substeps = 0;
   world.step([&] {
@@ -90,7 +90,7 @@ TEST(World, NewSettingsAreFollowedAtOnce) {
   World world(drop_scene(), {});
   do world.step();
   while (world.detection().contacts.size() < 20 && world.frame() < 800);
-  EXPECT_TRUE(world.uses_default_cell_size());
+  EXPECT_TRUE(world.scene().default_cell_size);
   const glm::vec3 usual = world.collision().cell_size;
   collide::Settings s = world.collision();
   const std::size_t before = world.detection().contacts.size();
@@ -101,7 +101,7 @@ TEST(World, NewSettingsAreFollowedAtOnce) {
   EXPECT_LT(world.collision().cell_size.x, usual.x) << "the default follows the levels";
   s.cell_size = glm::vec3(0.3f);
   world.set_collision(s, false);
-  EXPECT_FALSE(world.uses_default_cell_size());
+  EXPECT_FALSE(world.scene().default_cell_size);
   EXPECT_EQ(world.collision().cell_size, glm::vec3(0.3f));
   world.set_method("grid-hash");
   EXPECT_EQ(world.method().key, "grid-hash");
@@ -138,7 +138,7 @@ TEST(Dropper, PutsBodiesClearOfAllOthers) {
 }
 
 TEST(Dropper, IsDeterministic) {
-  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .least_shared = 0});
+  World a(drop_scene(), {}), b(drop_scene(), {.threads = 2, .min_shared_particles = 0});
   for (World* w : {&a, &b})
     for (int i = 0; i < 12; ++i) {
       w->drop();
@@ -153,17 +153,17 @@ TEST(World, ParticlesGoWhereTheyAreTold) {
   World world(scene, {});
   std::vector<Particle> told;
   for (Index i = 0; i < world.prototype(1).mesh.vertices.size(); ++i) {
-    Particle p = world.dynamics().particle(1, i);
+    Particle p = world.particle(1, i);
     told.push_back({glm::dvec3(1000, 0, -2000) + 10.0 * p.position, {0.5, 0, double(i)}});
   }
-  const Particle other = world.dynamics().particle(0, 7);
+  const Particle other = world.particle(0, 7);
   world.set_particles(1, told);
   for (Index i = 0; i < told.size(); ++i) {
-    const Particle p = world.dynamics().particle(1, i);
+    const Particle p = world.particle(1, i);
     EXPECT_LT(glm::distance(p.position, told[i].position), 1e-6) << "far from zero, too: the origin has gone along";
     EXPECT_EQ(p.velocity, told[i].velocity);
   }
-  EXPECT_EQ(world.dynamics().particle(0, 7).position, other.position);
+  EXPECT_EQ(world.particle(0, 7).position, other.position);
   EXPECT_NEAR(world.positions().x[world.bodies().first[1]], told[0].position.x, 1e-4) << "detectors see them there";
 }
 
@@ -174,7 +174,7 @@ TEST(World, ASleeperWakesWhenParticlesAreMoved) {
   run(world, 10);
   ASSERT_TRUE(world.body(0).asleep);
   std::vector<Particle> same;
-  for (Index i = 0; i < 162; ++i) same.push_back(world.dynamics().particle(0, i));
+  for (Index i = 0; i < 162; ++i) same.push_back(world.particle(0, i));
   world.set_particles(0, same);
   EXPECT_FALSE(world.body(0).asleep);
 }

@@ -1,16 +1,12 @@
-#include "app/report/contact/contact.h"
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 
 #include "app/files/output_file.h"
 #include "app/report/contact/results.h"
 #include "app/report/detection/recording.h"
 #include "app/report/files.h"
-#include "collide/core/workers.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 // The scenes' own tolerance is 0.2 R for spheres: 0.08, 0.16, 0.2 and 0.4 R.
@@ -30,18 +26,18 @@ std::vector<ContactChoice> make_choices(bool quick) {
   return choices;
 }
 
-/// One run that is to be done.
+/// One run.
 struct Job {
   softbody::Scene scene;
   ContactChoice choice;
   TrialLimits limits;
-  std::size_t of;  // index of its case
+  std::size_t case_index;
   ContactTrial done{};
 };
 
-class Plan {
+class ContactReport {
  public:
-  explicit Plan(const ReportOptions& options) : options_(options) {
+  explicit ContactReport(const ReportOptions& options) : options_(options) {
     const bool quick = options.quick;
     results.quick = quick;
     results.command = command_of(options);
@@ -58,7 +54,7 @@ class Plan {
 
   void add_impact(const Impact& impact, double speed) {
     const softbody::Scene scene = impact.make(speed);
-    // A second after it got there.
+    // Until a second after the ball got there.
     const int frames = 60 + static_cast<int>(60 * 0.3 / speed);
     add({.impact = true, .key = std::string(impact.key), .name = std::string(impact.name), .speed = speed}, scene,
         {.frames = frames, .stride = 1, .seconds = results.limits.seconds}, false);
@@ -66,17 +62,13 @@ class Plan {
 
   void run() {
     collide::Workers workers(options_.threads.value_or(options_.cores));
-    std::atomic<std::size_t> next{0};
-    workers.run([&](int thread) {
-      for (std::size_t i = next++; i < jobs_.size(); i = next++) {
-        Job& job = jobs_[i];
-        if (thread == 0)
-          say(job.scene.key + ", " + choice_name(job.choice),
-              static_cast<double>(i) / static_cast<double>(jobs_.size()));
-        job.done = try_contact(std::move(job.scene), job.choice, job.limits);
-      }
-    });
-    for (Job& job : jobs_) results.cases[job.of].trials.push_back(std::move(job.done));
+    run_in_parallel(
+        workers, jobs_.size(), [&](std::size_t i) { return jobs_[i].scene.key + ", " + choice_name(jobs_[i].choice); },
+        [&](std::size_t i) {
+          Job& job = jobs_[i];
+          job.done = run_contact_trial(std::move(job.scene), job.choice, job.limits);
+        });
+    for (Job& job : jobs_) results.cases[job.case_index].trials.push_back(std::move(job.done));
   }
 
   ContactResults results;
@@ -96,10 +88,10 @@ class Plan {
   std::vector<Job> jobs_;
 };
 
-void add_impacts(Plan& plan, bool quick) {
+void add_impacts(ContactReport& report, bool quick) {
   for (const Impact& impact : impacts()) {
     for (const double speed : quick ? std::span<const double>(quick_speeds) : std::span<const double>(speeds))
-      plan.add_impact(impact, speed);
+      report.add_impact(impact, speed);
   }
 }
 
@@ -107,19 +99,14 @@ void add_impacts(Plan& plan, bool quick) {
 
 void report_contact(const ReportOptions& options) {
   const std::vector<softbody::Scene> scenes = chosen_scenes(options);
-  prepare_folder(options.out);
-  Plan plan(options);
+  files::prepare_folder(options.out);
+  ContactReport report(options);
   for (const softbody::Scene& scene : scenes) {
-    if (!options.quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0) plan.add_scene(scene);
+    if (!options.quick || options.scene || std::ranges::count(quick_scenes, scene.key) > 0) report.add_scene(scene);
   }
-  if (!options.scene) add_impacts(plan, options.quick);
-  plan.run();
-  const ContactResults& results = plan.results;
-  write_report(options.out, {.csv_name = "contact.csv",
-                             .csv = contact_csv(results),
-                             .markdown_name = "contact.md",
-                             .plots = contact_plots(results),
-                             .markdown = [&](const auto& drawn) { return contact_markdown(results, drawn); }});
+  if (!options.scene) add_impacts(report, options.quick);
+  report.run();
+  write_report(options.out, "contact.csv", contact_table(report.results), "contact.md", contact_page(report.results));
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,42 +1,37 @@
 #pragma once
-// What `report contact` has measured, and what it is written as.
+// What `report contact` measures, and its table, page and plots.
 
 #include <string>
 #include <vector>
 
 #include "app/report/contact/trial.h"
-#include "app/report/plot.h"
+#include "app/report/page.h"
 
-namespace app {
+namespace app::report {
 
 /// A scene, or an impact at one speed.
 struct ContactCase {
   bool impact = false;
   std::string key{}, name{};
   double speed = 0;                    // m/s, of an impact
-  std::vector<ContactTrial> trials{};  // as the choices; empty while they are to be run
+  std::vector<ContactTrial> trials{};  // in the order of the choices; empty until they have run
 };
 
 struct ContactResults {
   std::string command;  // to make the report again
   bool quick = false;
   TrialLimits limits;                  // of scenes
-  std::uint64_t vertex_frames = 0;     // budget: scenes with more vertices times frames are not run
+  std::uint64_t vertex_frames = 0;     // budget: a scene with more vertices times frames is not run
   std::vector<ContactChoice> choices;  // surface contact first
-  std::vector<ContactCase> cases;      // scenes, then impacts, of each kind by speed
+  std::vector<ContactCase> cases;      // scenes, then impacts, each impact by speed
 };
 
-/// "Surface", or "Vertex-vertex, exact, x 0.4".
+/// Returns "Surface", or "Vertex-vertex, exact, x 0.4".
 std::string choice_name(const ContactChoice& choice);
 
-/// A row a case and choice, with a header line. What has no meaning or was not run is empty.
-std::string contact_csv(const ContactResults& results);
+/// Returns contact.csv: a row per case and choice. What has no meaning or was not run is empty.
+Table contact_table(const ContactResults& results);
 
-/// The deepest penetration against run time for each scene; against speed, how much passed through, for each impact.
-std::vector<Plot> contact_plots(const ContactResults& results);
-std::string contact_plot_name(const ContactCase& c);
+Page contact_page(const ContactResults& results);
 
-/// plots: those that lie beside it as NAME.svg and NAME.png.
-std::string contact_markdown(const ContactResults& results, const std::vector<Plot>& plots);
-
-}  // namespace app
+}  // namespace app::report

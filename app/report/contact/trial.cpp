@@ -5,18 +5,19 @@
 #include <map>
 #include <set>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
+#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/scene_folder.h"
-#include "app/report/cpu_clock.h"
-#include "app/report/own_steps.h"
 #include "app/report/solid_passages.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 double smallest_closed_radius(const softbody::World& world) {
@@ -28,7 +29,7 @@ double smallest_closed_radius(const softbody::World& world) {
   return radius;
 }
 
-/// A run, and what is seen on the way.
+/// A run, and what is measured on the way.
 class Trial {
  public:
   Trial(softbody::Scene scene, const TrialLimits& limits, ContactTrial& result)
@@ -37,7 +38,7 @@ class Trial {
     result_.tolerance = double{world_.collision().tolerance};
     oracle_.crossings(world_);
     remember_middles();
-    passages_.look(world_);
+    passages_.observe(world_);
   }
 
   void run() {
@@ -45,7 +46,7 @@ class Trial {
     while (world_.frame() < limits_.frames && result_.finite && !world_.all_at_rest()) {
       step();
       if (thread_seconds() - start > limits_.seconds) {
-        result_.not_run = format("over the budget of %g s after %d frames", limits_.seconds, world_.frame());
+        result_.not_run = fmt::format("over the budget of {:g} s after {} frames", limits_.seconds, world_.frame());
         return;
       }
     }
@@ -64,8 +65,8 @@ class Trial {
     });
     require_whole_frame(world_);
     result_.cpu_ms += 1e3 * (thread_seconds() - start - looking);
-    result_.detect_ms += world_.profile().detect_ms;
-    result_.solve_ms += world_.profile().solve_ms;
+    result_.detect_ms += world_.last_step().detect_ms;
+    result_.solve_ms += world_.last_step().solve_ms;
     look_for_passages(rest_way);
     look_into_solids();
     if (world_.frame() > limits_.frames - last_second) look_at_speeds();
@@ -85,9 +86,9 @@ class Trial {
     if (awake_particles_ > 0 && !result_.asleep) result_.jitter = std::sqrt(squares_ / awake_particles_);
   }
 
-  /// Unless no vertex has gone so far (m) since the last look.
-  void look_for_passages(double way) {
-    if (oracle_.moved(world_) < way) return;
+  /// Looks for passages if a vertex has moved by `min_way` (m) since the last look.
+  void look_for_passages(double min_way) {
+    if (oracle_.max_displacement(world_) < min_way) return;
     const std::vector<collide::oracle::Crossing> crossings = oracle_.crossings(world_);
     const auto figures = collide::oracle::figures_of(world_.positions(), {}, crossings);
     result_.passed += passed(crossings);
@@ -96,9 +97,9 @@ class Trial {
     remember_middles();
   }
 
-  /// Vertices that came to be inside a closed body, or on the other side of an open or their own surface. The straight
-  /// way from one look to the next cuts the corners of a curved one: a vertex that went in and out again is taken for
-  /// having stayed outside, unless the two bodies passed each other by more than the smallest body's radius meanwhile.
+  /// Counts vertices that came to be inside a closed body, or on the other side of an open surface or their own. The
+  /// straight line from one look to the next cuts the corners of a curved path. So a vertex that went in and out again
+  /// counts as having stayed outside, unless the two bodies passed each other by more than the smallest body's radius.
   std::size_t passed(const std::vector<collide::oracle::Crossing>& crossings) const {
     std::map<std::pair<collide::Index, collide::Index>, int> balance;  // by vertex and the other body
     std::set<collide::Index> vertices;
@@ -107,7 +108,7 @@ class Trial {
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
       if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
         balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
-      else if (oracle_.came_inside(c))
+      else if (oracle_.entered_body(c))
         vertices.insert(c.feature[0]);
     }
     for (const auto& [key, sum] : balance) {
@@ -116,7 +117,7 @@ class Trial {
     return vertices.size();
   }
 
-  /// Of a body's middle, since the last look for passages.
+  /// Returns the way of a body's middle since the last look for passages.
   glm::dvec3 way_of(collide::Index body) const {
     return body < middles_.size() ? middle_of(world_, body) - middles_[body] : glm::dvec3(0.0);
   }
@@ -127,8 +128,8 @@ class Trial {
     result_.solid_depth = std::max(result_.solid_depth, measures.deepest_penetration);
     const collide::oracle::Overlaps overlaps = oracle_.overlaps(world_);
     const auto figures = collide::oracle::figures_of(world_.positions(), overlaps);
-    const auto missed =
-        collide::oracle::missed_by(world_.detection().contacts, world_.positions(), surfaces_of(world_), overlaps);
+    const auto missed = collide::oracle::missed_by(world_.detection().contacts, world_.positions(),
+                                                   compare::surfaces_of(world_), overlaps);
     ++result_.looks;
     result_.penetrations += overlaps.penetrations.size();
     result_.missed += missed.penetrations.size();
@@ -149,7 +150,7 @@ class Trial {
       if (world_.body(b).asleep) continue;
       const collide::Index size = world_.bodies().size(b);
       for (collide::Index v = 0; v < size; ++v) {
-        const glm::dvec3 velocity = world_.dynamics().particle(b, v).velocity;
+        const glm::dvec3 velocity = world_.particle(b, v).velocity;
         squares_ += glm::dot(velocity, velocity);
       }
       awake_particles_ += size;
@@ -157,20 +158,19 @@ class Trial {
   }
 
   void look_into_solids() {
-    if (!passages_.look(world_)) result_.finite = false;
+    if (!passages_.observe(world_)) result_.finite = false;
     result_.through_solids = passages_.count();
   }
 
   static constexpr int last_second = 60;  // frames
-  // m, of a vertex between two looks for passages: what it goes in substeps before they are looked at is still
-  // straight, a tenth of the scenes' spheres' radius; what it must have gone at the end of a frame, their bound of
-  // depth.
+  // The way (m) of a vertex from which on passages are looked for. After a substep: a way that is still straight, a
+  // tenth of the radius of the scenes' spheres. After a frame: the bound of their depth.
   static constexpr double straight_way = 0.05, rest_way = 0.01;
 
   const TrialLimits& limits_;
   ContactTrial& result_;
   softbody::World world_;
-  WorldOracle oracle_{1};
+  compare::WorldOracle oracle_{1};
   std::vector<glm::dvec3> middles_;  // of the bodies, at the last look for passages
   SolidPassages passages_;
   double depths_ = 0, squares_ = 0, awake_particles_ = 0;
@@ -180,9 +180,9 @@ class Trial {
 
 constexpr double ball_radius = 0.5, gap = 0.3;  // m
 
-/// The scene, without gravity and bodies; its first material is what they are made of.
+/// Returns the scene A without gravity, solids and bodies. Its first material is that of the balls.
 softbody::Scene empty_scene(const std::string& key) {
-  softbody::Scene scene = softbody::find_scene("A", scene_folder());
+  softbody::Scene scene = softbody::find_scene("A", files::scene_folder());
   scene.gravity = glm::dvec3(0.0);
   scene.ground.reset();
   scene.spheres.clear();
@@ -191,7 +191,7 @@ softbody::Scene empty_scene(const std::string& key) {
   return scene;
 }
 
-/// A ball flies down towards the origin, a little off the middle; `top`: of what is there.
+/// Adds a ball that flies down to the origin, a little off the middle. `top`: height of what is there.
 void add_ball(softbody::Scene& scene, double top, double speed) {
   softbody::BodySource ball;
   ball.mesh.radius = ball_radius;
@@ -219,7 +219,7 @@ softbody::Scene at_solid(double speed) {
 
 softbody::Scene at_sheet(double speed) {
   softbody::Scene scene = empty_scene("sheet");
-  scene.materials.push_back(softbody::find_scene("cloth", scene_folder()).materials.front());
+  scene.materials.push_back(softbody::find_scene("cloth", files::scene_folder()).materials.front());
   softbody::BodySource sheet;
   sheet.mesh = {.kind = "grid", .columns = 24, .rows = 24, .width = 2, .depth = 2};
   sheet.material = 1;
@@ -241,17 +241,17 @@ std::vector<std::string> ContactTrial::failures() const {
   std::vector<std::string> all;
   if (!not_run.empty()) return {not_run};
   if (!finite) all.push_back("not finite");
-  if (through_solids > 0) all.push_back(format("through a solid: %zu", through_solids));
+  if (through_solids > 0) all.push_back(fmt::format("through a solid: {}", through_solids));
   if (radius > 0 && solid_depth > depth_bound * radius)
-    all.push_back(format("%.2g R deep in a solid", solid_depth / radius));
-  if (passed > 0) all.push_back(format("passed: %zu", passed));
-  if (end_depth > depth_bound * radius) all.push_back(format("%.2g R deep at the end", end_depth / radius));
-  if (self_intersecting > 0) all.push_back(format("pierce themselves: %zu", self_intersecting));
+    all.push_back(fmt::format("{:.2g} R deep in a solid", solid_depth / radius));
+  if (passed > 0) all.push_back(fmt::format("passed: {}", passed));
+  if (end_depth > depth_bound * radius) all.push_back(fmt::format("{:.2g} R deep at the end", end_depth / radius));
+  if (self_intersecting > 0) all.push_back(fmt::format("pierce themselves: {}", self_intersecting));
   if (settles && !asleep) all.push_back("awake");
   return all;
 }
 
-ContactTrial try_contact(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits) {
+ContactTrial run_contact_trial(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits) {
   ContactTrial result{.choice = choice};
   scene.contact_surface = choice.surface;
   scene.method = choice.method;
@@ -264,4 +264,4 @@ ContactTrial try_contact(softbody::Scene scene, const ContactChoice& choice, con
   return result;
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,19 +1,18 @@
 #pragma once
-// What `report contact` measures: one scene, run with one way of keeping its bodies apart and judged by the surface
-// oracle.
+// One run of `report contact`: a scene with one kind of contact, judged by the surface oracle.
 
 #include <string>
 #include <vector>
 
 #include "softbody/world.h"
 
-namespace app {
+namespace app::report {
 
-/// What keeps the bodies apart.
+/// A kind of contact.
 struct ContactChoice {
   softbody::ContactSurface surface = softbody::ContactSurface::vertices;
   std::string_view method = collide::default_method;  // has no effect on surface contact, nor has the tolerance
-  double tolerance = 1;                               // in the scene's own
+  double tolerance = 1;                               // times the scene's own
 };
 
 struct TrialLimits {
@@ -24,7 +23,7 @@ struct TrialLimits {
 
 struct ContactTrial {
   ContactChoice choice;
-  std::string not_run{};  // why it was not run to the end, else empty: then all of these
+  std::string not_run{};  // why it was not run to the end; if empty, all of these have a meaning
   double tolerance = 0;   // m
   double radius = 0;      // R, m: of the smallest closed body; 0: there is none, and depths have no meaning
   collide::Index bodies = 0, vertices = 0;
@@ -33,7 +32,7 @@ struct ContactTrial {
   double cpu_ms = 0, detect_ms = 0, solve_ms = 0;  // means a frame: processor time of a step; clock time of its parts
   // Over all looks:
   std::size_t penetrations = 0;        // vertices inside other bodies
-  std::size_t missed = 0;              // of those, joined to that body by none of the detector's contacts
+  std::size_t missed = 0;              // of those, joined to that body by no contact of the detector
   double deepest = 0, mean_depth = 0;  // m
   double solid_depth = 0;              // m, the deepest particle in a solid
   // Over all frames:
@@ -42,28 +41,28 @@ struct ContactTrial {
   std::size_t through_solids = 0;                        // times that the middle of a closed body went through a solid
   // At the end:
   bool finite = true;
-  bool settles = false;                                      // the scene has gravity: its bodies ought to come to rest
+  bool settles = false;                                      // the scene has gravity, so its bodies should come to rest
   bool asleep = false;                                       // all of them
   double end_depth = 0;                                      // m, deepest penetration
   std::size_t overlapping_pairs = 0, self_intersecting = 0;  // pairs of bodies; bodies
   double jitter = 0;  // m/s, RMS over the last second of the particles whose bodies do not sleep; 0: all sleep
 
   static constexpr double depth_bound = 0.02;  // R
-  /// What is wrong with it, in words; empty: nothing.
+  /// Returns what is wrong, in words; nothing if it passes.
   std::vector<std::string> failures() const;
 };
 
-/// On one thread; equal on every machine but for its times and where `seconds` cut it short. What the scene or a choice
-/// does not allow is said in not_run.
-ContactTrial try_contact(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits);
+/// Runs on one thread. The result is the same on every machine, except for times and where limits.seconds cuts it
+/// short. If the scene or the choice does not allow the run, not_run says so.
+ContactTrial run_contact_trial(softbody::Scene scene, const ContactChoice& choice, const TrialLimits& limits);
 
-/// A thrown sphere that hits something, without gravity.
+/// A thrown sphere hits something, without gravity.
 struct Impact {
   std::string_view key, name;
   softbody::Scene (*make)(double speed);  // m/s
 };
-/// At a resting sphere, at the solid sphere, at a sheet that hangs in the air. Materials are those of the scenes A and
-/// cloth.
+/// Returns all impacts: at a resting sphere, at the solid sphere, at a hanging sheet. Materials are those of the scenes
+/// A and cloth.
 std::span<const Impact> impacts();
 
-}  // namespace app
+}  // namespace app::report

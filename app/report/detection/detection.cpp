@@ -1,27 +1,23 @@
-#include "app/report/detection/detection.h"
-
 #include <algorithm>
 
 #include "app/files/output_file.h"
-#include "app/report/detection/csv.h"
-#include "app/report/detection/markdown.h"
-#include "app/report/detection/plots.h"
 #include "app/report/detection/recording.h"
+#include "app/report/detection/results.h"
 #include "app/report/files.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 constexpr collide::Index growth_bodies[] = {3, 16, 47, 200, 800};  // and all
 
-SweepLimits limits_of(const ReportOptions& options) {
+compare::SweepLimits limits_of(const ReportOptions& options) {
   if (options.quick) return {.repetitions = 3, .repeat_ms = 50};
   return {};
 }
 
-StateResult sweep_state(const RecordedState& state, const std::vector<Configuration>& configurations,
+StateResult sweep_state(const RecordedState& state, const std::vector<compare::Configuration>& configurations,
                         const DetectionResults& results, collide::Workers& workers, const std::string& what) {
-  Sweep sweep(state.view(), configurations, results.limits, workers);
+  compare::Sweep sweep(state.view(), configurations, results.limits, workers);
   while (sweep.step()) say(what, sweep.progress());
   return {state.frame, state.bodies.count(), state.bodies.vertex_count(), sweep.report()};
 }
@@ -35,13 +31,15 @@ SceneResult sweep_scene(const Recording& recording, const DetectionResults& resu
   return scene;
 }
 
-/// The paper's level and the automatic cell, with its 1001 buckets and with the most of the sweep.
-std::vector<Configuration> growth_configurations(std::vector<Configuration> all) {
-  std::erase_if(all, [](const Configuration& c) {
+/// Returns those with the paper's level and the automatic cell, with its 1001 buckets and with the sweep's largest
+/// number.
+std::vector<compare::Configuration> growth_configurations(std::vector<compare::Configuration> all) {
+  std::erase_if(all, [](const compare::Configuration& c) {
     const collide::Method& method = method_of(c);
     const bool level = !method.uses_levels || c.settings.levels == paper_level;
-    const bool hash = !method.uses_hash ||
-                      (c.cell == 1 && (c.settings.buckets == 1001 || c.settings.buckets == sweep_buckets.back()));
+    const bool hash =
+        !method.uses_hash ||
+        (c.cell == 1 && (c.settings.buckets == 1001 || c.settings.buckets == compare::sweep_buckets.back()));
     return !(level && hash);
   });
   return all;
@@ -49,7 +47,7 @@ std::vector<Configuration> growth_configurations(std::vector<Configuration> all)
 
 SceneResult sweep_growth(const Recording& recording, const DetectionResults& results, collide::Workers& workers) {
   SceneResult growth{recording.scene, recording.name, recording.buckets, {}};
-  const RecordedState& all = recording.states.front();  // not piled up yet: the middle is as dense as the rest
+  const RecordedState& all = recording.states.front();  // no pile yet: the middle is as dense as the rest
   const auto configurations = growth_configurations(recording.configurations);
   const auto add = [&](const RecordedState& state) {
     const std::string what = "growth, bodies: " + std::to_string(state.bodies.count());
@@ -70,9 +68,9 @@ DetectionResults measure(const ReportOptions& options, const std::vector<softbod
   results.command = command_of(options);
   collide::Workers workers(results.threads);
   const auto bodies = [](const softbody::Scene& scene) { return scene.bodies.size(); };
-  const std::size_t most_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
+  const std::size_t max_bodies = bodies(*std::ranges::max_element(scenes, {}, bodies));
   for (const softbody::Scene& scene : scenes) {
-    const bool largest = bodies(scene) == most_bodies;
+    const bool largest = bodies(scene) == max_bodies;
     const bool swept = !options.quick || options.scene || std::ranges::count(paper_scenes, scene.key) > 0;
     if (!swept && !largest) continue;
     say(scene.key + ": simulating", 0);
@@ -87,13 +85,9 @@ DetectionResults measure(const ReportOptions& options, const std::vector<softbod
 
 void report_detection(const ReportOptions& options) {
   const std::vector<softbody::Scene> scenes = chosen_scenes(options);
-  prepare_folder(options.out);
+  files::prepare_folder(options.out);
   const DetectionResults results = measure(options, scenes);
-  write_report(options.out, {.csv_name = "detection.csv",
-                             .csv = detection_csv(results),
-                             .markdown_name = "report.md",
-                             .plots = detection_plots(results),
-                             .markdown = [&](const auto& drawn) { return detection_markdown(results, drawn); }});
+  write_report(options.out, "detection.csv", detection_table(results), "report.md", detection_page(results));
 }
 
-}  // namespace app
+}  // namespace app::report

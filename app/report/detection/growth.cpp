@@ -1,68 +1,61 @@
-#include "app/report/detection/growth.h"
+// What §3 of the paper claims: hashes by level, and growth with the number of bodies.
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 #include <optional>
 
-#include "app/base/text.h"
-#include "app/report/table.h"
+#include <fmt/core.h>
 
-namespace app {
+#include "app/base/text.h"
+#include "app/report/detection/results.h"
+
+namespace app::report {
 namespace {
 
-/// "1,264 (0.52)": hashes, and their share of the vertices.
-std::string of_vertices(double hashes, double vertices) {
-  return joined(whole(hashes), format(" (%.2f)", hashes / vertices));
-}
-
-/// Hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
-Cells hash_row(const SceneResult& scene) {
-  double vertices = 0;  // on average: bodies may arrive between the states
+/// Returns the hashes of a scene with the automatic cell: of the vertex hash, then of the boxes' corners by level.
+TableRow hash_row(const SceneResult& scene) {
+  double vertices = 0;  // on average: bodies may appear between the states
   for (const StateResult& s : scene.states) vertices += static_cast<double>(s.vertices);
   vertices /= static_cast<double>(scene.states.size());
-  std::map<std::string_view, std::map<int, std::string>> found;  // by method and level
-  for (const Mean& m : means(scene)) {
-    const Configuration& c = m.configuration;
-    if (m.not_run.empty() && c.cell == 1) found[method_of(c).key][c.settings.levels] = of_vertices(m.hashes, vertices);
-  }
-  const auto cell = [](const std::map<int, std::string>& levels, auto which) {
-    return which == levels.end() ? "not run" : which->second;
+  const std::vector<Mean> all = means(scene);
+  const auto hashes = [&](std::string_view method, std::optional<int> level) -> std::string {
+    const auto found = std::ranges::find_if(all, [&](const Mean& m) {
+      const compare::Configuration& c = m.configuration;
+      return m.not_run.empty() && c.cell == 1 && method_of(c).key == method && (!level || c.settings.levels == *level);
+    });
+    return found == all.end() ? "not run" : fmt::format("{} ({:.2f})", whole(found->hashes), found->hashes / vertices);
   };
-  const auto& vertex_hash = found["grid-hash"];
-  const auto& corner_hash = found["multi-level-sb"];
-  Cells cells{scene.scene, whole(vertices), cell(vertex_hash, vertex_hash.begin())};
-  for (const int level : sweep_levels) cells.push_back(cell(corner_hash, corner_hash.find(level)));
-  return cells;
+  TableRow row{{"scene", scene.scene}, {"N", whole(vertices)}, {"Grid Hash", hashes("grid-hash", std::nullopt)}};
+  for (const int level : compare::sweep_levels)
+    row.push_back({fmt::format("8 corners per box, level {}", level), hashes(collide::paper_method, level)});
+  return row;
 }
 
-std::string hash_counts(const DetectionResults& r) {
-  Cells names{"scene", "N", "Grid Hash"};
-  for (const int level : sweep_levels) names.push_back(format("8 corners a box, level %d", level));
-  std::string text = joined(
-      "### Hashes: N vertices against 8 corners a box\n\nHash evaluations a frame, automatic cell size, means over the "
-      "states, in brackets as a share of the N vertices. A vertex hash fills its table with N of them; the rest are "
-      "the look-ups of all cells within the tolerance, without which it would miss contacts. The eight corners of the "
-      "boxes save hashes only where a body has more than eight vertices a box.\n\n",
-      heading(names, 1));
-  for (const SceneResult& scene : r.scenes) text += line(hash_row(scene));
-  return text + "\n";
+void add_hash_counts(Page& page, const DetectionResults& r) {
+  Table table;
+  for (const SceneResult& scene : r.scenes) table.add(hash_row(scene));
+  page.text("### Hashes: N vertices against 8 corners per box");
+  page.text(
+      "Hash evaluations per frame, automatic cell size, means over the states; in brackets as a share of the N "
+      "vertices. A vertex hash fills its table with N of them. The others are the look-ups of all cells within the "
+      "tolerance, without which it would miss contacts. The eight corners of the boxes save hashes only where a body "
+      "has more than eight vertices per box.");
+  page.table(table);
 }
 
-/// p of cost ~ bodies^p between the last two states that a configuration ran on; nothing where a cost is 0, or if there
-/// are no two.
+/// The exponents p of cost ~ bodies^p between the last two states that a configuration ran on. Nothing where a cost is
+/// 0, or if there are no two such states.
 struct Exponents {
   std::optional<double> hashes, pair_tests, ms;
 };
 
 Exponents exponents(const SceneResult& growth, std::size_t row) {
   std::vector<const StateResult*> run;
-  for (const StateResult& s : growth.states) {
+  for (const StateResult& s : growth.states)
     if (s.sweep.rows[row].not_run.empty()) run.push_back(&s);
-  }
   if (run.size() < 2) return {};
   const StateResult &before = *run[run.size() - 2], &last = *run.back();
-  const SweepRow &a = before.sweep.rows[row], &b = last.sweep.rows[row];
+  const compare::SweepRow &a = before.sweep.rows[row], &b = last.sweep.rows[row];
   const double bodies = static_cast<double>(last.bodies) / before.bodies;
   const auto p = [&](auto from, auto to) -> std::optional<double> {
     if (!(from > 0 && to > 0)) return std::nullopt;
@@ -72,61 +65,81 @@ Exponents exponents(const SceneResult& growth, std::size_t row) {
           p(a.times.median(), b.times.median())};
 }
 
-/// "1.00 to 1.97": of one exponent over all configurations.
+/// Returns the range of one exponent over all configurations: "1.00 to 1.97".
 std::string range(const SceneResult& growth, std::optional<double> Exponents::*which) {
-  std::optional<double> least, most;
-  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
-    const std::optional<double> p = exponents(growth, i).*which;
-    if (!p) continue;
-    least = std::min(least.value_or(*p), *p);
-    most = std::max(most.value_or(*p), *p);
-  }
-  return least ? format("%.2f to %.2f", *least, *most) : "not known";
+  std::vector<double> all;
+  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i)
+    if (const auto p = exponents(growth, i).*which) all.push_back(*p);
+  if (all.empty()) return "not known";
+  const auto [min, max] = std::ranges::minmax(all);
+  return fmt::format("{:.2f} to {:.2f}", min, max);
 }
 
-std::string cost(const SweepRow& row, collide::Index vertices) {
+std::string cost(const compare::SweepRow& row, collide::Index vertices) {
   if (!row.not_run.empty()) return "over budget";
   const double ms = row.times.median();
-  return joined(brief(ms), " (", brief(1e6 * ms / std::max(1.0, static_cast<double>(vertices))), ")");
+  return fmt::format("{} ({})", brief(ms), brief(1e6 * ms / std::max(1.0, static_cast<double>(vertices))));
 }
 
-std::string growth_table(const SceneResult& growth) {
-  Cells names{"method", "buckets"};
-  for (const StateResult& s : growth.states) names.push_back(joined(grouped(s.bodies), " bodies"));
-  names.insert(names.end(), {"p of hashes", "p of pair tests", "p of ms"});
-  std::string text = heading(names, 1);
-  const std::vector<SweepRow>& rows = growth.states.front().sweep.rows;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const Configuration& c = rows[i].configuration;
-    Cells cells{std::string(method_of(c).name), buckets_of(c)};
-    for (const StateResult& s : growth.states) cells.push_back(cost(s.sweep.rows[i], s.vertices));
+Table growth_table(const SceneResult& growth) {
+  const auto text = [](std::optional<double> p) { return p ? fmt::format("{:.2f}", *p) : ""; };
+  Table table;
+  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
+    const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
+    TableRow row{{"method", method_of(c).name}, {"buckets", buckets_of(c)}};
+    for (const StateResult& s : growth.states)
+      row.push_back({fmt::format("{} bodies", grouped(s.bodies)), cost(s.sweep.rows[i], s.vertices)});
     const Exponents p = exponents(growth, i);
-    for (const auto& value : {p.hashes, p.pair_tests, p.ms}) cells.push_back(value ? format("%.2f", *value) : "");
-    text += line(cells);
+    row.push_back({"p of hashes", text(p.hashes)});
+    row.push_back({"p of pair tests", text(p.pair_tests)});
+    row.push_back({"p of ms", text(p.ms)});
+    table.add(row);
   }
-  return text;
+  return table;
+}
+
+Plot cost_against_bodies(const SceneResult& growth) {
+  Plot plot{.name = "cost-bodies",
+            .caption = "Cost against bodies, level 3, automatic cell size; a line ends where the budget does.",
+            .title = "Cost of a frame against the number of bodies",
+            .x = "bodies",
+            .y = "detection from scratch, ms per frame",
+            .settings = "set ytics format '%g'\n"};
+  for (std::size_t i = 0; i < growth.states.front().sweep.rows.size(); ++i) {
+    const compare::Configuration& c = growth.states.front().sweep.rows[i].configuration;
+    const collide::Method& method = method_of(c);
+    const bool dashed = method.uses_hash && c.settings.buckets == compare::sweep_buckets.back();
+    Series series{std::string(method.name) + (method.uses_hash ? fmt::format(", {} buckets", buckets_of(c)) : ""),
+                  colour(method),
+                  fmt::format("linespoints pointtype 7 pointsize 0.7 linewidth 2 dashtype {}", dashed ? 2 : 1)};
+    for (const StateResult& state : growth.states)
+      if (const compare::SweepRow& row = state.sweep.rows[i]; row.not_run.empty())
+        series.points.push_back({static_cast<double>(state.bodies), row.times.median()});
+    plot.add(std::move(series));
+  }
+  return plot;
 }
 
 }  // namespace
 
-std::string growth_markdown(const DetectionResults& results, const std::vector<Plot>& plots) {
+void add_growth(Page& page, const DetectionResults& results) {
   const SceneResult& growth = results.growth;
-  std::string text = joined(
-      "## What §3 of the paper claims, by counts\n\nIt claims O(1) at best and O(N²) at worst, and O(log_n N) hashing "
-      "with boxes against O(N) without.\n\n",
-      hash_counts(results));
-  if (growth.states.empty()) return text;
-  text += joined("### Growth with the number of bodies\n\nThe bodies nearest to the middle of `", growth.scene,
-                 "`, frame ", std::to_string(growth.states.back().frame),
-                 ", the first one recorded, where the middle is as dense as the rest; level 3, automatic cell size: "
-                 "median ms a frame, in brackets ns a vertex. p: a cost grows as "
-                 "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 quadratic.\n\n");
-  text += joined(
-      "Every body brings boxes of its own, so that hashing is linear in the number of bodies, whatever the "
-      "level: p of hashes is ",
-      range(growth, &Exponents::hashes), ". Pair tests, p ", range(growth, &Exponents::pair_tests),
-      ", are quadratic by brute force and where the buckets do not grow with the bodies.\n\n");
-  return joined(text, growth_table(growth), picture(plots, growth_plot_name));
+  page.text("## What §3 of the paper claims, by counts");
+  page.text("It claims O(1) at best and O(N²) at worst, and O(log_n N) hashing with boxes against O(N) without.");
+  add_hash_counts(page, results);
+  if (growth.states.empty()) return;
+  page.text("### Growth with the number of bodies");
+  page.text(
+      "The bodies nearest to the middle of `{}`, in frame {}, the first one recorded, where the middle is as dense as "
+      "the rest; level 3, automatic cell size: median ms per frame, in brackets ns per vertex. p: a cost grows as "
+      "bodies^p between the last two columns that were run; 0 would be O(1), 1 is linear, 2 is quadratic.",
+      growth.scene, growth.states.back().frame);
+  page.text(
+      "Every body brings boxes of its own. So hashing is linear in the number of bodies at every level: p of hashes is "
+      "{}. Pair tests, p {}, are quadratic by brute force and where the buckets do not grow with the bodies.",
+      range(growth, &Exponents::hashes), range(growth, &Exponents::pair_tests));
+  page.table(growth_table(growth));
+  page.plot(cost_against_bodies(growth));
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -6,10 +6,10 @@
 
 #include "app/base/usage_error.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
-constexpr std::uint64_t large = 50'000;  // vertices
+constexpr std::uint64_t large_scene = 50'000;  // vertices
 
 RecordedState copy(const softbody::World& world) {
   RecordedState state{world.frame(), {}, world.bodies()};
@@ -28,8 +28,8 @@ glm::dvec3 middle(const RecordedState& state, collide::Index begin, collide::Ind
 RecordingPlan plan_recording(std::uint64_t vertices, bool quick) {
   const std::uint64_t steps = quick ? 1'000'000 : 60'000'000;  // of one vertex each
   const auto frames = static_cast<int>(std::clamp<std::uint64_t>(steps / std::max<std::uint64_t>(vertices, 1), 2, 800));
-  if (quick) return {{frames}, vertices < large};
-  if (vertices >= large) return {{std::max(1, frames / 8), frames}, false};
+  if (quick) return {{frames}, vertices < large_scene};
+  if (vertices >= large_scene) return {{std::max(1, frames / 8), frames}, false};
   return {{frames / 8, frames / 2, frames}, true};
 }
 
@@ -43,13 +43,13 @@ Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int th
   softbody::World world(scene, {.threads = threads});
   Recording recording{scene.key, scene.name, world.collision().buckets, {}, {}};
   std::optional<RecordedState> busiest;
-  std::size_t most = 0;
+  std::size_t max_contacts = 0;
   for (const int frame : plan.frames) {
     while (world.frame() < frame) {
       world.step();
       const std::size_t contacts = world.detection().contacts.size();
-      if (!plan.busiest || contacts <= most) continue;
-      most = contacts;
+      if (!plan.busiest || contacts <= max_contacts) continue;
+      max_contacts = contacts;
       busiest = copy(world);
     }
     recording.states.push_back(copy(world));
@@ -60,7 +60,7 @@ Recording record(const softbody::Scene& scene, const RecordingPlan& plan, int th
   if (recording.states.back().bodies.vertex_count() == 0)
     throw UsageError("scene '" + scene.key + "': no body has arrived by frame " + std::to_string(world.frame()) +
                      ", so there is nothing to measure");
-  recording.configurations = sweep_configurations(world);
+  recording.configurations = compare::sweep_configurations(world);
   return recording;
 }
 
@@ -86,4 +86,4 @@ RecordedState middle_bodies(const RecordedState& state, collide::Index count) {
   return part;
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,21 +1,24 @@
 #include "app/report/detection/results.h"
 
 #include <algorithm>
+#include <cassert>
+
+#include <fmt/core.h>
 
 #include "app/base/text.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? 0.0 : static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void add(Mean& mean, const SweepRow& row, std::size_t true_contacts, double weight) {
+void add(Mean& mean, const compare::SweepRow& row, std::size_t true_contacts, double weight) {
   if (!row.not_run.empty()) mean.not_run = row.not_run;
   if (!mean.not_run.empty()) return;
   mean.ms += weight * row.times.median();
-  mean.least_ms += weight * row.times.least();
+  mean.min_ms += weight * row.times.min();
   mean.pair_tests += weight * static_cast<double>(row.counters.pair_tests);
   mean.hashes += weight * static_cast<double>(row.counters.hashes);
   mean.boxes += weight * static_cast<double>(row.counters.boxes);
@@ -32,8 +35,10 @@ double Mean::error() const { return share(missed, true_contacts); }
 double Mean::precision() const { return 1 - share(contacts - (true_contacts - missed), contacts); }
 
 std::vector<Mean> means(const SceneResult& scene) {
+  assert(!scene.states.empty());
   std::vector<Mean> all;
-  for (const SweepRow& row : scene.states.front().sweep.rows) all.emplace_back().configuration = row.configuration;
+  for (const compare::SweepRow& row : scene.states.front().sweep.rows)
+    all.emplace_back().configuration = row.configuration;
   const double weight = 1.0 / static_cast<double>(scene.states.size());
   for (const StateResult& state : scene.states) {
     for (std::size_t i = 0; i < all.size(); ++i) add(all[i], state.sweep.rows[i], state.sweep.true_contacts, weight);
@@ -42,7 +47,7 @@ std::vector<Mean> means(const SceneResult& scene) {
 }
 
 std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
-  std::vector<Tradeoff> points;
+  std::vector<compare::Tradeoff> points;
   std::vector<std::size_t> run;
   for (std::size_t i = 0; i < means.size(); ++i) {
     if (!means[i].not_run.empty()) continue;
@@ -54,10 +59,14 @@ std::vector<std::size_t> pareto_front(const std::vector<Mean>& means) {
   return front;
 }
 
-std::string levels_of(const Configuration& c) {
+std::string levels_of(const compare::Configuration& c) {
   return method_of(c).uses_levels ? std::to_string(c.settings.levels) : "";
 }
-std::string buckets_of(const Configuration& c) { return method_of(c).uses_hash ? grouped(c.settings.buckets) : ""; }
-std::string cell_of(const Configuration& c) { return method_of(c).uses_hash ? format("x %g", c.cell) : ""; }
+std::string buckets_of(const compare::Configuration& c) {
+  return method_of(c).uses_hash ? grouped(c.settings.buckets) : "";
+}
+std::string cell_of(const compare::Configuration& c) {
+  return method_of(c).uses_hash ? fmt::format("x {:g}", c.cell) : "";
+}
 
-}  // namespace app
+}  // namespace app::report

@@ -1,23 +1,24 @@
 #pragma once
-// What `report detection` measures, before it is written as CSV, Markdown and plots.
+// What `report detection` measures, and its table, page and plots.
 
 #include <string>
 #include <vector>
 
 #include "app/compare/sweep.h"
+#include "app/report/page.h"
 
-namespace app {
+namespace app::report {
 
 /// A sweep of one recorded state.
 struct StateResult {
   int frame = 0;
   collide::Index bodies = 0, vertices = 0;
-  SweepReport sweep;
+  compare::SweepReport sweep;
 };
 
 /// The same configurations on several states.
 struct SceneResult {
-  std::string scene, name;    // its key, and what it calls itself
+  std::string scene, name;    // its key and its name
   std::uint32_t buckets = 0;  // the scene's own
   std::vector<StateResult> states;
 };
@@ -26,39 +27,46 @@ struct DetectionResults {
   std::string command;  // to make the report again
   bool quick = false;
   int threads = 1;  // of the detectors
-  SweepLimits limits;
+  compare::SweepLimits limits;
   std::vector<SceneResult> scenes;
-  SceneResult growth;  // piles of more and more bodies, cut out of one state of its scene; no states if it is too small
+  SceneResult growth;  // piles of more and more bodies, cut out of one state; no states if its scene is too small
 };
 
 /// One configuration over all states of a scene.
 struct Mean {
-  Configuration configuration;
-  std::string not_run;                           // why it was not run on one of them, else empty: then all of these
-  double ms = 0, least_ms = 0;                   // means of the states' medians and minima
-  double pair_tests = 0, hashes = 0, boxes = 0;  // means
+  compare::Configuration configuration;
+  std::string not_run;        // why it was not run on one of them; if empty, all of these have a meaning
+  double ms = 0, min_ms = 0;  // means of the states' medians and minima
+  double pair_tests = 0, hashes = 0, boxes = 0;             // means
   std::size_t contacts = 0, missed = 0, true_contacts = 0;  // sums
-  std::size_t memory = 0;                                   // the most
+  std::size_t memory = 0;                                   // maximum
 
-  double error() const;      // 1 - recall over all states
-  double precision() const;  // likewise
+  double error() const;  // 1 - recall over all states
+  double precision() const;
 };
 
-/// As the rows of a state's sweep.
+/// Returns the means in the order of the rows of a state's sweep. The scene has a state.
 std::vector<Mean> means(const SceneResult& scene);
 
-/// Of those that were run: the points of a plot of error against run time, and the indices of its Pareto front.
+/// Returns the indices of those on the Pareto front of error against run time.
 std::vector<std::size_t> pareto_front(const std::vector<Mean>& means);
 
 /// The paper's scenarios and its level of subdivision (Table 1).
 inline constexpr std::array<std::string_view, 4> paper_scenes{"A", "B", "C", "D"};
 inline constexpr int paper_level = 3;
 
-inline const collide::Method& method_of(const Configuration& c) { return collide::method_table()[c.method]; }
+inline const collide::Method& method_of(const compare::Configuration& c) { return collide::method_table()[c.method]; }
 
-// A setting, or nothing where the method has no use for it.
-std::string levels_of(const Configuration& c);
-std::string buckets_of(const Configuration& c);
-std::string cell_of(const Configuration& c);
+// A setting as text; empty if the method does not use it.
+std::string levels_of(const compare::Configuration& c);
+std::string buckets_of(const compare::Configuration& c);
+std::string cell_of(const compare::Configuration& c);
 
-}  // namespace app
+/// Returns detection.csv: every row of every state. What a method does not use, and what was not measured, is empty.
+Table detection_table(const DetectionResults& results);
+
+Page detection_page(const DetectionResults& results);
+/// Adds the part on what §3 of the paper claims: hashes by level, and growth with the number of bodies.
+void add_growth(Page& page, const DetectionResults& results);
+
+}  // namespace app::report

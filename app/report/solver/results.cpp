@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace app {
+namespace app::report {
 
 bool WorkCurve::reaches(double error) const {
   return std::ranges::any_of(points, [&](const WorkPoint& p) { return !p.blew_up && p.error <= error; });
@@ -14,15 +14,15 @@ std::optional<double> SolverCase::order(const WorkCurve& curve, double bound) co
   std::vector<double> row, longest;
   for (std::size_t i = 1; i < curve.points.size(); ++i) {
     const WorkPoint &a = curve.points[i - 1], &b = curve.points[i];
-    const bool falls = !a.blew_up && !b.blew_up && a.error <= coarsest && b.error < clearly * a.error;
+    const bool falls = !a.blew_up && !b.blew_up && a.error <= max_order_error && b.error < clear_fall * a.error;
     if (!falls) row.clear();
     if (falls) row.push_back(std::log2(a.error / b.error) / std::log2(double(b.substeps) / a.substeps));
     if (row.size() >= longest.size()) longest = row;
   }
-  if (longest.size() < (curve.reaches(known(bound)) ? 1 : 2)) return std::nullopt;
+  if (longest.size() < (curve.reaches(uncertainty(bound)) ? 1 : 2)) return std::nullopt;
   std::ranges::sort(longest);
   const std::size_t n = longest.size();
   return (longest[(n - 1) / 2] + longest[n / 2]) / 2;
 }
 
-}  // namespace app
+}  // namespace app::report

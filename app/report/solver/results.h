@@ -1,30 +1,31 @@
 #pragma once
-// What `report solver` has measured, and what it is written as.
+// What `report solver` measures, and its table, page and plots.
 
 #include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "app/report/plot.h"
+#include "app/report/page.h"
 #include "softbody/integrators.h"
 
-namespace app {
+namespace app::report {
 
-/// One integrator with so many steps a frame.
+/// One integrator with one number of steps per frame.
 struct WorkPoint {
-  int substeps = 0;                   // 0: it chose them itself
-  double cpu_alone = 0;               // ms of processor time a simulated second a body: one body in a batch of lanes
-  std::optional<double> cpu_batch{};  // the same for a full batch of bodies
-  bool blew_up = false;               // then the rest has no meaning
-  double error = 0;                   // R, RMS of the positions at the end
-  double energy = 0;                  // of the reference's, in the energy scale
+  int substeps = 0;      // 0: it chose them itself
+  double cpu_alone = 0;  // ms of processor time per simulated second and body: one body in a batch of lanes
+  std::optional<double> cpu_batch{};          // the same for a full batch of bodies
+  bool blew_up = false;                       // then the rest has no meaning
+  double error = 0;                           // R, RMS of the positions at the end
+  double energy = 0;                          // of the reference's, in the energy scale
   std::optional<double> linear{}, angular{};  // momentum, of the reference's; only where nothing acts from outside
   std::optional<double> volume{};             // of the reference's; only closed bodies
   double speed = 0;                           // m/s, RMS of motion within the bodies at the end: jitter where they rest
+  double cost() const { return cpu_batch.value_or(cpu_alone); }
 };
 
-/// "8", or "own".
+/// Returns "8", or "own".
 inline std::string steps_text(const WorkPoint& p) { return p.substeps > 0 ? std::to_string(p.substeps) : "own"; }
 
 struct WorkCurve {
@@ -42,15 +43,15 @@ struct SolverCase {
   bool converged = false;  // change is within the bound
   double growth = 0;       // of a disturbance
   std::vector<WorkCurve> curves{};
-  /// R: how well the reference is known, if its change is to be within `bound`. Smaller errors say nothing: with the
-  /// first of them a curve ends.
-  double known(double bound) const { return std::max(bound, change); }
-  static constexpr double coarsest = 0.3;  // R: larger errors tell no order
-  static constexpr double clearly = 0.8;   // of the error before: what has fallen less may be rounding
-  /// Observed, of a curve's error; none: its errors do not show one. The median over the longest row of errors that
-  /// clearly fall, of rows as long as each other that of the most steps: what lies beside it is rounding, or too coarse
-  /// to tell. A row takes two falls at least, or one that leads as far as the reference is known. What starts in
-  /// balance has nothing but rounding to show.
+  /// Returns the uncertainty (R) of the reference if its change is to be within `bound`. Smaller errors say nothing. A
+  /// curve ends with the first of them.
+  double uncertainty(double bound) const { return std::max(bound, change); }
+  static constexpr double max_order_error = 0.3;  // R: larger errors show no order
+  static constexpr double clear_fall = 0.8;       // of the error before; a smaller fall may be rounding
+  /// Returns the observed order of a curve's error; nothing if its errors do not show one. It is the median over the
+  /// longest row of errors that clearly fall, of rows of the same length over the one with the most steps. Other errors
+  /// are rounding, or too coarse. A row has at least two falls, or one that reaches the uncertainty. The errors of a
+  /// body that starts in balance are only rounding.
   std::optional<double> order(const WorkCurve& curve, double bound) const;
 };
 
@@ -60,17 +61,13 @@ struct SolverResults {
   double seconds = 0, frame_time = 0;  // simulated
   double bound = 0;                    // R, of the reference's change
   int repetitions = 0;
-  double longest_run = 0;  // s of processor time: a curve ends with the first run that takes longer ...
-  int most_substeps = 0;   // ... or with so many a frame
+  double max_run_seconds = 0;  // of processor time: a curve ends with the first run that takes longer ...
+  int max_substeps = 0;        // ... or with this many steps per frame
   std::vector<SolverCase> cases;
 };
 
-/// A row a point, with a header line. What has no meaning is empty.
-std::string solver_csv(const SolverResults& results);
-/// Error against run time, one a case.
-std::vector<Plot> solver_plots(const SolverResults& results);
-std::string solver_plot_name(const SolverCase& c);
-/// plots: those that lie beside it as NAME.svg and NAME.png.
-std::string solver_markdown(const SolverResults& results, const std::vector<Plot>& plots);
+/// Returns solver.csv: a row per point. What has no meaning is empty.
+Table solver_table(const SolverResults& results);
+Page solver_page(const SolverResults& results);
 
-}  // namespace app
+}  // namespace app::report

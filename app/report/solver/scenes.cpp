@@ -1,39 +1,39 @@
 #include "app/report/solver/scenes.h"
 
 #include <glm/geometric.hpp>
+#include "app/report/steps.h"
+#include "softbody/prototype.h"
 
-#include "app/base/text.h"
-
-namespace app {
+namespace app::report {
 namespace {
 
 using glm::dvec3;
 
-/// A ball whose gas has a tenth more pressure than it was in balance with, so that it breathes, flies and turns.
-SolverScene free_flight(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = format("Free flight, k = %g N/m", stiffness)};
+/// A ball that flies and turns. Its gas has a tenth more pressure than in balance, so that it pulsates.
+SolverScene free_flight(double stiffness, const std::string& in_words) {
+  SolverScene s{.key = "free-" + in_words, .name = "Free flight, " + in_words + " N/m"};
   softbody::Material calm = ball_material(stiffness, 0.02);
   s.scene = lone_scene(calm);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position);
   s.scene.materials[0].gas_pressure *= 1.1;
   return s;
 }
 
-/// From rest, a millimetre over the ground: a ball that hit it would be as hard to follow as a thrown die.
+/// A ball falls from rest, a millimetre over the ground. The motion of a ball that hits it fast would be chaotic.
 SolverScene on_the_ground() {
-  SolverScene s{.key = "contact-1e3", .name = "Ball let down on the ground, k = 1000 N/m"};
+  SolverScene s{.key = "contact-1e3", .name = "On the ground, 1e3 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));
-  const softbody::Particle lowest =
-      particles_of(softbody::World(s.scene, {.substeps = 1}), 0)[0];  // an icosphere's extent is that of any corner
+  const softbody::Particle lowest = particles_of(softbody::World(s.scene, {.integrator = one_step()}),
+                                                 0)[0];  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
   s.scene.ground = softbody::Ground{};
   s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0].thickness + 1e-3;
   return s;
 }
 
-SolverScene equilibrium(double stiffness, const std::string& key) {
-  SolverScene s{.key = key, .name = format("Equilibrium, k = %g N/m", stiffness), .at_rest = true};
+SolverScene in_balance(double stiffness, const std::string& in_words) {
+  SolverScene s{.key = "rest-" + in_words, .name = "In balance, " + in_words + " N/m", .at_rest = true};
   s.scene = lone_scene(ball_material(stiffness, 0.02));
   return s;
 }
@@ -81,13 +81,13 @@ softbody::Scene lone_scene(const softbody::Material& material) {
 Particles particles_of(const softbody::World& world, softbody::BodyId body) {
   Particles list;
   for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    list.push_back(world.dynamics().particle(body, i));
+    list.push_back(world.particle(body, i));
   return list;
 }
 
 std::vector<SolverScene> solver_scenes() {
-  return {free_flight(1e3, "free-1e3"), free_flight(1e6, "free-1e6"), on_the_ground(),
-          equilibrium(1e3, "rest-1e3"), equilibrium(1e6, "rest-1e6"), cloth()};
+  return {free_flight(1e3, "1e3"), free_flight(1e6, "1e6"), on_the_ground(),
+          in_balance(1e3, "1e3"),  in_balance(1e6, "1e6"),  cloth()};
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,34 +1,32 @@
-#include "app/report/solver/solver.h"
-
 #include <algorithm>
 #include <array>
 
-#include "app/base/text.h"
-#include "app/base/times.h"
+#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 #include "app/files/output_file.h"
 #include "app/report/files.h"
-#include "app/report/own_steps.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/trial.h"
+#include "app/report/steps.h"
+#include "softbody/limits.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 constexpr std::array quick_scenes{"free-1e3", "contact-1e3", "rest-1e3", "cloth"};
 
 struct Effort {
-  double seconds;               // of processor time: the steps of a frame are doubled until a run takes longer
-  int repetitions;              // whose median counts, unless fewer already took those seconds
-  std::uint64_t truth_steps;    // at most, of the reference
-  int most_substeps = 1 << 14;  // a frame
+  double seconds;                 // of processor time: the steps per frame are doubled until a run takes longer
+  int repetitions;                // of each point; fewer if these took those seconds
+  std::uint64_t reference_steps;  // at most, of the reference
+  int max_substeps = 1 << 14;     // a frame
 };
 
-/// A point and what it takes to measure it again.
-struct Cell {
-  std::size_t of, curve, point;  // indices
+/// A point and its times.
+struct TimedPoint {
+  std::size_t scene, curve, point;  // indices
   int substeps;
-  Times alone{}, batch{};  // a run
+  Timings alone{}, batch{};  // a run
 };
 
 class SolverReport {
@@ -41,18 +39,18 @@ class SolverReport {
     results.frame_time = run_.frame_time;
     results.bound = 2e-5;
     results.repetitions = effort_.repetitions;
-    results.longest_run = effort_.seconds;
-    results.most_substeps = effort_.most_substeps;
+    results.max_run_seconds = effort_.seconds;
+    results.max_substeps = effort_.max_substeps;
   }
 
   void run() {
     for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
-    // One repetition of all after the other: what disturbs the machine for a while disturbs all alike.
+    // One repetition of all points after the other: what disturbs the machine for a while disturbs all alike.
     for (int r = 0; r < effort_.repetitions; ++r) {
       say("repetition " + std::to_string(r + 1), double(r) / effort_.repetitions);
-      for (Cell& cell : cells_) repeat(cell);
+      for (TimedPoint& point : points_) repeat(point);
     }
-    for (const Cell& cell : cells_) take_times(cell);
+    for (const TimedPoint& point : points_) take_times(point);
   }
 
   SolverResults results;
@@ -61,20 +59,21 @@ class SolverReport {
   void find_errors(std::size_t s) {
     const SolverScene& scene = scenes_[s];
     say(scene.key + ": reference", double(s) / double(scenes_.size()));
-    const Truth truth = find_truth(scene, run_, results.bound, effort_.truth_steps);
-    SolverCase c{scene.key,  scene.name,   scene.at_rest,   truth.what,
-                 truth.step, truth.change, truth.converged, truth.growth};
+    const SolverReference reference = find_solver_reference(scene, run_, results.bound, effort_.reference_steps);
+    SolverCase c{scene.key,      scene.name,       scene.at_rest,       reference.what,
+                 reference.step, reference.change, reference.converged, reference.growth};
     for (const softbody::Integrator& integrator : softbody::integrators()) {
       say(scene.key + ": " + std::string(integrator.key), double(s) / double(scenes_.size()));
       WorkCurve& curve = c.curves.emplace_back(WorkCurve{&integrator});
       double took = 0;
-      const int most = chooses_steps(integrator) ? 1 : effort_.most_substeps;
-      for (int n = 1; n <= most && took < effort_.seconds && !curve.reaches(c.known(results.bound)); n *= 2) {
+      const int max_steps = integrator.automatic ? 1 : effort_.max_substeps;
+      for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound));
+           n *= 2) {
         const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
         took = outcome.finite ? outcome.cpu : 0;
-        WorkPoint point = judge(scene, outcome, truth);
-        if (!chooses_steps(integrator)) point.substeps = n;
-        if (!point.blew_up) cells_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
+        WorkPoint point = judge(scene, outcome, reference);
+        if (!integrator.automatic) point.substeps = n;
+        if (!point.blew_up) points_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
         point.cpu_alone = 1e3 * outcome.cpu / run_.seconds() / double(outcome.bodies.size());
         curve.points.push_back(point);
       }
@@ -82,34 +81,38 @@ class SolverReport {
     results.cases.push_back(std::move(c));
   }
 
-  void repeat(Cell& cell) {
-    const SolverScene& scene = scenes_[cell.of];
-    const softbody::Integrator& integrator = *results.cases[cell.of].curves[cell.curve].integrator;
-    const auto time = [&](Times& times, int copies) {
-      if (times.total() > 1e3 * effort_.seconds) return;  // a long run's time is less chance's than a short one's
-      times.ms.push_back(1e3 * run_solver(scene, run_, integrator, cell.substeps, copies).cpu);
+  void repeat(TimedPoint& p) {
+    const SolverScene& scene = scenes_[p.scene];
+    const softbody::Integrator& integrator = *results.cases[p.scene].curves[p.curve].integrator;
+    const auto time = [&](Timings& times, int copies) {
+      if (times.total() > 1e3 * effort_.seconds) return;  // the time of a long run depends less on chance
+      times.ms.push_back(1e3 * run_solver(scene, run_, integrator, p.substeps, copies).cpu);
     };
-    time(cell.alone, 1);
-    if (scene.repeatable) time(cell.batch, softbody::lanes);
+    time(p.alone, 1);
+    if (scene.repeatable) time(p.batch, softbody::lanes);
   }
 
-  void take_times(const Cell& cell) {
-    WorkPoint& point = results.cases[cell.of].curves[cell.curve].points[cell.point];
-    const double bodies = double(scenes_[cell.of].scene.bodies.size());
-    point.cpu_alone = cell.alone.median() / run_.seconds() / bodies;
-    if (!cell.batch.ms.empty()) point.cpu_batch = cell.batch.median() / run_.seconds() / softbody::lanes;
+  void take_times(const TimedPoint& p) {
+    WorkPoint& point = results.cases[p.scene].curves[p.curve].points[p.point];
+    const double bodies = double(scenes_[p.scene].scene.bodies.size());
+    point.cpu_alone = p.alone.median() / run_.seconds() / bodies;
+    if (!p.batch.ms.empty()) point.cpu_batch = p.batch.median() / run_.seconds() / softbody::lanes;
   }
 
   std::vector<SolverScene> scenes_;
   SolverRun run_;
   Effort effort_;
-  std::vector<Cell> cells_;
+  std::vector<TimedPoint> points_;
 };
 
 std::vector<SolverScene> scenes_for(const ReportOptions& options) {
   if (options.scene) {
     const softbody::Scene scene = chosen_scenes(options).front();
     if (scene.bodies.empty()) throw UsageError("scene '" + scene.key + "': no body to measure; add a [[body]]");
+    const auto joins = [](const softbody::BodySource& b) { return b.appear > 0 && b.appear <= SolverRun{}.frames; };
+    const auto starts = [](const softbody::BodySource& b) { return b.appear <= 0; };
+    if (std::ranges::any_of(scene.bodies, joins) || std::ranges::none_of(scene.bodies, starts))
+      throw UsageError("scene '" + scene.key + "': bodies join after the start; set appear = 0");
     return {{.key = scene.key, .name = scene.name, .scene = scene, .repeatable = false}};
   }
   std::vector<SolverScene> scenes = solver_scenes();
@@ -122,15 +125,10 @@ std::vector<SolverScene> scenes_for(const ReportOptions& options) {
 
 void report_solver(const ReportOptions& options) {
   std::vector<SolverScene> scenes = scenes_for(options);
-  prepare_folder(options.out);
+  files::prepare_folder(options.out);
   SolverReport report(options, std::move(scenes));
   report.run();
-  const SolverResults& results = report.results;
-  write_report(options.out, {.csv_name = "solver.csv",
-                             .csv = solver_csv(results),
-                             .markdown_name = "solver.md",
-                             .plots = solver_plots(results),
-                             .markdown = [&](const auto& drawn) { return solver_markdown(results, drawn); }});
+  write_report(options.out, "solver.csv", solver_table(report.results), "solver.md", solver_page(report.results));
 }
 
-}  // namespace app
+}  // namespace app::report

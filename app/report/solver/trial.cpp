@@ -5,12 +5,12 @@
 
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
-#include "app/report/cpu_clock.h"
-#include "app/report/own_steps.h"
+#include "app/base/timings.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 using softbody::BodyId;
@@ -20,7 +20,7 @@ const softbody::Integrator& rk4() { return *softbody::find_integrator("rk4"); }
 
 constexpr double spacing = 4;  // m, between copies
 
-/// The scene `copies` times side by side.
+/// Returns a world of `copies` of the scene side by side.
 World make_world(const SolverScene& of, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                  int copies) {
   softbody::Scene scene = of.scene;
@@ -29,9 +29,7 @@ World make_world(const SolverScene& of, const SolverRun& run, const softbody::In
       body.position.x += c * spacing;
       scene.bodies.push_back(body);
     }
-  World world(std::move(scene), {.frame_time = run.frame_time,
-                                 .integrator = std::string(integrator.key),
-                                 .substeps = steps_for(integrator, substeps)});
+  World world(std::move(scene), {.frame_time = run.frame_time, .integrator = with_steps(integrator, substeps)});
   for (int c = 0; c < copies; ++c)
     for (std::size_t b = 0; b < of.start.size(); ++b) {
       Particles start = of.start[b];
@@ -49,30 +47,31 @@ Outcome advance(World& world, int frames) {
     o.cpu += thread_seconds() - start;
     o.finite = softbody::measure(world).finite;
   }
-  for (BodyId b = 0; b < world.bodies().count(); ++b) o.bodies.push_back(state_of(world, b));
+  for (BodyId b = 0; b < world.bodies().count(); ++b) o.bodies.push_back(reference::state_of(world, b));
   o.energy = softbody::measure(world).energy;
   return o;
 }
 
-/// R, of all bodies.
-double error_of(const std::vector<BodyState>& a, const std::vector<BodyState>& b, const World& world) {
+/// Returns the RMS error (R) over all bodies.
+double error_of(const std::vector<reference::BodyState>& a, const std::vector<reference::BodyState>& b,
+                const World& world) {
   double square_sum = 0;
   for (BodyId id = 0; id < b.size(); ++id) {
-    const double e = rms_distance(a[id].x, b[id].x) / world.prototype(id).radius;
+    const double e = reference::rms_distance(a[id].x, b[id].x) / world.prototype(id).radius;
     square_sum += e * e / double(b.size());
   }
   return std::sqrt(square_sum);
 }
 
-/// Where the reference does not have the scene's model: the world's own rk4, in floats.
-Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
+/// Returns the outcome of the world's own rk4 in floats, for scenes that ReferenceBody does not model.
+SolverReference world_reference(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
   World world = make_world(scene, run, rk4(), 1, 1);
-  int substeps = world.dynamics().substeps(run.frame_time);
+  int substeps = world.needed_substeps();
   const auto outcome = [&](const SolverScene& s, int n) {
     World w = make_world(s, run, rk4(), n, 1);
     return advance(w, run.frames);
   };
-  Truth t{};
+  SolverReference t{};
   Outcome best = outcome(scene, substeps);
   while (!t.converged && std::uint64_t(2 * substeps) * std::uint64_t(run.frames) <= steps) {
     substeps *= 2;
@@ -96,10 +95,11 @@ Truth world_truth(const SolverScene& scene, const SolverRun& run, double bound, 
   return t;
 }
 
-Truth body_truth(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
-  const ReferenceBody body(world.prototype(0), world.scene());
-  Reference r = find_reference(body, state_of(world, 0), bound, {.seconds = run.seconds(), .steps = steps});
-  Truth t{};
+SolverReference body_reference(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
+  const reference::ReferenceBody body(world.prototype(0), world.scene());
+  reference::Reference r =
+      find_reference(body, reference::state_of(world, 0), bound, {.seconds = run.seconds(), .steps = steps});
+  SolverReference t{};
   t.energy = body.energy(r.end);
   t.bodies.push_back(std::move(r.end));
   t.step = r.step, t.change = r.change, t.growth = r.growth, t.converged = r.converged;
@@ -107,7 +107,7 @@ Truth body_truth(const World& world, const SolverRun& run, double bound, std::ui
   return t;
 }
 
-/// How much of the reference's a difference is.
+/// Returns the distance as a share of the length of `b`.
 double relative(const glm::dvec3& a, const glm::dvec3& b) { return glm::distance(a, b) / glm::length(b); }
 
 }  // namespace
@@ -120,9 +120,9 @@ Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbod
 
 double energy_scale(const World& world, BodyId id) {
   const softbody::Prototype& p = world.prototype(id);
-  const ReferenceBody body(p, world.scene());
-  BodyState now = state_of(world, id);
-  const RigidMotion motion = rigid_motion(now);
+  const reference::ReferenceBody body(p, world.scene());
+  reference::BodyState now = reference::state_of(world, id);
+  const reference::RigidMotion motion = reference::rigid_motion(now);
   const double energy = body.energy(now);
   now.x = p.start;  // in balance, where it is
   for (std::size_t i = 0; i < now.x.size(); ++i) {
@@ -132,40 +132,43 @@ double energy_scale(const World& world, BodyId id) {
   return std::max(energy - body.energy(now), p.material.mass * 9.81 * p.radius);
 }
 
-Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps) {
+SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
+                                      std::uint64_t steps) {
   const World world = make_world(scene, run, rk4(), 1, 1);
-  Truth t = ReferenceBody::missing(world).empty() ? body_truth(world, run, bound, steps)
-                                                  : world_truth(scene, run, bound, steps);
+  SolverReference t = reference::ReferenceBody::unsupported_stage(world).empty()
+                          ? body_reference(world, run, bound, steps)
+                          : world_reference(scene, run, bound, steps);
   for (BodyId b = 0; b < world.bodies().count(); ++b) t.energy_scale += energy_scale(world, b);
   return t;
 }
 
-WorkPoint judge(const SolverScene& scene, const Outcome& o, const Truth& truth) {
+WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReference& reference) {
   WorkPoint p;
-  const World world(scene.scene, {.substeps = 1});
+  const World world(scene.scene, {.integrator = one_step()});
   p.blew_up = !o.finite;
   if (p.blew_up) return p;
-  p.error = error_of(o.bodies, truth.bodies, world);
+  p.error = error_of(o.bodies, reference.bodies, world);
   p.blew_up = p.error > 10;  // R
-  p.energy = std::abs(o.energy - truth.energy) / truth.energy_scale;
+  p.energy = std::abs(o.energy - reference.energy) / reference.energy_scale;
   double square_sum = 0, volume = 0;
   bool closed = false;
   for (BodyId b = 0; b < o.bodies.size(); ++b) {
     const auto& mesh = world.prototype(b).mesh;
-    const double speed = internal_speed(o.bodies[b]);
+    const double speed = reference::deformation_speed(o.bodies[b]);
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;
     closed = true;
-    const double right = volume_of(truth.bodies[b].x, mesh.triangles);
-    volume = std::max(volume, std::abs(volume_of(o.bodies[b].x, mesh.triangles) / right - 1));
+    const double expected = reference::volume_of(reference.bodies[b].x, mesh.triangles);
+    volume = std::max(volume, std::abs(reference::volume_of(o.bodies[b].x, mesh.triangles) / expected - 1));
   }
   p.speed = std::sqrt(square_sum);
   if (closed) p.volume = volume;
-  const RigidMotion is = rigid_motion(o.bodies[0]), should = rigid_motion(truth.bodies[0]);
+  const reference::RigidMotion actual = reference::rigid_motion(o.bodies[0]),
+                               expected = reference::rigid_motion(reference.bodies[0]);
   const bool alone = o.bodies.size() == 1 && scene.scene.gravity == glm::dvec3(0.0);
-  if (alone && glm::length(should.velocity) > 1e-6) p.linear = relative(is.velocity, should.velocity);
-  if (alone && glm::length(should.momentum) > 1e-6) p.angular = relative(is.momentum, should.momentum);
+  if (alone && glm::length(expected.velocity) > 1e-6) p.linear = relative(actual.velocity, expected.velocity);
+  if (alone && glm::length(expected.momentum) > 1e-6) p.angular = relative(actual.momentum, expected.momentum);
   return p;
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,11 +1,11 @@
 #pragma once
-// One scene, run to its end by one integrator, and held against a reference.
+// One scene, run to its end by one integrator and compared with a reference.
 
-#include "app/reference/reference_run.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/scenes.h"
 
-namespace app {
+namespace app::report {
 
 struct SolverRun {
   int frames = 30;
@@ -16,31 +16,33 @@ struct SolverRun {
 struct Outcome {
   double cpu = 0;  // s of processor time
   bool finite = true;
-  std::vector<BodyState> bodies{};
+  std::vector<reference::BodyState> bodies{};
   double energy = 0;  // J
 };
 
-/// copies: of the scene, side by side. Ends with the first frame that is not finite.
+/// Runs `copies` of the scene side by side, with `substeps` a frame unless the integrator chooses its steps. Ends with
+/// the first frame that is not finite.
 Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbody::Integrator& integrator, int substeps,
                    int copies);
 
-/// What outcomes are held against.
-struct Truth {
-  std::vector<BodyState> bodies;
+/// What outcomes are compared with.
+struct SolverReference {
+  std::vector<reference::BodyState> bodies;
   double energy;        // J
   double energy_scale;  // J
   std::string what;
   double step, change, growth;
   bool converged;
 };
-/// bound: R, of the change when the step is halved; steps: at most. The reference's own model where it is the scene's;
-/// else the world's rk4.
-Truth find_truth(const SolverScene& scene, const SolverRun& run, double bound, std::uint64_t steps);
+/// Halves the step until the positions change by less than `bound` (R), with at most `steps` steps. The reference is
+/// ReferenceBody where it models the scene, else the world's rk4.
+SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,
+                                      std::uint64_t steps);
 
-/// J a body: what an error in energy is held against, the larger of its energy above balance and m g R.
+/// Returns the scale (J) of a body's error in energy: the larger of its energy above balance and m g R.
 double energy_scale(const softbody::World& world, softbody::BodyId body);
 
-/// All but substeps and times.
-WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const Truth& truth);
+/// Returns the point without its substeps and times.
+WorkPoint judge(const SolverScene& scene, const Outcome& outcome, const SolverReference& reference);
 
-}  // namespace app
+}  // namespace app::report

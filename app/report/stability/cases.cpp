@@ -7,8 +7,9 @@
 
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
+#include "app/report/steps.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 using glm::dvec3;
@@ -16,14 +17,14 @@ using glm::dvec3;
 constexpr double damping_ratio = 0.1, radius = 0.5;  // m
 constexpr double g = 9.81;                           // m/s^2
 
-/// Without gravity, solids and self-collision.
+/// Returns a ball at rest, without gravity, solids and self-collision.
 StabilityScene lone(double k) { return {.scene = lone_scene(ball_material(k, damping_ratio))}; }
 
-/// The ball's particles, each at place(where it rests).
+/// Returns the ball with each particle at place(where it rests).
 template <class Place>
 StabilityScene placed(double k, Place place) {
   StabilityScene s = lone(k);
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.position = place(p.position);
   return s;
 }
@@ -55,7 +56,7 @@ StabilityScene far_away(double k) {
   return placed(k, [](const dvec3& p) { return 1000.0 + p * dvec3(1, 0.5, 1); });
 }
 
-/// A ball over the ground; `height` of its middle.
+/// Returns a ball whose middle is `height` over the ground.
 StabilityScene over_ground(double k, double height) {
   StabilityScene s = lone(k);
   s.scene.gravity = {0, -g, 0};
@@ -64,9 +65,9 @@ StabilityScene over_ground(double k, double height) {
   return s;
 }
 
-/// The radius that gas gives the ball; the mesh itself is smaller.
+/// Returns the radius of the ball with its gas; the mesh itself is smaller.
 double inflated(double k) {
-  return glm::length(particles_of(softbody::World(lone(k).scene, {.substeps = 1}), 0)[0].position);
+  return glm::length(particles_of(softbody::World(lone(k).scene, {.integrator = one_step()}), 0)[0].position);
 }
 
 StabilityScene on_the_ground(double k) { return over_ground(k, inflated(k) + 0.006); }
@@ -75,7 +76,8 @@ StabilityScene long_frame(double k) {
   s.first_frame = 0.5;
   return s;
 }
-/// Solids push out with at most 1 m/s: from deeper it would not be out within the frames that the criteria allow.
+/// Solids push out with at most 1 m/s. From deeper, the ball would not be out within the frames that the criteria
+/// allow.
 StabilityScene inside_solid(double k) { return over_ground(k, inflated(k) - 0.15 * radius); }
 
 StabilityScene mass_ratio(double k) {
@@ -104,7 +106,7 @@ StabilityScene tiny_mass(double k) {
   return s;
 }
 
-/// At a plate so thin that a frame leads right through it, and so wide that no way leads around it.
+/// A ball flies at a plate, which is thinner than the ball's way in a frame and too wide to miss.
 template <int speed>
 StabilityScene impact(double k) {
   StabilityScene s = lone(k);
@@ -114,7 +116,7 @@ StabilityScene impact(double k) {
   return s;
 }
 
-/// In balance with another pressure than it has.
+/// Returns a ball that starts in balance with another gas pressure than its own.
 StabilityScene pressure_times(double k, double factor) {
   StabilityScene s = placed(k, [](const dvec3& p) { return p; });
   s.scene.materials[0].gas_pressure *= factor;
@@ -123,29 +125,29 @@ StabilityScene pressure_times(double k, double factor) {
 StabilityScene overpressure(double k) { return pressure_times(k, 100); }
 StabilityScene pressure_lost(double k) { return pressure_times(k, 0); }
 
-/// The ball of a mesh in which `spoil` has moved vertices of the triangle 0; flattened to a half.
-template <class Spoil>
-StabilityScene spoilt_mesh(double k, Spoil spoil) {
+/// Returns a ball, flattened to a half, of a mesh in which `damage` has moved vertices of triangle 0.
+template <class Damage>
+StabilityScene damaged_mesh(double k, Damage damage) {
   StabilityScene s = lone(k);
   auto imported = std::make_shared<softbody::ImportedMesh>();
   imported->mesh = softbody::icosphere(2, radius);
   const auto [a, b, c] = imported->mesh.triangles[0];
-  spoil(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
+  damage(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
   s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
   s.scene.materials[0].shape_frequency = 0;
-  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.substeps = 1}), 0));
+  Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.position.y *= 0.5;
   return s;
 }
 StabilityScene duplicates(double k) {
-  return spoilt_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; });
+  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3&) { b = a; });
 }
 StabilityScene degenerate(double k) {
-  return spoilt_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); });
+  return damaged_mesh(k, [](dvec3& a, dvec3& b, dvec3& c) { c = 0.5 * (a + b); });
 }
 
 StabilityScene pile(double k) {
-  StabilityScene s{.scene = softbody::find_scene("D", scene_folder())};
+  StabilityScene s{.scene = softbody::find_scene("D", files::scene_folder())};
   for (softbody::Material& m : s.scene.materials) {
     const softbody::Material stiff = ball_material(k, damping_ratio);
     m.structural = stiff.structural;
@@ -194,4 +196,4 @@ StabilityScene scaled(softbody::Scene scene, double factor) {
   return {.scene = std::move(scene)};
 }
 
-}  // namespace app
+}  // namespace app::report

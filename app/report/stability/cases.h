@@ -6,12 +6,12 @@
 
 #include "app/report/solver/scenes.h"
 
-namespace app {
+namespace app::report {
 
 /// A case at one stiffness.
 struct StabilityScene {
   softbody::Scene scene{};
-  std::vector<Particles> start{};  // a body; empty: as the scene has it
+  std::vector<Particles> start{};  // per body; empty: as the scene has it
   double first_frame = 0;          // s: one frame of this length comes first; 0: none
 };
 
@@ -19,9 +19,10 @@ struct StabilityCase {
   std::string_view key, name;
   StabilityScene (*make)(double stiffness);  // N/m
 };
+
 std::span<const StabilityCase> stability_cases();
 
-/// A scene from a file, all its stiffnesses and pressures times a factor.
+/// Returns the scene with all its stiffnesses and pressures times a factor.
 StabilityScene scaled(softbody::Scene scene, double factor);
 
-}  // namespace app
+}  // namespace app::report

@@ -1,19 +1,21 @@
 #include "app/report/stability/cell.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
-#include "app/reference/shield_account.h"
-#include "app/report/own_steps.h"
+#include "app/reference/contact_energy_ledger.h"
 #include "app/report/solid_passages.h"
-#include "app/report/stability/joiners.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
+#include "softbody/snapshot.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 using glm::dvec3;
@@ -24,11 +26,12 @@ double gas_energy(const softbody::Prototype& p, const Particles& particles) {
   if (!p.has_gas) return 0;
   std::vector<dvec3> x;
   for (const softbody::Particle& q : particles) x.push_back(q.position);
-  return p.gas.energy(volume_of(x, p.mesh.triangles));
+  return p.gas.energy(reference::volume_of(x, p.mesh.triangles));
 }
 
-/// m, the longest side of the particles' box.
+/// Returns the longest side (m) of the particles' box.
 double extent_of(const Particles& particles) {
+  assert(!particles.empty());
   dvec3 lo = particles[0].position, hi = lo;
   for (const softbody::Particle& p : particles) lo = glm::min(lo, p.position), hi = glm::max(hi, p.position);
   return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z});
@@ -37,17 +40,15 @@ double extent_of(const Particles& particles) {
 /// A run, frame by frame.
 class Run {
  public:
-  Run(const StabilityStart& start) : start_(start), judge_(start.limits), above_balance_(start.above_balance) {}
+  Run(const StabilityStart& start) : start_(start), assessment_(start.limits), above_balance_(start.above_balance) {}
 
   World make(double frame_time, const softbody::Integrator& integrator, const std::vector<Particles>& particles) {
-    World world(
-        start_.scene,
-        {.frame_time = frame_time, .integrator = std::string(integrator.key), .substeps = steps_for(integrator, 1)});
+    World world(start_.scene, {.frame_time = frame_time, .integrator = with_steps(integrator, 1)});
     for (BodyId b = 0; b < particles.size(); ++b) world.set_particles(b, particles[b]);
     if (frame_ == 0) {
-      passages_.look(world);
-      shields_.join(world.shield_energies(), 0);
-      while (bodies_ < world.bodies().count()) take_in();
+      passages_.observe(world);
+      contact_energy_.add_bodies(world.pair_energies().next, 0);
+      while (bodies_ < world.bodies().count()) add_body();
     }
     return world;
   }
@@ -59,32 +60,33 @@ class Run {
     ++frame_;
     time_ += world.frame_time();
     require_whole_frame(world);
-    if (bodies_ == 0) return;  // nobody to judge
-    passages_.look(world);
-    shields_.frame(world.last_shield_energies(), world.shield_energies());
+    if (bodies_ == 0) return;  // there is no body to judge
+    passages_.observe(world);
+    contact_energy_.end_frame(world.pair_energies().last, world.pair_energies().next);
     const softbody::Measures m = softbody::measure(world);
-    StabilitySample s{.time = time_,
-                      .frame = frame_,
-                      .finite = m.finite,
-                      .energy = m.energy + shields_.stored(),
-                      .scale = std::max(above_balance_, weight_),
-                      .speed = m.max_speed,
-                      .depth = m.deepest_penetration,
-                      .through = passages_.count()};
+    reference::StabilitySample s{.time = time_,
+                                 .frame = frame_,
+                                 .finite = m.finite,
+                                 .energy = m.energy + contact_energy_.stored(),
+                                 .scale = std::max(above_balance_, weight_),
+                                 .speed = m.max_speed,
+                                 .depth = m.deepest_penetration,
+                                 .passed_through = passages_.count()};
     if (m.finite) add_reach(world, s, depth_before);
-    judge_.add(s);
+    assessment_.add(s);
   }
 
   double time() const { return time_; }
-  bool lost() const { return judge_.lost(); }
-  const StabilityFigures& figures() const { return judge_.figures(); }
+  bool lost() const { return assessment_.diverged(); }
+  const reference::StabilityFigures& figures() const { return assessment_.figures(); }
 
  private:
-  void add_reach(const World& world, StabilitySample& s, double depth_before) {
+  void add_reach(const World& world, reference::StabilitySample& s, double depth_before) {
     add_work(world, depth_before);
     s.work = work_;
-    const StabilityLimits& limits = start_.limits;
-    double available = limits.energy + work_ + stability_bounds.energy * s.scale;  // for all but gravity and gas
+    const reference::StabilityLimits& limits = start_.limits;
+    double available =
+        limits.energy + work_ + reference::stability_bounds.energy * s.scale;  // for all but gravity and gas
     double gas = 0;
     std::vector<double> extents;
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
@@ -93,18 +95,18 @@ class Run {
       gas += gas_energy(world.prototype(b), particles);
       extents.push_back(extent_of(particles));
     }
-    const double least = 1e-9 * s.scale;  // what has flown away has lost all to gravity
-    s.speed_reach = std::sqrt(2 * std::max(available - balance_, least) / lightest_);
-    s.extent_reach = 1;
+    const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
+    s.reachable_speed = std::sqrt(2 * std::max(available - balance_, min_energy) / lightest_);
+    s.reachable_extent = 1;
     for (std::size_t b = 0; b < extents.size(); ++b) {
-      const auto& [length, stiffness] = start_.members[b].leash;
-      const double reach = length + std::sqrt(2 * std::max(available - gas, least) / stiffness);
-      if (extents[b] / reach > s.extent / s.extent_reach) s.extent = extents[b], s.extent_reach = reach;
+      const auto& [length, stiffness] = start_.members[b].chain;
+      const double reach = length + std::sqrt(2 * std::max(available - gas, min_energy) / stiffness);
+      if (extents[b] / reach > s.extent / s.reachable_extent) s.extent = extents[b], s.reachable_extent = reach;
     }
   }
 
-  /// The next body is at hand.
-  const StabilityStart::Member& take_in() {
+  /// Counts the next body as present and returns it.
+  const StabilityStart::Member& add_body() {
     const StabilityStart::Member& member = start_.members[bodies_++];
     balance_ += member.balance;
     weight_ += member.weight();
@@ -112,57 +114,68 @@ class Run {
     return member;
   }
 
-  /// Bodies that join in the coming step bring their energy along, be it negative, and what their pairs hold where they
-  /// join: not what their first frame makes of it.
+  /// Credits bodies that join in the coming step with their energy, which may be negative, and with what their pairs
+  /// hold where they join; not with what their first frame makes of it.
   void join(World& world) {
     const std::vector<softbody::BodySource>& sources = start_.scene.bodies;  // in this order
     const BodyId first = bodies_;
     while (bodies_ < sources.size() && sources[bodies_].appear <= world.frame()) {
-      const StabilityStart::Member& member = take_in();
+      const StabilityStart::Member& member = add_body();
       work_ += member.energy();
       above_balance_ += member.kinetic;
     }
     if (bodies_ == first) return;
     const auto joiners = std::span(sources).subspan(first, bodies_ - first);
-    work_ += shields_.join(shield_energies_with(world, joiners), world.bodies().vertex_count());
+    work_ += contact_energy_.add_bodies(shield_energies_with(world, joiners), world.bodies().vertex_count());
   }
 
-  /// Solids push out what is inside them with up to 1 m/s: no more than that times the impulse.
+  /// Solids push out what is inside them with up to 1 m/s. So their work is at most that times the impulse.
   void add_work(const World& world, double depth_before) {
     constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
     if (start_.limits.begins_inside && !came_out_)
-      for (BodyId b = 0; b < world.bodies().count(); ++b)
-        work_ += push_out * glm::length(world.dynamics().solid_impulse(b));
+      for (BodyId b = 0; b < world.bodies().count(); ++b) work_ += push_out * glm::length(world.body(b).solid_impulse);
   }
 
   const StabilityStart& start_;
-  StabilityJudge judge_;
-  double above_balance_;                                       // J, that the bodies at hand began or joined with
-  BodyId bodies_ = 0;                                          // at hand
+  reference::StabilityAssessment assessment_;
+  double above_balance_;                                       // J, that the present bodies started or joined with
+  BodyId bodies_ = 0;                                          // that are present
   double balance_ = 0;                                         // J, their springs and gas in balance
   double weight_ = 0;                                          // J, their m g R
   double lightest_ = std::numeric_limits<double>::infinity();  // kg, of their particles
   SolidPassages passages_;
-  ShieldAccount shields_;
+  reference::ContactEnergyLedger contact_energy_;
   int frame_ = 0;
   double time_ = 0, work_ = 0;
   bool came_out_ = false;
 };
 
-AgainstReference compare(const World& world, const StabilityStart& start) {
+reference::ReferenceDeviation compare(const World& world, const StabilityStart& start) {
   const softbody::Prototype& p = world.prototype(0);
-  const BodyState end = state_of(world, 0);
-  AgainstReference r{.shape = shape_distance(end.x, start.truth.x) / p.radius,
-                     .rest = std::max(0.0, internal_speed(end) - internal_speed(start.truth))};
+  const reference::BodyState end = reference::state_of(world, 0);
+  reference::ReferenceDeviation r{
+      .shape = reference::shape_distance(end.x, start.reference.x) / p.radius,
+      .rest = std::max(0.0, reference::deformation_speed(end) - reference::deformation_speed(start.reference))};
   if (p.mesh.closed)
-    r.volume = std::abs(volume_of(end.x, p.mesh.triangles) / volume_of(start.truth.x, p.mesh.triangles) - 1);
+    r.volume = std::abs(
+        reference::volume_of(end.x, p.mesh.triangles) / reference::volume_of(start.reference.x, p.mesh.triangles) - 1);
   return r;
 }
 
 }  // namespace
 
-StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
+std::vector<softbody::PairEnergy> shield_energies_with(softbody::World& world,
+                                                       std::span<const softbody::BodySource> joiners) {
+  if (!world.plan().has(softbody::Stage::contact_response)) return {};
+  const softbody::Snapshot before = world.snapshot();
+  for (const softbody::BodySource& joiner : joiners) world.add(joiner);
+  std::vector<softbody::PairEnergy> pairs = world.pair_energies().next;
+  world.restore(before);
+  return pairs;
+}
+
+reference::StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrator& integrator, double dt) {
   try {
     Run run(start);
     std::vector<Particles> particles = start.particles;
@@ -174,12 +187,12 @@ StabilityFigures run_cell(const StabilityStart& start, const softbody::Integrato
     }
     World world = run.make(dt, integrator, particles);
     while (!run.lost() && run.time() < start.limits.seconds - dt / 2) run.step(world);
-    StabilityFigures figures = run.figures();
-    if (start.untold.empty() && !run.lost()) figures.reference = compare(world, start);
+    reference::StabilityFigures figures = run.figures();
+    if (start.not_judged.empty() && !run.lost()) figures.reference = compare(world, start);
     return figures;
   } catch (const softbody::SceneError& error) {
     return {.refused = error.what()};
   }
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,8 +1,5 @@
-#include "app/report/stability/stability.h"
-
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <functional>
 
 #include "app/base/usage_error.h"
@@ -10,23 +7,22 @@
 #include "app/report/files.h"
 #include "app/report/stability/cell.h"
 #include "app/report/stability/results.h"
-#include "collide/core/workers.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 constexpr std::array stiffnesses{1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8};  // N/m
-constexpr std::array factors{1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5};    // of a scene's own
+constexpr std::array factors{1e-2, 1e-1, 1e0, 1e1, 1e2, 1e3, 1e4, 1e5};    // times a scene's own
 constexpr std::array quick_stiffnesses{1e1, 1e4, 1e8};
 constexpr std::array quick_factors{1e-1, 1e0, 1e3};
 constexpr std::array quick_cases{"rest", "flattened", "impact-100"};
 
 struct Effort {
-  double seconds;             // simulated
-  std::uint64_t truth_steps;  // at most
+  double seconds;                 // simulated
+  std::uint64_t reference_steps;  // at most
 };
 
-/// What is to be run: a case, or the user's scene, at one stiffness.
+/// A case, or the user's scene, at one stiffness.
 struct Job {
   std::size_t section, row;
   std::function<StabilityScene()> make;
@@ -57,11 +53,11 @@ class StabilityReport {
       add(factor, [scene, factor] { return scaled(scene, factor); });
   }
 
-  /// Cells know nothing of each other: they run side by side.
+  /// Cells are independent of each other, so they run side by side.
   void run(collide::Workers& workers) {
     in_parallel(workers, "reference", jobs_.size(), [&](std::size_t i) { prepare_job(jobs_[i]); });
     const std::size_t cells = results.integrators.size() * results.dts.size();
-    // The dear ones, stiff and small steps, are not all at the end.
+    // In this order the expensive cells, those of stiff springs and short frames, are not all at the end.
     in_parallel(workers, "cell", jobs_.size() * cells, [&](std::size_t i) { run_one(jobs_[i / cells], i % cells); });
     if (results.from_file) return;
     const auto ks = results.quick ? std::span<const double>(quick_stiffnesses) : stiffnesses;
@@ -89,11 +85,11 @@ class StabilityReport {
     StabilityRow& row = row_of(job);
     try {
       job.start = prepare(job.make(), effort_.seconds);
-      find_truth(job.start, effort_.truth_steps);
+      find_reference(job.start, effort_.reference_steps);
     } catch (const softbody::SceneError& error) {
       for (StabilityCell& cell : row.cells) cell.figures.refused = error.what();
     }
-    row.untold = job.start.untold;
+    row.not_judged = job.start.not_judged;
   }
 
   void run_one(const Job& job, std::size_t index) {
@@ -102,15 +98,10 @@ class StabilityReport {
     cell.figures = run_cell(job.start, *results.integrators[cell.integrator], results.dts[cell.dt]);
   }
 
-  template <class Task>
-  void in_parallel(collide::Workers& workers, const std::string& what, std::size_t count, Task task) {
-    std::atomic<std::size_t> next{0};
-    workers.run([&](int thread) {
-      for (std::size_t i = next++; i < count; i = next++) {
-        if (thread == 0) say(what + " " + std::to_string(i + 1), double(i) / double(count));
-        task(i);
-      }
-    });
+  static void in_parallel(collide::Workers& workers, const std::string& what, std::size_t count,
+                          const std::function<void(std::size_t)>& task) {
+    run_in_parallel(
+        workers, count, [&](std::size_t i) { return what + " " + std::to_string(i + 1); }, task);
   }
 
   Effort effort_;
@@ -129,15 +120,11 @@ void report_stability(const ReportOptions& options) {
     for (const StabilityCase& c : stability_cases())
       if (!options.quick || std::ranges::count(quick_cases, c.key) > 0) report.add_case(c);
   }
-  prepare_folder(options.out);
+  files::prepare_folder(options.out);
   collide::Workers workers(options.threads.value_or(options.cores));
   report.run(workers);
-  const StabilityResults& results = report.results;
-  write_report(options.out, {.csv_name = "stability.csv",
-                             .csv = stability_csv(results),
-                             .markdown_name = "stability.md",
-                             .plots = stability_plots(results),
-                             .markdown = [&](const auto& drawn) { return stability_markdown(results, drawn); }});
+  write_report(options.out, "stability.csv", stability_table(report.results), "stability.md",
+               stability_page(report.results));
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -5,13 +5,15 @@
 #include <limits>
 #include <queue>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "app/base/text.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 #include "softbody/snapshot.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
 using glm::dvec3;
@@ -20,26 +22,25 @@ using softbody::World;
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 
-/// Any two particles are joined by a chain of so many springs at most: twice those from one particle to the farthest.
-/// None if some cannot be reached.
+/// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
+/// Returns nothing if springs do not join all particles.
 std::optional<int> longest_chain(const softbody::Prototype& p) {
   std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
   for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
-  std::vector<int> far(next.size(), -1);
+  std::vector<int> distance(next.size(), -1);
   std::queue<softbody::Index> open;
-  far[0] = 0, open.push(0);
+  distance[0] = 0, open.push(0);
   while (!open.empty()) {
     const softbody::Index i = open.front();
     open.pop();
     for (const softbody::Index j : next[i])
-      if (far[j] < 0) far[j] = far[i] + 1, open.push(j);
+      if (distance[j] < 0) distance[j] = distance[i] + 1, open.push(j);
   }
-  const auto [least, most] = std::ranges::minmax(far);
-  return least < 0 ? std::nullopt : std::optional(2 * most);
+  const auto [min, max] = std::ranges::minmax(distance);
+  return min < 0 ? std::nullopt : std::optional(2 * max);
 }
 
-/// How far the body's springs let it be drawn.
-StabilityStart::Leash leash_of(const softbody::Prototype& p) {
+StabilityStart::SpringChain spring_chain_of(const softbody::Prototype& p) {
   const auto chain = longest_chain(p);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
@@ -48,17 +49,17 @@ StabilityStart::Leash leash_of(const softbody::Prototype& p) {
   return {*chain * longest, softest / *chain};
 }
 
-/// The world with its bodies where the case wants them.
+/// Returns the world with its bodies where the case places them.
 World placed(const StabilityScene& from) {
-  World world(from.scene, {.substeps = 1});
+  World world(from.scene, {.integrator = one_step()});
   for (BodyId b = 0; b < from.start.size(); ++b) world.set_particles(b, from.start[b]);
   return world;
 }
 
-/// As it begins or joins: in its starting shape.
+/// Returns the body as it starts or joins: in its starting shape.
 StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::BodySource& source,
                                  const dvec3& gravity) {
-  StabilityStart::Member m{.leash = leash_of(p),
+  StabilityStart::Member m{.chain = spring_chain_of(p),
                            .radius = p.radius,
                            .mass = p.material.mass,
                            .particle_mass = p.particle_mass,
@@ -69,22 +70,24 @@ StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::B
   return m;
 }
 
-StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
+reference::StabilityLimits limits_of(const World& world, const StabilityStart& start, double seconds) {
   const softbody::Measures m = softbody::measure(world);
-  double smallest = infinite;
-  for (const StabilityStart::Member& member : start.members) smallest = std::min(smallest, member.radius);
-  return {.energy = m.energy + softbody::total(world.shield_energies()),
+  double min_radius = infinite;
+  for (const StabilityStart::Member& member : start.members) min_radius = std::min(min_radius, member.radius);
+  return {.energy = m.energy + softbody::total(world.pair_energies().next),
           .seconds = start.first_frame + seconds,
-          .radius = smallest,
+          .radius = min_radius,
           .begins_inside = m.deepest_penetration > 0};
 }
 
-/// By shape and volume.
-bool alike(const ReferenceBody& body, const BodyState& a, const BodyState& b) {
-  constexpr double close = 1e-3;  // R, of volume: a tenth of what is asked of solvers
+/// True if shape and volume agree.
+bool alike(const reference::ReferenceBody& body, const reference::BodyState& a, const reference::BodyState& b) {
+  constexpr double close = 1e-3;  // R; of the volume. A tenth of what solvers are allowed
   const softbody::Prototype& p = body.prototype();
-  if (!(shape_distance(a.x, b.x) <= close * p.radius)) return false;
-  return !p.mesh.closed || std::abs(volume_of(a.x, p.mesh.triangles) / volume_of(b.x, p.mesh.triangles) - 1) <= close;
+  if (!(reference::shape_distance(a.x, b.x) <= close * p.radius)) return false;
+  return !p.mesh.closed ||
+         std::abs(reference::volume_of(a.x, p.mesh.triangles) / reference::volume_of(b.x, p.mesh.triangles) - 1) <=
+             close;
 }
 
 }  // namespace
@@ -106,46 +109,54 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   const World world = placed(from);
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
-  const softbody::PrototypeSet prototypes = world.snapshot().prototypes;
-  for (const softbody::BodySource& source : s.scene.bodies)
-    s.members.push_back(member_of(*prototypes.of(source), source, s.scene.gravity));
+  for (const softbody::BodySource& source : s.scene.bodies) {
+    const auto prototype =
+        softbody::shared_prototype(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
+    s.members.push_back(member_of(*prototype, source, s.scene.gravity));
+  }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
     s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
-  if (!s.particles.empty()) s.balanced = world.prototype(0).start;
+  if (!s.particles.empty()) s.balance_shape = world.prototype(0).start;
   s.limits = limits_of(world, s, seconds);
-  // The bodies are where they start: no cell has to look for their balance again, unless some come later.
+  // The bodies are where they start. So no cell has to find their balance again, unless some join later.
   if (s.particles.size() == from.scene.bodies.size())
     for (softbody::Material& m : s.scene.materials) m.start_in_equilibrium = false;
   return s;
 }
 
-void find_truth(StabilityStart& start, std::uint64_t steps) {
-  World world(start.scene, {.substeps = 1});
-  const auto no = [&](const std::string& why) { start.untold = joined("the reference ", why); };
-  if (const std::string missing = ReferenceBody::missing(world); !missing.empty())
-    return no(joined("does not model ", missing));
+void find_reference(StabilityStart& start, std::uint64_t steps) {
+  World world(start.scene, {.integrator = one_step()});
+  const auto no = [&](const std::string& why) { start.not_judged = fmt::format("the reference {}", why); };
+  if (const std::string missing = reference::ReferenceBody::unsupported_stage(world); !missing.empty())
+    return no(fmt::format("does not model {}", missing));
   world.set_particles(0, start.particles[0]);
-  const ReferenceBody body(world.prototype(0), world.scene());
-  const auto flown = [&](const BodyState& from, double fraction, std::uint64_t most) {
-    return fly(body, from, fraction, {.seconds = start.limits.seconds, .steps = most, .settled_speed = 1e-4});
+  const reference::ReferenceBody body(world.prototype(0), world.scene());
+  const auto flown = [&](const reference::BodyState& from, double fraction, std::uint64_t max_steps) {
+    return reference::integrate(body, from, fraction,
+                                {.seconds = start.limits.seconds, .steps = max_steps, .settled_speed = 1e-4});
   };
-  const auto settled = [&](const Flight& f) { return restless_speed(body, f.end) <= stability_bounds.rest; };
-  const BodyState first = state_of(world, 0);
-  const Flight flight = flown(first, 0.5, steps);
+  const auto settled = [&](const reference::Trajectory& f) {
+    return reference::unsettled_speed(body, f.end) <= reference::stability_bounds.rest;
+  };
+  const reference::BodyState first = reference::state_of(world, 0);
+  const reference::Trajectory flight = flown(first, 0.5, steps);
   if (!flight.complete) return no("would take too many steps");
-  if (!std::isfinite(internal_speed(flight.end))) return no("does not stay finite");
+  if (!std::isfinite(reference::deformation_speed(flight.end))) return no("does not stay finite");
   if (!settled(flight)) return no("has not settled by then");
   const bool free = world.scene().gravity == dvec3(0.0);
-  if (free && shape_distance(flight.end.x, start.balanced) > stability_bounds.shape * body.prototype().radius)
+  if (free && reference::shape_distance(flight.end.x, start.balance_shape) >
+                  reference::stability_bounds.shape * body.prototype().radius)
     return no("does not recover");
-  Flight finer = flown(first, 0.25, 2 * steps);
+  reference::Trajectory finer = flown(first, 0.25, 2 * steps);
   if (!finer.complete || !alike(body, flight.end, finer.end)) return no("does not converge");
-  // As solvers in single precision cannot but start. What turns back from inside out, say, falls from an edge.
-  const Flight beside = flown(disturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
+  // Solvers in single precision start with such a disturbance. A body that turns back from inside out, for example, may
+  // then come to rest elsewhere.
+  const reference::Trajectory beside =
+      flown(reference::perturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
   if (!beside.complete || !settled(beside) || !alike(body, beside.end, finer.end))
     return no("comes to rest later or elsewhere after a disturbance by the last digits of a float");
-  start.truth = std::move(finer.end);
+  start.reference = std::move(finer.end);
 }
 
-}  // namespace app
+}  // namespace app::report

@@ -1,22 +1,22 @@
 #pragma once
-// What all cells of one case at one stiffness share: where it starts, what it may do from there, where it must end.
+// What all cells of one case at one stiffness share: its start, the limits of its motion, and its end by the reference.
 
-#include "app/reference/reference_run.h"
+#include "app/reference/reference_trajectory.h"
 #include "app/reference/stability_criteria.h"
 #include "app/report/stability/cases.h"
 
-namespace app {
+namespace app::report {
 
 struct StabilityStart {
-  /// Any two particles of a body are joined by a chain of springs: they can be drawn apart by no more than
-  /// length + sqrt(2 energy / stiffness). Infinite where springs do not join them all.
-  struct Leash {
+  /// A chain of springs joins any two particles of a body. With some energy, they can be drawn apart by no more than
+  /// length + sqrt(2 energy / stiffness). Infinite where springs do not join all particles.
+  struct SpringChain {
     double length, stiffness;  // m, N/m: of the chain at rest
   };
 
-  /// One body of the scene, whether it begins or joins later, as it is then.
+  /// One body of the scene as it is when it starts or joins.
   struct Member {
-    Leash leash;
+    SpringChain chain;
     double radius, mass, particle_mass;  // m, kg, kg
     double balance, kinetic, height;     // J: springs and gas; of motion; of gravity, 0 at the origin
     double energy() const { return balance + kinetic + height; }
@@ -26,22 +26,23 @@ struct StabilityStart {
   softbody::Scene scene;             // its bodies in the order in which they join
   std::vector<Particles> particles;  // that the bodies start with
   double first_frame = 0;            // s, see StabilityScene
-  StabilityLimits limits{};
-  double above_balance = 0;            // J, E0 - E_eq of those that begin
-  std::vector<Member> members{};       // the bodies of the scene
-  std::vector<glm::dvec3> balanced{};  // m, the first body's shape in balance
-  BodyState truth{};                   // the reference's end, if untold is empty
-  std::string untold{};                // why no reference judges shape, volume and rest
+  reference::StabilityLimits limits{};
+  double above_balance = 0;                 // J, E0 - E_eq of the bodies that are there at the start
+  std::vector<Member> members{};            // the bodies of the scene
+  std::vector<glm::dvec3> balance_shape{};  // m, the first body's shape in balance
+  reference::BodyState reference{};         // the reference's end, if not_judged is empty
+  std::string not_judged{};                 // why no reference judges shape, volume and rest
 };
 
-/// seconds: simulated. Throws SceneError if the scene cannot be.
+/// Returns the start of runs of `seconds` of simulated time. Throws SceneError if the scene cannot be simulated.
 StabilityStart prepare(const StabilityScene& scene, double seconds);
 
-/// Fills in truth or untold; steps: of the reference, at most.
-void find_truth(StabilityStart& start, std::uint64_t steps);
+/// Fills in `reference` or `not_judged`. The reference takes at most `steps` steps.
+void find_reference(StabilityStart& start, std::uint64_t steps);
 
+/// Returns the particles of each body.
 std::vector<Particles> all_particles(const softbody::World& world);
-/// J, of gravity on one body, 0 at the origin.
+/// Returns the energy (J) of gravity on one body, 0 at the origin.
 double height_energy(const softbody::World& world, const Particles& particles, softbody::BodyId body);
 
-}  // namespace app
+}  // namespace app::report

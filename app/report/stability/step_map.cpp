@@ -5,16 +5,18 @@
 
 #include "app/reference/reference_body.h"
 #include "app/report/solver/scenes.h"
+#include "app/report/steps.h"
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
-namespace app {
+namespace app::report {
 namespace {
 
-/// Springs and gas with every mode excited: some of the disturbance is noise.
+/// A ball of springs and gas. Noise in its start excites every mode.
 class DisturbedBall {
  public:
   explicit DisturbedBall(double stiffness) : scene_(lone_scene(ball_material(stiffness, 0.1))) {
-    const softbody::World world(scene_, {.substeps = 1});
+    const softbody::World world(scene_, {.integrator = one_step()});
     start_ = particles_of(world, 0);
     balance_ = softbody::measure(world).energy;
     std::mt19937 random(1);
@@ -28,11 +30,11 @@ class DisturbedBall {
 
   bool stable(const softbody::Integrator& integrator, double h) const {
     softbody::World world = make(integrator, h);
-    const double start = softbody::measure(world).energy, most = start + 0.05 * (start - balance_);
+    const double start = softbody::measure(world).energy, max_energy = start + 0.05 * (start - balance_);
     for (int i = 0; i < 300; ++i) {
       world.step();
       const softbody::Measures m = softbody::measure(world);
-      if (!m.finite || m.energy > most) return false;
+      if (!m.finite || m.energy > max_energy) return false;
     }
     return true;
   }
@@ -40,13 +42,13 @@ class DisturbedBall {
   double predicted(const softbody::Integrator& integrator) const {
     const softbody::World world = make(integrator, 1);
     const softbody::Prototype& p = world.prototype(0);
-    const double k_m = softbody::stiffness_per_mass(p, softbody::measure_surface(p, state_of(world, 0).x));
+    const double k_m = softbody::stiffness_per_mass(p, softbody::measure_surface(p, reference::state_of(world, 0).x));
     return integrator.stable_step(k_m, p.spring_damping_bound / p.particle_mass);
   }
 
  private:
   softbody::World make(const softbody::Integrator& integrator, double h) const {
-    softbody::World world(scene_, {.frame_time = h, .integrator = std::string(integrator.key), .substeps = 1});
+    softbody::World world(scene_, {.frame_time = h, .integrator = one_step(integrator.key)});
     world.set_particles(0, start_);
     return world;
   }
@@ -60,9 +62,9 @@ class DisturbedBall {
 
 StableStep find_stable_step(const softbody::Integrator& integrator, double stiffness) {
   const DisturbedBall ball(stiffness);
-  StableStep s{.stiffness = stiffness, .found = longest_step_tried, .predicted = ball.predicted(integrator)};
-  if (ball.stable(integrator, longest_step_tried)) return s;
-  double good = 1e-8, bad = longest_step_tried;
+  StableStep s{.stiffness = stiffness, .found = max_step_tried, .predicted = ball.predicted(integrator)};
+  if (ball.stable(integrator, max_step_tried)) return s;
+  double good = 1e-8, bad = max_step_tried;
   while (bad / good > 1.1) {
     const double middle = std::sqrt(good * bad);
     (ball.stable(integrator, middle) ? good : bad) = middle;
@@ -71,4 +73,4 @@ StableStep find_stable_step(const softbody::Integrator& integrator, double stiff
   return s;
 }
 
-}  // namespace app
+}  // namespace app::report

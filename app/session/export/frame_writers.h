@@ -1,5 +1,5 @@
 #pragma once
-// What a recording can become. One table: the panel, the demo and the tests loop over it.
+// The kinds of recordings. The panel, the demo and the tests loop over one table.
 
 #include <array>
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 #include "app/session/export/recording.h"
 
-namespace app {
+namespace app::session {
 
-// Each makes its folder or starts its file, under the next free name in `folder`. They throw UsageError.
+/// Make a writer whose folder or file has the next free name in `folder`. They throw UsageError.
 std::unique_ptr<FrameWriter> make_picture_writer(const std::filesystem::path& folder);
 std::unique_ptr<FrameWriter> make_video_writer(const std::filesystem::path& folder);
 std::unique_ptr<FrameWriter> make_motion_writer(const std::filesystem::path& folder);
 
 struct RecordingKind {
   std::string_view key, name, tooltip;
-  bool pictures;  // made of pictures, or else of bodies
+  bool pictures;  // consists of pictures, else of bodies
   std::unique_ptr<FrameWriter> (*make)(const std::filesystem::path& folder);
 };
 
@@ -29,4 +29,4 @@ inline constexpr std::array<RecordingKind, 3> recording_kinds{{
      &make_motion_writer},
 }};
 
-}  // namespace app
+}  // namespace app::session

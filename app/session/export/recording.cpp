@@ -2,7 +2,7 @@
 
 #include <utility>
 
-namespace app {
+namespace app::session {
 
 FrameRecording::FrameRecording(std::unique_ptr<FrameWriter> writer) : writer_(std::move(writer)) {
   progress_.name = writer_->name();
@@ -11,7 +11,7 @@ FrameRecording::FrameRecording(std::unique_ptr<FrameWriter> writer) : writer_(st
 
 bool FrameRecording::has_room() const {
   const std::scoped_lock lock(mutex_);
-  return waiting_.size() < most_waiting;
+  return waiting_.size() < max_waiting;
 }
 
 void FrameRecording::add(RecordedFrame frame) {
@@ -38,7 +38,7 @@ FrameRecording::Progress FrameRecording::progress() const {
   return progress;
 }
 
-/// Waits for one; false after the last.
+/// Waits for a frame; returns false after the last one.
 bool FrameRecording::next(RecordedFrame& frame) {
   std::unique_lock lock(mutex_);
   wake_.wait(lock, [this] { return progress_.stopping || !waiting_.empty(); });
@@ -67,4 +67,4 @@ void FrameRecording::work() {
   waiting_.clear();
 }
 
-}  // namespace app
+}  // namespace app::session

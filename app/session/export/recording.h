@@ -1,5 +1,5 @@
 #pragma once
-// A sequence that is written beside the demo: frames go in, a thread of their own writes them, nobody waits.
+// Writes a sequence of frames on a thread of its own, so that the demo does not wait.
 
 #include <condition_variable>
 #include <deque>
@@ -9,42 +9,42 @@
 #include <thread>
 
 #include "app/compare/positions.h"
-#include "app/files/obj_write.h"
+#include "app/files/obj_writer.h"
 #include "engine/image.h"
 
-namespace app {
+namespace app::session {
 
-/// What a recording may be made of: each writer uses its own part, and the others stay empty.
+/// A frame of a recording. Each writer uses its own part; the others stay empty.
 struct RecordedFrame {
   int number = 0;         // of the world
   engine::Image picture;  // pictures and video
-  std::shared_ptr<const MovingBodies> bodies;
-  Positions positions;  // of the bodies, for their motion
+  std::shared_ptr<const files::ObjWriter> bodies;
+  compare::Positions positions;  // of the bodies, for their motion
 };
 
 class FrameWriter {
  public:
   virtual ~FrameWriter() = default;
-  /// Throws std::exception with one line for the user.
+  /// Writes a frame. Throws std::exception with one line for the user.
   virtual void write(const RecordedFrame& frame) = 0;
-  /// After the last frame: makes the result complete. Without it nothing half done stays under its final name.
+  /// Completes the result after the last frame. Without this call no incomplete file has the final name.
   virtual void finish() {}
-  /// What is being written, for the user: a folder or a file.
+  /// Returns the folder or file that is being written, for the user.
   virtual std::string name() const = 0;
 };
 
 class FrameRecording {
  public:
-  static constexpr std::size_t most_waiting = 4;  // frames in memory
+  static constexpr std::size_t max_waiting = 4;  // frames in memory
 
   explicit FrameRecording(std::unique_ptr<FrameWriter> writer);
   /// Waits until all frames are written.
   ~FrameRecording() { stop(); }
 
-  /// Whether a frame would be taken now; the world waits meanwhile, so that no frame is lost.
+  /// Returns true if a frame would be taken now. Otherwise the world must wait, so that no frame is lost.
   bool has_room() const;
   void add(RecordedFrame frame);
-  /// No more frames come. Those that wait are still written.
+  /// Ends the recording. Frames that wait are still written.
   void stop();
 
   struct Progress {
@@ -59,12 +59,12 @@ class FrameRecording {
   void work();
   bool next(RecordedFrame& frame);
 
-  std::unique_ptr<FrameWriter> writer_;  // of the thread's
+  std::unique_ptr<FrameWriter> writer_;  // used by the thread alone
   mutable std::mutex mutex_;             // guards the members below
   std::condition_variable wake_;
   std::deque<RecordedFrame> waiting_;
   Progress progress_;
-  std::jthread thread_;  // last: started after, joined before all else
+  std::jthread thread_;  // last member: starts after the others are made, and ends before they go
 };
 
-}  // namespace app
+}  // namespace app::session

@@ -1,4 +1,4 @@
-// Video by ffmpeg, a child process that is fed with pictures.
+// Writes a video by ffmpeg, a child process that reads the pictures.
 
 #include <fcntl.h>
 #include <spawn.h>
@@ -22,21 +22,21 @@
 
 extern char** environ;
 
-namespace app {
+namespace app::session {
 namespace fs = std::filesystem;
 namespace {
 
-constexpr int patience = 30;  // s, that ffmpeg may take for one picture, and for the end
+constexpr int timeout_seconds = 30;  // for one picture, and for the end
 
-/// Closes it.
-class Descriptor {
+/// Owns a file descriptor and closes it.
+class FileDescriptor {
  public:
-  explicit Descriptor(int number = -1) : number_(number) {}
-  ~Descriptor() {
+  explicit FileDescriptor(int number = -1) : number_(number) {}
+  ~FileDescriptor() {
     if (number_ >= 0) ::close(number_);
   }
-  Descriptor(Descriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
-  Descriptor& operator=(Descriptor&& other) noexcept {
+  FileDescriptor(FileDescriptor&& other) noexcept : number_(std::exchange(other.number_, -1)) {}
+  FileDescriptor& operator=(FileDescriptor&& other) noexcept {
     std::swap(number_, other.number_);
     return *this;
   }
@@ -46,19 +46,20 @@ class Descriptor {
   int number_;
 };
 
-/// A running ffmpeg. A socket in place of a pipe: when ffmpeg dies, sending fails instead of ending this program too.
+/// A running ffmpeg. It reads from a socket, not a pipe: when ffmpeg dies, sending fails, and no signal ends the
+/// program.
 class Ffmpeg {
  public:
-  /// video: the file to write, its standard output. Throws UsageError if there is no ffmpeg.
+  /// video: the file to write, which becomes ffmpeg's standard output. Throws UsageError if there is no ffmpeg.
   Ffmpeg(const std::vector<std::string>& arguments, int video) {
     std::array<int, 2> pictures{}, errors{};
     if (::socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, pictures.data()) != 0) refuse(errno);
-    const Descriptor input(pictures[1]);
-    pictures_ = Descriptor(pictures[0]);
+    const FileDescriptor input(pictures[1]);
+    pictures_ = FileDescriptor(pictures[0]);
     if (::pipe2(errors.data(), O_CLOEXEC) != 0) refuse(errno);
-    const Descriptor output(errors[1]);
-    errors_ = Descriptor(errors[0]);
-    const timeval limit{patience, 0};
+    const FileDescriptor output(errors[1]);
+    errors_ = FileDescriptor(errors[0]);
+    const timeval limit{timeout_seconds, 0};
     ::setsockopt(pictures[0], SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
     if (const int error = spawn(arguments, input.number(), video, output.number())) refuse(error);
   }
@@ -70,7 +71,7 @@ class Ffmpeg {
   Ffmpeg(const Ffmpeg&) = delete;
   Ffmpeg& operator=(const Ffmpeg&) = delete;
 
-  /// False if it takes no more.
+  /// Returns false if ffmpeg reads no more.
   bool send(std::span<const std::uint8_t> bytes) {
     while (!bytes.empty()) {
       const auto sent = ::send(pictures_.number(), bytes.data(), bytes.size(), MSG_NOSIGNAL);
@@ -81,12 +82,12 @@ class Ffmpeg {
     return true;
   }
 
-  /// No more pictures: waits for the end; true if ffmpeg says that all went well. To be called once.
+  /// Ends the pictures and waits for ffmpeg. Returns true if ffmpeg reports success. Call it once.
   bool finish() {
-    pictures_ = Descriptor();
+    pictures_ = FileDescriptor();
     if (child_ <= 0) return false;
     int status = 0;
-    for (int tenth = 0; tenth < 10 * patience; ++tenth) {
+    for (int tenth = 0; tenth < 10 * timeout_seconds; ++tenth) {
       if (::waitpid(child_, &status, WNOHANG) == child_) {
         child_ = 0;
         return WIFEXITED(status) && WEXITSTATUS(status) == 0;
@@ -96,8 +97,8 @@ class Ffmpeg {
     return false;
   }
 
-  /// The last line that it has said on standard error; call it after finish().
-  std::string last_words() const {
+  /// Returns the last line that ffmpeg wrote to standard error. Call it after finish().
+  std::string last_error_line() const {
     std::string text(4096, '\0');
     ::fcntl(errors_.number(), F_SETFL, O_NONBLOCK);
     const auto length = ::read(errors_.number(), text.data(), text.size());
@@ -130,14 +131,14 @@ class Ffmpeg {
     return error;
   }
 
-  Descriptor pictures_, errors_;
+  FileDescriptor pictures_, errors_;
   pid_t child_ = 0;
 };
 
 class VideoWriter : public FrameWriter {
  public:
-  explicit VideoWriter(const fs::path& folder) : file_(next_free(folder, "video", ".mp4")) {
-    prepare_folder(folder, "");
+  explicit VideoWriter(const fs::path& folder) : file_(files::next_free_path(folder, "video", ".mp4")) {
+    files::prepare_folder(folder, "");
   }
 
   void write(const RecordedFrame& frame) override {
@@ -154,7 +155,7 @@ class VideoWriter : public FrameWriter {
   }
 
   void finish() override {
-    if (!ffmpeg_) return;  // not a single frame
+    if (!ffmpeg_) return;  // there was no frame
     if (!ffmpeg_->finish()) fail();
     ffmpeg_.reset();
     output_->commit();
@@ -168,7 +169,8 @@ class VideoWriter : public FrameWriter {
     height_ = picture.height;
     const std::string size = std::to_string(width_) + "x" + std::to_string(height_);
     output_.emplace(file_);
-    // The codec wants even sides. The output has no name that ffmpeg could make anew after a signal has removed it.
+    // The codec requires even sides. The output has no name, so that ffmpeg cannot make it again after a signal has
+    // removed it.
     ffmpeg_ = std::make_unique<Ffmpeg>(std::vector<std::string>{"ffmpeg",
                                                                 "-nostdin",
                                                                 "-y",
@@ -194,16 +196,16 @@ class VideoWriter : public FrameWriter {
                                        output_->descriptor());
   }
 
-  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_words()); }
+  [[noreturn]] void fail() { throw UsageError(file_.string() + ": ffmpeg has failed: " + ffmpeg_->last_error_line()); }
 
   fs::path file_;
   int width_ = 0, height_ = 0;
-  std::optional<OutputFile> output_;
-  std::unique_ptr<Ffmpeg> ffmpeg_;  // ends before its output does
+  std::optional<files::OutputFile> output_;
+  std::unique_ptr<Ffmpeg> ffmpeg_;  // after output_, because it ends first
 };
 
 }  // namespace
 
 std::unique_ptr<FrameWriter> make_video_writer(const fs::path& folder) { return std::make_unique<VideoWriter>(folder); }
 
-}  // namespace app
+}  // namespace app::session

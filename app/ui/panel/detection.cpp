@@ -1,82 +1,82 @@
-// The panel's section of the method and its settings.
+// The panel's section on the method and its settings.
 
 #include <array>
-#include <cstdio>
 #include <limits>
+
+#include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
 constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
 
-/// True if not the detector's contacts but the surfaces keep the bodies apart.
-bool surfaces_hold(const Session& session) {
+/// True if surface contact keeps the bodies apart, not the detector's contacts.
+bool uses_surface_contact(const Session& session) {
   return session.world().scene().contact_surface == softbody::ContactSurface::surfaces;
 }
 
 void draw_method(Widgets& w, Session& session) {
   const collide::Method& method = session.world().method();
-  w.row("Method", w.px(label_column));
-  w.chip(method.colour, ImGui::GetFrameHeight());
+  w.row_label("Method", w.px(label_column));
+  w.swatch(method.colour, ImGui::GetFrameHeight());
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   std::string summary(method.summary);
-  if (surfaces_hold(session))
+  if (uses_surface_contact(session))
     summary +=
         " With surface contact it moves nothing: its contacts are shown, compared, and tell which bodies sleep "
         "together.";
   summary += " (M: next method)";
   const std::string name(method.name);
-  if (!w.begin_choices("Method", name.c_str(), summary.c_str())) return;
+  if (!w.begin_combo("Method", name.c_str(), summary.c_str())) return;
   std::string_view chosen = method.key;
   for (const collide::Method& each : collide::method_table()) {
-    w.chip(each.colour, ImGui::GetTextLineHeight());
+    w.swatch(each.colour, ImGui::GetTextLineHeight());
     ImGui::SameLine();
     const std::string label(each.name), tooltip(each.summary);
-    if (w.choice(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
+    if (w.combo_item(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
   }
   ImGui::EndCombo();
-  session.set_method(chosen);
+  session.settings.set_method(chosen);
 }
 
 void draw_contact_surface(Widgets& w, Session& session) {
   const softbody::ContactSurface now = session.world().scene().contact_surface;
-  w.row("Contact", w.px(label_column));
+  w.row_label("Contact", w.px(label_column));
   const auto text = [](std::string_view part) { return std::string(part); };
   const auto& info = *std::ranges::find(softbody::contact_surfaces, now, &softbody::ContactSurfaceInfo::value);
   const std::string tooltip = "What keeps bodies apart. " + text(info.summary) + " (F: the next one)";
-  if (!w.begin_choices("Contact surface", text(info.name).c_str(), tooltip.c_str())) return;
+  if (!w.begin_combo("Contact surface", text(info.name).c_str(), tooltip.c_str())) return;
   softbody::ContactSurface chosen = now;
   for (const softbody::ContactSurfaceInfo& each : softbody::contact_surfaces) {
-    if (w.choice(text(each.name).c_str(), each.value == now, text(each.summary).c_str())) chosen = each.value;
+    if (w.combo_item(text(each.name).c_str(), each.value == now, text(each.summary).c_str())) chosen = each.value;
   }
   ImGui::EndCombo();
-  session.set_contact_surface(chosen);
+  session.settings.set_contact_surface(chosen);
 }
 
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::BeginDisabled(!used);
-  w.row("Subdivision", w.px(label_column));
-  std::array<char, 48> format{};
-  std::snprintf(format.data(), format.size(), "%%d  (%s boxes a body)", grouped(1ull << settings.levels).c_str());
-  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.data(),
+  w.row_label("Subdivision", w.px(label_column));
+  const std::string format = fmt::format("%d  ({} boxes a body)", grouped(1ull << settings.levels));
+  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.c_str(),
                                 "Level n cuts a body's box at midpoints into 2^n boxes (§2.1; the paper uses 3). "
                                 "Empty boxes are not hashed. Keys [ and ].");
   ImGui::EndDisabled();
   return changed;
 }
 
-/// The label of a row on which the hash depends: with a mark, and the reason as its tooltip, if bucket count and primes
-/// do not go together.
-void hash_row(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
+/// Draws the label of a setting of the hash function. If bucket count and primes do not suit each other, the label has
+/// a mark, and the reason as its tooltip.
+void draw_hash_label(Widgets& w, const std::string& label, float column, const collide::Settings& settings, bool used) {
   const std::string warning = used ? collide::hash_warning(settings) : "";
-  if (warning.empty()) return w.row(label.c_str(), column);
+  if (warning.empty()) return w.row_label(label.c_str(), column);
   ImGui::PushStyleColor(ImGuiCol_TextDisabled, {0.85f, 0.5f, 0.0f, 1.0f});
-  w.row((label + "!").c_str(), column);
+  w.row_label((label + "!").c_str(), column);
   ImGui::PopStyleColor();
-  w.done((label + " warning").c_str(), warning.c_str());
+  w.register_item((label + " warning").c_str(), warning.c_str());
 }
 
 bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
@@ -84,19 +84,19 @@ bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
       "The number of buckets of the hash table: the paper's bucket size (§2.2; it uses 101 and 1001). "
       "With few buckets different cells share one (aliasing). 1 to 16,777,216.";
   ImGui::BeginDisabled(!used);
-  hash_row(w, "Buckets", w.px(label_column), settings, used);
+  draw_hash_label(w, "Buckets", w.px(label_column), settings, used);
   const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
-  const float typed = w.px(84);
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - typed - 2 * gap);
+  const float field_width = w.px(84);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - arrow - field_width - 2 * gap);
   bool changed = w.slider("Buckets", settings.buckets, 1, collide::max_buckets, tooltip);
   ImGui::SameLine(0, gap);
-  ImGui::SetNextItemWidth(typed);
-  changed |= w.number("Number of buckets", settings.buckets, 1, collide::max_buckets, tooltip);
+  ImGui::SetNextItemWidth(field_width);
+  changed |= w.number_field("Number of buckets", settings.buckets, 1, collide::max_buckets, tooltip);
   ImGui::SameLine(0, gap);
-  if (w.begin_choices("Bucket presets", "", "The paper's bucket sizes, and primes near them.",
-                      ImGuiComboFlags_NoPreview)) {
+  if (w.begin_combo("Bucket presets", "", "The paper's bucket sizes, and primes near them.",
+                    ImGuiComboFlags_NoPreview)) {
     for (const std::uint32_t preset : bucket_presets) {
-      if (!w.choice(grouped(preset).c_str(), preset == settings.buckets, nullptr)) continue;
+      if (!w.combo_item(grouped(preset).c_str(), preset == settings.buckets, nullptr)) continue;
       settings.buckets = preset;
       changed = true;
     }
@@ -113,14 +113,15 @@ bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
       "mixed.";
   static constexpr std::array labels{"x prime", "y prime", "z prime"};
   ImGui::BeginDisabled(!used);
-  hash_row(w, "Primes", w.px(62), settings, used);  // three numbers need more room than one
+  draw_hash_label(w, "Primes", w.px(62), settings, used);  // three numbers need more room than one
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(3), ImGui::GetStyle().FramePadding.y});
   const float reset = ImGui::GetFrameHeight(), gap = w.px(3);
   const float field = (ImGui::GetContentRegionAvail().x - reset - 3 * gap) / 3;
   bool changed = false;
   for (std::size_t axis = 0; axis < labels.size(); ++axis) {
     ImGui::SetNextItemWidth(field);
-    changed |= w.number(labels[axis], settings.primes[axis], 1, std::numeric_limits<std::uint32_t>::max(), tooltip);
+    changed |=
+        w.number_field(labels[axis], settings.primes[axis], 1, std::numeric_limits<std::uint32_t>::max(), tooltip);
     ImGui::SameLine(0, gap);
   }
   if (w.button("x###Default primes", "Back to the default: 73856093, 19349669, 83492791.", reset)) {
@@ -134,7 +135,7 @@ bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
 
 bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bool used) {
   ImGui::BeginDisabled(!used);
-  w.row("Cell size", w.px(label_column));
+  w.row_label("Cell size", w.px(label_column));
   bool changed = w.checkbox("Auto", automatic,
                             "The largest subdivided box at rest plus the tolerance, along each axis. A default, no "
                             "guarantee that the literal method misses nothing.");
@@ -143,7 +144,7 @@ bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bo
   ImGui::BeginDisabled(automatic);
   float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
   if (w.slider(
-          "Cell size", side, least_cell, most_cell, "%.3f m",
+          "Cell size", side, min_cell, max_cell, "%.3f m",
           "The side of the hash function's grid cells (§2.2: length, height, width). Smaller than a subdivided box, "
           "and the literal method skips cells.",
           true)) {
@@ -161,35 +162,35 @@ void draw_detection(Widgets& w, Session& session, bool structure_shown) {
   draw_method(w, session);
   const collide::Method& method = session.world().method();
   collide::Settings settings = session.world().collision();
-  bool automatic = session.world().uses_default_cell_size();
-  // Settings are offered where something has use for them: the driving method, what is shown of §2, or a comparison.
-  const bool others = structure_shown || session.selected_bucket() || session.compare.on;
-  const bool hash = method.uses_hash || others;
-  bool changed = draw_levels(w, settings, method.uses_levels || others);
+  bool automatic = session.world().scene().default_cell_size;
+  // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
+  const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on;
+  const bool hash = method.uses_hash || needed;
+  bool changed = draw_levels(w, settings, method.uses_levels || needed);
   changed |= draw_buckets(w, settings, hash);
   changed |= draw_primes(w, settings, hash);
   changed |= draw_cell_size(w, settings, automatic, hash);
   draw_contact_surface(w, session);
-  w.row("Tolerance", w.px(label_column));
+  w.row_label("Tolerance", w.px(label_column));
   changed |=
-      w.slider("Tolerance", settings.tolerance, tolerance_from, tolerance_to, "%.3f m",
-               surfaces_hold(session)
+      w.slider("Tolerance", settings.tolerance, min_tolerance, max_tolerance, "%.3f m",
+               uses_surface_contact(session)
                    ? "Vertices closer than this are in contact (§2.3). With surface contact that pushes nothing: "
                      "it is detected, shown and compared, and tells which bodies sleep together."
                    : "Vertices closer than this are in contact, and push each other apart (§2.3).",
                true);
   changed |= w.checkbox("Self-collision", settings.self_collision,
-                        surfaces_hold(session)
+                        uses_surface_contact(session)
                             ? "Also contact inside one body (§2.4): of its surface with itself, and of its vertices, "
                               "which are shown but push nothing."
                             : "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as "
                               "close at rest.");
   ImGui::SameLine(w.px(label_column + 46));
   if (w.button("Scene's settings", "Method and settings as the scene has them.", ImGui::GetContentRegionAvail().x)) {
-    session.restore_settings();
+    session.settings.restore_detection();
   } else if (changed) {
-    session.set_collision(settings, automatic);
+    session.settings.set_collision(settings, automatic);
   }
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,5 +1,4 @@
-// The panel's sections of what comes in and what goes out: meshes, scenes, the command line; pictures, recordings,
-// curves.
+// The panel's sections for import and export: meshes, scenes, the command line; pictures, recordings, curves.
 
 #include <algorithm>
 #include <cmath>
@@ -8,23 +7,23 @@
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
 constexpr float narrow_column = 78, button_width = 62;  // design pixels
 
-/// A field with a button at its right; true if either asks for the action.
+/// Draws a field with a button at its right. True if Enter is pressed or the button is clicked.
 bool field_with_button(Widgets& w, const char* label, std::string& value, const char* hint, const char* tooltip,
                        const char* button, const char* button_tooltip) {
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
-  const bool entered = w.text(label, value, hint, tooltip);
+  const bool entered = w.text_field(label, value, hint, tooltip);
   ImGui::SameLine(0, gap);
   return w.button(button, button_tooltip, w.px(button_width)) || entered;
 }
 
-void draw_import(Widgets& w, Session& session, Import& import) {
-  w.row("Open", w.px(narrow_column));
+void draw_import(Widgets& w, Session& session, session::Import& import) {
+  w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
   if (field_with_button(w, "File to open", import.path, "mesh.obj or scene.toml",
                         "A Wavefront OBJ file, which joins the scene as a soft body, or a scene file, which replaces "
@@ -32,126 +31,127 @@ void draw_import(Widgets& w, Session& session, Import& import) {
                         "Load", "Reads the file."))
     import.load(session);
   ImGui::EndDisabled();
-  w.row("Size", w.px(narrow_column));
+  w.row_label("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
-  w.slider("Size of meshes", import.size, Import::least_size, Import::most_size, "%.2f m",
+  w.slider("Size of meshes", import.size, session::Import::min_size, session::Import::max_size, "%.2f m",
            "The largest extent that the next mesh is scaled to, whatever its units are. The scenes' spheres have 1 m.",
            true);
   ImGui::SameLine();
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
-  w.row("Weld", w.px(narrow_column));
+  w.row_label("Weld", w.px(narrow_column));
   auto percent = static_cast<float>(100 * import.weld);
   if (w.slider(
-          "Weld distance", percent, static_cast<float>(100 * Import::least_weld),
-          static_cast<float>(100 * Import::most_weld), "%.5f %% of the size",
+          "Weld distance", percent, static_cast<float>(100 * session::Import::min_weld),
+          static_cast<float>(100 * session::Import::max_weld), "%.5f %% of the size",
           "Vertices of the next mesh that are no further apart become one, so that seams close. Raise it if a mesh "
           "that should be closed is open; lower it if what should be apart is joined.",
           true))
-    import.weld = std::round(1e5 * double{percent}) / 1e7;  // as it shows
+    import.weld = std::round(1e5 * double{percent}) / 1e7;  // rounded to the digits shown
 }
 
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
-  w.row("Save as", w.px(narrow_column));
+  w.row_label("Save as", w.px(narrow_column));
   std::error_code ignored;
-  const bool there = std::filesystem::exists(ui.save_as, ignored);
-  const bool as_named = saved && there && session.scene_file().name() == std::filesystem::absolute(ui.save_as);
-  const char* button = as_named ? "Saved###Save" : there ? "Replace###Save" : "Save###Save";
+  const bool exists = std::filesystem::exists(ui.save_as, ignored);
+  const bool as_named =
+      saved && exists && session.simulation.loaded.file.name() == std::filesystem::absolute(ui.save_as);
+  const char* button = as_named ? "Saved###Save" : exists ? "Replace###Save" : "Save###Save";
   if (field_with_button(
           w, "Scene file", ui.save_as, "scene.toml",
           "The scene with all settings in use but the integrator, and the camera as it is. Bodies that "
           "you dropped, threw or loaded are in it, each in the frame in which it came; what you pulled or "
           "deleted is as it was, so that their places need not be free then.",
           button, as_named ? "The file holds the scene as it is." : "Writes the file."))
-    session.save_scene(ui.save_as, ui.view);
+    session.scenes.save(ui.save_as, ui.view);
 }
 
-/// A button that says for a moment that it has put `command` on the clipboard.
-void copy_button(Widgets& w, const char* name, const std::string& command, double& copied, float width) {
-  constexpr double moment = 1.5;  // s
-  const std::string label = (ImGui::GetTime() < copied + moment ? "Copied###" : std::string(name) + "###") + name;
+/// Draws a button that copies `command` to the clipboard and then says so for a moment.
+void draw_copy_button(Widgets& w, const char* name, const std::string& command, double& copied, float width) {
+  constexpr double confirmation = 1.5;  // s
+  const std::string label = (ImGui::GetTime() < copied + confirmation ? "Copied###" : std::string(name) + "###") + name;
   if (!w.button(label.c_str(), command.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
   copied = ImGui::GetTime();
 }
 
 void draw_command(Widgets& w, const Session& session, UiState& ui, const softbody::Scene& used, bool saved) {
-  const SceneFile& file = session.scene_file();
+  const session::SceneFile& file = session.simulation.loaded.file;
   const int frame = session.world().frame();
-  // What was added between the last step and the next shows here at once, there after that step.
+  // A body added since the last step shows here at once; `simulate` shows it only after the next step.
   const bool just_added = std::ranges::any_of(session.world().added(),
                                               [&](const auto& one) { return frame > 0 && one.source.appear == frame; });
-  w.row("Command", w.px(narrow_column));
+  w.row_label("Command", w.px(narrow_column));
   ImGui::BeginDisabled(!saved);
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  std::string demo = demo_command(file.name(), used, session.integrator());
-  std::string simulate = simulate_command(file.name(), used, session.integrator(), frame + (just_added ? 1 : 0));
+  std::string demo = session::demo_command(file.name(), used, session.world().integrator_choice());
+  std::string simulate =
+      session::simulate_command(file.name(), used, session.world().integrator_choice(), frame + (just_added ? 1 : 0));
   if (!saved) demo = simulate = "The scene was changed: save it, so that a command can name it.";
-  copy_button(w, "Copy", demo, ui.copied[0], width);
+  draw_copy_button(w, "Copy", demo, ui.copied[0], width);
   ImGui::SameLine();
-  copy_button(w, "Copy simulate", simulate, ui.copied[1], width);
+  draw_copy_button(w, "Copy simulate", simulate, ui.copied[1], width);
   ImGui::EndDisabled();
 }
 
-void draw_recording(Widgets& w, TakeAway& take_away) {
-  w.row("Record", w.px(narrow_column));
+void draw_recording(Widgets& w, session::Exporter& exporter) {
+  w.row_label("Record", w.px(narrow_column));
   const float gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - w.px(button_width) - gap);
-  ImGui::BeginDisabled(take_away.recording() || take_away.finishing());
+  ImGui::BeginDisabled(exporter.recording() || exporter.finishing());
   const auto text = [](std::string_view part) { return std::string(part); };
-  const RecordingKind& now = recording_kinds[take_away.kind];
-  if (w.begin_choices("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
-    for (std::size_t i = 0; i < recording_kinds.size(); ++i) {
-      const RecordingKind& kind = recording_kinds[i];
-      if (w.choice(text(kind.name).c_str(), i == take_away.kind, text(kind.tooltip).c_str())) take_away.kind = i;
+  const session::RecordingKind& now = session::recording_kinds[exporter.kind];
+  if (w.begin_combo("Kind of recording", text(now.name).c_str(), text(now.tooltip).c_str())) {
+    for (std::size_t i = 0; i < session::recording_kinds.size(); ++i) {
+      const session::RecordingKind& kind = session::recording_kinds[i];
+      if (w.combo_item(text(kind.name).c_str(), i == exporter.kind, text(kind.tooltip).c_str())) exporter.kind = i;
     }
     ImGui::EndCombo();
   }
   ImGui::EndDisabled();
   ImGui::SameLine(0, gap);
-  ImGui::BeginDisabled(take_away.finishing());
-  if (w.button(take_away.recording() ? "Stop###Record" : "Start###Record",
+  ImGui::BeginDisabled(exporter.finishing());
+  if (w.button(exporter.recording() ? "Stop###Record" : "Start###Record",
                "Every frame of the world from now on, until it is stopped. The world waits for the recording, so that "
                "no frame is lost.",
                w.px(button_width)))
-    take_away.toggle_recording();
+    exporter.toggle_recording();
   ImGui::EndDisabled();
 }
 
-/// A line of its own whether it says something or not: nothing moves.
-void draw_message(Widgets& w, const TakeAway& take_away) {
-  if (take_away.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(light_red));
-  w.line(take_away.message());
-  if (take_away.failed()) ImGui::PopStyleColor();
-  w.done("Message", take_away.message().empty() ? nullptr : take_away.message().c_str());
+/// Draws the message, or an empty line, so that nothing moves.
+void draw_message(Widgets& w, const session::Exporter& exporter) {
+  if (exporter.failed()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+  w.text_line(exporter.message());
+  if (exporter.failed()) ImGui::PopStyleColor();
+  w.register_item("Message", exporter.message().empty() ? nullptr : exporter.message().c_str());
 }
 
 }  // namespace
 
 void draw_files(Widgets& w, Session& session, UiState& ui) {
   draw_import(w, session, ui.import);
-  softbody::Scene used = session.scene_as_it_is();
+  softbody::Scene used = session.scenes.with_added_bodies();
   used.view = ui.view;
-  const bool saved = session.scene_file().makes(used);
+  const bool saved = session.simulation.loaded.file.reproduces(used);
   draw_save(w, session, ui, saved);
   draw_command(w, session, ui, used, saved);
 }
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {
-  TakeAway& take_away = ui.take_away;
-  w.row("Folder", w.px(narrow_column));
-  w.text("Output folder", take_away.folder, "the current one",
-         "Where all of this goes. Names end in the next free number; nothing is overwritten.");
-  w.row("Take", w.px(narrow_column));
+  session::Exporter& exporter = ui.exporter;
+  w.row_label("Folder", w.px(narrow_column));
+  w.text_field("Output folder", exporter.folder, "the current one",
+               "Where all of this goes. Names end in the next free number; nothing is overwritten.");
+  w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) take_away.picture_asked = true;
+  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) exporter.picture_asked = true;
   ImGui::SameLine();
-  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) take_away.write_curves(session);
-  draw_recording(w, take_away);
-  w.row("", w.px(narrow_column));
-  w.checkbox("With the panel", take_away.with_panel,
-             "Pictures and videos show the whole window, else the scene alone.");
-  draw_message(w, take_away);
+  if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) exporter.write_curves(session);
+  draw_recording(w, exporter);
+  w.row_label("", w.px(narrow_column));
+  w.checkbox("With the panel", exporter.with_panel, "Pictures and videos show the whole window, else the scene alone.");
+  draw_message(w, exporter);
 }
 
-}  // namespace app
+}  // namespace app::ui

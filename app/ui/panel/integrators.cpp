@@ -2,46 +2,49 @@
 
 #include <algorithm>
 
+#include <fmt/core.h>
+
 #include "app/render/palette.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-/// "Auto (Semi-implicit Euler)", or "Runge-Kutta 4, 8 substeps".
-std::string in_words(const softbody::World& world) {
-  std::string text(world.integrator().name);
-  if (world.integrator().automatic) text.append(" (").append(world.dynamics().used_integrator().name).append(")");
-  if (const auto substeps = world.substeps())
+/// Returns "Auto (Semi-implicit Euler)" or "Runge-Kutta 4, 8 substeps".
+std::string integrator_text(const softbody::World& world) {
+  std::string text(world.integrator_choice().integrator().name);
+  if (world.integrator_choice().integrator().automatic)
+    text.append(" (").append(world.last_step().integrator->name).append(")");
+  if (const auto substeps = world.integrator_choice().substeps)
     text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
   return text;
 }
 
 std::string distance_text(const Session& session) {
-  if (session.ghost()->blown_up()) return "has blown up";
-  return format("%.3g R", static_cast<double>(session.history().ghost.latest()));
+  if (session.ghost().get()->blown_up()) return "has blown up";
+  return fmt::format("{:.3g} R", session.ghost().distances().latest());
 }
 
 }  // namespace
 
-bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choice, int proposed) {
-  const IntegratorChoice before = choice;
+bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorChoice& choice, int proposed) {
+  const softbody::IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
-  w.row("Integrator", w.px(label_column));
-  if (w.begin_choices(joined(name, "Integrator").c_str(), std::string(now.name).c_str(),
-                      std::string(now.summary).c_str())) {
+  w.row_label("Integrator", w.px(label_column));
+  if (w.begin_combo(fmt::format("{}Integrator", name).c_str(), std::string(now.name).c_str(),
+                    std::string(now.summary).c_str())) {
     for (const softbody::Integrator& i : softbody::integrators())
-      if (w.choice(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
+      if (w.combo_item(std::string(i.name).c_str(), &i == &now, std::string(i.summary).c_str())) choice.key = i.key;
     ImGui::EndCombo();
   }
   bool fixed = choice.substeps.has_value();
-  if (w.checkbox(joined("Fixed substeps###", name, "Fixed substeps").c_str(), fixed,
+  if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name).c_str(), fixed,
                  "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
                  "up. Else as many as the stability bound asks for."))
     choice.substeps = fixed ? std::optional(std::max(1, proposed)) : std::nullopt;
   ImGui::BeginDisabled(!fixed);
-  w.row("Substeps", w.px(label_column));
+  w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
-  if (w.slider(joined(name, "Substeps").c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
+  if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
                "Fewer are faster, until it explodes."))
     choice.substeps = substeps;
   ImGui::EndDisabled();
@@ -49,29 +52,29 @@ bool draw_integrator_choice(Widgets& w, const char* name, IntegratorChoice& choi
 }
 
 void draw_ghost(Widgets& w, Session& session) {
-  bool on = session.ghost() != nullptr;
+  bool on = session.ghost().get() != nullptr;
   if (w.checkbox("Ghost world", on,
                  "The same bodies from this moment on, moved by another integrator: translucent, in a colour of their "
                  "own. Whenever hands or settings change the world, the ghost begins anew from it."))
-    session.set_ghost(on ? std::optional(IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
-  if (!session.ghost()) return;
-  IntegratorChoice choice = session.ghost()->choice();
-  const int used = session.ghost()->world().profile().substeps;
-  if (draw_integrator_choice(w, "Ghost ", choice, used)) session.set_ghost(choice);
-  if (!session.ghost()) return;
-  w.curve("Ghost apart", distance_text(session), session.history().ghost,
-          {0, axis_end(session.history().ghost.largest(), 0.01f)}, ghost_colour,
+    session.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
+  if (!session.ghost().get()) return;
+  softbody::IntegratorChoice choice = session.ghost().get()->choice();
+  const int used = session.ghost().get()->world().last_step().substeps;
+  if (draw_integrator_choice(w, "Ghost ", choice, used)) session.choose_ghost(choice);
+  if (!session.ghost().get()) return;
+  w.curve("Ghost apart", distance_text(session), session.ghost().distances(),
+          {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
           "radii: the root mean square distance of all vertices to the ghost's, each over its body's radius");
 }
 
 void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", in_words(session.world()).c_str());
-  w.done("Legend", nullptr);
-  w.chip(ghost_colour, ImGui::GetTextLineHeight());
+  ImGui::Text("Opaque: %s", integrator_text(session.world()).c_str());
+  w.register_item("Legend", nullptr);
+  w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  ImGui::Text("ghost: %s", in_words(session.ghost()->world()).c_str());
-  w.done("Legend", nullptr);
+  ImGui::Text("ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
+  w.register_item("Legend", nullptr);
   ImGui::Text("RMS distance: %s", distance_text(session).c_str());
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,19 +1,19 @@
 #pragma once
-// Which integrator moves a world, with how many substeps; and the ghost, a second world moved by another.
+// The choice of integrator and substeps; and the ghost, a second world moved by another integrator.
 
 #include "app/session/session.h"
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
-/// Two rows: an integrator from the list, and whether its substeps are fixed, and at how many. True if that changed.
-/// name: of the whole, in labels ("" or "Ghost "); proposed: substeps to begin with.
-bool draw_integrator_choice(Widgets& widgets, const char* name, IntegratorChoice& choice, int proposed);
+/// Draws two rows: the list of integrators, and the substeps if they are fixed. Returns true if the choice changed.
+/// `name` begins the widgets' labels ("" or "Ghost "). `proposed`: the substeps when the user begins to fix them.
+bool draw_integrator_choice(Widgets& widgets, const char* name, softbody::IntegratorChoice& choice, int proposed);
 
-/// The ghost's switch, its integrator, and how far it is from the world that is shown.
+/// Draws the ghost's switch, its integrator, and its distance from the world that is shown.
 void draw_ghost(Widgets& widgets, Session& session);
 
-/// What is opaque and what is translucent, for the legend.
+/// Draws the legend's lines on the opaque and the translucent world.
 void draw_ghost_legend(Widgets& widgets, const Session& session);
 
-}  // namespace app
+}  // namespace app::ui

@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <string>
 
-namespace app {
+namespace app::ui {
 namespace {
 
 void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
@@ -13,26 +13,27 @@ void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const bool pressed = ImGui::Button("Tour", {width, 0});
   ImGui::PopStyleColor(3);
-  w.done("Tour", "Five steps show how the method works, on this very frame (G).");
+  w.register_item("Tour", "Five steps show how the method works, on this very frame (G).");
   if (pressed) ui.tour.toggle(session, ui.overlays);
 }
 
 void draw_scene(Widgets& w, Session& session, UiState& ui) {
   const softbody::Scene& scene = session.world().scene();
-  const std::filesystem::path from = session.scene_file().name();
+  const std::filesystem::path from = session.simulation.loaded.file.name();
   const std::string shown = from.has_parent_path() ? from.filename().string() : scene.name;
-  w.row("Scene", w.px(62));
+  w.row_label("Scene", w.px(62));
   const float help_width = ImGui::GetFrameHeight(), tour_button_width = w.px(52),
               gap = ImGui::GetStyle().ItemInnerSpacing.x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - help_width - tour_button_width - 2 * gap);
-  if (w.begin_choices("Scene", shown.c_str(), scene.look_at.c_str())) {
+  if (w.begin_combo("Scene", shown.c_str(), scene.look_at.c_str())) {
     std::string chosen;
-    for (const SceneChoice& choice : session.scenes()) {
-      if (w.choice(choice.name.c_str(), choice.key == session.scene_file().name(), choice.look_at.c_str()))
+    for (const session::SceneChoice& choice : session.scenes.choices()) {
+      if (w.combo_item(choice.name.c_str(), choice.key == session.simulation.loaded.file.name(),
+                       choice.look_at.c_str()))
         chosen = choice.key;
     }
     ImGui::EndCombo();
-    if (!chosen.empty()) session.choose_scene(chosen);
+    if (!chosen.empty()) session.scenes.choose(chosen);
   }
   ImGui::SameLine(0, gap);
   draw_tour_button(w, session, ui, tour_button_width);
@@ -40,37 +41,37 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
-void draw_transport(Widgets& w, Session& session) {
+void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  const char* pause = session.paused ? "Go on###Pause" : "Pause###Pause";
+  const char* pause = session.simulation.clock.paused ? "Go on###Pause" : "Pause###Pause";
   if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
-    session.paused = !session.paused;
+    session.simulation.clock.paused = !session.simulation.clock.paused;
   }
   ImGui::SameLine();
-  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.single_step();
+  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.simulation.clock.single_step();
   ImGui::SameLine();
   if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
-    session.reset();
+    session.simulation.reset();
   ImGui::SameLine();
-  ImGui::BeginDisabled(!session.can_undo());
+  ImGui::BeginDisabled(!session.simulation.can_undo());
   if (w.button("Undo",
                "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
                "deletion "
                "(Ctrl+Z).",
                width))
-    session.undo();
+    session.simulation.undo();
   ImGui::EndDisabled();
 
-  w.checkbox("Slow motion", session.slow_motion, "The world runs slower than real time (S).");
+  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "The world runs slower than real time (S).");
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
-  ImGui::BeginDisabled(!session.slow_motion);
-  float percent = static_cast<float>(session.slow_factor * 100);
-  if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(Session::slowest),
-               100 * static_cast<float>(Session::fastest), "%.0f %% of real time", "How fast slow motion runs.",
-               true)) {
-    session.slow_factor = static_cast<double>(percent) / 100;
+  ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
+  float percent = static_cast<float>(session.simulation.clock.slow_factor * 100);
+  if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(session::SimulationClock::min_slow_factor),
+               100 * static_cast<float>(session::SimulationClock::max_slow_factor), "%.0f %% of real time",
+               "How fast slow motion runs.", true)) {
+    session.simulation.clock.slow_factor = static_cast<double>(percent) / 100;
   }
   ImGui::EndDisabled();
 }
@@ -79,42 +80,42 @@ void draw_progress(Widgets& w, const Session& session) {
   const softbody::World& world = session.world();
   ImGui::TextDisabled("Frame %d", world.frame());
   ImGui::SameLine(w.px(label_column));
-  ImGui::TextDisabled("%.2f s", world.time());
+  ImGui::TextDisabled("%.2f s", world.last_step().time);
   ImGui::SameLine(w.px(label_column + 76));
   std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
-  if (session.paused) {
+  if (session.simulation.clock.paused) {
     right = "paused";
-  } else if (session.pace() < 0.95) {
-    right = "slowed to " + std::to_string(static_cast<int>(session.pace() * 100)) + " %";
+  } else if (session.simulation.clock.pace() < 0.95) {
+    right = "slowed to " + std::to_string(static_cast<int>(session.simulation.clock.pace() * 100)) + " %";
   } else if (world.all_at_rest()) {
     right += ", all at rest";
   }
-  w.value(right);
-  w.done(
+  w.right_text(right);
+  w.register_item(
       "Progress",
-      session.pace() < 0.95
+      session.simulation.clock.pace() < 0.95
           ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
             "asked for, and no time is made up for."
           : "Simulated frames and time; bodies in the world.");
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {
-  const auto place = [&](std::size_t i) {
+  const auto next_cell = [&](std::size_t i) {
     if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
   };
   std::size_t i = 0;
-  for (const OverlayRow& row : overlay_table) {
-    place(i++);
+  for (const render::OverlayRow& row : render::overlay_table) {
+    next_cell(i++);
     const std::string tooltip = std::string(row.tooltip) + " (" + row.shortcut + ")";
     w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
   }
-  place(i++);
-  w.checkbox("Hash table", ui.table, "The hash table itself, one square a bucket (T).");
-  place(i++);
+  next_cell(i++);
+  w.checkbox("Hash table", ui.hash_table, "The hash table itself, one square a bucket (T).");
+  next_cell(i++);
   w.checkbox("Error vs run time###Error against run time", ui.sweep,
              "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
-  place(i++);
-  w.checkbox("Compare methods", session.compare.on,
+  next_cell(i++);
+  w.checkbox("Compare methods", session.comparison.choice.on,
              "All methods on the same frozen frame: what each costs, and what it misses (V).");
 }
 
@@ -126,27 +127,27 @@ void draw_plan(Widgets& w, const softbody::World& world) {
   for (const auto& [stage, why] : world.plan().left_out) {
     const std::string key(softbody::stage_key(stage));
     ImGui::TextDisabled("without %s: %s", key.c_str(), why.c_str());
-    w.done(key.c_str(), why.c_str());
+    w.register_item(key.c_str(), why.c_str());
   }
 }
 
 }  // namespace
 
-void draw_panel(Widgets& w, Session& session, UiState& ui, const SceneArea& area, bool opaque) {
-  // The same width with and without a scrollbar, so that folding a section moves nothing sideways.
+void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& area, bool opaque) {
+  // The contents keep their width when a scrollbar appears, so that folding a section moves nothing sideways.
   const ImGuiStyle& style = ImGui::GetStyle();
   ImGui::SetNextWindowContentSize({w.px(panel_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
   begin_dock("Panel", area, opaque);
   draw_scene(w, session, ui);
-  draw_transport(w, session);
+  draw_time_controls(w, session);
   draw_progress(w, session);
-  draw_touch(w, session, ui);
+  draw_bodies(w, session, ui);
   ImGui::Spacing();
   if (w.section("Detection", true))
-    draw_detection(w, session, ui.table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
+    draw_detection(w, session, ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
   if (w.section("Show", true)) draw_overlays(w, session, ui);
   if (w.section("World", false)) draw_world(w, session, ui);
-  if (w.section("Numbers", true)) draw_numbers(w, session, ui.fineness);
+  if (w.section("Numbers", true)) draw_numbers(w, session, ui.render_scale);
   if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Files", false)) draw_files(w, session, ui);
   if (w.section("Take away", false)) draw_take_away(w, session, ui);
@@ -154,4 +155,4 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const SceneArea& area
   end_dock();
 }
 
-}  // namespace app
+}  // namespace app::ui

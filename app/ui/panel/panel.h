@@ -1,30 +1,31 @@
 #pragma once
-// The panel at the left: what one needs first stands first, the rest folds. Numbers never move it.
+// The panel at the left edge. What is needed first stands at the top, the rest is in sections that fold. Changing
+// numbers never move a widget.
 
 #include "app/session/session.h"
 #include "app/ui/ui_state.h"
 #include "app/ui/widgets/dock.h"
 
-namespace app {
+namespace app::ui {
 
 inline constexpr float panel_width = 330;  // design pixels
 
-// Ends of the sliders; typed values stay within them too.
-inline constexpr float tolerance_from = 0.005f, tolerance_to = 0.5f;  // m
-inline constexpr float least_cell = 0.02f, most_cell = 5.0f;          // m
+// Ends of the sliders; typed values are clamped to them too.
+inline constexpr float min_tolerance = 0.005f, max_tolerance = 0.5f;  // m
+inline constexpr float min_cell = 0.02f, max_cell = 5.0f;             // m
 
-/// Draws the panel over the area, `panel_width` wide; `opaque`: as begin_dock(). Between begin_frame() and end_frame()
-/// of the Gui.
-void draw_panel(Widgets& widgets, Session& session, UiState& ui, const SceneArea& area, bool opaque);
+/// Draws the panel over `area`, which is `panel_width` wide. `opaque`: as in begin_dock(). Call it between
+/// begin_frame() and end_frame() of the Gui.
+void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area, bool opaque);
 
-// Its sections, each for a window already begun.
-/// structure_shown: boxes, cells or the hash table of the paper's method are shown, so its settings are offered.
+// The parts of the panel. Each draws into the current window.
+/// `structure_shown`: boxes, cells or the hash table of the paper's method are shown, so its settings are enabled.
 void draw_detection(Widgets& widgets, Session& session, bool structure_shown);
-void draw_touch(Widgets& widgets, Session& session, UiState& ui);
+void draw_bodies(Widgets& widgets, Session& session, UiState& ui);
 void draw_world(Widgets& widgets, Session& session, UiState& ui);
-void draw_numbers(Widgets& widgets, const Session& session, float fineness);
+void draw_numbers(Widgets& widgets, const Session& session, float render_scale);
 void draw_stability(Widgets& widgets, Session& session);
-void draw_files(Widgets& widgets, Session& session, UiState& ui);      // bring your own, save, reproduce
+void draw_files(Widgets& widgets, Session& session, UiState& ui);      // import, save, command line
 void draw_take_away(Widgets& widgets, Session& session, UiState& ui);  // pictures, recordings, curves
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,24 +1,24 @@
-// The panel's part for what the world is made of: gravity, materials and solids, while it runs.
+// The panel's section on gravity, materials and solids, which can be changed while the world runs.
 
+#include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "app/ui/panel/panel.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-constexpr float column = 108;  // design pixels
-
 struct MaterialRow {
-  const char *text, *label;  // as it is read; as the widget is named
+  const char *text, *label;  // on the screen; of the widget
   const char* tooltip;
   const char* format;
-  float least, most;
+  float min, max;
   bool logarithmic;
-  double unit;  // of the slider in the material's
+  double unit;  // a slider's 1 in the material's unit
   double& (*value)(softbody::Material&);
 };
 
@@ -53,22 +53,23 @@ constexpr std::array material_rows{
 
 void draw_gravity(Widgets& w, Session& session) {
   auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
-  w.row("Gravity", w.px(column));
+  w.row_label("Gravity", w.px(label_column));
   if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2", "Along the scene's own direction. The earth's is 9.81.",
                false) &&
       std::isfinite(strength))
-    session.set_gravity(static_cast<double>(strength));
+    session.settings.set_gravity(static_cast<double>(strength));
 }
 
-/// The index chosen of `count`; no list for one.
+/// Draws a list of `count` items (at least one) and returns the chosen index.
 template <class Name>
 std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size_t chosen, std::size_t count,
                    const Name& name) {
+  assert(count > 0);
   chosen = std::min(chosen, count - 1);
-  w.row(label, w.px(column));
-  if (!w.begin_choices(label, name(chosen).c_str(), tooltip)) return chosen;
+  w.row_label(label, w.px(label_column));
+  if (!w.begin_combo(label, name(chosen).c_str(), tooltip)) return chosen;
   for (std::size_t i = 0; i < count; ++i)
-    if (w.choice(name(i).c_str(), i == chosen, nullptr)) chosen = i;
+    if (w.combo_item(name(i).c_str(), i == chosen, nullptr)) chosen = i;
   ImGui::EndCombo();
   return chosen;
 }
@@ -82,55 +83,55 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
     softbody::Material changed = session.world().scene().materials[ui.material];
     double& value = row.value(changed);
     auto shown = static_cast<float>(value / row.unit);
-    w.row(row.text, w.px(column));
-    if (!w.slider(row.label, shown, row.least, row.most, row.format, row.tooltip, row.logarithmic)) continue;
+    w.row_label(row.text, w.px(label_column));
+    if (!w.slider(row.label, shown, row.min, row.max, row.format, row.tooltip, row.logarithmic)) continue;
     if (!std::isfinite(shown)) continue;
     value = static_cast<double>(shown) * row.unit;
-    session.set_material(ui.material, changed);
+    session.settings.set_material(ui.material, changed);
   }
 }
 
-constexpr float far = 20, least_size = 0.02f, most_size = 10;  // m
+constexpr float max_coordinate = 20, min_size = 0.02f, max_size = 10;  // m
 
-bool drag_place(Widgets& w, glm::dvec3& place) {
-  w.row("Place", w.px(column));
-  return w.drag("Solid place", place, -far, far, "x, y and z in metres.");
+bool drag_position(Widgets& w, glm::dvec3& position) {
+  w.row_label("Place", w.px(label_column));
+  return w.drag("Solid place", position, -max_coordinate, max_coordinate, "x, y and z in metres.");
 }
 
 bool slide_radius(Widgets& w, double& radius) {
   auto shown = static_cast<float>(radius);
-  w.row("Radius", w.px(column));
-  if (!w.slider("Solid radius", shown, least_size, most_size, "%.2f m", "Of the solid.", true)) return false;
+  w.row_label("Radius", w.px(label_column));
+  if (!w.slider("Solid radius", shown, min_size, max_size, "%.2f m", "Of the solid.", true)) return false;
   if (!std::isfinite(shown)) return false;
   radius = static_cast<double>(shown);
   return true;
 }
 
-// Where a solid is and how large; true if that changed.
+// These draw where a solid is and how large; true if that changed.
 bool draw_shape(Widgets& w, softbody::Ground& ground) {
   auto height = static_cast<float>(ground.height);
-  w.row("Height", w.px(column));
+  w.row_label("Height", w.px(label_column));
   if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Of the ground.", false) || !std::isfinite(height))
     return false;
   ground.height = static_cast<double>(height);
   return true;
 }
 bool draw_shape(Widgets& w, softbody::SolidSphere& s) {
-  const bool moved = drag_place(w, s.centre);
+  const bool moved = drag_position(w, s.centre);
   return slide_radius(w, s.radius) || moved;
 }
-bool draw_shape(Widgets& w, softbody::SolidPlane& p) { return drag_place(w, p.point); }
+bool draw_shape(Widgets& w, softbody::SolidPlane& p) { return drag_position(w, p.point); }
 bool draw_shape(Widgets& w, softbody::SolidBox& b) {
   glm::dvec3 size = 2.0 * b.half_size;
-  const bool moved = drag_place(w, b.centre);
-  w.row("Size", w.px(column));
-  const bool resized = w.drag("Solid size", size, least_size, far, "Along its own axes, in metres.");
+  const bool moved = drag_position(w, b.centre);
+  w.row_label("Size", w.px(label_column));
+  const bool resized = w.drag("Solid size", size, min_size, max_coordinate, "Along its own axes, in metres.");
   if (resized) b.half_size = 0.5 * size;
   return moved || resized;
 }
 bool draw_shape(Widgets& w, softbody::SolidCapsule& c) {
   glm::dvec3 from = c.from;
-  const bool moved = drag_place(w, from);
+  const bool moved = drag_position(w, from);
   c.to += from - c.from;
   c.from = from;
   return slide_radius(w, c.radius) || moved;
@@ -139,33 +140,33 @@ bool draw_shape(Widgets& w, softbody::SolidCapsule& c) {
 template <class Solid>
 bool draw_solid(Widgets& w, Solid& solid) {
   bool changed = draw_shape(w, solid);
-  const auto share = [&](const char* text, const char* label, double& value, float most, const char* tooltip) {
+  const auto slide = [&](const char* text, const char* label, double& value, float max, const char* tooltip) {
     auto shown = static_cast<float>(value);
-    w.row(text, w.px(column));
-    if (!w.slider(label, shown, 0, most, "%.2f", tooltip, false) || !std::isfinite(shown)) return;
+    w.row_label(text, w.px(label_column));
+    if (!w.slider(label, shown, 0, max, "%.2f", tooltip, false) || !std::isfinite(shown)) return;
     value = static_cast<double>(shown);
     changed = true;
   };
-  share("Friction", "Solid friction", solid.friction, 2, "Coulomb's coefficient.");
-  share("Restitution", "Solid restitution", solid.restitution, 1,
+  slide("Friction", "Solid friction", solid.friction, 2, "Coulomb's coefficient.");
+  slide("Restitution", "Solid restitution", solid.restitution, 1,
         "The part of its speed with which what hits the solid leaves it.");
   return changed;
 }
 
 void draw_solids(Widgets& w, Session& session, UiState& ui) {
-  if (session.solids().empty()) {
+  if (session.settings.solids().empty()) {
     ImGui::TextDisabled("The scene has no solids.");
     return;
   }
-  SolidList list = session.solids();
+  session::SolidList list = session.settings.solids();
   ui.solid = choose(w, "Solid", "Whose values stand below.", ui.solid, list.size(),
-                    [&](std::size_t i) { return solid_name(list, i); });
-  SolidEntry& entry = list[ui.solid];
+                    [&](std::size_t i) { return session::solid_name(list, i); });
+  session::SolidEntry& entry = list[ui.solid];
   bool changed = w.checkbox("Solid is there", entry.on, "Off: bodies pass where it was.");
   ImGui::BeginDisabled(!entry.on);
   changed |= std::visit([&](auto& solid) { return draw_solid(w, solid); }, entry.solid);
   ImGui::EndDisabled();
-  if (changed) session.set_solids(list);
+  if (changed) session.settings.set_solids(list);
 }
 
 }  // namespace
@@ -178,7 +179,7 @@ void draw_world(Widgets& w, Session& session, UiState& ui) {
   draw_solids(w, session, ui);
   if (w.button("Scene's world", "Gravity, materials and solids as the scene has them.",
                ImGui::GetContentRegionAvail().x))
-    session.restore_world_settings();
+    session.settings.restore_world();
 }
 
-}  // namespace app
+}  // namespace app::ui

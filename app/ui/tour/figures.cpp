@@ -4,31 +4,31 @@
 #include <cmath>
 #include <cstdlib>
 
+#include <fmt/core.h>
 #include <glm/common.hpp>
 
 #include "app/base/text.h"
-#include "app/compare/forecast.h"
+#include "app/compare/cost_model.h"
 #include "app/render/palette.h"
 #include "app/ui/bucket_view.h"
 
-namespace app {
+namespace app::ui {
 namespace {
 
-std::string metres(float length) { return format("%.3f m", double{length}); }
-std::string place(const glm::vec3& p) { return format("(%.3f, %.3f, %.3f)", double{p.x}, double{p.y}, double{p.z}); }
-std::string sides(const glm::vec3& s) { return format("%.3f x %.3f x %.3f m", double{s.x}, double{s.y}, double{s.z}); }
+std::string metres(float length) { return fmt::format("{:.3f} m", length); }
+std::string place(const glm::vec3& p) { return fmt::format("({:.3f}, {:.3f}, {:.3f})", p.x, p.y, p.z); }
+std::string sides(const glm::vec3& s) { return fmt::format("{:.3f} x {:.3f} x {:.3f} m", s.x, s.y, s.z); }
 
 std::string with_sign(std::int64_t n) {
-  return joined(n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
+  return fmt::format("{}{}", n < 0 ? "-" : "", grouped(static_cast<std::uint64_t>(std::abs(n))));
 }
 
-/// A body, in its colour.
 TourFigure body_figure(const char* label, const softbody::World& world, softbody::BodyId body) {
   return {label, std::to_string(body), "Bodies count from 0. A selected body is taken if it touches another.",
-          body_colour(world.body(body).number)};
+          render::body_colour(world.body(body).number)};
 }
 
-std::vector<TourFigure> hash_terms(const TourView& v) {
+std::vector<TourFigure> hash_terms(const TourContext& v) {
   constexpr std::array axes{"x", "y", "z"};
   const collide::Settings& settings = v.world.collision();
   const HashedCorner& corner = v.chosen();
@@ -37,28 +37,28 @@ std::vector<TourFigure> hash_terms(const TourView& v) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const std::int64_t index = corner.cell[a];
-    const double at = double{corner.at[axis]}, side = double{settings.cell_size[axis]};
     sum += index * settings.primes[a];
-    figures.push_back({format("floor(%.3f / %.3f) * %u", at, side, settings.primes[a]),
-                       format("%lld * %u", static_cast<long long>(index), settings.primes[a]),
-                       joined("Along ", axes[a], ": the corner over the cell's side, rounded down, times ", axes[a],
-                              "prime (§2.2).")});
+    figures.push_back(
+        {fmt::format("floor({:.3f} / {:.3f}) * {}", corner.at[axis], settings.cell_size[axis], settings.primes[a]),
+         fmt::format("{} * {}", index, settings.primes[a]),
+         fmt::format("Along {}: the corner over the cell's side, rounded down, times {}prime (§2.2).", axes[a],
+                     axes[a])});
   }
-  figures.push_back({joined("The sum % ", grouped(settings.buckets)),
-                     joined(with_sign(sum), "  ->  ", grouped(corner.bucket)),
+  figures.push_back({fmt::format("The sum % {}", grouped(settings.buckets)),
+                     fmt::format("{}  ->  {}", with_sign(sum), grouped(corner.bucket)),
                      "Modulo the number of buckets, the paper's bucket size; wrapped so that it is never negative."});
   return figures;
 }
 
-/// Beyond it the terms would not fit the sum; such corners are kilometres away.
+/// True if the terms of the hash fit their sum; corners that fail are kilometres away.
 bool can_be_written_out(const HashedCorner& corner) {
-  constexpr std::int64_t most = 500'000'000;
-  return std::ranges::all_of(corner.cell, [](std::int64_t index) { return std::abs(index) < most; });
+  constexpr std::int64_t max_index = 500'000'000;
+  return std::ranges::all_of(corner.cell, [](std::int64_t index) { return std::abs(index) < max_index; });
 }
 
 }  // namespace
 
-std::vector<TourFigure> figures_of_body(const TourView& v) {
+std::vector<TourFigure> figures_of_body(const TourContext& v) {
   const auto& [lo, hi] = v.f.bounds[0];
   const collide::Bodies& bodies = v.world.bodies();
   return {body_figure("Body", v.world, v.f.body),
@@ -68,25 +68,25 @@ std::vector<TourFigure> figures_of_body(const TourView& v) {
           {"Sides", sides(hi - lo), "Of the box."}};
 }
 
-std::vector<TourFigure> figures_of_boxes(const TourView& v) {
+std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.boxes.front()];
   const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
   const int levels = v.world.collision().levels;
   return {body_figure("Body", v.world, v.f.body),
-          {"n, the level of subdivision", joined(std::to_string(levels), ": 2^n = ", grouped(1ull << levels)),
+          {"n, the level of subdivision", fmt::format("{}: 2^n = {}", levels, grouped(1ull << levels)),
            "Set it in the panel, or by [ and ]. The paper uses 3."},
           {"Boxes with vertices", grouped(v.f.boxes.size()), "Of this body."},
           {"A box", sides(side), "All boxes of a body have the same sides, but for rounding."},
           {"A cell", sides(cell),
-           joined("The side of a grid cell. ",
-                  fits ? "The box fits into it, so that its corners reach every cell that it overlaps: amber."
-                       : "The box is larger, so that its corners skip cells in between: red.")}};
+           fmt::format("The side of a grid cell. {}",
+                       fits ? "The box fits into it, so that its corners reach every cell that it overlaps: amber."
+                            : "The box is larger, so that its corners skip cells in between: red.")}};
 }
 
-std::vector<TourFigure> figures_of_corner(const TourView& v) {
+std::vector<TourFigure> figures_of_corner(const TourContext& v) {
   const HashedCorner& corner = v.chosen();
-  std::vector<TourFigure> figures{{joined("Corner ", std::to_string(v.corner + 1)), joined(place(corner.at), " m"),
+  std::vector<TourFigure> figures{{fmt::format("Corner {}", v.corner + 1), fmt::format("{} m", place(corner.at)),
                                    "Of the box that is nearest to the other body. Choose another corner above."}};
   if (!can_be_written_out(corner)) {
     figures.push_back({"Bucket", grouped(corner.bucket), "The corner is too far away to write its numbers out."});
@@ -96,29 +96,28 @@ std::vector<TourFigure> figures_of_corner(const TourView& v) {
   return figures;
 }
 
-std::vector<TourFigure> figures_of_bucket(const TourView& v) {
-  constexpr std::size_t most_groups = 3;
-  const BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
+std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
+  constexpr std::size_t max_groups = 3;
+  const compare::BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
   std::vector<TourFigure> figures{
-      {joined("Bucket ", grouped(bucket.bucket)),
-       joined(grouped(bucket.items), bucket.items == 1 ? " box, " : " boxes, ", grouped(bucket.groups.size()),
-              bucket.groups.size() == 1 ? " cell" : " cells"),
+      {fmt::format("Bucket {}", grouped(bucket.bucket)),
+       fmt::format("{}{}{}{}", grouped(bucket.items), bucket.items == 1 ? " box, " : " boxes, ",
+                   grouped(bucket.groups.size()), bucket.groups.size() == 1 ? " cell" : " cells"),
        "What shares the bucket of the chosen corner."}};
-  const CellGroup* own = bucket.group(v.chosen().cell);
-  for (std::size_t i = 0; i < std::min(most_groups, bucket.groups.size()); ++i) {
-    const CellGroup& group = bucket.groups[i];
-    figures.push_back({joined("Cell ", cell_text(group.cell)), bodies_of(group, bucket, v.f.structure, {}),
-                       joined("Boxes with a corner in this cell: ", grouped(group.items.size()), "."),
-                       &group == own ? same_cell_colour : aliased_colour});
+  const compare::CellGroup* own = bucket.group(v.chosen().cell);
+  for (std::size_t i = 0; i < std::min(max_groups, bucket.groups.size()); ++i) {
+    const compare::CellGroup& group = bucket.groups[i];
+    figures.push_back({fmt::format("Cell {}", cell_text(group.cell)), bodies_text(group, bucket, v.f.structure, {}),
+                       fmt::format("Boxes with a corner in this cell: {}.", grouped(group.items.size())),
+                       &group == own ? render::same_cell_colour : render::aliased_colour});
   }
-  const auto meetings = [](const Sharing& s) { return joined(grouped(s.same_cell), " / ", grouped(s.aliased)); };
-  figures.push_back({"Meetings: same cell / aliased", meetings(bucket.sharing),
+  figures.push_back({"Meetings: same cell / aliased", sharing_text(bucket.sharing),
                      "Pairs of boxes that meet in this bucket: as neighbours, and by the modulo alone."});
-  figures.push_back({"In the whole table", meetings(v.f.table.sharing()), "The same, summed over all buckets."});
+  figures.push_back({"In the whole table", sharing_text(v.f.table.sharing()), "The same, summed over all buckets."});
   return figures;
 }
 
-std::vector<TourFigure> figures_of_contact(const TourView& v) {
+std::vector<TourFigure> figures_of_contact(const TourContext& v) {
   const float tolerance = v.world.collision().tolerance;
   const bool self = v.f.body == v.f.other;
   std::vector<TourFigure> figures{body_figure(self ? "Within body" : "Body", v.world, v.f.body)};
@@ -131,29 +130,30 @@ std::vector<TourFigure> figures_of_contact(const TourView& v) {
   }
   figures.push_back({"Contacts of the two", grouped(v.f.contacts.size()),
                      "All that there are, found by an exact method.",
-                     self ? contact_inside_colour : contact_between_colour});
+                     self ? render::contact_inside_colour : render::contact_between_colour});
   figures.push_back({"Missed", v.f.missed ? grouped(v.f.missed->size()) : "not counted",
                      "Those that the paper's method does not find: no box of the one shares a bucket with the other's.",
-                     contact_missed_colour});
+                     render::contact_missed_colour});
   return figures;
 }
 
-std::vector<TourFigure> tour_work(const TourView& v) {
+std::vector<TourFigure> figures_of_frame(const TourContext& v) {
   const collide::Bodies& bodies = v.world.bodies();
   const std::uint64_t vertices = bodies.vertex_count();
-  const std::uint64_t all = all_pair_tests(bodies, v.world.collision().self_collision);
+  const std::uint64_t all = compare::all_pair_tests(bodies, v.world.collision().self_collision);
   const collide::Counters& work = v.f.work;
-  return {{"Boxes / bodies", joined(grouped(work.boxes), " / ", grouped(bodies.count())),
-           "All subdivided boxes with vertices, in the whole frame."},
-          {"Hashes / vertices", joined(grouped(work.hashes), " / ", grouped(vertices)),
-           joined("8 corners a box, against one hash a vertex without boxes: ", ratio(work.hashes, vertices),
-                  " a vertex. §3 claims that boxes save hashes; they do while a box holds more than 8 vertices. Both "
-                  "grow with the number of bodies.")},
-          {v.f.predicted_tests ? "Pair tests, estimated / all pairs" : "Pair tests / all pairs",
-           joined(grouped(work.pair_tests), " / ", grouped(all)),
-           joined(ratio(work.pair_tests, vertices),
-                  " a vertex. §3 claims O(1) at best, so many a vertex however many "
-                  "bodies there are, and O(N^2), all pairs, at worst.")}};
+  return {
+      {"Boxes / bodies", fmt::format("{} / {}", grouped(work.boxes), grouped(bodies.count())),
+       "All subdivided boxes with vertices, in the whole frame."},
+      {"Hashes / vertices", fmt::format("{} / {}", grouped(work.hashes), grouped(vertices)),
+       fmt::format("8 corners a box, against one hash a vertex without boxes: {} a vertex. §3 claims that boxes save "
+                   "hashes; they do while a box holds more than 8 vertices. Both grow with the number of bodies.",
+                   ratio(work.hashes, vertices))},
+      {v.f.pair_tests_estimated ? "Pair tests, estimated / all pairs" : "Pair tests / all pairs",
+       fmt::format("{} / {}", grouped(work.pair_tests), grouped(all)),
+       fmt::format("{} a vertex. §3 claims O(1) at best, so many a vertex however many bodies there are, and O(N^2), "
+                   "all pairs, at worst.",
+                   ratio(work.pair_tests, vertices))}};
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,14 +1,17 @@
 #pragma once
-// The numbers of each step of the guided tour.
+// The figures that the guided tour shows: those of each step, and those of the whole frame.
 
 #include "app/ui/tour/steps.h"
 
-namespace app {
+namespace app::ui {
 
-std::vector<TourFigure> figures_of_body(const TourView& view);
-std::vector<TourFigure> figures_of_boxes(const TourView& view);
-std::vector<TourFigure> figures_of_corner(const TourView& view);  // the hash function with the corner's numbers
-std::vector<TourFigure> figures_of_bucket(const TourView& view);
-std::vector<TourFigure> figures_of_contact(const TourView& view);
+std::vector<TourFigure> figures_of_body(const TourContext& context);
+std::vector<TourFigure> figures_of_boxes(const TourContext& context);
+std::vector<TourFigure> figures_of_corner(const TourContext& context);  // the hash function with the corner's numbers
+std::vector<TourFigure> figures_of_bucket(const TourContext& context);
+std::vector<TourFigure> figures_of_contact(const TourContext& context);
 
-}  // namespace app
+/// Hashes, boxes and pair tests of the paper's method on this frame, beside the claims of §3.
+std::vector<TourFigure> figures_of_frame(const TourContext& context);
+
+}  // namespace app::ui

@@ -1,15 +1,15 @@
 #pragma once
-// The steps of the guided tour: one table, which the card and the tests loop over.
+// The steps of the guided tour: one table for the tour's window and the tests.
 
-#include "app/render/spotlight.h"
-#include "app/ui/tour/findings.h"
+#include "app/render/highlight.h"
+#include "app/ui/tour/example.h"
 
-namespace app {
+namespace app::ui {
 
-/// What a step is about.
-struct TourView {
+/// What the figures and highlights of a step are made from.
+struct TourContext {
   const softbody::World& world;
-  const Findings& f;
+  const TourExample& f;
   std::size_t corner;  // of f.corners
 
   const HashedCorner& chosen() const { return f.corners[corner]; }
@@ -17,20 +17,17 @@ struct TourView {
 
 struct TourFigure {
   std::string label, value, tooltip;
-  std::optional<glm::vec3> colour{};  // of it in the scene
+  std::optional<glm::vec3> colour{};  // in the scene
 };
 
 struct TourStep {
   std::string_view title;  // with its section of the paper
   std::string_view text;
-  std::vector<TourFigure> (*figures)(const TourView& view);
-  void (*show)(const TourView& view, Spotlight& light);
-  bool corners = false;  // one of the box's corners can be chosen
+  std::vector<TourFigure> (*figures)(const TourContext& context);
+  void (*highlight)(const TourContext& context, render::Highlight& highlight);
+  bool corners = false;  // the user can choose a corner of the box
 };
 
 std::span<const TourStep> tour_steps();
 
-/// Hashes, boxes and pair tests of the paper's method on this frame, beside what §3 claims of them.
-std::vector<TourFigure> tour_work(const TourView& view);
-
-}  // namespace app
+}  // namespace app::ui

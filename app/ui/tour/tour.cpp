@@ -1,13 +1,14 @@
 #include "app/ui/tour/tour.h"
 
+#include <cassert>
 #include <cmath>
 
 #include <glm/trigonometric.hpp>
 
-namespace app {
+namespace app::ui {
 namespace {
 
-glm::dvec3 eye_of(const softbody::View& view) {
+glm::dvec3 eye_position(const softbody::View& view) {
   const double round = glm::radians(view.azimuth), up = glm::radians(view.elevation);
   const glm::dvec3 direction(std::cos(up) * std::sin(round), std::sin(up), std::cos(up) * std::cos(round));
   return view.target + view.distance * direction;
@@ -15,32 +16,33 @@ glm::dvec3 eye_of(const softbody::View& view) {
 
 }  // namespace
 
-void Tour::start(Session& session, Overlays& shown) {
-  finder_ = std::make_unique<Finder>();
-  was_paused_ = session.paused;
-  session.paused = true;
-  kept_overlays_ = std::exchange(shown, {});
-  kept_bucket_ = session.selected_bucket();
-  session.select_bucket(std::nullopt);
-  revision_ = 0;
+void Tour::start(Session& session, render::Overlays& shown) {
+  assert(!open());
+  finder_ = std::make_unique<ExampleFinder>();
+  was_paused_ = session.simulation.clock.paused;
+  session.simulation.clock.paused = true;
+  saved_overlays_ = std::exchange(shown, {});
+  saved_bucket_ = session.inspector.selected_bucket();
+  session.inspector.select_bucket(std::nullopt);
+  example_revision_ = 0;
   chosen_corner_.reset();
   go_to(0);
 }
 
-void Tour::close(Session& session, Overlays& shown) {
+void Tour::close(Session& session, render::Overlays& shown) {
   if (!open()) return;
   finder_.reset();
-  findings_.reset();
-  if (session.paused) session.paused = was_paused_;
-  shown = *std::exchange(kept_overlays_, std::nullopt);
-  session.select_bucket(kept_bucket_);
-  ++changes_;
+  example_.reset();
+  if (session.simulation.clock.paused) session.simulation.clock.paused = was_paused_;
+  shown = *std::exchange(saved_overlays_, std::nullopt);
+  session.inspector.select_bucket(saved_bucket_);
+  ++highlight_revision_;
 }
 
 void Tour::go_to(std::size_t step) {
   step_ = step;
-  shown_ = false;
-  framing_ = true;
+  highlight_valid_ = false;
+  framing_requested_ = true;
 }
 
 void Tour::back() {
@@ -52,40 +54,42 @@ void Tour::next() {
 }
 
 void Tour::choose_corner(std::size_t corner) {
+  assert(corner < std::tuple_size_v<decltype(TourExample::corners)>);
   chosen_corner_ = corner;
   go_to(step_);
 }
 
-void Tour::follow(const Session& session, const softbody::View* view) {
+void Tour::update(const Session& session, const softbody::View* view) {
   if (!open()) return;
-  if (revision_ != session.revision() || wish_ != session.selected_body()) find(session, view);
-  if (!shown_) show(session);
+  if (example_revision_ != session.simulation.revision() || example_selection_ != session.bodies.selected())
+    find_example(session, view);
+  if (!highlight_valid_) rebuild_highlight(session);
 }
 
-void Tour::find(const Session& session, const softbody::View* view) {
-  revision_ = session.revision();
-  wish_ = session.selected_body();
-  shown_ = false;
+void Tour::find_example(const Session& session, const softbody::View* view) {
+  example_revision_ = session.simulation.revision();
+  example_selection_ = session.bodies.selected();
+  highlight_valid_ = false;
   problem_ = "There is no body in the world yet: close the tour and wait until one comes.";
   try {
-    findings_ =
-        finder_->find(session.world(), session.selected_body(), view ? std::optional(eye_of(*view)) : std::nullopt);
+    example_ = finder_->find(session.world(), session.bodies.selected(),
+                             view ? std::optional(eye_position(*view)) : std::nullopt);
   } catch (const std::exception& error) {
-    findings_.reset();
+    example_.reset();
     problem_ = error.what();
   }
 }
 
-void Tour::show(const Session& session) {
-  shown_ = true;
-  ++changes_;
-  spotlight_ = {};
-  if (const auto now = view(session)) tour_steps()[step_].show(*now, spotlight_);
+void Tour::rebuild_highlight(const Session& session) {
+  highlight_valid_ = true;
+  ++highlight_revision_;
+  highlight_ = {};
+  if (const auto now = context(session)) tour_steps()[step_].highlight(*now, highlight_);
 }
 
-std::optional<TourView> Tour::view(const Session& session) const {
-  if (!findings_) return std::nullopt;
-  return TourView{session.world(), *findings_, chosen_corner_.value_or(findings_->corner)};
+std::optional<TourContext> Tour::context(const Session& session) const {
+  if (!example_) return std::nullopt;
+  return TourContext{session.world(), *example_, chosen_corner_.value_or(example_->corner)};
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,60 +1,61 @@
 #pragma once
-// The guided tour of the paper's method on the live frame: which step is shown, and what for. No window, no ImGui.
+// The guided tour of the paper's method on the live frame: its state, without a window and without ImGui.
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
 #include "app/ui/tour/steps.h"
 
-namespace app {
+namespace app::ui {
 
 class Tour {
  public:
   bool open() const { return finder_ != nullptr; }
-  /// Pauses the world and puts the overlays aside; the first step is shown.
-  void start(Session& session, Overlays& shown);
-  /// The world goes on if it did before, unless somebody has let it; the overlays are as they were.
-  void close(Session& session, Overlays& shown);
-  void toggle(Session& session, Overlays& shown) { open() ? close(session, shown) : start(session, shown); }
+  /// Pauses the world, saves and clears the overlays, and shows the first step. The tour must be closed.
+  void start(Session& session, render::Overlays& shown);
+  /// Resumes the world if the tour paused it, and restores the overlays.
+  void close(Session& session, render::Overlays& shown);
+  void toggle(Session& session, render::Overlays& shown) { open() ? close(session, shown) : start(session, shown); }
 
-  // Nothing happens beyond the first and the last step, or if the tour is closed.
+  // These do nothing beyond the first and the last step, or if the tour is closed.
   void back();
   void next();
   std::size_t step() const { return step_; }
-  /// Of the eight corners of the box that is hashed.
+  /// Shows one of the eight corners of the hashed box.
   void choose_corner(std::size_t corner);
 
-  /// Once a frame: looks again if the state or the selected body has changed, for what can be seen in this view.
-  void follow(const Session& session, const softbody::View* view = nullptr);
-  /// Nothing if there is no body to show, or the method cannot be shown on it: then problem() says why.
-  std::optional<TourView> view(const Session& session) const;
+  /// Call it once a frame. Finds a new example if the state or the selected body has changed; prefers one that is
+  /// visible in `view`.
+  void update(const Session& session, const softbody::View* view = nullptr);
+  /// Returns nothing if there is no body to show, or the method cannot be shown on it: then problem() says why.
+  std::optional<TourContext> context(const Session& session) const;
   const std::string& problem() const { return problem_; }
-  /// What the step shows in the scene; nullptr if nothing.
-  const Spotlight* spotlight() const { return findings_ ? &spotlight_ : nullptr; }
-  /// Changes with all that the spotlight depends on.
-  std::uint64_t changes() const { return changes_; }
-  /// True once after each step: the camera should frame the spotlight.
-  bool take_framing() { return findings_ && std::exchange(framing_, false); }
+  /// What the step highlights in the scene; nullptr if nothing.
+  const render::Highlight* highlight() const { return example_ ? &highlight_ : nullptr; }
+  /// A number that changes with the highlight.
+  std::uint64_t highlight_revision() const { return highlight_revision_; }
+  /// True once after each step: the camera should frame the highlight.
+  bool take_framing_request() { return example_ && std::exchange(framing_requested_, false); }
 
-  /// The user's own overlays, which wait for the end of the tour.
-  const std::optional<Overlays>& kept_overlays() const { return kept_overlays_; }
+  /// The user's own overlays while the tour is open.
+  const std::optional<render::Overlays>& saved_overlays() const { return saved_overlays_; }
 
  private:
-  void find(const Session& session, const softbody::View* view);
-  void show(const Session& session);
+  void find_example(const Session& session, const softbody::View* view);
+  void rebuild_highlight(const Session& session);
   void go_to(std::size_t step);
 
-  std::unique_ptr<Finder> finder_;  // while the tour is open
-  std::optional<Findings> findings_;
-  std::optional<std::size_t> chosen_corner_;  // none: the findings'
+  std::unique_ptr<ExampleFinder> finder_;  // while the tour is open
+  std::optional<TourExample> example_;
+  std::optional<std::size_t> chosen_corner_;  // none: the example's
   std::string problem_;
-  Spotlight spotlight_;
+  render::Highlight highlight_;
   std::size_t step_ = 0;
-  std::uint64_t revision_ = 0, changes_ = 0;  // revision_: of the findings
-  std::optional<softbody::BodyId> wish_;      // likewise
-  bool shown_ = false, framing_ = false;
-  std::optional<Overlays> kept_overlays_;
-  std::optional<std::uint32_t> kept_bucket_;
+  std::uint64_t example_revision_ = 0, highlight_revision_ = 0;  // the first is the session's
+  std::optional<softbody::BodyId> example_selection_;            // the selected body when the example was found
+  bool highlight_valid_ = false, framing_requested_ = false;
+  std::optional<render::Overlays> saved_overlays_;
+  std::optional<std::uint32_t> saved_bucket_;
   bool was_paused_ = false;
 };
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,10 +1,10 @@
 #include "app/ui/widgets/dock.h"
 
-namespace app {
+namespace app::ui {
 
 ImVec4 dock_colour() { return ImGui::GetStyleColorVec4(ImGuiCol_MenuBarBg); }
 
-void begin_dock(const char* name, const SceneArea& area, bool opaque, ImGuiWindowFlags flags) {
+void begin_dock(const char* name, const ScreenRect& area, bool opaque, ImGuiWindowFlags flags) {
   constexpr ImGuiWindowFlags fixed = ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove |
                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
                                      ImGuiWindowFlags_NoFocusOnAppearing;
@@ -22,4 +22,4 @@ void begin_dock(const char* name, const SceneArea& area, bool opaque, ImGuiWindo
 
 void end_dock() { ImGui::End(); }
 
-}  // namespace app
+}  // namespace app::ui

@@ -1,21 +1,21 @@
 #pragma once
-// Windows of the interface that stand at an edge of the program's window, beside the scene and never over it.
+// Windows of the user interface that are docked at an edge of the program's window, beside the scene.
 
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
 /// A part of the display, in ImGui units.
-struct SceneArea {
+struct ScreenRect {
   ImVec2 min, max;
 };
 
-/// A docked window over the whole area; end_dock() must follow. Without `opaque` it draws no ground of its own: the
-/// frame has been cleared to dock_colour(), which costs drivers in software far less.
-void begin_dock(const char* name, const SceneArea& area, bool opaque, ImGuiWindowFlags flags = 0);
+/// Begins a docked window over the whole of `area`; end_dock() must follow. Unless `opaque`, it draws no background:
+/// the frame has been cleared to dock_colour(), which is much faster with software drivers.
+void begin_dock(const char* name, const ScreenRect& area, bool opaque, ImGuiWindowFlags flags = 0);
 void end_dock();
 
-/// What stands where no scene is.
+/// The background of all that is not scene.
 ImVec4 dock_colour();
 
-}  // namespace app
+}  // namespace app::ui

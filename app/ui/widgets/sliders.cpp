@@ -1,29 +1,31 @@
-// The widgets of numbers that are dragged.
+// The widgets for numbers that the user drags.
 
+#include <fmt/core.h>
 #include <imgui_internal.h>
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 
 #include "app/ui/widgets/widgets.h"
 
-namespace app {
+namespace app::ui {
 
-void Widgets::done_with_number(const char* label, const char* tooltip) {
-  // By a double-click, an open field selects a word, which of a number is all or, in newer versions, ends at its point.
+void Widgets::register_number(const char* label, const char* tooltip) {
+  // In an open field ImGui selects a word at a double-click. Newer versions end a word at the decimal point.
   if (ImGuiInputTextState* field = ImGui::GetInputTextState(ImGui::GetActiveID());
       field && ImGui::IsItemActive() && ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left)) {
     field->SelectAll();
     field->SelectedAllMouseLock = true;  // until the button is up
   }
   constexpr const char* how = "Drag it sideways, or double-click it to type a value.";
-  done(label, tooltip ? joined(tooltip, "\n", how).c_str() : how);
+  register_item(label, tooltip ? fmt::format("{}\n{}", tooltip, how).c_str() : how);
 }
 
 namespace {
 
-/// Sliders write their value in the middle, where ImGui's own grab would stand in its way.
+/// Hides ImGui's own grab, which would cover the value in the middle of the slider.
 class HiddenGrab {
  public:
   HiddenGrab() {
@@ -32,20 +34,20 @@ class HiddenGrab {
   ~HiddenGrab() { ImGui::PopStyleColor(2); }
 };
 
-/// How far a value is between the ends of a slider, 0 .. 1.
-float place_of(double value, double least, double most, bool logarithmic) {
-  const double place =
-      logarithmic ? std::log(value / least) / std::log(most / least) : (value - least) / (most - least);
-  return static_cast<float>(std::clamp(place, 0.0, 1.0));
+/// Returns the position of a value between the ends of a slider, 0 .. 1.
+float relative_position(double value, double min, double max, bool logarithmic) {
+  const double position = logarithmic ? std::log(value / min) / std::log(max / min) : (value - min) / (max - min);
+  return static_cast<float>(std::clamp(position, 0.0, 1.0));
 }
 
-/// A bar and a grab along the lower edge of the last item, below its text. steps: of whole numbers; 0: no steps.
-void mark_slider(float place, float steps, float bar) {
+/// Draws a bar and a grab along the lower edge of the last item, below its text. `steps`: between whole numbers; 0: the
+/// slider has no steps.
+void draw_grab(float position, float steps, float bar) {
   const ImVec2 min = ImGui::GetItemRectMin(), max = ImGui::GetItemRectMax();
-  constexpr float border = 2;  // where ImGui's grab ends
+  constexpr float border = 2;  // as that of ImGui's grab
   const float room = max.x - min.x - 2 * border;
   const float grab = std::min(room, std::max(ImGui::GetStyle().GrabMinSize, steps > 0 ? room / (steps + 1) : 0));
-  const float left = min.x + border + place * (room - grab);
+  const float left = min.x + border + position * (room - grab);
   const ImU32 colour = ImGui::GetColorU32(ImGui::IsItemActive() ? ImGuiCol_SliderGrabActive : ImGuiCol_SliderGrab);
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddRectFilled({min.x + border, max.y - bar}, {left, max.y}, ImGui::GetColorU32(ImGuiCol_SliderGrab, 0.35f));
@@ -53,16 +55,16 @@ void mark_slider(float place, float steps, float bar) {
 }
 
 constexpr float slider_bar = 2.5f;  // design pixels
-constexpr ImGuiSliderFlags kept_inside = ImGuiSliderFlags_AlwaysClamp;
+constexpr ImGuiSliderFlags clamped = ImGuiSliderFlags_AlwaysClamp;
 
-/// By double-click. One in a field that is open already selects a word there.
+/// True at a double-click, unless a field is open already: there a double-click selects a word.
 bool opens_field() { return ImGui::IsMouseDoubleClicked(ImGuiMouseButton_Left) && !ImGui::IsAnyItemActive(); }
 
-/// ImGui's sliders open a field for typing by Ctrl+click alone, its drags by double-click too.
-struct OpensByDoubleClick {
+/// Lets a double-click open a slider's field for typing. ImGui opens it only by Ctrl+click.
+struct OpenByDoubleClick {
   const bool before = ImGui::GetIO().KeyCtrl;
-  OpensByDoubleClick() { ImGui::GetIO().KeyCtrl |= opens_field(); }
-  ~OpensByDoubleClick() { ImGui::GetIO().KeyCtrl = before; }
+  OpenByDoubleClick() { ImGui::GetIO().KeyCtrl |= opens_field(); }
+  ~OpenByDoubleClick() { ImGui::GetIO().KeyCtrl = before; }
 };
 
 }  // namespace
@@ -70,65 +72,66 @@ struct OpensByDoubleClick {
 template <class Value, class Show>
 bool Widgets::slide(const char* label, Value& value, const Show& show) {
   const Value now = value;
-  const bool twice = opens_field() && hover_.pressed == label;
-  if (twice) value = static_cast<Value>(hover_.before);
+  const bool double_clicked = opens_field() && mouse_.pressed == label;
+  if (double_clicked) value = static_cast<Value>(mouse_.value_before);
   const bool changed = [&] {
     const HiddenGrab hide;
-    const OpensByDoubleClick opens;
-    return show(twice);
+    const OpenByDoubleClick opens;
+    return show(double_clicked);
   }();
-  if (twice) {
-    if (!ImGui::IsItemActive()) value = now;  // the second click was beside it
-    hover_.pressed.clear();
+  if (double_clicked) {
+    if (!ImGui::IsItemActive()) value = now;  // the second click missed the slider
+    mouse_.pressed.clear();
   } else if (ImGui::IsItemActivated()) {
-    hover_.pressed = label;
-    hover_.before = static_cast<double>(now);
+    mouse_.pressed = label;
+    mouse_.value_before = static_cast<double>(now);
   }
   return changed || value != now;
 }
 
-bool Widgets::slider(const char* label, int& value, int least, int most, const char* format, const char* tooltip) {
+bool Widgets::slider(const char* label, int& value, int min, int max, const char* format, const char* tooltip) {
   const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderInt(joined("##", label).c_str(), &value, least, most, format, kept_inside);
+    return ImGui::SliderInt(fmt::format("##{}", label).c_str(), &value, min, max, format, clamped);
   });
-  mark_slider(place_of(value, least, most, false), static_cast<float>(most - least), px(slider_bar));
-  done_with_number(label, tooltip);
+  draw_grab(relative_position(value, min, max, false), static_cast<float>(max - min), px(slider_bar));
+  register_number(label, tooltip);
   return changed;
 }
 
-bool Widgets::slider(const char* label, float& value, float least, float most, const char* format, const char* tooltip,
+bool Widgets::slider(const char* label, float& value, float min, float max, const char* format, const char* tooltip,
                      bool logarithmic) {
-  const ImGuiSliderFlags flags = kept_inside | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
+  const ImGuiSliderFlags flags = clamped | (logarithmic ? ImGuiSliderFlags_Logarithmic : 0);
   const bool changed = slide(label, value, [&](bool) {
-    return ImGui::SliderFloat(joined("##", label).c_str(), &value, least, most, format, flags);
+    return ImGui::SliderFloat(fmt::format("##{}", label).c_str(), &value, min, max, format, flags);
   });
-  // ImGui's logarithmic sliders begin where the shown digits do, if at 0.
-  const double begin = logarithmic ? std::max(double{least}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : least;
-  mark_slider(place_of(double{value}, begin, double{most}, logarithmic), 0, px(slider_bar));
-  done_with_number(label, tooltip);
+  // A logarithmic slider from 0 begins at the smallest number that ImGui shows.
+  const double begin = logarithmic ? std::max(double{min}, std::pow(0.1, ImParseFormatPrecision(format, 3))) : min;
+  draw_grab(relative_position(double{value}, begin, double{max}, logarithmic), 0, px(slider_bar));
+  register_number(label, tooltip);
   return changed;
 }
 
-bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
+bool Widgets::slider(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
                      const char* tooltip) {
+  assert(min > 0);
   const bool changed = slide(label, value, [&](bool typed) {
-    return ImGui::SliderScalar(joined("##", label).c_str(), ImGuiDataType_U32, &value, &least, &most, typed ? "%u" : "",
-                               kept_inside | ImGuiSliderFlags_Logarithmic);
+    return ImGui::SliderScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value, &min, &max,
+                               typed ? "%u" : "", clamped | ImGuiSliderFlags_Logarithmic);
   });
-  mark_slider(place_of(value, least, most, true), 0, px(slider_bar));
-  done_with_number(label, tooltip);
+  draw_grab(relative_position(value, min, max, true), 0, px(slider_bar));
+  register_number(label, tooltip);
   return changed;
 }
 
-bool Widgets::drag(const char* label, glm::dvec3& value, float least, float most, const char* tooltip) {
-  constexpr float metres_a_pixel = 0.01f;
+bool Widgets::drag(const char* label, glm::dvec3& value, float min, float max, const char* tooltip) {
+  constexpr float metres_per_pixel = 0.01f;
   std::array<float, 3> shown{static_cast<float>(value.x), static_cast<float>(value.y), static_cast<float>(value.z)};
   const bool changed =
-      ImGui::DragFloat3(joined("##", label).c_str(), shown.data(), metres_a_pixel, least, most, "%.2f", kept_inside);
-  done_with_number(label, tooltip);
+      ImGui::DragFloat3(fmt::format("##{}", label).c_str(), shown.data(), metres_per_pixel, min, max, "%.2f", clamped);
+  register_number(label, tooltip);
   const bool usable = changed && std::ranges::all_of(shown, [](float v) { return std::isfinite(v); });
   if (usable) value = {shown[0], shown[1], shown[2]};
   return usable;
 }
 
-}  // namespace app
+}  // namespace app::ui

@@ -5,7 +5,9 @@
 #include <cmath>
 #include <cstring>
 
-namespace app {
+#include <fmt/core.h>
+
+namespace app::ui {
 namespace {
 
 bool is_pressed(ImGuiKey key) {
@@ -18,7 +20,7 @@ bool is_pressed(ImGuiKey key) {
 
 }  // namespace
 
-const Recorder::Widget* Recorder::find(std::string_view label) const {
+const WidgetRecorder::Widget* WidgetRecorder::find(std::string_view label) const {
   const auto found = std::ranges::find(widgets, label, &Widget::label);
   return found == widgets.end() ? nullptr : &*found;
 }
@@ -27,31 +29,42 @@ ImU32 to_imgui(const glm::vec3& colour, float alpha) {
   return ImGui::ColorConvertFloat4ToU32({colour.x, colour.y, colour.z, alpha});
 }
 
-void Widgets::done(const char* label, const char* tooltip) {
+void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::vec3 (*colour)(float)) {
+  const float count = static_cast<float>(steps);
+  for (int i = 0; i < steps; ++i) {
+    const float x0 = min.x + width * static_cast<float>(i) / count,
+                x1 = min.x + width * static_cast<float>(i + 1) / count;
+    const glm::vec3 fill = colour((static_cast<float>(i) + 0.5f) / count);
+    ImGui::GetWindowDrawList()->AddRectFilled({x0, min.y}, {x1, bottom}, to_imgui(fill));
+  }
+}
+
+void Widgets::register_item(const char* label, const char* tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
     const std::string_view whole(label);
-    const auto name = whole.rfind("###");  // ImGui's way of a fixed name behind a changing text
+    const auto name = whole.rfind("###");  // in ImGui, the identifier of an item follows this mark
     recorder_->widgets.push_back({std::string(whole.substr(name == whole.npos ? 0 : name + 3)), ImGui::GetItemRectMin(),
                                   ImGui::GetItemRectMax(), enabled});
   }
-  explain(label, tooltip);
+  tooltip_if_hovered(label, tooltip);
 }
 
-void Widgets::explain(const char* label, const char* tooltip) {
+void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (hover_.label != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
-    hover_.label = label;
-    hover_.seconds = 0;
+  if (mouse_.hovered != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+    mouse_.hovered = label;
+    mouse_.seconds = 0;
   }
-  hover_.seconds += ImGui::GetIO().DeltaTime;
-  if (hover_.seconds >= Hover::delay) show_tooltip(tooltip);
+  mouse_.seconds += ImGui::GetIO().DeltaTime;
+  if (mouse_.seconds >= MouseState::tooltip_delay) show_tooltip(tooltip);
 }
 
 namespace {
 
-/// Beside the window that the last item is in, or above or below a wide one, so that no neighbour is covered.
-ImVec2 tooltip_place(const ImVec2& size, float gap) {
+/// Returns a place beside the last item's window, or above or below it if it is wide, so that the tooltip covers none
+/// of the item's neighbours.
+ImVec2 tooltip_position(const ImVec2& size, float gap) {
   const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin();
   const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
   const float right = window.x + extent.x + gap, left = window.x - gap - size.x;
@@ -73,10 +86,10 @@ ImVec2 tooltip_place(const ImVec2& size, float gap) {
 void Widgets::show_tooltip(const char* text) const {
   const float wrap = px(320);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
-  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_place(size, px(6));
+  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_position(size, px(6));
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
-  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // what explains a disabled widget is not faint itself
+  ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint
   ImGui::BeginTooltip();
   ImGui::PushTextWrapPos(wrap + pad.x);
   ImGui::TextUnformatted(text);
@@ -87,75 +100,75 @@ void Widgets::show_tooltip(const char* text) const {
 
 bool Widgets::button(const char* label, const char* tooltip, float width) {
   const bool pressed = ImGui::Button(label, {width, 0});
-  done(label, tooltip);
+  register_item(label, tooltip);
   return pressed;
 }
 
 bool Widgets::radio(const char* label, bool active, const char* tooltip) {
   const bool pressed = ImGui::RadioButton(label, active);
-  done(label, tooltip);
+  register_item(label, tooltip);
   return pressed;
 }
 
 bool Widgets::checkbox(const char* label, bool& value, const char* tooltip) {
   const bool changed = ImGui::Checkbox(label, &value);
-  done(label, tooltip);
+  register_item(label, tooltip);
   return changed;
 }
 
 bool Widgets::section(const char* label, bool open_at_first) {
-  if (const auto kept = sections_.find(label); kept != sections_.end())
-    ImGui::SetNextItemOpen(kept->second, ImGuiCond_Once);
+  if (const auto stored = sections_.find(label); stored != sections_.end())
+    ImGui::SetNextItemOpen(stored->second, ImGuiCond_Once);
   const bool open = ImGui::CollapsingHeader(label, open_at_first ? ImGuiTreeNodeFlags_DefaultOpen : 0);
   sections_[label] = open;
-  done(label, nullptr);
+  register_item(label, nullptr);
   return open;
 }
 
-bool Widgets::number(const char* label, std::uint32_t& value, std::uint32_t least, std::uint32_t most,
-                     const char* tooltip) {
-  const bool changed = ImGui::InputScalar(joined("##", label).c_str(), ImGuiDataType_U32, &value);
-  value = std::clamp(value, least, most);
-  done(label, tooltip);
+bool Widgets::number_field(const char* label, std::uint32_t& value, std::uint32_t min, std::uint32_t max,
+                           const char* tooltip) {
+  const bool changed = ImGui::InputScalar(fmt::format("##{}", label).c_str(), ImGuiDataType_U32, &value);
+  value = std::clamp(value, min, max);
+  register_item(label, tooltip);
   return changed;
 }
 
-bool Widgets::text(const char* label, std::string& value, const char* hint, const char* tooltip) {
-  std::array<char, 4096> typed{};  // as long as a path may be
+bool Widgets::text_field(const char* label, std::string& value, const char* hint, const char* tooltip) {
+  std::array<char, 4096> typed{};  // the longest path
   value.copy(typed.data(), typed.size() - 1);
-  if (ImGui::InputTextWithHint(joined("##", label).c_str(), hint, typed.data(), typed.size(),
+  if (ImGui::InputTextWithHint(fmt::format("##{}", label).c_str(), hint, typed.data(), typed.size(),
                                ImGuiInputTextFlags_AutoSelectAll))
     value = typed.data();
   const bool entered = ImGui::IsItemDeactivated() && is_pressed(ImGuiKey_Enter);
-  done(label, tooltip);
+  register_item(label, tooltip);
   return entered;
 }
 
-bool Widgets::begin_choices(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
-  const bool open = ImGui::BeginCombo(joined("##", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
-  // While the list is open, the last item is inside it, so the combo itself is noted only when closed.
-  if (!open) done(label, tooltip);
+bool Widgets::begin_combo(const char* label, const char* preview, const char* tooltip, ImGuiComboFlags flags) {
+  const bool open = ImGui::BeginCombo(fmt::format("##{}", label).c_str(), preview, flags | ImGuiComboFlags_HeightLarge);
+  // While the list is open, the last item is inside it, so the combo itself is recorded only when closed.
+  if (!open) register_item(label, tooltip);
   if (open && is_pressed(ImGuiKey_Escape)) ImGui::CloseCurrentPopup();
   return open;
 }
 
-bool Widgets::choice(const char* label, bool selected, const char* tooltip) {
+bool Widgets::combo_item(const char* label, bool selected, const char* tooltip) {
   const bool chosen = ImGui::Selectable(label, selected);
-  done(label, tooltip);
+  register_item(label, tooltip);
   return chosen;
 }
 
-bool Widgets::heading(const char* label, const char* tooltip) {
+bool Widgets::closable_heading(const char* label, const char* tooltip) {
   ImGui::Spacing();
   ImGui::AlignTextToFramePadding();
   const char* id = std::strstr(label, "###");
   ImGui::TextUnformatted(label, id);
   const float side = ImGui::GetFrameHeight();
   ImGui::SameLine(ImGui::GetContentRegionMax().x - side);
-  return button(joined("x###Close ", id ? id + 3 : label).c_str(), tooltip, side);
+  return button(fmt::format("x###Close {}", id ? id + 3 : label).c_str(), tooltip, side);
 }
 
-void Widgets::row(const char* label, float column) {
+void Widgets::row_label(const char* label, float column) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine(column);
@@ -164,34 +177,35 @@ void Widgets::row(const char* label, float column) {
 
 namespace {
 
-void text_in_line(const std::string& text, float place) {
+/// Draws text in the rest of the line. `align`: 0 is flush left, 1 flush right.
+void draw_text_in_line(const std::string& text, float align) {
   const float space = ImGui::GetContentRegionAvail().x;
   const ImVec2 at = ImGui::GetCursorScreenPos();
-  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * place;
+  const float left = std::max(0.0f, space - ImGui::CalcTextSize(text.c_str()).x) * align;
   ImGui::Dummy({space, ImGui::GetTextLineHeight()});
   ImGui::GetWindowDrawList()->AddText({std::floor(at.x + left), at.y}, ImGui::GetColorU32(ImGuiCol_Text), text.c_str());
 }
 
 }  // namespace
 
-void Widgets::line(const std::string& text) {
+void Widgets::text_line(const std::string& text) {
   if (ImGui::CalcTextSize(text.c_str()).x > ImGui::GetContentRegionAvail().x)
     ImGui::TextWrapped("%s", text.c_str());
   else
-    text_in_line(text, 0.0f);
+    draw_text_in_line(text, 0.0f);
 }
-void Widgets::value(const std::string& text) { text_in_line(text, 1.0f); }
+void Widgets::right_text(const std::string& text) { draw_text_in_line(text, 1.0f); }
 
 void Widgets::figure(const char* label, const std::string& value_text, const char* tooltip) {
   ImGui::BeginGroup();
   ImGui::TextDisabled("%s", label);
   ImGui::SameLine();
-  value(value_text);
+  right_text(value_text);
   ImGui::EndGroup();
-  done(label, tooltip);
+  register_item(label, tooltip);
 }
 
-void Widgets::chip(const glm::vec3& colour, float line_height) {
+void Widgets::swatch(const glm::vec3& colour, float line_height) {
   const float side = ImGui::GetFontSize() * 0.7f;
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const float y = at.y + 0.5f * (line_height - side);
@@ -208,4 +222,4 @@ void Widgets::dot(const glm::vec3& colour) {
   ImGui::SameLine();
 }
 
-}  // namespace app
+}  // namespace app::ui

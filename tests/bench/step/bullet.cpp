@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "softbody/prototype.h"
 #include "tests/bench/step/stepper.h"
 
 namespace bench {

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <limits>
 
-#include "app/base/text.h"
+#include <fmt/core.h>
+
 #include "softbody/measures.h"
+#include "softbody/prototype.h"
 
 namespace bench {
 namespace {
@@ -20,12 +22,12 @@ std::vector<std::string> failures(const Figures& f) {
     if (!good) all.push_back(text);
   };
   check(f.finite, "not finite");
-  check(f.energy <= bounds.energy, app::format("energy + %.2g", f.energy));
-  check(f.volume_min >= 1 / bounds.volume, app::format("volume down to %.2g", f.volume_min));
-  check(f.volume_max <= bounds.volume, app::format("volume up to %.2g", f.volume_max));
-  check(f.solid <= bounds.solid, app::format("%.2g R deep in a solid", f.solid));
-  check(f.inside <= bounds.inside, app::format("%.2g R deep in a body", f.inside));
-  if (f.lost > 0) all.push_back(app::format("given up at %.3g s", f.lost));
+  check(f.energy <= bounds.energy, fmt::format("energy + {:.2g}", f.energy));
+  check(f.volume_min >= 1 / bounds.volume, fmt::format("volume down to {:.2g}", f.volume_min));
+  check(f.volume_max <= bounds.volume, fmt::format("volume up to {:.2g}", f.volume_max));
+  check(f.solid <= bounds.solid, fmt::format("{:.2g} R deep in a solid", f.solid));
+  check(f.inside <= bounds.inside, fmt::format("{:.2g} R deep in a body", f.inside));
+  if (f.lost > 0) all.push_back(fmt::format("given up at {:.3g} s", f.lost));
   return all;
 }
 

@@ -46,7 +46,7 @@ class Judge {
   static constexpr int frames_between = 10;  // looks into bodies: exact ones are slow
   double energy_ = 0, scale_ = 0, mass_ = 0, radius_ = 0;
   int frame_ = 0;
-  app::WorldOracle oracle_{1};
+  app::compare::WorldOracle oracle_{1};
   Figures figures_;
 };
 

@@ -5,7 +5,7 @@
 #include <random>
 #include <stdexcept>
 
-#include "app/report/cpu_clock.h"
+#include "app/base/timings.h"
 
 namespace bench {
 namespace {

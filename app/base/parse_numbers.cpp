@@ -1,0 +1,41 @@
+#include "app/base/parse_numbers.h"
+
+#include <charconv>
+
+namespace app {
+
+std::vector<std::string_view> split(std::string_view text, char separator) {
+  std::vector<std::string_view> parts;
+  for (;;) {
+    const auto end = text.find(separator);
+    parts.push_back(text.substr(0, end));
+    if (end == text.npos) return parts;
+    text.remove_prefix(end + 1);
+  }
+}
+
+namespace {
+
+template <class Number>
+std::optional<Number> read(std::string_view text) {
+  Number number{};
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
+  return number;
+}
+
+}  // namespace
+
+std::optional<std::int64_t> parse_integer(std::string_view text) { return read<std::int64_t>(text); }
+
+std::optional<std::vector<double>> parse_reals(std::string_view text, char separator) {
+  std::vector<double> numbers;
+  for (const std::string_view part : split(text, separator)) {
+    const auto number = read<double>(part);
+    if (!number) return std::nullopt;
+    numbers.push_back(*number);
+  }
+  return numbers;
+}
+
+}  // namespace app

@@ -1,0 +1,121 @@
+#include "app/compare/cost_model.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <numeric>
+
+#include <glm/common.hpp>
+
+#include "app/base/text.h"
+#include "collide/core/cutoff.h"
+
+namespace app::compare {
+namespace {
+
+/// Returns the mean number of cells within the tolerance of a vertex.
+double cells_of_a_vertex(const collide::Settings& settings) {
+  double cells = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    cells *= 1 + 2 * static_cast<double>(settings.tolerance) / static_cast<double>(settings.cell_size[axis]);
+  }
+  return cells;
+}
+
+std::uint64_t whole(double number) { return static_cast<std::uint64_t>(std::min(number, 1e18)); }
+
+}  // namespace
+
+std::string WorkEstimate::in_words() const {
+  const bool tests = pair_tests >= cost() / 2;
+  const std::uint64_t number = tests ? pair_tests : hashes;
+  const char* what = tests ? " pair tests" : " hash evaluations";
+  return (number < 10'000'000 ? grouped(number) : grouped(number / 1'000'000) + " million") + what;
+}
+
+std::uint64_t all_pair_tests(const collide::Bodies& bodies, bool self_collision) {
+  std::uint64_t tests = pairs_of(bodies.vertex_count());
+  if (self_collision) return tests;
+  for (collide::Index b = 0; b < bodies.count(); ++b) tests -= pairs_of(bodies.size(b));
+  return tests;
+}
+
+void CostModel::begin(const collide::Frame& frame, const collide::Settings& settings, std::uint64_t world) {
+  assert(collide::is_complete(frame));
+  const collide::Bodies& bodies = *frame.bodies;
+  if (world != world_ || settings != settings_) learnt_.clear();
+  learnt_.resize(collide::method_table().size());
+  world_ = world;
+  settings_ = settings;
+  vertices_ = bodies.vertex_count();
+  bodies_ = bodies.count();
+  all_ = all_pair_tests(bodies, settings.self_collision);
+
+  collide::Result unused;
+  boxes_.build(frame, unused);
+  glm::dvec3 lo(1e300), hi(-1e300);
+  for (const collide::Index b : boxes_.live) {
+    lo = glm::min(lo, glm::dvec3(boxes_.box[b].lo));
+    hi = glm::max(hi, glm::dvec3(boxes_.box[b].hi));
+  }
+  extent_ = boxes_.live.empty() ? glm::dvec3(0) : hi - lo;
+  // The exact method: about sixteen tests per vertex, but at least those that its cuts leave of all.
+  const auto cut = [&](std::uint64_t tests, std::uint64_t vertices) {
+    return std::max(16 * vertices, tests >> settings.levels);
+  };
+  in_overlapping_boxes_ = exact_tests_ = 0;
+  for (const auto& [a, b] : pairs_.find(boxes_, collide::contact_cutoff(settings.tolerance))) {
+    in_overlapping_boxes_ += std::uint64_t{bodies.size(a)} * bodies.size(b);
+    exact_tests_ += cut(std::uint64_t{bodies.size(a)} * bodies.size(b), bodies.size(a) + bodies.size(b));
+  }
+  if (!settings.self_collision) return;
+  for (const collide::Index b : boxes_.live) {
+    in_overlapping_boxes_ += pairs_of(bodies.size(b));
+    exact_tests_ += cut(pairs_of(bodies.size(b)), bodies.size(b));
+  }
+}
+
+WorkEstimate CostModel::of(std::size_t method) const {
+  assert(method < learnt_.size());
+  const Learnt& learnt = learnt_[method];
+  const collide::Method& row = collide::method_table()[method];
+  if (learnt.vertices == 0 || (!row.uses_hash && !row.uses_levels)) return estimate(row);
+  const double growth = vertices_ / learnt.vertices;  // more bodies since then: the pairs grow with its square
+  return {whole(static_cast<double>(learnt.work.pair_tests) * growth * growth),
+          whole(static_cast<double>(learnt.work.hashes) * growth)};
+}
+
+void CostModel::learn(std::size_t method, const collide::Counters& counters) {
+  assert(method < learnt_.size());
+  learnt_[method] = {{counters.pair_tests, counters.hashes}, vertices_};
+}
+
+/// Returns the number of buckets that the hash can reach. Poor primes leave buckets empty: the sum in the hash is a
+/// multiple of the common divisor of primes and bucket count, and bounded by the cells of the frame.
+double CostModel::reachable_buckets() const {
+  std::uint64_t common = settings_.buckets;
+  double max_sum = 1;
+  for (int axis = 0; axis < 3; ++axis) {
+    const std::uint64_t prime = settings_.primes[static_cast<std::size_t>(axis)] % settings_.buckets;
+    common = std::gcd(common, prime);
+    max_sum += static_cast<double>(prime) * (extent_[axis] / static_cast<double>(settings_.cell_size[axis]) + 1);
+  }
+  return std::min(static_cast<double>(settings_.buckets / common), max_sum);
+}
+
+WorkEstimate CostModel::estimate(const collide::Method& method) const {
+  if (method.key == collide::reference_method) return {all_, 0};
+  if (!method.uses_hash)
+    return {method.uses_levels ? std::min(exact_tests_, in_overlapping_boxes_) : in_overlapping_boxes_, 0};
+  double entry_pairs = 64;  // of two boxes: each has eight corners, or about as many cells
+  double hashes = 8 * std::min(std::ldexp(bodies_, settings_.levels), vertices_);
+  if (!method.uses_levels) {
+    entry_pairs = cells_of_a_vertex(settings_);
+    if (entry_pairs > std::max(64.0, vertices_ / 32)) return {all_, 0};  // VertexGrid::visit_cells: too many cells
+    hashes = vertices_ * (1 + entry_pairs);
+  }
+  const double aliased = static_cast<double>(all_) * entry_pairs / reachable_buckets();
+  return {std::min(all_, in_overlapping_boxes_ + whole(aliased)), whole(hashes)};
+}
+
+}  // namespace app::compare

@@ -1,0 +1,68 @@
+#include "app/compare/surface_check.h"
+
+#include <algorithm>
+
+namespace app::compare {
+namespace {
+
+glm::vec3 from_vertex(const Positions& at, collide::Index v, const glm::dvec3& point) {
+  return glm::vec3(point - glm::dvec3(at.x[v], at.y[v], at.z[v]));
+}
+
+std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Overlaps& overlaps,
+                                  const collide::oracle::Missed& missed) {
+  std::vector<SurfaceMark> marks;
+  for (const std::size_t i : missed.penetrations) {
+    const collide::oracle::Penetration& in = overlaps.penetrations[i];
+    marks.push_back({in.vertex, from_vertex(at, in.vertex, in.point), false});
+  }
+  for (const std::size_t i : missed.piercings) {
+    const collide::oracle::Piercing& through = overlaps.piercings[i];
+    marks.push_back({through.edge[0], from_vertex(at, through.edge[0], through.point), true});
+  }
+  return marks;
+}
+
+/// Returns the positions before the step; bodies that were added in the step get their current positions.
+Positions completed(Positions before, const Positions& at) {
+  const auto add_rest = [](std::vector<float>& some, const std::vector<float>& all) {
+    some.insert(some.end(), all.begin() + static_cast<std::ptrdiff_t>(std::min(some.size(), all.size())), all.end());
+  };
+  add_rest(before.x, at.x);
+  add_rest(before.y, at.y);
+  add_rest(before.z, at.z);
+  return before;
+}
+
+void check_surfaces(const StepSnapshot& step, const std::stop_token& stop, SurfaceReport& report) {
+  collide::Workers worker(1);
+  const collide::Frame now{step.at.x, step.at.y, step.at.z, &step.bodies};
+  const collide::oracle::Overlaps overlaps = collide::oracle::find_overlaps(now, step.surfaces, worker);
+  if (stop.stop_requested()) return;
+  const Positions start = completed(step.before, step.at);
+  const collide::Frame before{start.x, start.y, start.z, &step.bodies};
+  const auto crossings = collide::oracle::find_crossings(before, now, step.surfaces, worker);
+  report.figures = collide::oracle::figures_of(now, overlaps, crossings);
+  const collide::oracle::Missed missed = collide::oracle::missed_by(step.contacts, now, step.surfaces, overlaps);
+  report.penetrations = overlaps.penetrations.size();
+  report.missed_penetrations = missed.penetrations.size();
+  report.missed_piercings = missed.piercings.size();
+  report.missed_pairs = missed.pairs.size();
+  report.marks = marks_of(step.at, overlaps, missed);
+}
+
+}  // namespace
+
+SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop) {
+  SurfaceReport report;
+  report.id = step.id;
+  report.frame = step.frame;
+  try {
+    check_surfaces(step, stop, report);
+  } catch (const std::exception& error) {
+    report.failure = error.what();
+  }
+  return report;
+}
+
+}  // namespace app::compare

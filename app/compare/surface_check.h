@@ -1,0 +1,52 @@
+#pragma once
+// Checks one step, copied from the world, with the surface oracle: what is inside what, what passed through what, and
+// which of these overlaps the detector's contacts do not show.
+
+#include <stop_token>
+#include <string>
+
+#include "app/base/background_worker.h"
+#include "app/compare/positions.h"
+#include "collide/oracle/surface_oracle.h"
+
+namespace app::compare {
+
+/// A copy of one step.
+struct StepSnapshot {
+  std::uint64_t id = 0;  // the caller's number of the copied state
+  int frame = 0;         // of the world, after the step
+  Positions before, at;  // `before` may lack the last bodies: they have just been added, and count as not moved
+  collide::Bodies bodies;
+  collide::surface::Surfaces surfaces;
+  std::vector<collide::Contact> contacts;  // found by the detector
+};
+
+/// The place of a missed overlap, relative to a vertex, so that it can be drawn on bodies that have moved on since.
+struct SurfaceMark {
+  collide::Index vertex;  // the penetrating one, or an end of the piercing edge
+  glm::vec3 offset;       // m, from the vertex to the nearest point of the other surface, or to the pierced point
+  bool piercing;
+};
+
+struct SurfaceReport {
+  std::uint64_t id = 0;  // of the step; 0: nothing was checked yet
+  int frame = 0;
+  collide::oracle::SurfaceFigures figures;
+  std::size_t penetrations = 0;  // vertices inside bodies, counted once for each body
+  std::size_t missed_penetrations = 0, missed_piercings = 0, missed_pairs = 0;  // see collide::oracle::Missed
+  std::vector<SurfaceMark> marks;  // of the missed penetrations and piercings
+  std::string failure;             // why there are no figures, else empty
+};
+
+/// Checks a step on the calling thread alone. `stop` is checked between overlaps and crossings; the report of a stopped
+/// check is worthless. Too little memory is reported as a failure.
+SurfaceReport check_surfaces(const StepSnapshot& step, const std::stop_token& stop = {});
+
+struct SurfaceCheckTask {
+  using Question = StepSnapshot;
+  using Answer = SurfaceReport;
+  SurfaceReport answer(const StepSnapshot& step, const std::stop_token& stop) { return check_surfaces(step, stop); }
+};
+using SurfaceCheckWorker = BackgroundWorker<SurfaceCheckTask>;
+
+}  // namespace app::compare

@@ -1,0 +1,87 @@
+#include "app/files/obj_writer.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <iterator>
+
+#include <fmt/core.h>
+
+#include "softbody/prototype.h"
+
+namespace app::files {
+namespace {
+
+using softbody::Edge;
+using softbody::Index;
+using softbody::Triangle;
+
+void add_face(std::string& text, std::size_t first, std::span<const Index> corners) {
+  text += 'f';
+  for (const Index corner : corners) text.append(1, ' ').append(std::to_string(first + corner + 1));
+  text += '\n';
+}
+
+/// Adds the quad that two triangles form if their common side is a diagonal, which is no edge of the mesh. Returns
+/// false if they form none.
+bool add_quad(std::string& text, std::size_t first, const softbody::Mesh& mesh, const Triangle& a, const Triangle& b) {
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Index from = a[i], to = a[(i + 1) % 3];
+    const auto apex = std::ranges::find_if(b, [&](Index corner) { return corner != from && corner != to; });
+    if (std::ranges::count(b, from) != 1 || std::ranges::count(b, to) != 1 || apex == b.end()) continue;
+    if (std::ranges::binary_search(mesh.edges, Edge{std::min(from, to), std::max(from, to)})) return false;
+    add_face(text, first, std::array{from, *apex, to, a[(i + 2) % 3]});
+    return true;
+  }
+  return false;
+}
+
+std::string faces_of(const softbody::Mesh& mesh, std::size_t first) {
+  std::string text;
+  const std::vector<Triangle>& all = mesh.triangles;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    if (i + 1 < all.size() && add_quad(text, first, mesh, all[i], all[i + 1]))
+      ++i;
+    else
+      add_face(text, first, all[i]);
+  }
+  return text;
+}
+
+std::vector<const softbody::Prototype*> prototypes_of(const softbody::World& world) {
+  std::vector<const softbody::Prototype*> list;
+  for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(&world.prototype(b));
+  return list;
+}
+
+}  // namespace
+
+ObjWriter::ObjWriter(const softbody::World& world) : prototypes_(prototypes_of(world)), first_{0} {
+  for (const softbody::Prototype* prototype : prototypes_) {
+    faces_.push_back(faces_of(prototype->mesh, first_.back()));
+    for (const glm::dvec3& v : prototype->mesh.vertices) {
+      x_.push_back(static_cast<float>(v.x));
+      y_.push_back(static_cast<float>(v.y));
+      z_.push_back(static_cast<float>(v.z));
+    }
+    first_.push_back(x_.size());
+  }
+}
+
+bool ObjWriter::matches(const softbody::World& world) const { return prototypes_ == prototypes_of(world); }
+
+std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
+  assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size());
+  std::string text;
+  for (std::size_t b = 0; b < faces_.size(); ++b) {
+    fmt::format_to(std::back_inserter(text), "o body_{}\n", b);
+    for (std::size_t i = first_[b]; i < first_[b + 1]; ++i)
+      fmt::format_to(std::back_inserter(text), "v {:.9g} {:.9g} {:.9g}\n", x[i], y[i], z[i]);
+    text += faces_[b];
+  }
+  return text;
+}
+
+std::string ObjWriter::at_rest() const { return frame(x_, y_, z_); }
+
+}  // namespace app::files

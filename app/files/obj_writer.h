@@ -1,0 +1,31 @@
+#pragma once
+// Writes bodies as OBJ text. `detect` reads it back as the same bodies with the same edges and, to the bit, positions.
+
+#include <string>
+#include <vector>
+
+#include "softbody/world.h"
+
+namespace app::files {
+
+/// Keeps the faces and the rest positions of a world's bodies, and combines them with the positions of frames.
+class ObjWriter {
+ public:
+  explicit ObjWriter(const softbody::World& world);
+
+  /// Returns true if these are still the bodies of the world.
+  bool matches(const softbody::World& world) const;
+
+  /// Returns the file of one frame: each body is an object, body_0 and so on. x, y, z: of all vertices, in metres.
+  std::string frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const;
+  /// Returns the bodies at rest, each about its own origin: --rest compares only distances inside one body.
+  std::string at_rest() const;
+
+ private:
+  std::vector<const softbody::Prototype*> prototypes_;  // only for comparison: the world may be gone
+  std::vector<std::size_t> first_;                      // by body: its first vertex; one more at the end
+  std::vector<std::string> faces_;                      // by body
+  std::vector<float> x_, y_, z_;                        // at rest
+};
+
+}  // namespace app::files

@@ -1,0 +1,29 @@
+#pragma once
+// Highlights a part of the scene and fades the rest, for a step of the guided tour.
+
+#include <string>
+#include <vector>
+
+#include "engine/frame_data.h"
+#include "softbody/body.h"
+
+namespace app::render {
+
+struct SceneLabel {
+  glm::vec3 at;  // m
+  std::string text;
+};
+
+struct Highlight {
+  std::vector<softbody::BodyId> bodies;  // in their colours; all others are faded
+  float opacity = 1;                     // of these; below 1 their inside shows
+  std::vector<engine::BoxSet> boxes;
+  std::vector<engine::LineSet> lines;
+  std::vector<engine::PointSet> points;
+  std::vector<SceneLabel> labels;
+  // A sphere that the camera should frame.
+  glm::vec3 centre{0.0f};
+  float radius = 1;  // m
+};
+
+}  // namespace app::render

@@ -1,0 +1,305 @@
+#include <algorithm>
+#include <cassert>
+#include <span>
+
+#include <fmt/core.h>
+
+#include "app/base/text.h"
+#include "app/report/contact/results.h"
+
+namespace app::report {
+
+std::string choice_name(const ContactChoice& choice) {
+  if (choice.surface == softbody::ContactSurface::surfaces) return "Surface";
+  return fmt::format("Vertex-vertex, {}, x {:g}", choice.method == collide::paper_method ? "literal" : "exact",
+                     choice.tolerance);
+}
+
+// ---- the table of figures ----
+
+namespace {
+
+std::string_view key_of(softbody::ContactSurface surface) {
+  return std::ranges::find(softbody::contact_surfaces, surface, &softbody::ContactSurfaceInfo::value)->key;
+}
+
+TableRow row_of(const ContactCase& c, const ContactTrial& t) {
+  const bool run = t.not_run.empty();
+  const bool vertices = t.choice.surface == softbody::ContactSurface::vertices;  // else it has no method and tolerance
+  return {
+      {"part", c.impact ? "impact" : "scene"},
+      {"scene", c.key},
+      {"speed", when(c.impact, c.speed)},
+      {"contact_surface", key_of(t.choice.surface)},
+      {"method", when(vertices, t.choice.method)},
+      {"tolerance_ratio", when(vertices, t.choice.tolerance)},
+      {"tolerance", when(vertices && run, t.tolerance)},
+      {"not_run", t.not_run},
+      {"radius", when(run && t.radius > 0, t.radius)},
+      {"bodies", when(run, t.bodies)},
+      {"vertices", when(run, t.vertices)},
+      {"frames", when(run, t.frames)},
+      {"looks", when(run, t.looks)},
+      {"cpu_ms", when(run, t.cpu_ms)},
+      {"detect_ms", when(run, t.detect_ms)},
+      {"solve_ms", when(run, t.solve_ms)},
+      {"penetrations", when(run, t.penetrations)},
+      {"missed", when(run && vertices, t.missed)},
+      {"deepest", when(run, t.deepest)},
+      {"mean_depth", when(run, t.mean_depth)},
+      {"solid_depth", when(run, t.solid_depth)},
+      {"crossed_vertices", when(run, t.crossed_vertices)},
+      {"edge_crossings", when(run, t.edge_crossings)},
+      {"passed", when(run, t.passed)},
+      {"through_solids", when(run, t.through_solids)},
+      {"finite", when(run, t.finite)},
+      {"asleep", when(run, t.asleep)},
+      {"end_depth", when(run, t.end_depth)},
+      {"end_overlapping_pairs", when(run, t.overlapping_pairs)},
+      {"end_self_intersecting", when(run, t.self_intersecting)},
+      {"jitter", when(run, t.jitter)},
+      {"failures", when(run, joined(t.failures(), "; "))},
+  };
+}
+
+}  // namespace
+
+Table contact_table(const ContactResults& results) {
+  Table table;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& t : c.trials) table.add(row_of(c, t));
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+constexpr const char* axis_from_zero =
+    "unset logscale y\nset yrange [0:*]\nset offsets graph 0, graph 0, graph 0.05, graph 0\n";
+
+/// Series have the methods' colours, black for surface contact, and a shape per tolerance.
+Series series(const ContactChoice& choice, std::string_view lines, std::vector<Point> points) {
+  const bool surface = choice.surface == softbody::ContactSurface::surfaces;
+  const double x = choice.tolerance;
+  const int shape = surface ? 7 : x < 0.5 ? 9 : x < 1 ? 11 : x > 1 ? 13 : 5;
+  return {choice_name(choice), surface ? "#000000" : colour(*collide::find_method(choice.method)),
+          fmt::format("{} pointtype {} pointsize 1.5 linewidth 2", lines, shape), std::move(points)};
+}
+
+Plot depth_against_time(const ContactCase& c) {
+  Plot plot{.name = "contact-time-" + c.key,
+            .caption = c.name + ": left is cheaper, down is more accurate.",
+            .title = c.name + ": the deepest penetration against run time",
+            .x = "processor time per frame, ms",
+            .y = "deepest penetration, R",
+            .settings = axis_from_zero};
+  for (const ContactTrial& t : c.trials)
+    if (t.not_run.empty() && t.radius > 0) plot.add(series(t.choice, "points", {{t.cpu_ms, t.deepest / t.radius}}));
+  return plot;
+}
+
+Plot passed_against_speed(std::span<const ContactCase> cases) {
+  assert(!cases.empty());
+  const ContactCase& first = cases.front();
+  const bool solid = first.key == "solid";
+  Plot plot{.name = "contact-impact-" + first.key,
+            .caption = first.name + ": 0 is right.",
+            .title = first.name + ": what passed through",
+            .x = "speed, m/s",
+            .y = solid ? "bodies that went through the solid" : "vertices that passed through",
+            .settings = axis_from_zero};
+  for (std::size_t i = 0; i < first.trials.size(); ++i) {
+    std::vector<Point> points;
+    for (const ContactCase& c : cases) {
+      const ContactTrial& t = c.trials[i];
+      if (t.not_run.empty()) points.push_back({c.speed, static_cast<double>(solid ? t.through_solids : t.passed)});
+    }
+    plot.add(series(first.trials[i].choice, "linespoints", std::move(points)));
+  }
+  return plot;
+}
+
+// ---- the page ----
+
+void add_introduction(Page& page, const ContactResults& r) {
+  page.text("# Contact: how accurate it is, and what it costs");
+  page.text("`{}` makes this report. All figures except times are the same on every machine.", r.command);
+  page.item(
+      "Every scene, and spheres thrown at 1 to 1,000 m/s, run with surface contact and with the paper's vertex-vertex "
+      "contact at several tolerances. \"x 1\" is the scene's own tolerance (0.2 R for the spheres). An oracle judges "
+      "them. It shares no code with the detectors and the contact response.");
+  page.item(
+      "Vertex-vertex contact runs with the literal method and with one of the exact methods. All other methods are "
+      "exact, too: they find the same contacts, so the bodies move alike. `report detection` says what each costs. "
+      "Surface contact has one search of its own, which is exact. Detector and tolerance do not change what it does, "
+      "so it has one row.");
+  page.item(
+      "The oracle looks for overlaps every {} frames (impacts: every frame). Penetrating: vertices inside another "
+      "body, per look. Missed: the share of them that no contact of the detector joins to that body. R: radius of the "
+      "smallest closed body.",
+      r.limits.stride);
+  page.item(
+      "Passed: vertices that came to the other side of a surface from one frame to the next (where bodies are slow, "
+      "from one centimetre of motion to the next), summed. The path of a vertex is taken as a straight line, which "
+      "cuts the corners of a curved path. So a vertex that went in and out counts only if its bodies passed each other "
+      "by more than R. `contact.csv` also has all passages of vertices through faces and of edges through edges. "
+      "Through a solid: bodies whose middle went through one.");
+  page.item("Jitter: RMS speed over the last second of the particles whose bodies do not sleep.");
+  page.item("ms: processor time of a step on one thread, mean over the frames until all bodies slept.");
+  page.item(
+      "A scene fails if: something is not finite; anything passed or went through a solid; a body pierces itself at "
+      "the end; something is deeper than {:g} R at the end, or in a solid at any time; in scenes with gravity also if "
+      "not all bodies sleep after {} frames.",
+      ContactTrial::depth_bound, r.limits.frames);
+  page.item(
+      "Budget: scenes with more than {} vertices times frames, and runs of more than {:g} s of processor time, are "
+      "listed as over budget.",
+      whole(static_cast<double>(r.vertex_frames)), r.limits.seconds);
+  page.item("`contact.csv` has every figure.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, frames, speeds and tolerances.");
+}
+
+std::string missed_share(std::size_t missed, std::size_t penetrations, const ContactChoice& choice) {
+  if (choice.surface == softbody::ContactSurface::surfaces || penetrations == 0) return "";
+  return fmt::format("{:.1f} %", 100 * static_cast<double>(missed) / static_cast<double>(penetrations));
+}
+
+std::string verdict(const ContactTrial& t, std::string_view in_order = "ok") {
+  const std::vector<std::string> failures = t.failures();
+  return failures.empty() ? std::string(in_order) : joined(failures, "; ");
+}
+
+bool was_run(const ContactTrial& t) { return t.not_run.empty(); }
+
+// ---- all scenes ----
+
+/// One choice over all scenes in which every choice was run.
+struct Total {
+  std::size_t run = 0, failing = 0, penetrations = 0, missed = 0, passed = 0, through = 0, awake = 0;
+  double deepest = 0, end_depth = 0, mean_depth = 0, jitter = 0, ms = 0;  // depths in R; mean_depth a sum
+
+  void add(const ContactTrial& t) {
+    ++run;
+    failing += !t.failures().empty();
+    penetrations += t.penetrations;
+    missed += t.missed;
+    passed += t.passed;
+    through += t.through_solids;
+    awake += t.settles && !t.asleep;
+    jitter = std::max(jitter, t.jitter);
+    ms += t.cpu_ms;
+    if (t.radius == 0) return;
+    deepest = std::max(deepest, t.deepest / t.radius);
+    end_depth = std::max(end_depth, t.end_depth / t.radius);
+    mean_depth += static_cast<double>(t.penetrations) * t.mean_depth / t.radius;
+  }
+};
+
+Table overview(const ContactResults& r) {
+  Table table;
+  for (std::size_t i = 0; i < r.choices.size(); ++i) {
+    Total total;
+    for (const ContactCase& c : r.cases)
+      if (!c.impact && std::ranges::all_of(c.trials, was_run)) total.add(c.trials[i]);
+    const double count = static_cast<double>(std::max<std::size_t>(total.penetrations, 1));
+    table.add({{"contact", choice_name(r.choices[i])},
+               {"scenes that fail", fmt::format("{} of {}", total.failing, total.run)},
+               {"penetrating", grouped(total.penetrations)},
+               {"missed", missed_share(total.missed, total.penetrations, r.choices[i])},
+               {"deepest, R", brief(total.deepest)},
+               {"mean, R", brief(total.mean_depth / count)},
+               {"at the end, R", brief(total.end_depth)},
+               {"passed", grouped(total.passed)},
+               {"through a solid", grouped(total.through)},
+               {"awake", grouped(total.awake)},
+               {"jitter, mm/s", brief(1e3 * total.jitter)},
+               {"ms", brief(total.ms)}});
+  }
+  return table;
+}
+
+/// Surface contact beside vertex-vertex contact by an exact detector at the scene's own tolerance.
+Table side_by_side(const ContactResults& r) {
+  const auto exact = std::ranges::find_if(r.choices, [](const ContactChoice& c) {
+    return c.surface == softbody::ContactSurface::vertices && c.method == collide::default_method && c.tolerance == 1;
+  });
+  Table table;
+  for (const ContactCase& c : r.cases) {
+    if (c.impact || std::ranges::none_of(c.trials, was_run)) continue;
+    const ContactTrial &surface = c.trials.front(), &other = c.trials[std::size_t(exact - r.choices.begin())];
+    const bool run = was_run(other);
+    table.add({{"scene", fmt::format("`{}`", c.key)},
+               {"surface contact", verdict(surface, surface.asleep ? "nothing passed, all asleep" : "nothing passed")},
+               {"ms", when(was_run(surface), brief(surface.cpu_ms, 2))},
+               {"vertex-vertex: passed", run ? grouped(other.passed) : other.not_run},
+               {"deepest, mm", when(run && other.radius > 0, whole(1e3 * other.deepest))},
+               {"ms", when(run, brief(other.cpu_ms, 2))}});
+  }
+  return table;
+}
+
+// ---- scenes and impacts ----
+
+void add_scene(Page& page, const ContactCase& c) {
+  page.text("### {}", c.name);
+  if (std::ranges::none_of(c.trials, was_run)) return page.text("Not run: {}.", c.trials.front().not_run);
+  Table table;
+  for (const ContactTrial& t : c.trials) {
+    const bool run = was_run(t);
+    const auto in_radii = [&](double depth) { return run && t.radius > 0 ? brief(depth / t.radius) : ""; };
+    table.add({{"contact", choice_name(t.choice)},
+               {"penetrating", when(run, brief(static_cast<double>(t.penetrations) / std::max(t.looks, 1)))},
+               {"missed", when(run, missed_share(t.missed, t.penetrations, t.choice))},
+               {"deepest, R", in_radii(t.deepest)},
+               {"mean, R", in_radii(t.mean_depth)},
+               {"at the end, R", in_radii(t.end_depth)},
+               {"passed", when(run, grouped(t.passed))},
+               {"solid depth, mm", when(run, brief(1e3 * t.solid_depth))},
+               {"jitter, mm/s", when(run, brief(1e3 * t.jitter))},
+               {"ms", when(run, brief(t.cpu_ms))},
+               {"verdict", verdict(t)}});
+  }
+  page.table(table);
+  page.plot(depth_against_time(c));
+}
+
+/// A row per choice, a column per speed.
+void add_impact(Page& page, std::span<const ContactCase> cases) {
+  page.text("### {}", cases.front().name);
+  Table table;
+  for (std::size_t i = 0; i < cases.front().trials.size(); ++i) {
+    TableRow row{{"contact", choice_name(cases.front().trials[i].choice)}};
+    for (const ContactCase& c : cases) row.push_back({fmt::format("{:g} m/s", c.speed), verdict(c.trials[i])});
+    table.add(row);
+  }
+  page.table(table, 1 + cases.size());
+  page.plot(passed_against_speed(cases));
+}
+
+}  // namespace
+
+Page contact_page(const ContactResults& results) {
+  Page page;
+  add_introduction(page, results);
+  page.text("## All scenes");
+  page.text("Over the scenes that were run with every choice: sums; for depths at the end and jitter the worst scene.");
+  page.table(overview(results));
+  if (const Table table = side_by_side(results); !table.empty()) {
+    page.text("Surface contact, and vertex-vertex contact by an exact detector at the scene's own tolerance:");
+    page.table(table, 2);
+  }
+  page.text("## Scenes");
+  auto c = results.cases.begin();
+  for (; c != results.cases.end() && !c->impact; ++c) add_scene(page, *c);
+  if (c != results.cases.end()) page.text("## Impacts");
+  while (c != results.cases.end()) {
+    const auto end =
+        std::find_if(c, results.cases.end(), [&](const ContactCase& other) { return other.key != c->key; });
+    add_impact(page, {c, end});
+    c = end;
+  }
+  return page;
+}
+
+}  // namespace app::report

@@ -1,0 +1,314 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <optional>
+
+#include <fmt/core.h>
+
+#include "app/base/text.h"
+#include "app/report/detection/results.h"
+
+namespace app::report {
+
+// ---- the table of figures ----
+
+namespace {
+
+constexpr std::array coverage_names{"exact", "covered", "exceeded"};  // by value
+
+TableRow row_of(std::string_view part, const SceneResult& scene, const StateResult& state, const compare::SweepRow& r) {
+  const compare::Configuration& c = r.configuration;
+  const collide::Method& method = method_of(c);
+  const glm::vec3 cell = c.settings.cell_size;
+  const bool run = r.not_run.empty(), known = state.sweep.reference.has_value(), scored = run && known;
+  TableRow row{{"part", part},
+               {"scene", scene.scene},
+               {"frame", state.frame},
+               {"bodies", state.bodies},
+               {"vertices", state.vertices},
+               {"method", method.key},
+               {"levels", when(method.uses_levels, c.settings.levels)},
+               {"buckets", when(method.uses_hash, c.settings.buckets)},
+               {"cell", when(method.uses_hash, c.cell)},
+               {"cell_x", when(method.uses_hash, cell.x)},
+               {"cell_y", when(method.uses_hash, cell.y)},
+               {"cell_z", when(method.uses_hash, cell.z)},
+               {"not_run", r.not_run},
+               {"repetitions", r.times.ms.size()},
+               {"ms_median", run ? r.times.median() : TableCell()},
+               {"ms_min", run ? r.times.min() : TableCell()},
+               {"contacts", when(run, r.contacts)},
+               {"true_contacts", when(known, state.sweep.true_contacts)},
+               {"missed", when(scored, r.missed)},
+               {"recall", when(scored, r.recall)},
+               {"precision", when(scored, r.precision)},
+               {"pair_tests", when(run, r.counters.pair_tests)},
+               {"hashes", when(run, r.counters.hashes)},
+               {"boxes", when(run, r.counters.boxes)},
+               {"coverage", when(run, coverage_names.at(static_cast<std::size_t>(r.coverage)))},
+               {"memory_bytes", when(run, r.memory)}};
+  for (std::size_t kind = 0; kind < r.skipped.size(); ++kind)
+    row.push_back({fmt::format("skipped_{}", collide::skip_kinds[kind].key), when(run, r.skipped[kind])});
+  row.push_back({"reference", known ? method_of(*state.sweep.reference).key : TableCell()});
+  return row;
+}
+
+}  // namespace
+
+Table detection_table(const DetectionResults& results) {
+  Table table;
+  const auto add = [&](std::string_view part, const SceneResult& scene) {
+    for (const StateResult& state : scene.states)
+      for (const compare::SweepRow& row : state.sweep.rows) table.add(row_of(part, scene, state, row));
+  };
+  for (const SceneResult& scene : results.scenes) add("sweep", scene);
+  add("growth", results.growth);
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+/// Places points without any error on the logarithmic axis of errors, which has no 0: in a band below all others, with
+/// a lane per method, so that they do not hide each other.
+class ZeroBand {
+ public:
+  explicit ZeroBand(const std::vector<Mean>& means) {
+    double min = 0.1;
+    for (const Mean& m : means)
+      if (m.not_run.empty() && m.error() > 0) min = std::min(min, m.error());
+    top_ = std::pow(10, std::floor(std::log10(min)));
+  }
+  Point point(const Mean& m) const { return {m.ms, m.error() > 0 ? m.error() : lane(m.configuration.method)}; }
+  /// Returns the axis as gnuplot commands.
+  std::string axis() const {
+    const double bottom = lane(collide::method_table().size());
+    std::string ticks;
+    for (double tick = 1; tick > 0.99 * top_; tick /= 10) ticks += fmt::format("'{0:g}' {0:g}, ", tick);
+    return fmt::format(
+        "set yrange [{0:g}:1.5]\n"
+        "set object 1 rectangle from graph 0, first {0:g} to graph 1, first {1:g} behind fillcolor '#eef4ee' fillstyle "
+        "solid noborder\n"
+        "set ytics ({2}'0' {3:g})\n",
+        bottom, top_, ticks, std::sqrt(top_ * bottom));
+  }
+
+ private:
+  double lane(std::size_t number) const { return top_ * std::pow(0.7, static_cast<double>(number) + 1); }
+
+  double top_;  // the smallest error that the axis shows
+};
+
+/// Returns the points of a method, or of one of its levels. Shapes: disc, square, triangle, triangle upside down.
+Series series(const std::vector<Mean>& means, const ZeroBand& band, std::size_t method, std::optional<int> level) {
+  constexpr std::array shapes{7, 5, 9, 11};
+  const collide::Method& row = collide::method_table()[method];
+  const auto shape = level ? std::ranges::find(compare::sweep_levels, *level) - compare::sweep_levels.begin() : 0;
+  Series series{std::string(row.name) + (level ? fmt::format(", level {}", *level) : ""), colour(row),
+                fmt::format("points pointtype {} pointsize 0.9", shapes.at(static_cast<std::size_t>(shape)))};
+  for (const Mean& m : means)
+    if (m.not_run.empty() && m.configuration.method == method && (!level || m.configuration.settings.levels == *level))
+      series.points.push_back(band.point(m));
+  return series;
+}
+
+Plot error_against_time(const SceneResult& scene) {
+  const std::vector<Mean> all = means(scene);
+  const ZeroBand band(all);
+  Plot plot{.name = "error-time-" + scene.scene,
+            .caption = "Every configuration that ran on all states of " + scene.name +
+                       "; down and left is better, the shaded band holds those that miss nothing.",
+            .title = scene.name + ": error against run time",
+            .x = "detection from scratch, ms per frame",
+            .y = "missed share of the true contacts",
+            .settings = band.axis()};
+  std::vector<Point> front;
+  for (const std::size_t i : pareto_front(all)) front.push_back(band.point(all[i]));
+  plot.add({"Pareto front", "#000000", "steps linewidth 1.5", front});
+  for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
+    if (!collide::method_table()[m].uses_levels)
+      plot.add(series(all, band, m, {}));
+    else
+      for (const int level : compare::sweep_levels) plot.add(series(all, band, m, level));
+  }
+  plot.add({"", "#000000", "points pointtype 6 pointsize 1.5 linewidth 1.5", front});
+  return plot;
+}
+
+// ---- the page ----
+
+std::string in_words(const compare::Configuration& c) {
+  std::string text(method_of(c).name);
+  if (method_of(c).uses_levels) text += fmt::format(", level {}", levels_of(c));
+  if (method_of(c).uses_hash) text += fmt::format(", {} buckets, cell {}", buckets_of(c), cell_of(c));
+  return text;
+}
+
+void add_introduction(Page& page, const DetectionResults& r) {
+  const compare::SweepLimits& l = r.limits;
+  page.text("# Collision detection: what every method costs, and what it misses");
+  page.text(
+      "`{}` makes this report. Its times are those of the machine that it ran on: compare them with one another. "
+      "Contacts, hashes and boxes are the same on every machine, and so are pair tests, except those of the exact "
+      "method.",
+      r.command);
+  page.item(
+      "Every method runs on the same recorded states, over levels 0, 3, 6, 9, four bucket counts and five cell sizes, "
+      "as far as it uses them. A cell size is given in units of the automatic one: the largest box of its level at "
+      "rest + the tolerance.");
+  page.item(
+      "Detectors run on {} thread{}, from scratch: they forget before each run what they learnt from earlier frames. "
+      "All configurations run once to be checked and at most {} times to be timed, in rounds of shuffled order. A "
+      "configuration that has taken {:g} ms is left out of further rounds.",
+      r.threads, r.threads == 1 ? "" : "s", l.repetitions, l.repeat_ms);
+  page.item(
+      "Budget: a configuration that is predicted to take more than {} pair tests is not run. A hash evaluation counts "
+      "as 32.",
+      grouped(l.budget));
+  page.item(
+      "Memory is what a new detector and its list of contacts hold after a frame, correct to some KiB. Detectors keep "
+      "their scratch memory, so this is their peak from then on.");
+  page.item("`detection.csv` has every row of every state.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, frames, states and repetitions.");
+}
+
+// ---- Table 1 ----
+
+/// Returns the mean with the paper's settings: level 3, the scene's own buckets, the automatic cell. Returns nothing if
+/// it was not run.
+const Mean* with_papers_settings(const std::vector<Mean>& means, const SceneResult& scene, std::size_t method) {
+  const auto found = std::ranges::find_if(means, [&](const Mean& m) {
+    const compare::Configuration& c = m.configuration;
+    const collide::Method& row = method_of(c);
+    return c.method == method && (!row.uses_levels || c.settings.levels == paper_level) &&
+           (!row.uses_hash || (c.settings.buckets == scene.buckets && c.cell == 1));
+  });
+  return found == means.end() || !found->not_run.empty() ? nullptr : &*found;
+}
+
+std::string detections_per_second(const Mean* m) {
+  if (!m) return "not run";
+  return whole(1000 / m->ms) + (m->error() > 0 ? fmt::format(" (recall {:.4f})", 1 - m->error()) : "");
+}
+
+void add_table_1(Page& page, const DetectionResults& r) {
+  Table table;
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    const collide::Method& method = collide::method_table()[i];
+    if (method.key == collide::reference_method) continue;
+    const std::string_view whose = method.key == collide::paper_method     ? " (the paper's)"
+                                   : method.key == collide::default_method ? " (ours)"
+                                                                           : "";
+    TableRow row{{"method", fmt::format("{}{}", method.name, whose)}};
+    for (const SceneResult& s : r.scenes)
+      if (std::ranges::count(paper_scenes, s.scene) > 0)
+        row.push_back({fmt::format("{}: {} bodies, {} buckets", s.scene, s.states.back().bodies, s.buckets),
+                       detections_per_second(with_papers_settings(means(s), s, i))});
+    if (row.size() == 1) return;
+    table.add(row);
+  }
+  page.text("## Table 1: frames per second");
+  page.text(
+      "In the form of the paper's Table 1, measured: detection alone, 1 / its mean time on the recorded states; level "
+      "3, automatic cell size.");
+  page.table(table);
+  page.text("The first four are the paper's methods. A method without a recall in brackets misses nothing.");
+}
+
+// ---- scenes ----
+
+/// Returns of each method the fastest configuration, and the fastest of those that miss least if that is another one.
+std::vector<std::size_t> best_rows(const std::vector<Mean>& means) {
+  std::vector<std::size_t> best;
+  for (std::size_t method = 0; method < collide::method_table().size(); ++method) {
+    std::optional<std::size_t> fastest, most_accurate;
+    for (std::size_t i = 0; i < means.size(); ++i) {
+      const Mean& m = means[i];
+      if (m.configuration.method != method || !m.not_run.empty()) continue;
+      const auto better = [&](std::size_t other) {
+        return std::pair(m.error(), m.ms) < std::pair(means[other].error(), means[other].ms);
+      };
+      if (!fastest || m.ms < means[*fastest].ms) fastest = i;
+      if (!most_accurate || better(*most_accurate)) most_accurate = i;
+    }
+    if (fastest) best.push_back(*fastest);
+    if (most_accurate && most_accurate != fastest) best.push_back(*most_accurate);
+  }
+  return best;
+}
+
+Table best_table(const std::vector<Mean>& all) {
+  const std::vector<std::size_t> front = pareto_front(all);
+  Table table;
+  for (const std::size_t i : best_rows(all)) {
+    const Mean& m = all[i];
+    const compare::Configuration& c = m.configuration;
+    table.add({{"method", method_of(c).name},
+               {"level", levels_of(c)},
+               {"buckets", buckets_of(c)},
+               {"cell", cell_of(c)},
+               {"ms median", brief(m.ms)},
+               {"ms min", brief(m.min_ms)},
+               {"recall", m.error() > 0 ? fmt::format("{:.5f}", 1 - m.error()) : "1"},
+               {"precision", fmt::format("{:g}", m.precision())},
+               {"pair tests", whole(m.pair_tests)},
+               {"hashes", whole(m.hashes)},
+               {"boxes", whole(m.boxes)},
+               {"memory KiB", whole(static_cast<double>(m.memory) / 1024)},
+               {"front", std::ranges::count(front, i) ? "yes" : ""}});
+  }
+  return table;
+}
+
+/// Says what is in the scene, in which states, and which method found the true contacts.
+std::string scene_facts(const SceneResult& scene) {
+  const StateResult& last = scene.states.back();
+  std::string text = fmt::format("Bodies: {}, vertices: {}", grouped(last.bodies), grouped(last.vertices));
+  for (const StateResult& s : scene.states)
+    text += fmt::format("; frame {}: {} contacts", s.frame, grouped(s.sweep.true_contacts));
+  if (!last.sweep.reference)
+    return fmt::format("{}. No method could find the true contacts: {}.", text, last.sweep.reference_note);
+  return fmt::format("{}. True contacts by {}{}{}.", text, in_words(*last.sweep.reference),
+                     last.sweep.reference_note.empty() ? "" : ", since ", last.sweep.reference_note);
+}
+
+std::string over_budget(const std::vector<Mean>& means) {
+  std::map<std::size_t, std::pair<int, int>> count;  // by method: not run, all
+  for (const Mean& m : means) {
+    auto& [not_run, all] = count[m.configuration.method];
+    not_run += !m.not_run.empty();
+    ++all;
+  }
+  std::vector<std::string> methods;
+  for (const auto& [method, n] : count)
+    if (n.first > 0)
+      methods.push_back(fmt::format("{}: {} of {}", collide::method_table()[method].name, n.first, n.second));
+  if (methods.empty()) return "Nothing was over budget.";
+  return fmt::format("Over budget in one state or more: {} configurations.", joined(methods, "; "));
+}
+
+}  // namespace
+
+Page detection_page(const DetectionResults& results) {
+  Page page;
+  add_introduction(page, results);
+  add_table_1(page, results);
+  page.text("## Scenes: the best of every method");
+  page.text(
+      "Of each method the fastest configuration, and the fastest of those that miss least if that is another one. "
+      "Front: no other is as fast and as good. Means over the states; recall and precision over all their contacts.");
+  for (const SceneResult& scene : results.scenes) {
+    const std::vector<Mean> all = means(scene);
+    page.text("### {}", scene.name);
+    page.text("{}", scene_facts(scene));
+    page.table(best_table(all));
+    page.text("{}", over_budget(all));
+    page.plot(error_against_time(scene));
+  }
+  add_growth(page, results);
+  return page;
+}
+
+}  // namespace app::report

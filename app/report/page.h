@@ -1,0 +1,45 @@
+#pragma once
+// A report's page of Markdown, part by part.
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/base/table.h"
+#include "app/report/plot.h"
+
+namespace app::report {
+
+class Page {
+ public:
+  /// Adds a heading or a paragraph.
+  template <class... Values>
+  void text(fmt::format_string<Values...> pattern, Values&&... values) {
+    parts_.push_back(fmt::format(pattern, std::forward<Values>(values)...) + "\n");
+  }
+  /// Adds an item of a list.
+  template <class... Values>
+  void item(fmt::format_string<Values...> pattern, Values&&... values) {
+    const std::string text = fmt::format("- {}\n", fmt::format(pattern, std::forward<Values>(values)...));
+    if (!parts_.empty() && parts_.back().starts_with("- "))
+      parts_.back() += text;
+    else
+      parts_.push_back(text);
+  }
+  /// Adds a table. Its first `text_columns` hold text, the others numbers.
+  void table(const Table& table, std::size_t text_columns = 1) { parts_.push_back(table.markdown(text_columns)); }
+  /// Adds a plot. A plot without a series is left out.
+  void plot(Plot plot);
+
+  const std::vector<Plot>& plots() const { return plots_; }
+  /// Returns the text. With plots it shows each plot, which lies beside it as NAME.svg.
+  std::string markdown(bool with_plots) const;
+
+ private:
+  std::vector<std::string> parts_;  // empty: the next plot
+  std::vector<Plot> plots_;
+};
+
+}  // namespace app::report

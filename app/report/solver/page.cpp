@@ -1,0 +1,260 @@
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/report/solver/results.h"
+
+namespace app::report {
+
+// ---- the table of figures ----
+
+Table solver_table(const SolverResults& results) {
+  Table table;
+  for (const SolverCase& c : results.cases)
+    for (const WorkCurve& curve : c.curves)
+      for (const WorkPoint& p : curve.points) {
+        const bool fixed = p.substeps > 0, good = !p.blew_up;
+        table.add({{"scene", c.key},
+                   {"integrator", curve.integrator->key},
+                   {"substeps", when(fixed, p.substeps)},
+                   {"steps_per_second", when(fixed, p.substeps * curve.integrator->substeps / results.frame_time)},
+                   {"cpu_ms_alone", p.cpu_alone},
+                   {"cpu_ms_batch", p.cpu_batch},
+                   {"blew_up", p.blew_up},
+                   {"error", when(good, p.error)},
+                   {"energy_error", when(good, p.energy)},
+                   {"linear_error", when(good, p.linear)},
+                   {"angular_error", when(good, p.angular)},
+                   {"volume_error", when(good, p.volume)},
+                   {"internal_speed", when(good, p.speed)},
+                   {"observed_order", c.order(curve, results.bound)},
+                   {"reference_step", c.step},
+                   {"reference_change", c.change},
+                   {"reference_converged", c.converged},
+                   {"perturbation_growth", c.growth}});
+      }
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+/// Returns the height (R) of the crosses of curve `number`. Each curve has a row above all errors, so that crosses do
+/// not hide each other.
+double cross_height(std::size_t number) { return 20 * std::pow(1.6, static_cast<double>(number)); }
+
+void add_errors(Plot& plot, const WorkCurve& curve, std::size_t number, std::optional<double> order) {
+  // The single point of an integrator that chooses its steps lies under others' curves: a large open diamond shows
+  // around them.
+  const bool automatic = curve.integrator->automatic;
+  Series series{fmt::format("{}{}", curve.integrator->name, order ? fmt::format(" (order {:.1f})", *order) : ""),
+                integrator_colour(number),
+                automatic ? "points pointtype 12 pointsize 2.2 linewidth 2"
+                          : "linespoints pointtype 7 pointsize 0.8 linewidth 2"};
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up) series.points.push_back({p.cost(), std::max(p.error, 1e-9), automatic ? "" : steps_text(p)});
+  plot.add(std::move(series));
+}
+
+void add_crosses(Plot& plot, const WorkCurve& curve, std::size_t number) {
+  // Runs that blow up end early: they would have cost what their steps cost elsewhere on the curve.
+  const auto good = std::ranges::find(curve.points, false, &WorkPoint::blew_up);
+  const bool known = good != curve.points.end() && good->substeps > 0;
+  Series series{"", integrator_colour(number), "points pointtype 2 pointsize 1 linewidth 2"};
+  for (const WorkPoint& p : curve.points)
+    if (p.blew_up)
+      series.points.push_back({known ? good->cost() * p.substeps / good->substeps : p.cpu_alone, cross_height(number)});
+  plot.add(std::move(series));
+}
+
+Plot error_against_time(const SolverCase& c, double bound) {
+  Plot plot{
+      .name = "solver-" + c.key,
+      .caption = c.name + ": left is cheaper, down is more accurate; numbers are steps per frame, crosses blew up.",
+      .title = fmt::format("{}: error against run time (a disturbance grows {:.3g} times)", c.name, c.growth),
+      .x = "processor time, ms per simulated second and body",
+      .y = "error in position, RMS / R",
+      .settings = fmt::format(
+          "set yrange [*:{0:g}]\n"
+          "set ytics 1e-9, 10, 10 format '%g'\n"
+          "set label 'blew up:' at graph 0.01, graph 0.97\n"
+          "set arrow from graph 0, first {1:g} to graph 1, first {1:g} nohead dashtype 2 linecolor rgb '#666666'\n"
+          "set label 'uncertainty of the reference' at graph 0.01, first {1:g} offset 0,0.5 font ',8' textcolor rgb "
+          "'#666666'\n",
+          cross_height(c.curves.size()), c.uncertainty(bound))};
+  for (std::size_t i = 0; i < c.curves.size(); ++i) add_errors(plot, c.curves[i], i, c.order(c.curves[i], bound));
+  for (std::size_t i = 0; i < c.curves.size(); ++i) add_crosses(plot, c.curves[i], i);
+  return plot;
+}
+
+// ---- the page ----
+
+constexpr std::array bounds{1e-1, 1e-2, 5e-3, 2e-3, 1e-3, 1e-4};  // R
+
+void add_introduction(Page& page, const SolverResults& r) {
+  page.text("# Solvers: error against run time");
+  page.text("`{}` makes this report.", r.command);
+  page.item(
+      "Every integrator advances each scene by {:g} s in frames of 1/{:.0f} s, with 1, 2, 4 ... of its steps per frame "
+      "(each step of XPBD has 20 substeps; `auto` chooses its own steps). Error: RMS over the particles of the "
+      "difference to the reference, in radii R, at the end.",
+      r.seconds, 1 / r.frame_time);
+  page.item(
+      "ms: processor time of the thread for whole steps, per simulated second; the median of {} repetitions that take "
+      "turns, or of fewer where these took {:g} s. Bodies of one mesh and material are solved side by side, one per "
+      "SIMD lane. \"Batch\" is the cost per body when eight are solved side by side. \"Alone\" is the cost of a lone "
+      "body, which leaves seven lanes empty. Plots show the batch. Scenes from files have the bodies that they have; "
+      "their cost stands under \"alone\".",
+      r.repetitions, r.max_run_seconds);
+  page.item(
+      "Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions changed "
+      "by less than {:g} R. Scenes with parts that it does not model are compared with the world's rk4 in floats.",
+      r.bound);
+  page.item(
+      "A curve ends with the first error that is not above the reference's own uncertainty, with the first run that "
+      "takes longer than {:g} s of processor time ({:g} s simulated), or with {} steps per frame. Each table is "
+      "followed by which. Runs are timed: on another machine a curve may end elsewhere.",
+      r.max_run_seconds, r.seconds, r.max_substeps);
+  page.item(
+      "Growth: the factor by which a disturbance of the start of 1e-8 R (floats: 1e-5 m) has grown at the end. No "
+      "solver is nearer to the reference than this growth times its rounding.");
+  page.item(
+      "Energy: difference to the reference's, divided by the energy above balance at the start or by m g R, whichever "
+      "is larger. Momentum: difference, divided by the body's own; only where nothing acts from outside. Inner speed: "
+      "RMS of all motion except that of the body as a whole. Where a body starts in balance, this is jitter.");
+  page.item(
+      "Order: order of the error, observed from each number of steps to its double. It is the median (of an even "
+      "number the mean of the middle two) over the longest row of errors, from {:g} R on, each of which is less than "
+      "{:g} times the one before. Of rows of the same length the one with the most steps counts. A row has at least "
+      "two falls, or one that reaches the reference's uncertainty. Since smaller falls are left out, the order is "
+      "rather too high than too low, and no order below {:.1f} is seen.",
+      SolverCase::max_order_error, SolverCase::clear_fall, -std::log2(SolverCase::clear_fall));
+  page.item("`solver.csv` has every figure.");
+  if (r.quick) page.item("This is the quick report: fewer scenes, steps and repetitions, and a coarser reference.");
+}
+
+std::string two_digits(std::optional<double> value) { return value ? fmt::format("{:.2g}", *value) : ""; }
+
+/// Returns nothing if all blew up.
+const WorkPoint* most_accurate(const WorkCurve& curve) {
+  const WorkPoint* best = nullptr;
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up && (!best || p.error < best->error)) best = &p;
+  return best;
+}
+
+/// Returns the cost of the cheapest point within an error, and its steps: "1.36 (16)".
+std::string cheapest(const WorkCurve& curve, double error) {
+  const WorkPoint* best = nullptr;
+  for (const WorkPoint& p : curve.points)
+    if (!p.blew_up && p.error <= error && (!best || p.cost() < best->cost())) best = &p;
+  if (!best) return "";
+  return brief(best->cost()) + (best->substeps > 0 ? fmt::format(" ({})", best->substeps) : "");
+}
+
+/// All scenes at one error.
+void add_overview(Page& page, const SolverResults& r) {
+  constexpr double bound = 2e-3;  // R
+  assert(!r.cases.empty());
+  Table table;
+  for (std::size_t i = 0; i < r.cases.front().curves.size(); ++i) {
+    TableRow row{{"integrator", r.cases.front().curves[i].integrator->name}};
+    for (const SolverCase& c : r.cases) {
+      const std::string cost = cheapest(c.curves[i], bound);
+      const WorkPoint* best = most_accurate(c.curves[i]);
+      row.push_back({c.name, !cost.empty() ? cost : best ? fmt::format("only {:.4g} R", best->error) : "blew up"});
+    }
+    table.add(row);
+  }
+  page.text("## All scenes");
+  page.text(
+      "ms per simulated second and body, in a batch where there is one, for an error of at most {:g} R. In brackets "
+      "the steps per frame (`auto` chooses its own), or instead the least error seen:",
+      bound);
+  page.table(table);
+}
+
+Table costs(const SolverResults& r, const SolverCase& c) {
+  Table table;
+  for (const WorkCurve& curve : c.curves) {
+    const auto order = c.order(curve, r.bound);
+    TableRow row{{"integrator", curve.integrator->name}, {"order", order ? fmt::format("{:.1f}", *order) : ""}};
+    for (const double bound : bounds) row.push_back({fmt::format("{:g} R", bound), cheapest(curve, bound)});
+    table.add(row);
+  }
+  return table;
+}
+
+/// Of each integrator the first point that did not blow up, and the most accurate.
+Table details(const SolverCase& c) {
+  Table table;
+  for (const WorkCurve& curve : c.curves) {
+    const WorkPoint* best = most_accurate(curve);
+    std::vector<const WorkPoint*> shown{best ? &*std::ranges::find(curve.points, false, &WorkPoint::blew_up)
+                                             : &curve.points.front()};
+    if (best && best != shown.front()) shown.push_back(best);
+    for (const WorkPoint* p : shown) {
+      table.add({{"integrator", curve.integrator->name},
+                 {"steps", when(best, steps_text(*p))},
+                 {"alone, ms", when(best, brief(p->cpu_alone))},
+                 {"batch, ms", when(best && p->cpu_batch, brief(p->cpu_batch.value_or(0)))},
+                 {"error, R", best ? two_digits(p->error) : "blew up"},
+                 {"energy", when(best, two_digits(p->energy))},
+                 {"linear", when(best, two_digits(p->linear))},
+                 {"angular", when(best, two_digits(p->angular))},
+                 {"volume", when(best, two_digits(p->volume))},
+                 {c.at_rest ? "jitter, m/s" : "inner speed, m/s", when(best, two_digits(p->speed))}});
+    }
+  }
+  return table;
+}
+
+/// Says which curves end before the reference's own uncertainty, and why.
+void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
+  const double known = c.uncertainty(r.bound);
+  std::string too_long, too_many;
+  for (const WorkCurve& curve : c.curves) {
+    const WorkPoint& last = curve.points.back();
+    if (last.substeps == 0 || curve.reaches(known)) continue;
+    std::string& list = last.substeps >= r.max_substeps ? too_many : too_long;
+    list += fmt::format("{}{} beyond {} steps per frame{}", list.empty() ? "" : "; ", curve.integrator->name,
+                        last.substeps, last.blew_up ? " (blew up)" : "");
+  }
+  if (too_long.empty() && too_many.empty())
+    return page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
+  const auto say = [&](const std::string& why, const std::string& list) {
+    if (!list.empty())
+      page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known, why, list);
+  };
+  say(fmt::format("runs took longer than {:g} s", r.max_run_seconds), too_long);
+  say("no more steps were tried", too_many);
+}
+
+}  // namespace
+
+Page solver_page(const SolverResults& results) {
+  Page page;
+  add_introduction(page, results);
+  add_overview(page, results);
+  for (const SolverCase& c : results.cases) {
+    page.text("## {}", c.name);
+    page.text(
+        "Reference: {}, steps of {:.3g} s on average. Halving them changed the positions by {:.2g} R{}. A disturbance "
+        "grows {:.3g} times.",
+        c.reference, c.step, c.change, c.converged ? "" : ", so it has not converged: smaller errors mean nothing",
+        c.growth);
+    page.text("ms for an error of at most ... (steps per frame):");
+    page.table(costs(results, c));
+    add_left_out(page, results, c);
+    page.text("With the fewest steps that do not blow up, and with the steps that give the least error:");
+    page.table(details(c));
+    page.plot(error_against_time(c, results.bound));
+  }
+  return page;
+}
+
+}  // namespace app::report

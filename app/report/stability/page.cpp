@@ -1,0 +1,232 @@
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/core.h>
+
+#include "app/base/text.h"
+#include "app/report/stability/results.h"
+
+namespace app::report {
+
+// ---- the table of figures ----
+
+Table stability_table(const StabilityResults& results) {
+  Table table;
+  for (const StabilitySection& section : results.sections)
+    for (const StabilityRow& row : section.rows)
+      for (const StabilityCell& cell : row.cells) {
+        const reference::StabilityFigures& f = cell.figures;
+        const bool ran = f.refused.empty(), compared = f.reference.has_value();
+        const reference::ReferenceDeviation end = f.reference.value_or(reference::ReferenceDeviation{});
+        table.add({{"part", "cell"},
+                   {"case", section.key},
+                   {"integrator", results.integrators[cell.integrator]->key},
+                   {"dt", results.dts[cell.dt]},
+                   {"stiffness", row.stiffness},
+                   {"passes", cell.passes()},
+                   {"failures", joined(reference::failures(f), "; ")},
+                   {"not_judged", row.not_judged},
+                   {"finite", when(ran, f.finite)},
+                   {"energy_excess", when(ran, f.energy)},
+                   {"speed_ratio", when(ran, f.speed)},
+                   {"extent_ratio", when(ran, f.extent)},
+                   {"transient_depth", when(ran, f.transient)},
+                   {"steady_depth", when(ran, f.steady)},
+                   {"through_solids", when(ran, f.passed_through)},
+                   {"shape", when(compared, end.shape)},
+                   {"volume", when(compared, end.volume)},
+                   {"rest", when(compared, end.rest)},
+                   {"blew_up", when(ran && f.blow_up_time > 0, f.blow_up_time)},
+                   {"stable_step", ""},
+                   {"predicted_step", ""}});
+      }
+  for (std::size_t i = 0; i < results.steps.size(); ++i)
+    for (const StableStep& step : results.steps[i])
+      table.add({{"part", "step"},
+                 {"integrator", results.integrators[i]->key},
+                 {"stiffness", step.stiffness},
+                 {"stable_step", step.found},
+                 {"predicted_step", when(std::isfinite(step.predicted), step.predicted)}});
+  return table;
+}
+
+namespace {
+
+// ---- plots ----
+
+Plot step_against_stiffness(const StabilityResults& results) {
+  Plot plot{.name = "stability-steps",
+            .caption = fmt::format("The largest step that keeps the energy of a disturbed ball (tried up to {:g} s); "
+                                   "dashed: the bound that the solver relies on, with its safety factor.",
+                                   max_step_tried),
+            .title = "Largest stable step against stiffness",
+            .x = "stiffness of a spring, N/m",
+            .y = "step, s",
+            .settings = fmt::format("set yrange [*:{:g}]\nset format xy '%g'\n", 2 * max_step_tried)};
+  for (std::size_t i = 0; i < results.steps.size(); ++i) {
+    Series found{std::string(results.integrators[i]->name), integrator_colour(i),
+                 "linespoints pointtype 7 linewidth 2"};
+    Series predicted{"", integrator_colour(i), "lines dashtype 2 linewidth 1.5"};
+    for (const StableStep& s : results.steps[i]) {
+      found.points.push_back({s.stiffness, s.found});
+      if (std::isfinite(s.predicted)) predicted.points.push_back({s.stiffness, s.predicted});
+    }
+    plot.add(std::move(found));
+    plot.add(std::move(predicted));
+  }
+  return plot;
+}
+
+// ---- the page ----
+
+void add_introduction(Page& page, const StabilityResults& r) {
+  constexpr reference::StabilityBounds b = reference::stability_bounds;
+  page.text("# Stability: extreme cases");
+  page.text("`{}` makes this report. All figures are the same on every machine.", r.command);
+  page.item(
+      "Every case runs for {:g} s, by every integrator, in frames of 1/30, 1/60 and 1/240 s, {}. Named integrators "
+      "take exactly one step of their own per frame (a step of XPBD has 20 substeps), so that the report shows where "
+      "they blow up. Only `auto` chooses its steps.",
+      r.seconds,
+      r.from_file ? "with all stiffnesses and pressures of the scene times a factor"
+                  : "with springs of 10 to 1e8 N/m (bend springs a fourth of it, gas pressure in proportion)");
+  page.item(
+      "A cell passes if: everything is finite; the energy of motion, springs, gas and gravity, and what bodies have "
+      "put into the penalty contacts between them, never exceeds that of the start and work from outside by more than "
+      "{:g} max(E0 - E_eq, m g R); the fastest particle and the longest box stay within what this energy can give; no "
+      "particle is ever deeper than {:g} R in a solid (after 10 frames where it began inside), nor deeper than {:g} R "
+      "in the last quarter; no body goes through a solid; and at the end shape (RMS, moved and turned to fit) is "
+      "within {:g} R, volume within {:g} %, and motion within the body no more than {:g} m/s above a reference's.",
+      b.energy, b.transient, b.steady, b.shape, 100 * b.volume, b.rest);
+  page.item(
+      "Reference: RK4 in double, written apart from the solvers. It must have settled, be back in its shape (where "
+      "nothing but springs and gas acts), and change by less than 0.1 % when its step is halved or its start is "
+      "disturbed by 1e-7 R. A case without a reference is marked *, with the reason below its table, and judged on the "
+      "rest.");
+  page.item(
+      "Where bodies start or join, they have their own energy and all that the pairs of the penalty contact hold "
+      "there. What the first frame of a joining body adds to it, or carries it into, is not credited. E0 - E_eq and m "
+      "g R are those of all bodies that have started or joined by then.");
+  page.item(
+      "Penalty contacts push out what they find behind a surface. The potential of such a pair appears when the pair "
+      "is found. It is not credited: what it adds to the bodies counts as a gain. What bodies put into a pair by "
+      "pressing it further is their energy.");
+  page.item("`stability.csv` has every figure of every cell.");
+  if (r.quick) page.item("This is the quick report: fewer cases and stiffnesses, and half the time.");
+}
+
+/// Returns "1/60".
+std::string fraction(double dt) { return fmt::format("1/{:.0f}", 1 / dt); }
+
+/// Calls `visit(section, row, cell)` for all cells.
+template <class Visit>
+void for_each_cell(const StabilityResults& r, const Visit& visit) {
+  for (const StabilitySection& section : r.sections)
+    for (const StabilityRow& row : section.rows)
+      for (const StabilityCell& cell : row.cells) visit(section, row, cell);
+}
+
+/// Counts the cells that pass, by integrator and length of a frame.
+Table overview(const StabilityResults& r) {
+  Table table;
+  for (std::size_t i = 0; i < r.integrators.size(); ++i) {
+    std::vector<std::size_t> passed(r.dts.size() + 1), all(r.dts.size() + 1);  // by length of a frame; of all lengths
+    for_each_cell(r, [&](const auto&, const auto&, const StabilityCell& cell) {
+      if (cell.integrator != i) return;
+      for (const std::size_t column : {cell.dt, r.dts.size()}) passed[column] += cell.passes(), ++all[column];
+    });
+    TableRow row{{"integrator", r.integrators[i]->name}};
+    for (std::size_t c = 0; c < all.size(); ++c)
+      row.push_back({c < r.dts.size() ? fraction(r.dts[c]) + " s" : "all", fmt::format("{} of {}", passed[c], all[c])});
+    table.add(row);
+  }
+  return table;
+}
+
+/// Returns "ok", or the lengths of frames that fail.
+std::string verdict(const StabilityResults& r, const StabilityRow& row, std::size_t integrator) {
+  std::vector<std::string> failing;
+  for (const StabilityCell& cell : row.cells)
+    if (cell.integrator == integrator && !cell.passes()) failing.push_back(fraction(r.dts[cell.dt]));
+  if (failing.empty()) return "ok";
+  return failing.size() == r.dts.size() ? "fails" : fmt::format("fails {}", joined(failing, ", "));
+}
+
+/// Adds why stiffnesses are marked.
+void add_marks(Page& page, const StabilitySection& section) {
+  std::map<std::string, std::vector<std::string>> marked;  // stiffnesses by reason
+  for (const StabilityRow& row : section.rows)
+    if (!row.not_judged.empty()) marked[row.not_judged].push_back(fmt::format("{:g}", row.stiffness));
+  std::vector<std::string> reasons;
+  for (const auto& [why, which] : marked) reasons.push_back(fmt::format("{}: {}", joined(which, ", "), why));
+  if (!reasons.empty()) page.text("\\* {}.", joined(reasons, "; "));
+}
+
+void add_section(Page& page, const StabilityResults& r, const StabilitySection& section) {
+  Table table;
+  for (std::size_t i = 0; i < r.integrators.size(); ++i) {
+    TableRow row{{"integrator", r.integrators[i]->name}};
+    for (const StabilityRow& s : section.rows)
+      row.push_back({fmt::format("{}{:g}{}{}", r.from_file ? "x " : "", s.stiffness, r.from_file ? "" : " N/m",
+                                 s.not_judged.empty() ? "" : " *"),
+                     verdict(r, s, i)});
+    table.add(row);
+  }
+  page.text("### {}", section.name);
+  page.table(table, 1 + section.rows.size());
+  add_marks(page, section);
+}
+
+/// Adds what fails, in words, for the integrators that are meant to be stable at any step.
+void add_failing_cells(Page& page, const StabilityResults& r) {
+  Table table;
+  for_each_cell(r, [&](const StabilitySection& section, const StabilityRow& row, const StabilityCell& cell) {
+    const softbody::Integrator& integrator = *r.integrators[cell.integrator];
+    if (cell.passes() || std::isfinite(integrator.stable_step(1, 0))) return;
+    table.add({{"integrator", integrator.name},
+               {"case", section.name},
+               {"stiffness", fmt::format("{:g}", row.stiffness)},
+               {"dt, s", fraction(r.dts[cell.dt])},
+               {"what is wrong", joined(reference::failures(cell.figures), "; ")}});
+  });
+  if (table.empty()) return;
+  page.text("## Why they fail");
+  page.text("Of the integrators that have no largest stable step:");
+  page.table(table, 5);
+}
+
+void add_steps(Page& page, const StabilityResults& r) {
+  if (r.steps.empty()) return;
+  const auto ms = [](double seconds) {
+    return seconds >= max_step_tried ? fmt::format(">= {:g}", 1e3 * max_step_tried)
+                                     : fmt::format("{:.3g}", 1e3 * seconds);
+  };
+  Table table;
+  for (std::size_t i = 0; i < r.steps.size(); ++i) {
+    TableRow row{{"integrator", r.integrators[i]->name}};
+    for (const StableStep& s : r.steps[i])
+      row.push_back({fmt::format("{:g} N/m", s.stiffness),
+                     ms(s.found) + (std::isfinite(s.predicted) ? fmt::format(" ({})", ms(s.predicted)) : "")});
+    table.add(row);
+  }
+  page.text("## Largest stable step, and its predicted bound, ms");
+  page.table(table);
+  page.plot(step_against_stiffness(r));
+}
+
+}  // namespace
+
+Page stability_page(const StabilityResults& results) {
+  Page page;
+  add_introduction(page, results);
+  page.text("## Cells that pass");
+  page.table(overview(results));
+  page.text("## Cases");
+  for (const StabilitySection& section : results.sections) add_section(page, results, section);
+  add_failing_cells(page, results);
+  add_steps(page, results);
+  return page;
+}
+
+}  // namespace app::report

@@ -1,0 +1,32 @@
+#pragma once
+// The steps that a report prescribes to a world.
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "softbody/world.h"
+
+namespace app::report {
+
+/// Returns the integrator with that number of steps per frame, unless it chooses its own.
+inline softbody::IntegratorChoice with_steps(const softbody::Integrator& integrator, int steps) {
+  return {std::string(integrator.key), integrator.automatic ? std::nullopt : std::optional(steps)};
+}
+
+/// Returns the integrator with one step per frame, with which no scene is refused.
+inline softbody::IntegratorChoice one_step(std::string_view key = softbody::default_integrator) {
+  softbody::IntegratorChoice choice;
+  choice.key = key;
+  choice.substeps = 1;
+  return choice;
+}
+
+/// Throws SceneError if only a part of the last frame was simulated (see StepReport): figures are of whole
+/// frames.
+inline void require_whole_frame(const softbody::World& world) {
+  if (world.last_step().seconds < world.frame_time())
+    throw softbody::SceneError("a frame would take more substeps than there may be");
+}
+
+}  // namespace app::report

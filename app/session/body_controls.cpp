@@ -1,0 +1,103 @@
+#include "app/session/body_controls.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/files/inputs.h"
+
+namespace app::session {
+
+using softbody::BodyId;
+using softbody::Material;
+using softbody::World;
+
+bool BodyControls::can_drop() const {
+  const softbody::Scene& scene = simulation_.world().scene();
+  return scene.dropper || !scene.bodies.empty();
+}
+
+void BodyControls::drop(int count) {
+  if (!can_drop()) return;
+  simulation_.change_bodies([count](World& world) {
+    world.drop(count);
+    return true;
+  });
+}
+
+void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
+  assert(std::abs(glm::length(direction) - 1) < 1e-3);
+  if (!can_drop()) return;
+  std::optional<BodyId> body;
+  simulation_.change_bodies([&](World& world) {
+    body = world.throw_body(eye, throw_speed * direction);
+    return body.has_value();
+  });
+  if (body)
+    select(body);
+  else if (simulation_.notice.text().empty())
+    simulation_.notice.set("there is no room for a body before the camera: turn or move it");
+}
+
+namespace {
+
+/// Returns the index of such a material, whatever it is called; the size of `all` if there is none.
+std::size_t find_material(const std::vector<Material>& all, Material material) {
+  const auto same = [&](const Material& other) {
+    material.name = other.name;
+    return material == other;
+  };
+  return static_cast<std::size_t>(std::ranges::find_if(all, same) - all.begin());
+}
+
+void make_name_new(std::string& name, const std::vector<Material>& all) {
+  const std::string stem = name;
+  for (int number = 2; std::ranges::count(all, name, &Material::name) > 0; ++number)
+    name = stem + " " + std::to_string(number);
+}
+
+}  // namespace
+
+void BodyControls::add(softbody::BodySource body, Material material) {
+  simulation_.change_bodies([&](World& world) {
+    files::protect_input(body.mesh);
+    std::vector<Material>& materials = simulation_.loaded.scene.materials;
+    const std::size_t known = find_material(materials, material);
+    body.material = static_cast<int>(known);
+    if (known == materials.size()) {
+      make_name_new(material.name, materials);
+      materials.push_back(std::move(material));
+    }
+    // After an undo the world may lack materials that were added later.
+    for (std::size_t i = world.scene().materials.size(); i < materials.size(); ++i) world.set_material(i, materials[i]);
+    world.add(body);
+    return true;
+  });
+}
+
+void BodyControls::select(std::optional<BodyId> body) {
+  selected_ = body && *body < simulation_.world().bodies().count() ? body : std::nullopt;
+  if (selected_) simulation_.notice.clear();
+}
+
+void BodyControls::remove_selected() {
+  if (!selected_) return simulation_.notice.set("click a body first, then delete it");
+  const bool removed = simulation_.change_bodies([body = *selected_](World& world) {
+    world.grab({});
+    world.remove(body);
+    return true;
+  });
+  selected_.reset();
+  if (removed) simulation_.renumber();
+}
+
+void BodyControls::grab(const softbody::Grab& grab) {
+  simulation_.leave_script();
+  simulation_.change([&](World& world) { world.grab(grab); });
+}
+
+void BodyControls::replaced(bool new_scene) { select(new_scene ? std::nullopt : selected_); }
+
+}  // namespace app::session

@@ -1,0 +1,41 @@
+#pragma once
+// What hands do to bodies: select, grab, drop, throw, add and delete them.
+
+#include "app/session/simulation.h"
+
+namespace app::session {
+
+class BodyControls {
+ public:
+  static constexpr int many_drops = 20;                               // bodies, of one key press
+  static constexpr double min_throw_speed = 1, max_throw_speed = 25;  // m/s
+
+  double throw_speed = 8;  // m/s
+
+  explicit BodyControls(Simulation& simulation) : simulation_(simulation) {}
+
+  bool can_drop() const;
+  void drop(int count = 1);
+  /// Throws a body from `eye` (m) along `direction`, which has length 1.
+  void throw_body(const glm::dvec3& eye, const glm::dvec3& direction);
+  /// Adds a body. It gets the scene's material that equals `material` but for its name; if there is none, the scene
+  /// gets this one.
+  void add(softbody::BodySource body, softbody::Material material);
+
+  const std::optional<softbody::BodyId>& selected() const { return selected_; }
+  void select(std::optional<softbody::BodyId> body);
+  void remove_selected();
+
+  void grab(const softbody::Grab& grab);
+  void pull_to(const glm::dvec3& target) { simulation_.pull_to(target); }  // m
+  void release() { simulation_.release(); }
+
+  /// To be called by the simulation's observer.
+  void replaced(bool new_scene);
+
+ private:
+  Simulation& simulation_;
+  std::optional<softbody::BodyId> selected_;
+};
+
+}  // namespace app::session

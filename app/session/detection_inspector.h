@@ -1,0 +1,61 @@
+#pragma once
+// What is shown of the detection on the current positions: boxes, hash table, a bucket and its cells, areas of search.
+
+#include "app/compare/table_contents.h"
+#include "app/session/simulation.h"
+#include "collide/methods/detectors.h"
+
+namespace app::session {
+
+/// Works things out when they are first asked for, once for each revision() of the simulation.
+class DetectionInspector {
+ public:
+  explicit DetectionInspector(const Simulation& simulation);
+
+  /// The method whose boxes, cells and buckets are shown: the driving one if it has a hash table, else the paper's.
+  const collide::Method& shown_method() const;
+  const collide::DebugGeometry& shown_geometry() const;
+  /// That of the paper's method, whichever drives. Empty while more bodies move than can be worked out for each
+  /// picture.
+  const collide::DebugGeometry& paper_geometry() const;
+  const compare::TableContents& table() const;
+
+  /// The bucket whose boxes the scene shows: always below the number of buckets.
+  const std::optional<std::uint32_t>& selected_bucket() const { return selected_bucket_; }
+  void select_bucket(std::optional<std::uint32_t> bucket);
+  /// The contents of the selected bucket; nullptr if none is selected, or its table is not known.
+  const compare::BucketContents* bucket() const;
+  /// The cell of that bucket from which true sharing is seen: the one chosen, or else the fullest.
+  void select_cell(const compare::Cell& cell) { selected_cell_ = cell; }
+  const std::optional<compare::Cell>& selected_cell() const { return selected_cell_; }
+
+  /// Where the exact method looks for contacts if it knows nothing from earlier frames.
+  std::vector<collide::DebugGeometry::Box> search_areas() const;
+  /// Surface contacts of the last step; empty unless the contact surface is the surfaces.
+  const std::vector<softbody::SurfaceContactPoint>& surface_contacts() const;
+
+  // To be called by the simulation's observer.
+  void detection_changed() { select_bucket(selected_bucket_); }
+  void replaced(bool new_scene);
+
+ private:
+  template <class Value>
+  struct Cached {
+    std::uint64_t revision = 0;
+    Value value{};
+  };
+
+  const softbody::World& world() const { return simulation_.world(); }
+
+  const Simulation& simulation_;
+  std::unique_ptr<collide::Detector> exact_;  // shows its areas
+  mutable collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();
+  std::optional<std::uint32_t> selected_bucket_;
+  std::optional<compare::Cell> selected_cell_;
+  mutable Cached<collide::DebugGeometry> shown_, paper_;
+  mutable Cached<compare::TableContents> table_;
+  mutable Cached<compare::BucketContents> bucket_;
+  mutable Cached<std::vector<softbody::SurfaceContactPoint>> surface_contacts_;
+};
+
+}  // namespace app::session

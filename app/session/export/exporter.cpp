@@ -1,0 +1,141 @@
+#include "app/session/export/exporter.h"
+
+#include <map>
+#include <optional>
+#include <utility>
+
+#include "app/base/table.h"
+#include "app/files/output_file.h"
+
+namespace app::session {
+namespace fs = std::filesystem;
+namespace {
+
+struct Curve {
+  std::string name;
+  const TimeSeries& series;
+};
+
+std::vector<Curve> curves_of(const Session& session) {
+  const StepHistory& history = session.simulation.history();
+  const StabilityHistory& motion = session.simulation.stability().history();
+  std::vector<Curve> curves{{"frame_ms", history.frame_ms},
+                            {"detect_ms", history.detect_ms},
+                            {"solve_ms", history.solve_ms},
+                            {"contacts", history.contacts},
+                            {"recall", session.comparison.recall()},
+                            {"kinetic_J", motion.kinetic},
+                            {"elastic_J", motion.elastic},
+                            {"gas_J", motion.gas},
+                            {"gravity_J", motion.gravity},
+                            {"total_J", motion.total},
+                            {"least_volume", motion.min_volume},
+                            {"most_volume", motion.max_volume},
+                            {"strain", motion.strain},
+                            {"speed_m_s", motion.speed}};
+  for (std::size_t i = 0; i < session.comparison.method_ms().size(); ++i)
+    curves.push_back({std::string(collide::method_table()[i].key) + "_ms", session.comparison.method_ms()[i]});
+  return curves;
+}
+
+/// Returns the absolute path of a folder that the user names.
+fs::path absolute_folder(const std::string& folder) {
+  return fs::absolute(folder.empty() ? "." : folder).lexically_normal();
+}
+
+}  // namespace
+
+std::string curves_csv(const Session& session) {
+  const std::vector<Curve> curves = curves_of(session);
+  // A frame may have several values, if the world was paused or went back. The last one counts.
+  std::map<int, std::vector<std::optional<float>>> rows;
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    for (std::size_t i = 0; i < curves[c].series.size(); ++i) {
+      auto& row = rows[curves[c].series.frame(i)];
+      row.resize(curves.size());
+      row[c] = curves[c].series[i];
+    }
+  std::vector<std::string> columns{"frame"};
+  for (const Curve& curve : curves) columns.emplace_back(curve.name);
+  Table table(columns);
+  for (const auto& [frame, values] : rows) {
+    TableRow row{{"frame", frame}};
+    for (std::size_t c = 0; c < curves.size(); ++c) row.push_back({columns[c + 1], values[c]});
+    table.add(row);
+  }
+  return table.csv();
+}
+
+/// Runs an action. Its result, or its error, becomes the message.
+void Exporter::attempt(const std::function<std::string()>& action) {
+  try {
+    message_ = action();
+    failed_ = false;
+  } catch (const std::exception& error) {
+    message_ = error.what();
+    failed_ = true;
+  }
+}
+
+void Exporter::write_curves(const Session& session) {
+  attempt([&] {
+    files::prepare_folder(absolute_folder(folder), "");
+    const fs::path file = files::next_free_path(absolute_folder(folder), "curves", ".csv");
+    files::write_file(file, curves_csv(session));
+    return file.string();
+  });
+}
+
+void Exporter::write_picture(const Picture& picture) {
+  attempt([&] {
+    files::prepare_folder(absolute_folder(folder), "");
+    const fs::path file = files::next_free_path(absolute_folder(folder), "picture", ".png");
+    files::write_file(file, engine::encode_png(picture(with_panel)));
+    return file.string();
+  });
+}
+
+void Exporter::toggle_recording() {
+  if (recording()) return recording_->stop();
+  if (recording_) return;  // the last recording is still being written
+  attempt([&] {
+    recorded_ = &recording_kinds[kind];
+    recording_ = std::make_unique<FrameRecording>(recorded_->make(absolute_folder(folder)));
+    recorded_frame_ = -1;
+    bodies_.reset();
+    return recording_->progress().name;
+  });
+}
+
+void Exporter::frame(const Session& session, const Picture& picture) {
+  if (std::exchange(picture_asked, false)) write_picture(picture);
+  if (recording()) record(session, picture);
+  follow_recording();
+}
+
+void Exporter::record(const Session& session, const Picture& picture) {
+  const softbody::World& world = session.world();
+  if (world.frame() == recorded_frame_ || !recording_->has_room()) return;
+  recorded_frame_ = world.frame();
+  RecordedFrame frame;
+  frame.number = world.frame();
+  if (recorded_->pictures) {
+    frame.picture = picture(with_panel);
+  } else {
+    if (!bodies_ || !bodies_->matches(world)) bodies_ = std::make_shared<const files::ObjWriter>(world);
+    frame.bodies = bodies_;
+    frame.positions.copy(world.positions());
+  }
+  recording_->add(std::move(frame));
+}
+
+void Exporter::follow_recording() {
+  if (!recording_) return;
+  const FrameRecording::Progress progress = recording_->progress();
+  failed_ = !progress.error.empty();
+  message_ = failed_ ? progress.error : progress.name + ": " + std::to_string(progress.written) + " frames";
+  if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";
+  if (progress.ended) recording_.reset();
+}
+
+}  // namespace app::session

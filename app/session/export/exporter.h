@@ -1,0 +1,64 @@
+#pragma once
+// Exports pictures, recordings and curves of the demo. It knows neither window nor ImGui: the main loop passes the
+// pictures in.
+
+#include <cassert>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "app/session/export/frame_writers.h"
+#include "app/session/session.h"
+
+namespace app::session {
+
+class Exporter {
+ public:
+  /// Returns a picture of the window, with the panel or of the scene alone.
+  using Picture = std::function<engine::Image(bool with_panel)>;
+
+  std::string folder = ".";    // for all files; made if it does not exist
+  bool with_panel = false;     // pictures show the panel, too
+  std::size_t kind = 0;        // of the next recording: an index of recording_kinds
+  bool picture_asked = false;  // take a picture with the next frame
+
+  void write_curves(const Session& session);
+  /// Starts a recording, or stops the one in progress.
+  void toggle_recording();
+  /// Returns true during a recording. Then the world moves one step a picture, so that no frame is lost, and only if
+  /// may_step().
+  bool recording() const { return recording_ && !recording_->progress().stopping; }
+  bool may_step() const {
+    assert(recording_);
+    return recording_->has_room();
+  }
+  /// Returns true if frame() will ask for a picture.
+  bool wants_picture() const { return picture_asked || (recording() && recorded_->pictures); }
+  /// Returns true while the last recording is still being written: no other one can start.
+  bool finishing() const { return recording_ && recording_->progress().stopping; }
+
+  /// Takes and records pictures. Call it once for each frame of the window, after it is drawn.
+  void frame(const Session& session, const Picture& picture);
+
+  /// Returns what was written last or is being written, or what failed.
+  const std::string& message() const { return message_; }
+  bool failed() const { return failed_; }
+
+ private:
+  void attempt(const std::function<std::string()>& action);
+  void write_picture(const Picture& picture);
+  void record(const Session& session, const Picture& picture);
+  void follow_recording();
+
+  std::unique_ptr<FrameRecording> recording_;
+  const RecordingKind* recorded_ = nullptr;
+  int recorded_frame_ = -1;                         // of the world: each is recorded once
+  std::shared_ptr<const files::ObjWriter> bodies_;  // of the last frame recorded
+  std::string message_;
+  bool failed_ = false;
+};
+
+/// Returns the curves of the panel as CSV: a column for each curve, and a line for each frame that some curve has.
+std::string curves_csv(const Session& session);
+
+}  // namespace app::session

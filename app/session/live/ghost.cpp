@@ -1,0 +1,53 @@
+#include "app/session/live/ghost.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/prototype.h"
+#include "softbody/snapshot.h"
+
+namespace app::session {
+
+Ghost::Ghost(const softbody::World& of, const softbody::IntegratorChoice& choice, int threads)
+    : choice_(choice), world_(softbody::Scene(), {.threads = threads, .frame_time = of.frame_time()}) {
+  restart(of);
+}
+
+void Ghost::restart(const softbody::World& of) {
+  world_.restore(of.snapshot());
+  if (choice_ != world_.integrator_choice()) world_.set_integrator(choice_);
+  before_.copy(world_.positions());
+  blown_up_ = false;
+}
+
+void Ghost::step() {
+  if (blown_up_) return;
+  before_.copy(world_.positions());
+  world_.step();
+  blown_up_ = has_blown_up();
+}
+
+bool Ghost::has_blown_up() const {
+  constexpr float far = 1e4f;  // m
+  const collide::Frame f = world_.positions();
+  const auto lost = [](float at) { return !(std::abs(at) < far); };
+  return std::ranges::any_of(f.x, lost) || std::ranges::any_of(f.y, lost) || std::ranges::any_of(f.z, lost);
+}
+
+double Ghost::distance(const softbody::World& of) const {
+  const collide::Frame here = world_.positions(), there = of.positions();
+  const collide::Bodies& bodies = of.bodies();
+  double sum = 0;
+  for (softbody::BodyId b = 0; b < bodies.count(); ++b) {
+    double body = 0;
+    for (collide::Index i = bodies.first[b]; i < bodies.first[b + 1]; ++i) {
+      const glm::dvec3 d(here.x[i] - there.x[i], here.y[i] - there.y[i], here.z[i] - there.z[i]);
+      body += d.x * d.x + d.y * d.y + d.z * d.z;
+    }
+    const double radius = of.prototype(b).radius;
+    sum += body / (radius * radius);
+  }
+  return bodies.vertex_count() == 0 ? 0 : std::sqrt(sum / bodies.vertex_count());
+}
+
+}  // namespace app::session

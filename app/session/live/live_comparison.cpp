@@ -1,0 +1,88 @@
+#include "app/session/live/live_comparison.h"
+
+namespace app::session {
+namespace {
+
+compare::FrameSnapshot copy_frame(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number) {
+  compare::FrameSnapshot copy;
+  copy.id = revision;
+  copy.frame_number = world.frame();
+  copy.world = world_number;
+  copy.at.copy(world.positions());
+  copy.bodies = world.bodies();
+  copy.settings = world.collision();
+  copy.driver = compare::method_index(world.method().key);
+  copy.found = world.detection();
+  return copy;
+}
+
+}  // namespace
+
+compare::CompareReport CompareTask::answer(const compare::FrameSnapshot& snapshot, const std::stop_token& stop) {
+  try {
+    return comparison.run(snapshot, stop);
+  } catch (const std::exception& error) {
+    compare::CompareReport report;
+    report.id = snapshot.id;
+    report.frame = snapshot.frame_number;
+    report.reference_note = std::string("the comparison failed: ") + error.what();
+    report.rows.resize(collide::method_table().size());
+    return report;
+  }
+}
+
+void LiveComparison::exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number,
+                              int rests) {
+  if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
+  // A world at rest has nothing new for the recall, but times want to be taken again and again.
+  if ((offered_ == revision && !choice.on) || !worker_.ready(rests)) return;
+  offered_ = revision;
+  compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
+  if (choice.on) snapshot.chosen = choice.methods;
+  worker_.offer(std::move(snapshot));
+}
+
+void LiveComparison::keep(compare::CompareReport report) {
+  report_ = std::move(report);
+  ++reports_;
+  if (const compare::CompareRow* row = driver_row()) recall_.push(report_.frame, static_cast<float>(row->recall));
+  for (std::size_t i = 0; i < report_.rows.size(); ++i) {
+    if (const auto ms = report_.rows[i].ms)
+      method_ms_[i].push(report_.frame, static_cast<float>(*ms));
+    else
+      method_ms_[i].clear();
+  }
+}
+
+void LiveComparison::restart(const softbody::World& world, std::uint64_t revision) {
+  report_ = {};
+  settings_ = world.collision();
+  driver_ = compare::method_index(world.method().key);
+  first_wanted_ = revision;
+  forget_times();
+}
+
+void LiveComparison::detection_changed(const softbody::World& world, std::uint64_t revision) {
+  driver_ = compare::method_index(world.method().key);
+  recall_.clear();
+  if (settings_ == world.collision()) return;
+  settings_ = world.collision();
+  first_wanted_ = revision;
+  forget_times();
+}
+
+void LiveComparison::forget_times() {
+  recall_.clear();
+  for (TimeSeries& times : method_ms_) times.clear();
+}
+
+const compare::CompareRow* LiveComparison::scored_row(std::size_t method) const {
+  return method < report_.rows.size() && report_.rows[method].scored ? &report_.rows[method] : nullptr;
+}
+
+const std::vector<collide::Contact>* LiveComparison::missed() const {
+  const compare::CompareRow* row = scored_row(misses_of());
+  return row ? &row->missed : nullptr;
+}
+
+}  // namespace app::session

@@ -1,0 +1,74 @@
+#pragma once
+// The comparison of methods on a thread of its own, beside the world that is shown.
+
+#include "app/base/background_worker.h"
+#include "app/base/time_series.h"
+#include "app/compare/compare.h"
+#include "collide/methods.h"
+#include "softbody/world.h"
+
+namespace app::session {
+
+struct CompareTask {
+  using Question = compare::FrameSnapshot;
+  using Answer = compare::CompareReport;
+  static constexpr std::uint32_t seed = 1;  // of the shuffled order: every run of the demo shuffles alike
+
+  /// Throws nothing: a comparison that fails, as with too little memory, says so in its report.
+  compare::CompareReport answer(const compare::FrameSnapshot& snapshot, const std::stop_token& stop);
+
+  compare::Comparison comparison{seed};
+};
+using CompareWorker = BackgroundWorker<CompareTask>;
+
+/// What to compare with the driving method, which is compared with the reference in any case.
+struct CompareChoice {
+  bool on = false;
+  std::vector<bool> methods = std::vector<bool>(collide::method_table().size(), true);
+  std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
+};
+
+class LiveComparison {
+ public:
+  CompareChoice choice;
+
+  /// Takes the report that is ready, if any, and offers the present state if it was not yet. revision: names the state,
+  /// ascending; world_number: another number, another world; rests: as BackgroundWorker::ready().
+  void exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number, int rests);
+  /// Another world: reports of states before this revision are dropped.
+  void restart(const softbody::World& world, std::uint64_t revision);
+  /// What was measured with other settings: its report stays until there is a new one, its curves do not.
+  void detection_changed(const softbody::World& world, std::uint64_t revision);
+
+  /// Of a state a few frames old, whose vertices still exist.
+  const compare::CompareReport& report() const { return report_; }
+  /// Counts the reports, so that a new one is noticed.
+  std::uint64_t reports() const { return reports_; }
+  /// The index of the driving method in collide::method_table(), and its row: nullptr until it is measured, or if it
+  /// cannot be.
+  std::size_t driver() const { return driver_; }
+  const compare::CompareRow* driver_row() const { return scored_row(driver_); }
+  /// The index of the method whose missed contacts are shown.
+  std::size_t misses_of() const { return choice.on ? choice.misses_of.value_or(driver_) : driver_; }
+  /// What that method missed; nullptr if that is not known.
+  const std::vector<collide::Contact>* missed() const;
+
+  // By frame: recall of the driver; ms of each method.
+  const TimeSeries& recall() const { return recall_; }
+  const std::vector<TimeSeries>& method_ms() const { return method_ms_; }
+
+ private:
+  const compare::CompareRow* scored_row(std::size_t method) const;
+  void keep(compare::CompareReport report);
+  void forget_times();
+
+  collide::Settings settings_;
+  std::size_t driver_ = 0;
+  compare::CompareReport report_;
+  std::uint64_t reports_ = 0, offered_ = 0, first_wanted_ = 0;
+  TimeSeries recall_;
+  std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(collide::method_table().size());
+  CompareWorker worker_;
+};
+
+}  // namespace app::session

@@ -1,0 +1,50 @@
+#include "app/session/live/surface_monitor.h"
+
+#include "app/compare/world_oracle.h"
+
+namespace app::session {
+namespace {
+
+compare::StepSnapshot copy_step(const softbody::World& world, const compare::Positions& before,
+                                std::uint64_t revision) {
+  compare::StepSnapshot copy;
+  copy.id = revision;
+  copy.frame = world.frame();
+  copy.before = before;
+  copy.at.copy(world.positions());
+  copy.bodies = world.bodies();
+  copy.surfaces = compare::surfaces_of(world);
+  copy.contacts = world.detection().contacts;
+  return copy;
+}
+
+}  // namespace
+
+void SurfaceMonitor::exchange(const softbody::World& world, const compare::Positions& before, std::uint64_t revision,
+                              int rests) {
+  if (!on) return restart(revision);
+  if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
+  if (offered_ == revision || !worker_.ready(rests)) return;
+  offered_ = revision;
+  worker_.offer(copy_step(world, before, revision));
+}
+
+void SurfaceMonitor::restart(std::uint64_t revision) {
+  report_ = {};
+  sums_ = {};
+  offered_ = 0;
+  first_wanted_ = revision;
+}
+
+/// A step may be checked more than once, with other contacts. Its crossings count once.
+void SurfaceMonitor::keep(compare::SurfaceReport report) {
+  const bool new_step = report.frame > 0 && (sums_.steps == 0 || report.frame != report_.frame);
+  report_ = std::move(report);
+  ++reports_;
+  if (!new_step || !report_.failure.empty()) return;
+  ++sums_.steps;
+  sums_.vertices += report_.figures.crossed_vertices;
+  sums_.edge_pairs += report_.figures.edge_crossings;
+}
+
+}  // namespace app::session

@@ -1,0 +1,63 @@
+#include "app/session/scene_controls.h"
+
+#include "app/files/inputs.h"
+
+namespace app::session {
+namespace {
+
+std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
+  std::vector<SceneChoice> list;
+  for (const std::string& key : softbody::scene_keys(folder)) {
+    try {
+      const softbody::Scene scene = softbody::find_scene(key, folder);
+      list.push_back({key, scene.name, scene.look_at});
+    } catch (const softbody::SceneError& error) {
+      list.push_back({key, key, error.what()});  // still listed: choosing it says what is wrong
+    }
+  }
+  return list;
+}
+
+}  // namespace
+
+SceneControls::SceneControls(Simulation& simulation, std::filesystem::path folder)
+    : simulation_(simulation), folder_(std::move(folder)), choices_(list_scenes(folder_)) {
+  files::protect_inputs(simulation_.loaded.scene);
+}
+
+void SceneControls::choose(const std::string& key_or_path) {
+  try {
+    softbody::Scene scene = softbody::find_scene(key_or_path, folder_);
+    auto world = simulation_.make_world(scene, {});
+    enter(std::move(world), std::move(scene), key_or_path);
+  } catch (const std::exception& error) {
+    simulation_.notice.set(error.what());
+  }
+}
+
+void SceneControls::enter(std::unique_ptr<softbody::World> world, softbody::Scene scene,
+                          const std::string& key_or_path) {
+  files::protect_inputs(scene);
+  SceneFile file(key_or_path, scene);
+  SolidList solids = list_solids(scene);
+  simulation_.enter(std::move(world), {std::move(scene), std::move(file), std::move(solids)});
+}
+
+softbody::Scene SceneControls::with_added_bodies() const {
+  softbody::Scene scene = simulation_.scene_in_use();
+  scene.bodies = softbody::body_sources(simulation_.world());
+  return scene;
+}
+
+void SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {
+  softbody::Scene scene = with_added_bodies();
+  scene.view = view;
+  simulation_.notice.clear();
+  try {
+    simulation_.loaded.file = SceneFile::save(std::move(scene), file);
+  } catch (const std::exception& error) {
+    simulation_.notice.set(error.what());
+  }
+}
+
+}  // namespace app::session

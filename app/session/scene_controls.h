@@ -1,0 +1,37 @@
+#pragma once
+// What the user does with scenes: choose, reset, save.
+
+#include <filesystem>
+
+#include "app/session/simulation.h"
+
+namespace app::session {
+
+struct SceneChoice {
+  std::string key, name, look_at;
+};
+
+class SceneControls {
+ public:
+  /// `folder`: where scenes are found by their keys.
+  SceneControls(Simulation& simulation, std::filesystem::path folder);
+
+  const std::vector<SceneChoice>& choices() const { return choices_; }
+  /// Loads another scene with its own settings. On an error the present one stays, and the notice says why.
+  void choose(const std::string& key_or_path);
+  /// The same with a world of that scene, made elsewhere with the simulation's threads(). Throws UsageError or
+  /// std::filesystem::filesystem_error, and changes nothing then.
+  void enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path);
+  /// The scene as it is now: the settings in use, and added bodies, each in the frame in which it came.
+  softbody::Scene with_added_bodies() const;
+  /// Writes with_added_bodies(), seen from `view`, to a file, which is the scene's file from then on. On an error
+  /// nothing is written, and the notice says why.
+  void save(const std::filesystem::path& file, const softbody::View& view);
+
+ private:
+  Simulation& simulation_;
+  std::filesystem::path folder_;
+  std::vector<SceneChoice> choices_;
+};
+
+}  // namespace app::session

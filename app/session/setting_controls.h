@@ -1,0 +1,38 @@
+#pragma once
+// What the user sets: gravity, materials and solids; the integrator; the detector and its settings.
+
+#include "app/session/simulation.h"
+
+namespace app::session {
+
+/// Settings that are refused change nothing, and the notice says why.
+class SettingControls {
+ public:
+  explicit SettingControls(Simulation& simulation) : simulation_(simulation) {}
+
+  /// In m/s^2, along the gravity of the scene; downwards if it has none.
+  void set_gravity(double strength);
+  void set_material(std::size_t index, const softbody::Material& material);
+  const SolidList& solids() const { return simulation_.loaded.solids; }
+  void set_solids(const SolidList& solids);
+  /// Gravity, materials and solids as the scene has them.
+  void restore_world();
+
+  void set_integrator(const softbody::IntegratorChoice& choice);
+
+  void set_method(std::string_view key);
+  /// The next method in collide::method_table() that the window can afford.
+  void next_method();
+  void set_contact_surface(softbody::ContactSurface surface);
+  void next_contact_surface();
+  void set_collision(const collide::Settings& settings, bool default_cell_size);
+  /// Method, settings and contact surface as the scene has them.
+  void restore_detection();
+
+ private:
+  bool affordable(const collide::Method& method, const collide::Settings& settings);
+
+  Simulation& simulation_;
+};
+
+}  // namespace app::session

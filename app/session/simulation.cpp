@@ -1,0 +1,246 @@
+#include "app/session/simulation.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "app/base/usage_error.h"
+
+namespace app::session {
+
+using softbody::World;
+
+Simulation::Simulation(softbody::Scene scene, int threads, std::string scene_name, SimulationObserver* observer)
+    : observer_(observer ? *observer : none_), threads_(threads) {
+  const std::string name = scene_name.empty() ? scene.key : std::move(scene_name);
+  world_ = make_world(scene, {});
+  loaded = {scene, SceneFile(name, scene), list_solids(scene)};
+  stability_.restart(*world_);
+  before_last_step_.copy(world_->positions());
+}
+
+std::unique_ptr<World> Simulation::make_world(const softbody::Scene& scene,
+                                              const softbody::IntegratorChoice& integrator) const {
+  return std::make_unique<World>(
+      scene, World::Options{.threads = threads_, .integrator = integrator, .max_work = softbody::work_of_a_window});
+}
+
+void Simulation::begin_advance(double elapsed) {
+  notice.age(elapsed);
+  history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
+}
+
+void Simulation::advance(double elapsed) {
+  begin_advance(elapsed);
+  clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
+}
+
+void Simulation::advance_one(double elapsed, bool allowed) {
+  begin_advance(elapsed);
+  if (allowed) clock.advance_one([this] { return step(); });
+}
+
+SimulationClock::Step Simulation::step() {
+  before_last_step_.copy(world_->positions());
+  const bool was_at_rest = world_->all_at_rest();
+  if (!clock.paused) stability_.dismiss_blow_up();
+  const bool alarmed = stability_.blow_up().has_value();
+  stability_.before_step(*world_);
+  const bool stepped = attempt([&] { world_->step(); });
+  if (world_->grabbed()) intervened();  // a hand brings energy
+  stability_.after_step(*world_, pause_on_blow_up);
+  if (stability_.blow_up() && !alarmed) clock.paused = true;
+  if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
+  const softbody::StepReport& profile = world_->last_step();
+  step_ms_ = profile.total_ms + observer_.stepped();
+  history_.detect_ms.push(world_->frame(), static_cast<float>(profile.detect_ms));
+  history_.solve_ms.push(world_->frame(), static_cast<float>(profile.solve_ms));
+  history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
+  return {profile.seconds, step_ms_};
+}
+
+float Simulation::between() const {
+  return world_->all_at_rest() ? 1.0f : static_cast<float>(clock.fraction(world_->frame_time()));
+}
+
+compare::DrawnPositions Simulation::drawn_positions(bool whole_steps) const {
+  const compare::Positions& before = before_last_step_;
+  return {world_->positions(), before.x, before.y, before.z, whole_steps ? 1.0f : between()};
+}
+
+const std::string& Simulation::caption() const {
+  static const std::string none;
+  const std::string* text = &none;
+  if (!as_scripted_) return none;
+  for (const softbody::Caption& caption : world_->scene().captions)
+    if (caption.frame <= world_->frame()) text = &caption.text;
+  return *text;
+}
+
+/// Returns false, with a notice, if `action` throws. What a world refuses changes nothing; all else (too little memory
+/// for a detector, say) pauses.
+bool Simulation::attempt(const std::function<void()>& action) {
+  try {
+    action();
+    return true;
+  } catch (const softbody::SceneError& refusal) {
+    notice.set(refusal.what());
+    return false;
+  } catch (const UsageError& refusal) {
+    notice.set(refusal.what());
+    return false;
+  } catch (const std::length_error& beyond_a_limit) {
+    notice.set(beyond_a_limit.what());
+  } catch (const std::exception& error) {
+    notice.set(std::string(defect) + error.what());
+  }
+  clock.paused = true;
+  return false;
+}
+
+void Simulation::intervened() {
+  stability_.intervened();
+  observer_.intervened();
+}
+
+bool Simulation::change(const std::function<void(World&)>& change) {
+  notice.clear();
+  const collide::Method& method = world_->method();
+  const collide::Settings settings = world_->collision();
+  const bool done = attempt([&] { change(*world_); });
+  ++revision_;
+  intervened();
+  if (&method != &world_->method() || settings != world_->collision()) observer_.detection_changed();
+  return done;
+}
+
+bool Simulation::change_bodies(const std::function<bool(World&)>& change) {
+  leave_script();
+  Past before = present();
+  bool changed = false;
+  this->change([&](World& world) { changed = change(world); });
+  if (changed) remember(std::move(before));
+  return changed;
+}
+
+void Simulation::pull_to(const glm::dvec3& target) {
+  std::optional<softbody::Grab> grab = world_->grabbed();
+  if (!grab) return;
+  grab->target = target;
+  world_->grab(grab);
+}
+
+/// What was found out about the world before is of no use.
+void Simulation::replace(bool new_scene) {
+  before_last_step_.copy(world_->positions());
+  clock.restart();
+  ++revision_;
+  ++world_number_;
+  observer_.replaced(new_scene);
+}
+
+void Simulation::remember(Past past) {
+  if (past_.size() == max_past) past_.erase(past_.begin());
+  past_.push_back(std::move(past));
+}
+
+/// Without the hand that may hold a body: after an undo nobody would let go.
+Simulation::Past Simulation::present() const {
+  softbody::Snapshot now = world_->snapshot();
+  now.grab.reset();
+  return {nullptr, std::move(now), loaded};
+}
+
+void Simulation::leave_for(std::unique_ptr<World> world) {
+  world_ = std::move(world);
+  as_scripted_ = true;
+  history_ = {};
+  notice.clear();
+  stability_.restart(*world_);
+  replace(true);
+}
+
+void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene) {
+  world_->grab({});
+  remember({std::move(world_), {}, std::exchange(loaded, std::move(scene))});
+  leave_for(std::move(world));
+}
+
+softbody::Scene Simulation::scene_in_use() const {
+  softbody::Scene scene = loaded.scene;
+  const softbody::Scene& now = world_->scene();
+  scene.gravity = now.gravity;
+  std::ranges::copy(now.materials, scene.materials.begin());
+  put_solids(loaded.solids, scene);
+  scene.method = world_->method().key;
+  scene.contact_surface = now.contact_surface;
+  scene.collision = world_->collision();
+  scene.default_cell_size = world_->scene().default_cell_size;
+  return scene;
+}
+
+void Simulation::reset() {
+  attempt([&] { enter(make_world(scene_in_use(), world_->integrator_choice()), loaded); });
+}
+
+void Simulation::undo() {
+  if (past_.empty()) return;
+  Past past = std::move(past_.back());
+  past_.pop_back();
+  if (past.world) {
+    loaded = std::move(past.loaded);
+    return leave_for(std::move(past.world));
+  }
+  // Later worlds are gone again, so this one is the snapshot's. The solids in use stay.
+  past.loaded.solids = std::move(loaded.solids);
+  loaded = std::move(past.loaded);
+  restore(*past.snapshot);
+  after_going_back();
+}
+
+void Simulation::rewind_to(int frame) {
+  stability_.keep_present(*world_);
+  const auto& past = stability_.past();
+  if (past.snapshots().empty()) return;
+  restore(past.snapshots()[past.at(frame)]);
+  clock.paused = true;
+  after_going_back();
+}
+
+/// The bodies as they were, with the settings in use.
+void Simulation::restore(const softbody::Snapshot& snapshot) {
+  const std::string method(world_->method().key);
+  const softbody::ContactSurface surface = world_->scene().contact_surface;
+  const collide::Settings settings = world_->collision();
+  const bool default_cell_size = world_->scene().default_cell_size;
+  const softbody::IntegratorChoice integrator = world_->integrator_choice();
+  const softbody::Scene in_use = world_->scene();
+  notice.clear();
+  attempt([&] {
+    world_->restore(snapshot);
+    if (integrator != world_->integrator_choice()) world_->set_integrator(integrator);
+    if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
+    keep_settings(in_use);
+    if (method != world_->method().key) world_->set_method(method);
+    if (settings != world_->collision() || default_cell_size != world_->scene().default_cell_size)
+      world_->set_collision(settings, default_cell_size);
+  });
+}
+
+/// Where the world has other gravity, solids or materials than those in use, it gets these.
+void Simulation::keep_settings(const softbody::Scene& in_use) {
+  const softbody::Scene& now = world_->scene();
+  if (now.gravity != in_use.gravity) world_->set_gravity(in_use.gravity);
+  if (list_solids(now) != list_solids(in_use)) world_->set_solids(in_use);
+  for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
+    if (!(now.materials[i] == in_use.materials[i])) world_->set_material(i, in_use.materials[i]);
+}
+
+void Simulation::after_going_back() {
+  stability_.went_back(*world_);
+  for (TimeSeries* ring : {&history_.detect_ms, &history_.solve_ms, &history_.contacts})
+    ring->forget_from(world_->frame());
+  replace(false);
+}
+
+}  // namespace app::session

@@ -1,0 +1,148 @@
+#pragma once
+// The world of the demo in time: its clock, what the user changes in it, undo and rewind.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/base/time_series.h"
+#include "app/compare/drawn_positions.h"
+#include "app/session/notice.h"
+#include "app/session/scene_file.h"
+#include "app/session/simulation_clock.h"
+#include "app/session/solid_list.h"
+#include "app/session/stability/stability_monitor.h"
+#include "softbody/snapshot.h"
+
+namespace app::session {
+
+/// Is told what happens to the world of a Simulation.
+class SimulationObserver {
+ public:
+  virtual ~SimulationObserver() = default;
+  /// Returns how long (ms) the observer worked beside the step.
+  virtual double stepped() { return 0; }
+  /// The user changed bodies or settings: the world goes on from another state than the one that a step left.
+  virtual void intervened() {}
+  /// The method or its settings are others. After intervened().
+  virtual void detection_changed() {}
+  /// The world is another one, or went back, or its bodies have other ids. `new_scene`: it begins at its start.
+  virtual void replaced([[maybe_unused]] bool new_scene) {}
+};
+
+/// The scene as it was loaded, before the user changed anything.
+struct LoadedScene {
+  softbody::Scene scene;
+  SceneFile file;    // where the scene came from, or was saved to last
+  SolidList solids;  // in use, also those that are switched off
+};
+
+/// Frame by frame, against the frame of the world.
+struct StepHistory {
+  TimeSeries frame_ms;  // real time from one advance() to the next
+  TimeSeries detect_ms, solve_ms, contacts;
+};
+
+class Simulation {
+ public:
+  /// notice() begins with it where no user could have caused the error.
+  static constexpr std::string_view defect = "not enough memory, or a defect of this program: ";
+
+  SimulationClock clock;
+  Notice notice;
+  LoadedScene loaded;
+  bool pause_on_blow_up = true;
+
+  /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
+  Simulation(softbody::Scene scene, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
+
+  const softbody::World& world() const { return *world_; }
+  int threads() const { return threads_; }
+
+  // Time. The world moves in whole frames.
+  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed.
+  void advance(double elapsed);
+  /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
+  void advance_one(double elapsed, bool allowed);
+  /// How long (ms) the last step took, the observer's work with it.
+  double step_ms() const { return step_ms_; }
+  const compare::Positions& before_last_step() const { return before_last_step_; }
+  /// How far a picture is on the way from before_last_step() to the present, 0 .. 1: below 1 only in slow motion, which
+  /// would jerk otherwise.
+  float between() const;
+  /// `whole_steps`: as if between() were 1.
+  compare::DrawnPositions drawn_positions(bool whole_steps = false) const;
+  /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
+  const std::string& caption() const;
+  const StepHistory& history() const { return history_; }
+  /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
+  std::uint64_t revision() const { return revision_; }
+  /// Another number after each SimulationObserver::replaced().
+  std::uint64_t world_number() const { return world_number_; }
+
+  // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause.
+  /// Changes settings of the world. Returns false, with the world as it was, if `change` throws.
+  bool change(const std::function<void(softbody::World&)>& change);
+  /// Changes bodies, which can be undone. `change` returns whether it changed anything.
+  bool change_bodies(const std::function<bool(softbody::World&)>& change);
+  /// The user touches a body: the scene's captions no longer hold.
+  void leave_script() { as_scripted_ = false; }
+  /// What the hand does that holds a body: each step takes it for a change.
+  void pull_to(const glm::dvec3& target);  // m
+  void release() { world_->grab({}); }
+  /// The bodies have other ids now.
+  void renumber() { replace(false); }
+  /// A world with threads() and the work limits of a window. Throws SceneError.
+  std::unique_ptr<softbody::World> make_world(const softbody::Scene& scene,
+                                              const softbody::IntegratorChoice& integrator) const;
+  /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo().
+  void enter(std::unique_ptr<softbody::World> world, LoadedScene scene);
+  /// The loaded scene with the settings in use.
+  softbody::Scene scene_in_use() const;
+  /// Restarts with scene_in_use(), without added bodies. On an error the present world goes on.
+  void reset();
+
+  /// The last few worlds before a reset, a choice of scene or a change of bodies, to the bit.
+  bool can_undo() const { return !past_.empty(); }
+  void undo();
+  const StabilityMonitor& stability() const { return stability_; }
+  /// Goes back to the last snapshot of stability().past() that is not after `frame`, and pauses. Settings stay.
+  void rewind_to(int frame);
+
+ private:
+  /// A world that was left, or the present one as it was; and its scene.
+  struct Past {
+    std::unique_ptr<softbody::World> world;
+    std::optional<softbody::Snapshot> snapshot;
+    LoadedScene loaded;
+  };
+  static constexpr std::size_t max_past = 8;
+
+  bool attempt(const std::function<void()>& action);
+  void intervened();
+  void replace(bool new_scene);
+  void remember(Past past);
+  Past present() const;
+  void leave_for(std::unique_ptr<softbody::World> world);
+  void restore(const softbody::Snapshot& snapshot);
+  void keep_settings(const softbody::Scene& in_use);
+  void after_going_back();
+  void begin_advance(double elapsed);
+  SimulationClock::Step step();
+
+  SimulationObserver none_;
+  SimulationObserver& observer_;
+  int threads_;
+  std::unique_ptr<softbody::World> world_;
+  std::vector<Past> past_;  // the latest last
+  bool as_scripted_ = true;
+  compare::Positions before_last_step_;
+  double step_ms_ = 0;
+  StepHistory history_;
+  StabilityMonitor stability_;
+  std::uint64_t revision_ = 1, world_number_ = 0;
+};
+
+}  // namespace app::session

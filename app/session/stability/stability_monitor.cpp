@@ -1,0 +1,112 @@
+#include "app/session/stability/stability_monitor.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/prototype.h"
+
+namespace app::session {
+namespace {
+
+/// Returns the energy of springs and gas in the starting shapes of all bodies.
+softbody::Energy energy_at_start(const softbody::World& world) {
+  softbody::Energy sum, one;
+  const softbody::Prototype* last = nullptr;
+  for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) {
+    const softbody::Prototype* p = &world.prototype(b);
+    if (p != last) one = softbody::starting_energy(*p);
+    last = p;
+    sum += one;
+  }
+  return sum;
+}
+
+StepMargin::Bound kind_of(const softbody::Integrator& integrator) {
+  if (std::isinf(integrator.stable_step(1, 0))) return StepMargin::Bound::unconditional;
+  return integrator.by_damping ? StepMargin::Bound::by_damping : StepMargin::Bound::stable;
+}
+
+}  // namespace
+
+void StabilityMonitor::before_step(const softbody::World& world) {
+  if (recovery_checks_ == 0) rewind_.keep(world);
+  needed_before_ = world.needed_substeps();
+}
+
+void StabilityMonitor::after_step(const softbody::World& world, bool monitored) {
+  const double frame = world.frame_time();
+  // The bound changes within a frame as bodies move; the step is compared with the wider bound of both ends.
+  const softbody::StepReport& last = world.last_step();
+  const int taken = last.substeps, needed = std::min(needed_before_, world.needed_substeps());
+  margin_ = {};
+  if (taken > 0)
+    margin_ = {.taken = taken,
+               .needed = needed,
+               .substep = last.seconds / taken,
+               .bound = frame / needed,
+               .kind = kind_of(*last.integrator),
+               .share = last.seconds / frame};
+  const auto every = static_cast<int>(1 + world.bodies().vertex_count() / vertices_a_frame);
+  if (world.frame() % every != 0) return;
+  const bool staggered = taken > 0 && last.integrator->staggered;
+  const auto bodies = softbody::measure_bodies(world, staggered ? last.last_substep : 0);
+  record(world, bodies);
+  if (!monitored) blow_up_monitor_.restart();
+  if (monitored) update_blow_up(world, bodies);
+}
+
+void StabilityMonitor::update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
+  auto found = blow_up_monitor_.check(world, bodies);
+  if (found) {
+    if (recovery_checks_ == 0) blow_up_ = std::move(found);  // a blow-up that continues is one blow-up
+    recovery_checks_ = BlowUpMonitor::memory;
+  } else if (recovery_checks_ > 0) {
+    --recovery_checks_;
+  } else if (blow_up_monitor_.compared()) {
+    good_frame_ = world.frame();
+  }
+}
+
+void StabilityMonitor::record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies) {
+  constexpr double max_shown = 1e30;  // a world that has blown up is no longer drawn
+  const int frame = world.frame();
+  const softbody::Measures all = softbody::total(bodies);
+  const softbody::Energy start = energy_at_start(world);
+  const auto push = [frame](TimeSeries& series, double value) {
+    if (std::abs(value) < max_shown) series.push(frame, static_cast<float>(value));
+  };
+  push(history_.kinetic, all.energies.kinetic);
+  push(history_.elastic, all.energies.elastic - start.elastic);
+  push(history_.gas, all.energies.gas - start.gas);
+  push(history_.gravity, all.energies.gravity);
+  push(history_.total, all.energy - start.deformation());
+  push(history_.min_volume, all.volume_ratio_min);
+  push(history_.max_volume, all.volume_ratio_max);
+  push(history_.strain, all.largest_strain);
+  push(history_.speed, all.max_speed);
+}
+
+void StabilityMonitor::restart(const softbody::World& world) {
+  *this = {};
+  record(world, softbody::measure_bodies(world));
+}
+
+void StabilityMonitor::went_back(const softbody::World& world) {
+  blow_up_monitor_.restart();
+  good_frame_ = std::min(good_frame_, world.frame());
+  blow_up_.reset();
+  recovery_checks_ = 0;
+  margin_ = {};
+  StabilityHistory& h = history_;
+  for (TimeSeries* series :
+       {&h.kinetic, &h.elastic, &h.gas, &h.gravity, &h.total, &h.min_volume, &h.max_volume, &h.strain, &h.speed})
+    series->forget_from(world.frame());
+  record(world, softbody::measure_bodies(world));
+}
+
+void StabilityMonitor::keep_present(const softbody::World& world) {
+  const bool past = !rewind_.snapshots().empty() && world.frame() <= rewind_.snapshots().back().frame;
+  if (recovery_checks_ == 0 && !past) rewind_.keep(world);
+}
+
+}  // namespace app::session

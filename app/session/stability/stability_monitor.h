@@ -1,0 +1,75 @@
+#pragma once
+// Monitors the stability of a running world: keeps its past, reports a blow-up, compares its step with the stability
+// bound, and records its energies.
+
+#include "app/base/time_series.h"
+#include "app/session/stability/blow_up_monitor.h"
+#include "app/session/stability/rewind.h"
+
+namespace app::session {
+
+struct StabilityHistory {
+  TimeSeries kinetic, elastic, gas, gravity, total;  // J; elastic, gas and total relative to the starting shapes
+  TimeSeries min_volume, max_volume;                 // volume / volume at the start
+  TimeSeries strain, speed;                          // largest strain; largest speed, m/s
+};
+
+/// The substeps of the last frame beside those that the stability bound requires. All are 0 if nothing moves, or if no
+/// step was taken since the world went back.
+struct StepMargin {
+  /// What the bound means for the integrator in use.
+  enum class Bound {
+    stable,         // shorter steps are stable; the bound has a reserve of a fifth
+    by_damping,     // shorter steps are stable if only springs swing: gas and contacts may still gain energy
+    unconditional,  // all steps are stable; the bound only limits fast bodies near solids, and long frames
+  };
+  static constexpr double reserve = 0.2;
+
+  int taken = 0, needed = 0;
+  double substep = 0, bound = 0;  // s; bound: less the reserve
+  Bound kind = Bound::stable;
+  double share = 1;  // simulated share of the frame; below 1 if the frame would take more substeps than are allowed
+};
+
+class StabilityMonitor {
+ public:
+  /// A world is measured once every 1 + vertices / vertices_a_frame frames.
+  static constexpr std::size_t vertices_a_frame = 50'000;
+
+  /// Call these around each step of the world. monitored: report a blow_up().
+  void before_step(const softbody::World& world);
+  void after_step(const softbody::World& world, bool monitored);
+  /// Tells of a change by the user, which may have added energy.
+  void intervened() { blow_up_monitor_.restart(); }
+  /// Removes the blow_up() once the user continues. Another one is reported only after the world was good for a while.
+  void dismiss_blow_up() { blow_up_.reset(); }
+  /// Starts anew with another world.
+  void restart(const softbody::World& world);
+  /// Call this after the world has gone back to a snapshot of past(). Forgets what came later, and measures the world.
+  void went_back(const softbody::World& world);
+  /// Keeps the present as a snapshot, unless it has blown up or is already in past().
+  void keep_present(const softbody::World& world);
+
+  const Rewind& past() const { return rewind_; }
+  /// Returns the last frame of past() that was found good. The first frame after a change never is, because the world
+  /// may have blown up in it; nor is a frame in which the user holds a body. Precondition: past() is not empty.
+  int last_good_frame() const { return rewind_.snapshots()[rewind_.at(good_frame_)].frame; }
+  const std::optional<BlowUp>& blow_up() const { return blow_up_; }
+  const StabilityHistory& history() const { return history_; }
+  const StepMargin& margin() const { return margin_; }
+
+ private:
+  void record(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
+  void update_blow_up(const softbody::World& world, const std::vector<softbody::BodyMeasures>& bodies);
+
+  Rewind rewind_;
+  BlowUpMonitor blow_up_monitor_;
+  std::optional<BlowUp> blow_up_;
+  std::size_t recovery_checks_ = 0;  // left before the world counts as good again
+  int good_frame_ = 0;
+  StabilityHistory history_;
+  StepMargin margin_;
+  int needed_before_ = 0;  // substeps that the bound required before the step
+};
+
+}  // namespace app::session

@@ -1,0 +1,19 @@
+#pragma once
+// How much of a detector's work the thread of the window takes upon itself.
+
+#include "app/compare/cost_model.h"
+#include "softbody/world.h"
+
+namespace app::session {
+
+inline constexpr std::uint64_t max_window_work = 1'000'000'000;  // WorkEstimate::cost() of a frame: about half a second
+
+/// Returns the work of a method that knows nothing from earlier frames, on the current positions.
+inline compare::WorkEstimate window_work(const softbody::World& world, const collide::Method& method,
+                                         const collide::Settings& settings) {
+  compare::CostModel cost_model;
+  cost_model.begin(world.positions(), settings, 0);
+  return cost_model.of(static_cast<std::size_t>(&method - collide::method_table().data()));
+}
+
+}  // namespace app::session

@@ -1,0 +1,38 @@
+#pragma once
+// The view of the hash table: a square for each bucket, coloured by its load. A click shows the bucket's boxes in the
+// scene.
+
+#include "app/session/session.h"
+#include "app/ui/widgets/bucket_grid.h"
+#include "app/ui/widgets/widgets.h"
+
+namespace app::ui {
+
+class HashTableView {
+ public:
+  /// Draws the view into the current window. Its close button sets `open` to false.
+  void draw(Widgets& widgets, Session& session, bool& open);
+
+  /// The layout of the squares in the last frame; tests find them by it.
+  const BucketGrid& grid() const { return grid_; }
+  ImVec2 grid_origin() const { return origin_; }
+
+ private:
+  struct Square {
+    std::uint32_t load = 0, fullest = 0;  // load and number of the fullest bucket in the square
+  };
+
+  void refresh(const Session& session, float width, float height, float min_side);
+  void draw_squares(Widgets& widgets, Session& session, float width, float height);
+  void draw_legend(Widgets& widgets) const;
+  glm::vec3 colour(std::uint32_t load) const;
+  void draw_summary(const Session& session) const;
+
+  BucketGrid grid_;
+  ImVec2 origin_{0, 0};
+  std::vector<Square> squares_;
+  std::uint64_t revision_ = 0;  // of the session when squares_ was filled
+  std::uint32_t max_load_ = 8;  // end of the colour scale: a power of two, so that it rarely changes
+};
+
+}  // namespace app::ui

@@ -1,0 +1,80 @@
+// The panel's part for bodies: drop, throw, and the selected body.
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "app/render/palette.h"
+#include "app/ui/panel/panel.h"
+#include "softbody/measures.h"
+#include "softbody/prototype.h"
+
+namespace app::ui {
+namespace {
+
+void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  ImGui::BeginDisabled(!session.bodies.can_drop());
+  if (w.button("Drop", "Drops another body from above (D).", width)) session.bodies.drop();
+  ImGui::SameLine();
+  if (w.button("Drop 20", "Drops twenty bodies side by side (Shift+D).", width))
+    session.bodies.drop(session::BodyControls::many_drops);
+  ImGui::SameLine();
+  if (w.button("Throw", "Throws a body from the camera, by B to where the mouse points, else to the middle.", width))
+    ui.throw_body = true;
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(-FLT_MIN);
+  auto speed = static_cast<float>(session.bodies.throw_speed);
+  if (w.slider("Throw speed", speed, static_cast<float>(session::BodyControls::min_throw_speed),
+               static_cast<float>(session::BodyControls::max_throw_speed), "%.0f m/s", "How fast bodies are thrown.",
+               true))
+    session.bodies.throw_speed = static_cast<double>(speed);
+  ImGui::EndDisabled();
+}
+
+const char* state_text(const softbody::World& world, softbody::BodyId id) {
+  if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
+  if (world.body(id).held) return "held in place";
+  return world.body(id).asleep ? "asleep" : "awake";
+}
+
+void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id) {
+  const softbody::BodyMeasures m = softbody::measure(world, id);
+  w.swatch(render::body_colour(world.body(id).number), ImGui::GetTextLineHeight());
+  ImGui::SameLine();
+  ImGui::Text("Body %u: %s vertices", id, grouped(world.bodies().size(id)).c_str());
+  ImGui::SameLine();
+  w.right_text(state_text(world, id));
+  w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
+  const double speed = glm::length(m.momentum) / world.prototype(id).material.mass;
+  const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
+  w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
+           "Of its centre of mass; of the volume that it started with.");
+}
+
+void draw_no_selection(Widgets& w) {
+  ImGui::TextDisabled("No body selected: click one in the scene.");
+  w.register_item("Selected body", "Drag a body to pull it; double-click it to look at it.");
+  ImGui::TextDisabled("Drag one to pull it.");
+}
+
+}  // namespace
+
+void draw_bodies(Widgets& w, Session& session, UiState& ui) {
+  draw_drop_and_throw(w, session, ui);
+  const auto& body = session.bodies.selected();
+  if (body)
+    draw_selected(w, session.world(), *body);
+  else
+    draw_no_selection(w);
+  const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
+  ImGui::BeginDisabled(!body);
+  if (w.button("Look at it", "The camera goes to the selected body, as a double-click on it does.", width))
+    ui.focus_body = true;
+  ImGui::SameLine();
+  if (w.button("Delete", "Takes the selected body out of the world (Del); Ctrl+Z brings it back.", width))
+    session.bodies.remove_selected();
+  ImGui::EndDisabled();
+}
+
+}  // namespace app::ui

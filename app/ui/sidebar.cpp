@@ -1,0 +1,41 @@
+#include "app/ui/sidebar.h"
+
+#include "app/ui/bucket_view.h"
+#include "app/ui/status.h"
+#include "app/ui/surface_view.h"
+
+namespace app::ui {
+
+bool has_sidebar(const Session& session, const UiState& ui) {
+  return ui.hash_table || session.inspector.bucket() || ui.overlays.true_surfaces || has_legend(session, ui.overlays);
+}
+
+void draw_sidebar(Widgets& w, Session& session, UiState& ui, HashTableView& hash_table_view, const ScreenRect& area) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  // The contents keep their width when a scrollbar appears.
+  ImGui::SetNextWindowContentSize({w.px(sidebar_width) - 2 * style.WindowPadding.x - style.ScrollbarSize, 0});
+  begin_dock("Sidebar", area, false);
+  ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {style.ItemSpacing.x, w.px(2)});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {style.FramePadding.x, w.px(2)});
+  if (ui.hash_table) hash_table_view.draw(w, session, ui.hash_table);
+  if (session.inspector.bucket()) draw_bucket(w, session);
+  const auto separate = [] {
+    if (ImGui::GetCursorPosY() == ImGui::GetCursorStartPos().y) return;
+    ImGui::Spacing();
+    ImGui::Separator();
+  };
+  if (has_legend(session, ui.overlays)) {
+    separate();
+    ImGui::PushTextWrapPos(0);
+    draw_legend(w, session, ui.overlays, !ui.hash_table);
+    ImGui::PopTextWrapPos();
+  }
+  if (ui.overlays.true_surfaces) {
+    separate();
+    draw_true_surfaces(w, session);
+  }
+  ImGui::PopStyleVar(2);
+  end_dock();
+}
+
+}  // namespace app::ui

@@ -1,0 +1,30 @@
+#pragma once
+// All that Dear ImGui draws over and beside the scene. It needs no window.
+
+#include "app/ui/hash_table_view.h"
+#include "app/ui/layout.h"
+#include "app/ui/sweep_view.h"
+
+namespace app::ui {
+
+class UserInterface {
+ public:
+  /// Draws one frame. Call it between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
+  void draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder = nullptr);
+
+  /// The area of the scene in the last draw(), in ImGui units. Docked windows draw no background: clear the frame to
+  /// dock_colour() before.
+  const ScreenRect& scene_area() const { return layout_.scene; }
+  const HashTableView& hash_table_view() const { return hash_table_view_; }
+  const SweepView& sweep_view() const { return sweep_view_; }
+
+ private:
+  void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds);
+
+  Layout layout_;
+  HashTableView hash_table_view_;
+  SweepView sweep_view_;
+  MouseState mouse_;
+};
+
+}  // namespace app::ui

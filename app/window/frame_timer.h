@@ -1,0 +1,53 @@
+#pragma once
+// The time between frames: measured, and limited where nothing moves or no monitor sets the pace.
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <thread>
+
+namespace app::window {
+
+/// Seconds of a steady clock.
+inline double now() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Returns the seconds that a task takes.
+template <class Task>
+double timed(Task task) {
+  const double before = now();
+  task();
+  return now() - before;
+}
+
+class FrameTimer {
+ public:
+  /// Begins a frame and returns the seconds since the last one. Times close to a multiple of 1/60 s are rounded to it:
+  /// no monitor of 60 Hz runs at exactly 60 Hz, and without rounding some frames would show two steps and some none.
+  double tick() {
+    const double time = now(), elapsed = time - last_;
+    last_ = time;
+    const double frames = std::round(elapsed * 60);
+    return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
+  }
+  /// Call it in frames in which anything moves or the user does anything.
+  void mark_active() { active_ = last_; }
+  /// Returns the seconds that the next frame may wait for input: while nothing is active, 30 frames a second suffice.
+  double idle_wait() const {
+    constexpr double settling = 1, interval = 1.0 / 30;  // tooltips appear and scrolling ends within a second
+    return last_ - active_ > settling ? std::max(0.0, interval - (now() - last_)) : 0;
+  }
+  /// Sleeps so that there are at most 125 frames a second. Without a monitor to wait for, frames would follow each
+  /// other at once and load the machine for nothing.
+  void limit_rate() const {
+    constexpr double min_interval = 1.0 / 125;
+    const double left = min_interval - (now() - last_);
+    if (left > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left));
+  }
+
+ private:
+  double last_ = now(), active_ = last_;
+};
+
+}  // namespace app::window

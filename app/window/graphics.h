@@ -1,0 +1,26 @@
+#pragma once
+// The window and everything that draws in it.
+
+#include "app/render/canvas.h"
+#include "app/render/scene_view.h"
+#include "engine/context.h"
+#include "engine/gui.h"
+#include "engine/resources.h"
+#include "engine/window.h"
+
+namespace app::window {
+
+/// Everything that lives in an OpenGL context and is made anew when the context is lost.
+struct Graphics {
+  explicit Graphics(glm::ivec2 size) : window({.title = "Multi-Level SB Collide", .size = size, .samples = 0}) {}
+
+  /// Clears the whole window to dock_colour().
+  void clear() const;
+
+  engine::Window window;  // first: the others need its context
+  engine::Gui gui{window};
+  render::SceneView view{engine::find_folder("shaders")};
+  render::Canvas canvas{engine::uses_software_renderer()};
+};
+
+}  // namespace app::window

@@ -1,0 +1,41 @@
+#pragma once
+// Shader programs, read from GLSL files at run time.
+
+#include <filesystem>
+#include <glm/mat4x4.hpp>
+#include <stdexcept>
+#include <string>
+#include <unordered_map>
+
+#include "engine/gl.h"
+
+namespace engine {
+
+/// A shader does not compile or link, or its file cannot be read. what() begins with "file:line: " if the driver names
+/// the line.
+class ShaderError : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// A vertex and a fragment shader. A line `#include "name"` in a shader inserts a file of the same folder. The uniform
+/// block "Frame" reads binding point 0.
+class Program {
+ public:
+  /// Throws ShaderError.
+  Program(const std::filesystem::path& folder, const std::string& vertex_file, const std::string& fragment_file);
+
+  void use() const { glUseProgram(name_.get()); }
+  // The program must be in use. Setting a uniform that the shaders do not use has no effect.
+  void set(const char* name, int value) const { glUniform1i(location(name), value); }
+  void set(const char* name, float value) const { glUniform1f(location(name), value); }
+  void set(const char* name, const glm::mat4& value) const { glUniformMatrix4fv(location(name), 1, 0, &value[0].x); }
+
+ private:
+  GLint location(const char* name) const;
+
+  GlName<detail::delete_program> name_;
+  mutable std::unordered_map<std::string, GLint> locations_;
+};
+
+}  // namespace engine

@@ -1,0 +1,87 @@
+#include "engine/render/ambient_occlusion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numeric>
+#include <utility>
+
+namespace engine::render {
+namespace {
+
+constexpr float occluder_range = 1.2f;  // radii: a sphere farther from a surface hides nothing (ambient.glsl)
+
+/// True if `occluder` can hide part of the sky from `receiver`. The receiver counts as 1.5 times as large, because a
+/// body may extend beyond its mean radius.
+bool occludes(const glm::vec4& occluder, const glm::vec4& receiver) {
+  return glm::distance(glm::vec3(occluder), glm::vec3(receiver)) <
+         1.5f * receiver.w + (1.0f + occluder_range) * occluder.w;
+}
+
+bool finite(const glm::vec4& sphere) {
+  return std::isfinite(sphere.x) && std::isfinite(sphere.y) && std::isfinite(sphere.z) && std::isfinite(sphere.w);
+}
+
+}  // namespace
+
+glm::vec4 mean_sphere(std::span<const glm::vec3> positions) {
+  if (positions.empty()) return glm::vec4(0.0f);
+  const auto count = static_cast<float>(positions.size());
+  const glm::vec3 centre = std::accumulate(positions.begin(), positions.end(), glm::vec3(0.0f)) / count;
+  float radius = 0.0f;
+  for (const glm::vec3& position : positions) radius += glm::distance(position, centre);
+  const glm::vec4 sphere(centre, radius / count);
+  return finite(sphere) ? sphere : glm::vec4(0.0f);
+}
+
+float max_distance(const glm::vec3& centre, std::span<const glm::vec3> positions) {
+  float squared = 0.0f;
+  for (const glm::vec3& position : positions) {
+    const glm::vec3 offset = position - centre;
+    squared = std::max(squared, glm::dot(offset, offset));
+  }
+  return std::sqrt(squared);
+}
+
+void AmbientOcclusion::update(const FrameData& frame) {
+  spheres_.clear();
+  for (const MeshDraw& draw : frame.meshes) {
+    spheres_.push_back(mean_sphere(frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+  }
+  for (const Sphere& sphere : frame.spheres) spheres_.emplace_back(sphere.centre, sphere.radius);
+  find_pairs();
+  occluders_.clear();
+  ranges_.assign(spheres_.size(), {});
+  for (const Pair& pair : pairs_) ++ranges_[pair.receiver].count;
+  std::uint32_t first = 0;
+  for (OccluderRange& range : ranges_) {
+    range.first = first;
+    first += std::exchange(range.count, 0);
+  }
+  occluders_.resize(first);
+  for (const Pair& pair : pairs_) {
+    OccluderRange& range = ranges_[pair.receiver];
+    occluders_[range.first + range.count++] = spheres_[pair.occluder];
+  }
+}
+
+// Sweeps along x: only spheres that are close in x are compared.
+void AmbientOcclusion::find_pairs() {
+  pairs_.clear();
+  order_.resize(spheres_.size());
+  std::iota(order_.begin(), order_.end(), 0u);
+  std::ranges::sort(order_, {}, [&](std::uint32_t i) { return spheres_[i].x; });
+  float largest = 0.0f;
+  for (const glm::vec4& sphere : spheres_) largest = std::max(largest, sphere.w);
+  for (std::size_t i = 0; i < order_.size(); ++i) {
+    const std::uint32_t a = order_[i];
+    const float far = spheres_[a].x + (2.5f + occluder_range) * std::max(largest, spheres_[a].w);
+    for (std::size_t j = i + 1; j < order_.size() && spheres_[order_[j]].x < far; ++j) {
+      const std::uint32_t b = order_[j];
+      if (occludes(spheres_[a], spheres_[b])) pairs_.push_back({b, a});
+      if (occludes(spheres_[b], spheres_[a])) pairs_.push_back({a, b});
+    }
+  }
+}
+
+}  // namespace engine::render

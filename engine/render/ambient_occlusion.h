@@ -1,0 +1,48 @@
+#pragma once
+// Ambient occlusion between bodies and solids. Each is treated as a sphere and gets a list of the spheres that hide
+// part of the sky from it. No OpenGL.
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+#include <span>
+#include <vector>
+
+#include "engine/frame_data.h"
+
+namespace engine::render {
+
+/// Part of a list of occluders.
+struct OccluderRange {
+  std::uint32_t first = 0, count = 0;
+};
+
+/// Returns the mean of the positions (xyz) and their mean distance from it (w, m). Returns zeros if there are no
+/// positions or if one is not finite.
+glm::vec4 mean_sphere(std::span<const glm::vec3> positions);
+
+/// Returns the distance (m) of the farthest position from `centre`.
+float max_distance(const glm::vec3& centre, std::span<const glm::vec3> positions);
+
+class AmbientOcclusion {
+ public:
+  /// Takes the spheres of a frame: first those of its meshes, then its solid spheres, each in the order of the frame.
+  void update(const FrameData& frame);
+
+  std::span<const glm::vec4> spheres() const { return spheres_; }
+  std::span<const OccluderRange> ranges() const { return ranges_; }  // one per sphere, into occluders()
+  std::span<const glm::vec4> occluders() const { return occluders_; }
+
+ private:
+  void find_pairs();
+
+  struct Pair {
+    std::uint32_t receiver, occluder;
+  };
+  std::vector<glm::vec4> spheres_, occluders_;
+  std::vector<OccluderRange> ranges_;
+  std::vector<std::uint32_t> order_;  // indices of spheres, by x
+  std::vector<Pair> pairs_;
+};
+
+}  // namespace engine::render

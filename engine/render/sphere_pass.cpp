@@ -1,0 +1,89 @@
+#include "engine/render/sphere_pass.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "engine/render/frame_uniforms.h"
+#include "engine/render/tessellate.h"
+
+namespace engine::render {
+namespace {
+
+struct UnitSphere {
+  std::vector<glm::vec3> directions;
+  std::vector<std::uint32_t> indices;
+};
+
+/// A tessellated octahedron whose points are moved onto the unit sphere: 1,602 points. Smaller triangles would cost
+/// more on software renderers, because these shade whole blocks of pixels.
+UnitSphere unit_sphere() {
+  constexpr std::array<glm::vec3, 6> corners{glm::vec3(1, 0, 0),  glm::vec3(-1, 0, 0), glm::vec3(0, 1, 0),
+                                             glm::vec3(0, -1, 0), glm::vec3(0, 0, 1),  glm::vec3(0, 0, -1)};
+  constexpr std::array<std::uint32_t, 24> faces{2, 4, 0, 2, 0, 5, 2, 5, 1, 2, 1, 4, 3, 0, 4, 3, 5, 0, 3, 1, 5, 3, 4, 1};
+  TessellatedMesh mesh = tessellate(faces, corners.size(), 20);
+  UnitSphere sphere;
+  for (const TessellatedVertex& vertex : mesh.vertices) {
+    const auto [u, v] = vertex.weights;
+    sphere.directions.push_back(glm::normalize(u * corners[vertex.corners[0]] + v * corners[vertex.corners[1]] +
+                                               (1.0f - u - v) * corners[vertex.corners[2]]));
+  }
+  sphere.indices = std::move(mesh.indices);
+  return sphere;
+}
+
+}  // namespace
+
+SpherePass::SpherePass(const std::filesystem::path& shaders)
+    : program_(scene_program(shaders, "sphere.vert", "surface.frag")),
+      shadow_program_(shaders, "sphere_shadow.vert", "depth.frag") {
+  const UnitSphere sphere = unit_sphere();
+  index_count_ = static_cast<GLsizei>(sphere.indices.size());
+  array_.bind();
+  indices_.set(GL_ELEMENT_ARRAY_BUFFER, std::span(sphere.indices));
+  directions_.set(GL_ARRAY_BUFFER, std::span(sphere.directions));
+  glVertexAttribPointer(0, 3, GL_FLOAT, GL_FALSE, sizeof(glm::vec3), nullptr);
+  constexpr GLsizei stride = sizeof(Instance);
+  glBindBuffer(GL_ARRAY_BUFFER, instance_buffer_.id());
+  glVertexAttribPointer(1, 4, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, sphere)));
+  glVertexAttribIPointer(2, 2, GL_UNSIGNED_INT, stride, attribute_offset(offsetof(Instance, occluders)));
+  glVertexAttribPointer(3, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, colour)));
+  glVertexAttribPointer(4, 3, GL_FLOAT, GL_FALSE, stride, attribute_offset(offsetof(Instance, segment)));
+  enable_attributes(5, 1);
+}
+
+void SpherePass::update(const FrameData& frame, const AmbientOcclusion& occlusion) {
+  instances_.clear();
+  for (std::size_t i = 0; i < frame.spheres.size(); ++i) {
+    const std::size_t at = frame.meshes.size() + i;
+    instances_.push_back({occlusion.spheres()[at], occlusion.ranges()[at], frame.spheres[i].colour});
+  }
+  for (const Capsule& c : frame.capsules)
+    instances_.push_back({glm::vec4(c.from, c.radius), {}, c.colour, c.to - c.from});
+  if (!instances_.empty()) instance_buffer_.stream(GL_ARRAY_BUFFER, std::span<const Instance>(instances_));
+}
+
+void SpherePass::draw_shadows(const glm::mat4& light_clip_from_world) const {
+  if (instances_.empty()) return;
+  shadow_program_.use();
+  shadow_program_.set("light_clip_from_world", light_clip_from_world);
+  draw_instances();
+}
+
+void SpherePass::draw() const {
+  if (instances_.empty()) return;
+  program_.use();
+  draw_instances();
+}
+
+void SpherePass::draw_instances() const {
+  array_.bind();
+  glEnable(GL_CULL_FACE);
+  glDrawElementsInstanced(GL_TRIANGLES, index_count_, GL_UNSIGNED_INT, nullptr,
+                          static_cast<GLsizei>(instances_.size()));
+  glDisable(GL_CULL_FACE);
+}
+
+}  // namespace engine::render

@@ -1,8 +1,0 @@
-#version 330 core
-#include "frame.glsl"
-#include "colour.glsl"
-#include "backdrop.glsl"
-#include "floor.glsl"
-
-// Where nothing is near: in full light.
-void main() { fragment = vec4(dithered(bare_floor()), 1.0); }

@@ -1,0 +1,231 @@
+// The blow-up monitor on invented figures and on real blow-ups.
+
+#include <gtest/gtest.h>
+
+#include <glm/vec2.hpp>
+
+#include "app/session/session.h"
+#include "softbody/prototype.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+softbody::World pair_after(int frames) {
+  softbody::World world(touching_pair(), {});
+  for (int i = 0; i < frames; ++i) world.step();
+  return world;
+}
+
+TEST(BlowUpMonitor, ReportsABodyThatIsNotFinite) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  session::BlowUpMonitor monitor;
+  EXPECT_FALSE(monitor.check(world, bodies));
+  bodies[1].finite = false;
+  const auto blow_up = monitor.check(world, bodies);
+  ASSERT_TRUE(blow_up);
+  EXPECT_EQ(blow_up->body, 1u);
+  EXPECT_EQ(blow_up->frame, 1);
+  EXPECT_NE(blow_up->what.find("Body 1 is no longer finite"), std::string::npos) << blow_up->what;
+}
+
+TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNothing) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  const double weight = 9.81 * world.prototype(0).radius;  // J: m g R of one body of 1 kg
+  session::BlowUpMonitor monitor;
+  EXPECT_FALSE(monitor.check(world, bodies));
+  bodies[1].energy.elastic += 0.1 * weight;
+  EXPECT_FALSE(monitor.check(world, bodies)) << "contacts may return as much";
+  bodies[1].energy.elastic += 0.3 * weight;
+  const auto blow_up = monitor.check(world, bodies);
+  ASSERT_TRUE(blow_up);
+  EXPECT_EQ(blow_up->body, 1u);
+  EXPECT_NE(blow_up->what.find("energy"), std::string::npos) << blow_up->what;
+}
+
+TEST(BlowUpMonitor, ReportsABodyThatIsFasterThanPossible) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  session::BlowUpMonitor monitor;
+  EXPECT_FALSE(monitor.check(world, bodies));
+  bodies[0].max_speed = 13;
+  EXPECT_FALSE(monitor.check(world, bodies)) << "as fast as after a fall of a second, and half as much again";
+  bodies[0].max_speed = 60;
+  const auto blow_up = monitor.check(world, bodies);
+  ASSERT_TRUE(blow_up);
+  EXPECT_EQ(blow_up->body, 0u);
+  EXPECT_NE(blow_up->what.find("m/s"), std::string::npos) << blow_up->what;
+}
+
+TEST(BlowUpMonitor, StartsAnewAfterRestart) {
+  const softbody::World world = pair_after(1);
+  auto bodies = softbody::measure_bodies(world);
+  session::BlowUpMonitor monitor;
+  EXPECT_FALSE(monitor.check(world, bodies));
+  monitor.restart();
+  bodies[0].energy.elastic += 1000;
+  EXPECT_FALSE(monitor.check(world, bodies));
+  EXPECT_FALSE(monitor.check(world, bodies));
+  bodies[0].energy.elastic += 1000;
+  EXPECT_TRUE(monitor.check(world, bodies));
+}
+
+/// Nothing else moves, so the energy that separates the two is all the energy there is.
+TEST(BlowUpMonitor, AcceptsABodyAddedInsideAnother) {
+  for (const auto surface : {softbody::ContactSurface::vertices, softbody::ContactSurface::surfaces})
+    for (const double stiffness : {200.0, 3e5})  // N/m
+      for (const glm::dvec2 apart : {glm::dvec2(0.05, 0.02), {0.1, 0.2}, {0.5, 0.2}, {0.9, 0.2}, {1.02, 0}}) {
+        softbody::Scene scene = touching_pair();
+        scene.gravity = glm::dvec3(0.0);
+        scene.materials[0].structural.stiffness = stiffness;
+        scene.contact_surface = surface;
+        scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0);
+        scene.bodies[1].appear = 5;
+        Session session(scene, {}, 1);
+        while (session.world().frame() < 90 && !session.simulation.stability().blow_up()) session.advance(tick);
+        EXPECT_FALSE(session.simulation.stability().blow_up())
+            << stiffness << " N/m, " << apart.x << ' ' << apart.y
+            << " apart: " << session.simulation.stability().blow_up()->what;
+        EXPECT_EQ(session.world().bodies().count(), 2u);
+      }
+}
+
+/// The body gets another gas while it is held, so it is far from its equilibrium.
+TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.resize(1);
+  scene.bodies[0].release = 10;
+  scene.gravity = glm::dvec3(0.0);
+  scene.materials[0].gas_pressure = 171'527;
+  scene.materials[0].ambient_pressure = 101'325;
+  scene.materials[0].start_in_equilibrium = false;
+  softbody::World world(scene, {});
+  session::BlowUpMonitor monitor;
+  double fastest = 0;
+  for (int i = 0; i < 60; ++i) {
+    world.step();
+    const auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
+    fastest = std::max(fastest, bodies[0].max_speed);
+    const auto blow_up = monitor.check(world, bodies);
+    ASSERT_FALSE(blow_up) << "frame " << i << ": " << blow_up->what;
+  }
+  EXPECT_GT(fastest, 10);
+}
+
+TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolidButNotForEver) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.resize(1);
+  scene.ground.reset();
+  softbody::World world(scene, {});
+  session::BlowUpMonitor monitor;
+  const auto look = [&] {
+    world.step();
+    return monitor.check(world, softbody::measure_bodies(world, world.last_step().last_substep));
+  };
+  for (int i = 0; i < 5; ++i) ASSERT_FALSE(look());
+  const double start = softbody::measure(world).energy;
+  scene.spheres.push_back({.centre = world.body(0).origin - glm::dvec3(0.1, 0.3, 0), .radius = 1});
+  world.set_solids(scene);
+  monitor.restart();
+  double most = start;
+  int frame = 0;
+  for (; frame < 5 || softbody::measure(world).deepest_penetration > 0; ++frame) {
+    ASSERT_LT(frame, 600);
+    const auto blow_up = look();
+    ASSERT_FALSE(blow_up) << "frame " << frame << ": " << blow_up->what;
+    most = std::max(most, softbody::measure(world).energy);
+  }
+  EXPECT_GT(most, start + 9.81 * world.prototype(0).radius)
+      << "pushed out with ten times the gain that is a blow-up elsewhere";
+  ASSERT_FALSE(look());
+  auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
+  bodies[0].energy.elastic += 2 * (most - start);
+  EXPECT_TRUE(monitor.check(world, bodies));
+}
+
+/// A row of overlapping bodies, each of which is pushed away from the next.
+TEST(BlowUpMonitor, AcceptsOverlappingSurfacesThatSeparate) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  scene.spheres.clear();
+  scene.ground.reset();
+  scene.bodies.resize(24, scene.bodies[0]);
+  for (std::size_t b = 0; b < scene.bodies.size(); ++b) scene.bodies[b].position = {0.4 * double(b), 0, 0};
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  session::BlowUpMonitor monitor;
+  const auto look = [&](double joules) {
+    world.step();
+    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
+    bodies[0].energy.elastic += joules;
+    return monitor.check(world, bodies);
+  };
+  ASSERT_FALSE(look(0));
+  const double first = softbody::measure(world).energy;
+  for (int i = 0; i < 100; ++i) {
+    const auto blow_up = look(0);
+    ASSERT_FALSE(blow_up) << "frame " << i << ": " << blow_up->what;
+  }
+  const double last = softbody::measure(world).energy;
+  EXPECT_GT(last, 1.5 * first);
+  EXPECT_TRUE(look(0.2 * last)) << "they are separate now";
+}
+
+/// Sheets in one plane, which never separate.
+TEST(BlowUpMonitor, WaitsASecondForSurfacesToSeparate) {
+  softbody::Scene scene = touching_pair();
+  scene.gravity = glm::dvec3(0.0);
+  for (softbody::BodySource& body : scene.bodies) {
+    body.mesh = {.kind = "grid", .columns = 6, .rows = 6, .width = 1, .depth = 1};
+    body.position = {0, 4, 0};
+  }
+  scene.bodies[1].position += glm::dvec3(0.02, 0, 0.01);
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  softbody::World world(scene, {});
+  session::BlowUpMonitor monitor;
+  for (std::size_t i = 0; i < 2 * session::BlowUpMonitor::memory; ++i) {
+    world.step();
+    ASSERT_TRUE(world.last_step().adds_energy) << i;
+    auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);
+    bodies[0].energy.elastic = std::pow(2.0, double(i));
+    EXPECT_EQ(monitor.check(world, bodies).has_value(), i > session::BlowUpMonitor::memory) << i;
+  }
+}
+
+/// Gas whose pressure changes suddenly makes bodies swing as fast as explicit steps can follow.
+TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
+  for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
+    softbody::Scene scene = touching_pair();
+    softbody::Material& rubber = scene.materials[0];
+    rubber.gas_pressure = 113e3, rubber.ambient_pressure = 101'325;
+    rubber.start_in_equilibrium = true;
+    Session session(scene, {}, 1);
+    while (session.world().frame() < 15) session.advance(tick);
+    rubber.gas_pressure = pressure;
+    session.settings.set_material(0, rubber);
+    while (session.world().frame() < 60 && !session.simulation.stability().blow_up()) session.advance(tick);
+    EXPECT_FALSE(session.simulation.stability().blow_up())
+        << pressure << " Pa: " << session.simulation.stability().blow_up()->what;
+  }
+}
+
+/// Springs far too stiff for a single substep a frame.
+TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
+  softbody::Scene scene = touching_pair();
+  scene.materials[0].structural.stiffness = 1e5;
+  for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
+    softbody::World world(scene, {.integrator = {integrator, 1}});
+    session::BlowUpMonitor monitor;
+    std::optional<session::BlowUp> blow_up;
+    while (!blow_up && world.frame() < 60) {
+      world.step();
+      blow_up = monitor.check(world, softbody::measure_bodies(world));
+    }
+    EXPECT_TRUE(blow_up) << integrator;
+  }
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,198 @@
+// What the user does with bodies, settings and scenes.
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "app/session/scene_controls.h"
+#include "app/session/setting_controls.h"
+#include "softbody/limits.h"
+#include "softbody/prototype.h"
+#include "tests/app/hands.h"
+
+namespace app {
+namespace {
+
+TEST(BodyControls, ThrowABodyAsFastAsAsked) {
+  session::Simulation simulation(without_solids(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.throw_speed = 12;
+  const glm::dvec3 direction = glm::normalize(glm::dvec3(1, 0.5, 0));
+  bodies.throw_body({0, 8, 0}, direction);
+  ASSERT_EQ(simulation.world().bodies().count(), 3u);
+  EXPECT_EQ(bodies.selected(), 2u);
+  const glm::dvec3 from = centre(simulation.world(), 2);
+  for (int i = 0; i < 30; ++i) simulation.advance(tick);
+  EXPECT_LT(glm::distance(centre(simulation.world(), 2), from + 6.0 * direction), 1e-3);
+}
+
+TEST(BodyControls, RefuseAThrowWithoutRoom) {
+  softbody::Scene scene = without_solids();
+  scene.spheres.push_back({.centre = {0, 50, 0}, .radius = 30});
+  session::Simulation simulation(scene, 1);
+  session::BodyControls bodies(simulation);
+  bodies.throw_body({0, 50, 0}, {0, 0, 1});
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_NE(simulation.notice.text().find("room"), std::string::npos);
+  EXPECT_FALSE(simulation.clock.paused);
+}
+
+TEST(BodyControls, DoNotPauseAtADropThatIsRefused) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.drop(1 + static_cast<int>(softbody::max_particles / simulation.world().prototype(0).mesh.vertices.size()));
+  EXPECT_NE(simulation.notice.text().find("no room"), std::string::npos) << simulation.notice.text();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_FALSE(simulation.clock.paused);
+}
+
+TEST(BodyControls, DropABodyAlsoWhereTheSceneDoesNotSayWhere) {
+  softbody::Scene scene = touching_pair();
+  for (const std::size_t bodies : {3, 3, 0}) {
+    session::Simulation simulation(scene, 1);
+    session::BodyControls controls(simulation);
+    EXPECT_EQ(controls.can_drop(), bodies > 0);
+    controls.drop();
+    EXPECT_EQ(simulation.world().bodies().count(), bodies);
+    if (!scene.dropper) scene.bodies.clear();
+    scene.dropper.reset();
+  }
+}
+
+TEST(BodyControls, AskForASelectionBeforeTheyDelete) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.remove_selected();
+  ASSERT_NE(simulation.notice.text().find("click a body"), std::string::npos);
+  bodies.select(7);
+  EXPECT_FALSE(bodies.selected());
+  bodies.select(0);
+  EXPECT_TRUE(simulation.notice.text().empty());
+  bodies.remove_selected();
+  EXPECT_EQ(simulation.world().bodies().count(), 1u);
+  EXPECT_FALSE(bodies.selected());
+}
+
+TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
+  softbody::Scene scene = touching_pair();
+  scene.contact_surface = softbody::ContactSurface::surfaces;  // for which no implicit step is in reserve
+  session::Simulation simulation(scene, 1);
+  session::SettingControls controls(simulation);
+  softbody::Material stiff = simulation.world().scene().materials[0];
+  stiff.structural.stiffness = 1e9;
+  controls.set_material(0, stiff);
+  EXPECT_NE(simulation.notice.text().find("stiff"), std::string::npos);
+  EXPECT_FALSE(simulation.clock.paused);
+  EXPECT_EQ(simulation.world().scene().materials[0].structural.stiffness, softbody::Material().structural.stiffness);
+}
+
+TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRestored) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  softbody::Material heavy = simulation.world().scene().materials[0];
+  heavy.mass = 3;
+  controls.set_material(0, heavy);
+  controls.set_gravity(2);
+  session::SolidList solids = controls.solids();
+  ASSERT_EQ(solids.size(), 2u);
+  solids[0].on = false;
+  controls.set_solids(solids);
+  EXPECT_TRUE(simulation.world().scene().spheres.empty());
+  simulation.reset();
+  EXPECT_EQ(simulation.world().scene().materials[0].mass, 3);
+  EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -2, 0));
+  EXPECT_TRUE(simulation.world().scene().spheres.empty());
+  ASSERT_EQ(controls.solids().size(), 2u);
+  controls.restore_world();
+  EXPECT_EQ(simulation.world().scene().materials[0].mass, 1);
+  EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -9.81, 0));
+  EXPECT_EQ(simulation.world().scene().spheres.size(), 1u);
+  EXPECT_TRUE(controls.solids()[0].on);
+}
+
+TEST(SettingControls, RefuseSettingsWithAProblem) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  collide::Settings bad = simulation.world().collision();
+  bad.tolerance = -1;
+  controls.set_collision(bad, true);
+  EXPECT_FALSE(simulation.notice.text().empty());
+  EXPECT_EQ(simulation.world().collision().tolerance, 0.1f);
+  controls.set_collision(simulation.world().collision(), true);
+  EXPECT_TRUE(simulation.notice.text().empty());
+}
+
+TEST(SettingControls, FindNewContactsWhilePaused) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  simulation.clock.paused = true;
+  const auto before = simulation.world().detection().contacts.size();
+  const auto revision = simulation.revision();
+  collide::Settings settings = simulation.world().collision();
+  settings.tolerance = 0.2f;
+  controls.set_collision(settings, true);
+  EXPECT_GT(simulation.world().detection().contacts.size(), before);
+  EXPECT_NE(simulation.revision(), revision);
+}
+
+TEST(SettingControls, GoThroughAllMethods) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  const std::string first(simulation.world().method().key);
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    controls.next_method();
+    simulation.advance(tick);
+    EXPECT_TRUE(simulation.notice.text().empty());
+  }
+  EXPECT_EQ(simulation.world().method().key, first);
+  controls.set_method("no-such-method");
+  EXPECT_EQ(simulation.world().method().key, first);
+}
+
+TEST(SettingControls, LeaveOutAMethodThatWouldTakeTooLong) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.pop_back();
+  scene.bodies[0].mesh.subdivisions = 4;
+  for (int i = 1; i < 18; ++i) {  // 46,116 vertices are more than a billion pairs
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies.back().position.x += 2.0 * i;
+  }
+  session::Simulation simulation(scene, 1);
+  session::SettingControls controls(simulation);
+  const std::string first(simulation.world().method().key);
+  controls.set_method("brute-force");
+  EXPECT_EQ(simulation.world().method().key, first);
+  EXPECT_NE(simulation.notice.text().find("too long to drive"), std::string::npos) << simulation.notice.text();
+  for (std::size_t i = 0; i < collide::method_table().size(); ++i) {
+    controls.next_method();
+    EXPECT_NE(simulation.world().method().key, "brute-force");
+  }
+}
+
+TEST(SceneControls, KeepTheSceneWhenAnotherCannotBeLoaded) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SceneControls scenes(simulation, {});
+  scenes.choose("no-such-scene.toml");
+  EXPECT_NE(simulation.notice.text().find("no-such-scene"), std::string::npos);
+  EXPECT_EQ(simulation.world().scene().key, "pair");
+}
+
+TEST(SolidList, NamesSolidsApartAndPutsThemBackAsTheyWere) {
+  softbody::Scene scene = touching_pair();
+  scene.boxes.resize(2);
+  scene.capsules.resize(1);
+  scene.planes.resize(1);
+  const session::SolidList list = session::list_solids(scene);
+  ASSERT_EQ(list.size(), 6u);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < list.size(); ++i) names.push_back(session::solid_name(list, i));
+  EXPECT_EQ(names, (std::vector<std::string>{"Sphere", "Box 1", "Box 2", "Capsule", "Plane", "Ground"}));
+  softbody::Scene back;
+  session::put_solids(list, back);
+  EXPECT_EQ(back.boxes.size(), 2u);
+  EXPECT_EQ(back.capsules.size() + back.planes.size() + back.spheres.size(), 3u);
+  EXPECT_TRUE(back.ground);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,85 @@
+#include "app/compare/cost_model.h"
+
+#include <gtest/gtest.h>
+
+#include "app/compare/compare.h"
+#include "softbody/world.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+std::uint64_t tests_of(const softbody::World& world, std::string_view method) {
+  collide::Workers alone(1);
+  collide::Result result;
+  collide::find_method(method)->make()->detect(world.positions(), world.collision(), alone, result);
+  return result.counters.pair_tests;
+}
+
+TEST(CostModel, IsExactForMethodsWithoutAHashTable) {
+  softbody::World world(touching_pair(), {});
+  collide::Settings settings = world.collision();
+  for (const bool self : {true, false}) {
+    settings.self_collision = self;
+    world.set_collision(settings, true);
+    compare::CostModel cost_model;
+    cost_model.begin(world.positions(), settings, 1);
+    for (const char* key : {"brute-force", "bounding-box"}) {
+      EXPECT_EQ(cost_model.of(compare::method_index(key)).pair_tests, tests_of(world, key)) << key << self;
+    }
+  }
+}
+
+TEST(CostModel, PredictsAtLeastHalfOfTheTestsAndAtMostBruteForce) {
+  const softbody::World world(touching_pair(), {});
+  compare::CostModel cost_model;
+  cost_model.begin(world.positions(), world.collision(), 1);
+  for (const collide::Method& method : collide::method_table()) {
+    const std::uint64_t predicted = cost_model.of(compare::method_index(method.key)).pair_tests;
+    EXPECT_LE(predicted, tests_of(world, "brute-force")) << method.key;
+    EXPECT_GE(2 * predicted, tests_of(world, method.key)) << method.key;
+  }
+}
+
+TEST(CostModel, LearnsUntilSettingsOrWorldChange) {
+  softbody::World world(touching_pair(), {});
+  const std::size_t method = compare::method_index("grid-hash");
+  compare::CostModel cost_model;
+  cost_model.begin(world.positions(), world.collision(), 1);
+  const compare::WorkEstimate before = cost_model.of(method);
+  cost_model.learn(method, {.hashes = 7, .pair_tests = 9'000'000});
+  cost_model.begin(world.positions(), world.collision(), 1);
+  EXPECT_EQ(cost_model.of(method).pair_tests, 9'000'000u);
+  EXPECT_EQ(cost_model.of(method).hashes, 7u);
+  cost_model.begin(world.positions(), world.collision(), 2);
+  EXPECT_EQ(cost_model.of(method).pair_tests, before.pair_tests);
+  cost_model.learn(method, {.pair_tests = 9'000'000});
+  world.drop();  // three bodies instead of two
+  cost_model.begin(world.positions(), world.collision(), 2);
+  EXPECT_EQ(cost_model.of(method).pair_tests, 20'250'000u);
+  collide::Settings other = world.collision();
+  other.levels = 5;
+  cost_model.begin(world.positions(), other, 2);
+  EXPECT_LT(cost_model.of(method).pair_tests, 9'000'000u);
+}
+
+TEST(CostModel, PredictsManyHashesForTinyCells) {
+  const softbody::World world(touching_pair(), {});
+  collide::Bodies many;
+  for (int i = 0; i < 3000; ++i) many.add(world.bodies().shape[0]);
+  const std::vector<float> line(many.vertex_count(), 0.0f);
+  std::vector<float> far(line);
+  for (std::size_t i = 0; i < far.size(); ++i) far[i] = 10.0f * static_cast<float>(i / 162);
+  collide::Settings settings = world.collision();
+  settings.buckets = 1'000'003;
+  settings.cell_size = glm::vec3(0.02f);
+  compare::CostModel cost_model;
+  cost_model.begin({far, line, line, &many}, settings, 1);
+  const compare::WorkEstimate work = cost_model.of(compare::method_index("grid-hash"));
+  EXPECT_GT(work.cost(), compare::Comparison::default_budget);
+  EXPECT_NE(work.in_words().find("million hash evaluations"), std::string::npos);
+  EXPECT_EQ(cost_model.of(compare::method_index("brute-force")).in_words(), "118,097 million pair tests");
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,91 @@
+#include "app/session/detection_inspector.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "app/session/setting_controls.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+TEST(DetectionInspector, ShowsTheGeometryOfTheDrivingMethodOrElseThePapers) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  session::DetectionInspector inspector(simulation);
+  for (const collide::Method& method : collide::method_table()) {
+    controls.set_method(method.key);
+    simulation.advance(tick);
+    const std::string_view shown = method.uses_hash ? method.key : collide::paper_method;
+    EXPECT_EQ(inspector.shown_method().key, shown);
+    const auto detector = inspector.shown_method().make();
+    collide::Workers workers(1);
+    collide::Result result;
+    detector->detect(simulation.world().positions(), simulation.world().collision(), workers, result);
+    EXPECT_EQ(inspector.shown_geometry().loads, detector->debug().loads) << method.key;
+    EXPECT_EQ(inspector.shown_geometry().box_bucket, detector->debug().box_bucket) << method.key;
+  }
+}
+
+TEST(DetectionInspector, FindsEveryContactBetweenBodiesInTheSearchAreas) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::DetectionInspector inspector(simulation);
+  simulation.advance(tick);
+  const auto areas = inspector.search_areas();
+  const collide::Frame frame = simulation.world().positions();
+  const auto body = simulation.world().vertex_body();
+  std::size_t between = 0;
+  for (const collide::Contact& contact : simulation.world().detection().contacts) {
+    if (body[contact.a] == body[contact.b]) continue;
+    ++between;
+    const glm::vec3 middle = 0.5f * (glm::vec3(frame.x[contact.a], frame.y[contact.a], frame.z[contact.a]) +
+                                     glm::vec3(frame.x[contact.b], frame.y[contact.b], frame.z[contact.b]));
+    EXPECT_TRUE(std::ranges::any_of(areas, [&](const auto& area) {
+      return glm::all(glm::lessThan(area.lo, middle + 1e-5f)) && glm::all(glm::lessThan(middle - 1e-5f, area.hi));
+    }));
+  }
+  EXPECT_GT(between, 0u);
+}
+
+/// The first side's closest point, or the second's.
+glm::dvec3 closest_point(const softbody::SurfaceContactPoint& touch, const collide::Frame& frame, bool second) {
+  glm::dvec3 point(0.0);
+  double sum = 0;
+  for (std::size_t k = 0; k < touch.vertex.size(); ++k) {
+    const double weight = second ? -touch.weight[k] : touch.weight[k];
+    const collide::Index v = touch.vertex[k];
+    if (weight > 0) point += weight * glm::dvec3(frame.x[v], frame.y[v], frame.z[v]);
+    if (weight > 0) sum += weight;
+  }
+  EXPECT_NEAR(sum, 1, 1e-5);
+  return point;
+}
+
+TEST(DetectionInspector, ShowsSurfaceContactsAtTheClosestPointsOfTwoBodies) {
+  softbody::Scene scene = touching_pair();
+  scene.contact_surface = softbody::ContactSurface::surfaces;
+  scene.bodies[0].velocity = {1, 0, 0};
+  session::Simulation simulation(scene, 1);
+  session::SettingControls controls(simulation);
+  session::DetectionInspector inspector(simulation);
+  for (int i = 0; i < 60 && inspector.surface_contacts().empty(); ++i) simulation.advance(tick);
+  ASSERT_FALSE(inspector.surface_contacts().empty());
+  const collide::Frame frame = simulation.world().positions();
+  const auto body = simulation.world().vertex_body();
+  for (const softbody::SurfaceContactPoint& touch : inspector.surface_contacts()) {
+    EXPECT_NE(touch.a, touch.b);
+    EXPECT_EQ(body[touch.vertex[0]], touch.a);
+    EXPECT_EQ(body[touch.vertex[3]], touch.b);
+    const glm::dvec3 apart = closest_point(touch, frame, false) - closest_point(touch, frame, true);
+    EXPECT_LT(glm::length(apart), 0.02);
+    EXPECT_GT(glm::dot(apart, glm::dvec3(touch.normal)), 0);
+    EXPECT_GT((touch.a == 0 ? -1 : 1) * touch.normal.x, 0.5f);  // body 0 is at the left
+  }
+  controls.set_contact_surface(softbody::ContactSurface::vertices);
+  EXPECT_TRUE(inspector.surface_contacts().empty());
+}
+
+}  // namespace
+}  // namespace app

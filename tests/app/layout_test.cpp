@@ -1,0 +1,162 @@
+// Where the parts of the user interface stand, in small and large windows.
+
+#include <algorithm>
+
+#include <fmt/core.h>
+
+#include "app/ui/panel/panel.h"
+#include "app/ui/shortcuts.h"
+#include "tests/app/panel_rig.h"
+
+namespace app {
+namespace {
+
+TEST(Tooltip, StandsBesideThePanel) {
+  PanelRig rig;
+  for (const char* label : {"Pause", "Tolerance", "Contacts", "Detect"}) {
+    const auto [name, min, max, enabled] = rig.widget(label);
+    rig.move(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
+    rig.frames(40);  // the mouse rests
+    EXPECT_GE(rig.widget("Tooltip").min.x, ui::panel_width) << label;
+    EXPECT_LE(rig.widget("Tooltip").max.x, 1280) << label;
+  }
+}
+
+TEST(Tooltip, StandsAboveTheComparison) {
+  PanelRig rig;
+  rig.session.comparison.choice.on = true;
+  rig.frames(3);
+  const ui::WidgetRecorder::Widget head = rig.widget("Column Method"), row = rig.widget("Drive Grid Hash");
+  rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
+  rig.frames(40);
+  EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
+}
+
+TEST(Layout, NamesThePartsThatHaveNoRoom) {
+  PanelRig rig;
+  rig.frames(2);
+  ASSERT_TRUE(rig.ui.hash_table);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+  rig.resize(800, 500);
+  EXPECT_TRUE(rig.recorder.find("No room")) << "for the hash table";
+  rig.ui.hash_table = false;
+  rig.resize(800, 350);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+  rig.session.comparison.choice.on = true;
+  rig.frames(2);
+  EXPECT_TRUE(rig.recorder.find("No room")) << "for the comparison";
+  rig.resize(1280, 1150);
+  EXPECT_FALSE(rig.recorder.find("No room"));
+}
+
+TEST(Layout, PutsTheSweepBelowTheStatus) {
+  PanelRig rig;
+  rig.ui.sweep = true;
+  for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    for (const bool compare : {false, true}) {
+      rig.session.comparison.choice.on = compare;
+      rig.frames(3);
+      float status_ends = 0;
+      for (const char* label : {"Live recall", "Step light", "No room"})
+        if (const ui::WidgetRecorder::Widget* line = rig.recorder.find(label))
+          status_ends = std::max(status_ends, line->max.y);
+      const float title = ImGui::GetFrameHeight() + ImGui::GetStyle().WindowPadding.y;
+      EXPECT_GE(rig.widget("Sweep").min.y - title, status_ends) << size.x << ", compare: " << compare;
+      const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
+      EXPECT_GE(plot.max.y - plot.min.y, 120) << size.x << ", compare: " << compare;
+      EXPECT_LE(plot.max.y, rig.interface.scene_area().max.y);
+      const bool has_room = size.y > 700;
+      EXPECT_EQ(rig.recorder.find("Column Method") != nullptr, compare && has_room);
+    }
+  }
+}
+
+TEST(Layout, KeepsLegendsWithinTheirArea) {
+  for (const float scale : {1.0f, 2.0f}) {
+    PanelRig rig(scale);
+    for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
+    rig.session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
+    rig.session.choose_ghost(softbody::IntegratorChoice{"semi-implicit-euler", 1234});
+    rig.frames(3);
+    const float display = 1280 * scale;
+    ASSERT_LT(rig.interface.scene_area().max.x, display) << "there is no sidebar";
+    EXPECT_GE(std::ranges::count(rig.recorder.widgets, "Legend", &ui::WidgetRecorder::Widget::label), 7);
+    for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
+      if (line.label == "Legend") {
+        EXPECT_LE(line.max.x, display - ImGui::GetStyle().WindowPadding.x);
+      }
+    rig.resize(static_cast<int>(600 * scale), static_cast<int>(900 * scale));
+    ASSERT_EQ(rig.interface.scene_area().max.x, 600 * scale) << "there is a sidebar";
+    for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
+      if (line.label == "Legend") {
+        EXPECT_LE(line.max.x, 600 * scale) << "over the scene";
+      }
+  }
+}
+
+TEST(Layout, FitsTheTourIntoSmallWindows) {
+  PanelRig rig;
+  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(500, 400), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    rig.ui.tour.start(rig.session, rig.ui.overlays);
+    rig.frames(3);
+    for (const char* label : {"Back", "Next", "Close tour"}) {
+      const ui::WidgetRecorder::Widget button = rig.widget(label);
+      EXPECT_LE(button.max.x, static_cast<float>(size.x)) << label;
+      EXPECT_LE(button.max.y, static_cast<float>(size.y)) << label;
+    }
+    const ui::ScreenRect scene = rig.interface.scene_area();
+    EXPECT_GT(scene.max.x - scene.min.x, 200);
+    EXPECT_GT(scene.max.y - scene.min.y, 150);
+    rig.ui.tour.close(rig.session, rig.ui.overlays);
+  }
+}
+
+TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
+  for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1600, 1000)}) {
+    PanelRig rig;
+    for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
+    rig.session.comparison.choice.on = true;
+    rig.resize(size.x, size.y);
+    const ui::ScreenRect scene = rig.interface.scene_area();
+    const float width = scene.max.x - scene.min.x, height = scene.max.y - scene.min.y;
+    EXPECT_GE(width, 0.5f * static_cast<float>(size.x));
+    EXPECT_GE(height, 0.75f * static_cast<float>(size.y));
+    for (const char* label : {"Buckets of the table", "Judged frame", "Drive Multi-Level SB"})
+      ASSERT_TRUE(rig.recorder.find(label)) << label;
+    for (const auto& [label, min, max, enabled] : rig.recorder.widgets) {
+      const bool beside = max.x <= scene.min.x || min.x >= scene.max.x || min.y >= scene.max.y;
+      const bool at_the_top = max.y <= scene.min.y + 0.25f * height;
+      EXPECT_TRUE(beside || at_the_top) << label << " covers the scene";
+    }
+  }
+}
+
+TEST(Help, OpensAndCloses) {
+  PanelRig rig;
+  rig.click("?");
+  rig.frames(2);
+  ASSERT_TRUE(rig.ui.help);
+  rig.click("Close");
+  EXPECT_FALSE(rig.ui.help);
+}
+
+TEST(Help, SeparatesItsColumns) {
+  for (const float scale : {1.0f, 2.0f}) {
+    PanelRig rig(scale);
+    rig.ui.help = true;
+    rig.frames(3);
+    float first_ends = 0;
+    for (const ui::Shortcut& shortcut : ui::shortcuts())
+      first_ends = std::max(first_ends, rig.widget(fmt::format("Help {}", shortcut.text)).max.x);
+    const float keys =
+        rig.widget(fmt::format("Help {}", ui::shortcuts()[0].text)).min.x;  // the keys' column is as wide for each text
+    const float width = keys - rig.widget("Close").min.x;
+    for (const render::OverlayRow& row : render::overlay_table)
+      EXPECT_GT(rig.widget(fmt::format("Help {}", row.label)).min.x - width, first_ends) << row.label;
+  }
+}
+
+}  // namespace
+}  // namespace app

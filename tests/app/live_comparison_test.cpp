@@ -1,0 +1,81 @@
+#include "app/session/live/live_comparison.h"
+
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <thread>
+
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// A comparison beside a world that stands still.
+struct Rig {
+  softbody::World world{touching_pair(), {}};
+  session::LiveComparison comparison;
+  std::uint64_t revision = 1;
+
+  Rig() { comparison.restart(world, revision); }
+
+  void change(auto setting) {
+    setting(world);
+    comparison.detection_changed(world, ++revision);
+  }
+  /// Exchanges until `done`; false if that takes too long.
+  bool wait(auto done) {
+    for (const auto end = std::chrono::steady_clock::now() + 60s; std::chrono::steady_clock::now() < end;) {
+      comparison.exchange(world, revision, 0, 2);
+      if (done()) return true;
+      std::this_thread::sleep_for(1ms);
+    }
+    return false;
+  }
+  bool wait_for_recall() {
+    return wait([this] { return comparison.report().id == revision; });
+  }
+};
+
+TEST(LiveComparison, MeasuresTheRecallOfAWorldThatStandsStillAfterEveryChange) {
+  Rig rig;
+  EXPECT_EQ(rig.comparison.driver_row(), nullptr);
+  ASSERT_TRUE(rig.wait_for_recall());
+  EXPECT_EQ(rig.comparison.driver_row()->recall, 1.0);
+  EXPECT_EQ(rig.comparison.recall().size(), 1u);
+  rig.change([](softbody::World& world) { world.set_method("multi-level-sb"); });
+  EXPECT_EQ(rig.comparison.driver_row(), nullptr) << "what is known of another method says nothing of this one";
+  EXPECT_EQ(rig.comparison.recall().size(), 0u);
+  rig.change([](softbody::World& world) {
+    collide::Settings settings = world.collision();
+    settings.cell_size = glm::vec3(0.13f);
+    settings.buckets = 1'000'003;
+    world.set_collision(settings, false);
+  });
+  ASSERT_TRUE(rig.wait_for_recall());
+  EXPECT_LT(rig.comparison.driver_row()->recall, 1.0);
+  EXPECT_EQ(rig.comparison.missed(), &rig.comparison.driver_row()->missed);
+  rig.comparison.restart(rig.world, ++rig.revision);
+  EXPECT_EQ(rig.comparison.report().id, 0u);
+  EXPECT_EQ(rig.comparison.missed(), nullptr);
+}
+
+TEST(LiveComparison, TimesAllMethodsAgainAndAgainWhileAskedTo) {
+  Rig rig;
+  rig.comparison.choice.on = true;
+  const TimeSeries& times = rig.comparison.method_ms()[compare::method_index("grid-hash")];
+  ASSERT_TRUE(rig.wait([&] { return times.size() >= 3; }));
+  EXPECT_GT(times.median(15), 0.0f);
+  rig.change([](softbody::World& world) { world.set_method("bounding-box"); });
+  EXPECT_GE(times.size(), 3u) << "another driver changes no times";
+  rig.change([](softbody::World& world) {
+    collide::Settings settings = world.collision();
+    settings.levels = 5;
+    world.set_collision(settings, true);
+  });
+  EXPECT_EQ(times.size(), 0u) << "other settings, other times";
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,116 @@
+// The panel's parts for bodies, gravity, materials and solids.
+
+#include <glm/geometric.hpp>
+
+#include "softbody/measures.h"
+#include "tests/app/panel_rig.h"
+
+namespace app {
+namespace {
+
+TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
+  PanelRig rig;
+  EXPECT_FALSE(rig.widget("Undo").enabled);
+  EXPECT_FALSE(rig.widget("Delete").enabled);
+  rig.click("Drop 20");
+  EXPECT_EQ(rig.session.world().bodies().count(), 22u);
+  rig.click("Throw");
+  EXPECT_TRUE(rig.ui.throw_body);  // the main loop throws it from its camera
+  rig.session.bodies.select(1);
+  rig.frames(2);
+  rig.click("Look at it");
+  EXPECT_TRUE(rig.ui.focus_body);
+  rig.click("Delete");
+  EXPECT_EQ(rig.session.world().bodies().count(), 21u);
+  EXPECT_FALSE(rig.session.bodies.selected());
+  rig.click("Reset");
+  EXPECT_EQ(rig.session.world().bodies().count(), 2u);
+  rig.click("Undo");
+  EXPECT_EQ(rig.session.world().bodies().count(), 21u);
+  rig.drag("Throw speed", 500);
+  EXPECT_NEAR(rig.session.bodies.throw_speed, session::BodyControls::max_throw_speed, 1e-5);
+}
+
+TEST(BodiesPanel, KeepsEverythingInPlaceAtASelection) {
+  PanelRig rig;
+  const auto before = rig.widget("Tolerance");
+  rig.session.bodies.select(0);
+  rig.frames(3);
+  EXPECT_TRUE(rig.recorder.find("Selected body"));
+  EXPECT_EQ(rig.widget("Tolerance").min.y, before.min.y);
+}
+
+TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
+  PanelRig rig;
+  rig.click("Detection");  // folds it to make room
+  rig.click("World");
+  const softbody::World& world = rig.session.world();
+  for (const char* label :
+       {"Gravity", "Mass", "Spring stiffness", "Spring damping", "Bend stiffness", "Shear stiffness", "Gas pressure",
+        "Internal damping", "Rebound speed", "Friction", "Rolling resistance", "Contact stiffness", "Restitution",
+        "Solid place", "Solid radius", "Solid friction", "Solid restitution"}) {
+    for (const float by : {500.0f, -500.0f}) {
+      rig.drag(label, by);
+      rig.frames(5);
+      EXPECT_FALSE(rig.session.simulation.clock.paused) << label << ": " << rig.session.simulation.notice.text();
+      EXPECT_TRUE(softbody::measure(world).finite) << label;
+    }
+    rig.click("Scene's world");
+    EXPECT_EQ(world.scene().materials[0].mass, 1) << label;
+  }
+  EXPECT_EQ(world.scene().spheres.at(0).radius, 1);
+  rig.drag("Gravity", -500);
+  EXPECT_EQ(glm::length(world.scene().gravity), 0);
+  EXPECT_FALSE(world.plan().has(softbody::Stage::gravity));
+}
+
+TEST(Slider, TakesATypedValueAfterADoubleClick) {
+  PanelRig rig;
+  const std::uint32_t buckets = rig.session.world().collision().buckets;
+  rig.double_click("Buckets");
+  EXPECT_EQ(rig.session.world().collision().buckets, buckets);
+  rig.type("4321");
+  EXPECT_EQ(rig.session.world().collision().buckets, 4321u);
+  rig.click("Detection");
+  rig.click("World");
+  const auto gravity = [&] { return glm::length(rig.session.world().scene().gravity); };
+  const double before = gravity();
+  rig.click("Gravity");
+  EXPECT_NE(gravity(), before) << "a click sets the value at its position";
+  rig.click("Scene's world");
+  rig.double_click("Gravity");
+  EXPECT_NEAR(gravity(), before, 1e-6) << "a double-click keeps the value";
+  rig.type("3.5");
+  EXPECT_NEAR(gravity(), 3.5, 1e-6);
+  rig.double_click("Gravity");
+  EXPECT_NEAR(gravity(), 3.5, 1e-6) << "in the open field";
+  rig.type("99");
+  EXPECT_NEAR(gravity(), 30, 1e-6) << "the upper end";
+  rig.double_click("Bend stiffness");
+  EXPECT_NEAR(gravity(), 30, 1e-6) << "another slider";
+}
+
+TEST(WorldPanel, SwitchesAndChoosesSolids) {
+  PanelRig rig;
+  rig.click("Detection");
+  rig.click("World");
+  rig.click("Solid is there");
+  EXPECT_TRUE(rig.session.world().scene().spheres.empty());
+  EXPECT_FALSE(rig.widget("Solid radius").enabled);
+  rig.click("Solid");
+  rig.click("Ground");
+  rig.frames(2);
+  rig.drag("Ground height", 30);
+  EXPECT_GT(rig.session.world().scene().ground->height, 0);
+  EXPECT_TRUE(rig.session.world().scene().spheres.empty());
+}
+
+TEST(BodiesPanel, DropsABody) {
+  PanelRig rig;
+  const auto before = rig.session.world().bodies().count();
+  rig.click("Drop");
+  EXPECT_EQ(rig.session.world().bodies().count(), before + 1);
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,158 @@
+// The panel's section on the method and its settings.
+
+#include <algorithm>
+
+#include "app/ui/panel/panel.h"
+#include "tests/app/panel_rig.h"
+
+namespace app {
+namespace {
+
+TEST(DetectionPanel, ChoosesEveryMethodWhileTheWorldRuns) {
+  PanelRig rig;
+  for (const collide::Method& method : collide::method_table()) {
+    rig.click("Method");
+    rig.click(method.name);
+    EXPECT_EQ(rig.session.world().method().key, method.key);
+    rig.frames(5);
+    EXPECT_TRUE(rig.session.simulation.notice.text().empty()) << rig.session.simulation.notice.text();
+  }
+}
+
+TEST(DetectionPanel, ChoosesEveryContactSurface) {
+  PanelRig rig;
+  const std::vector order{softbody::ContactSurface::surfaces, softbody::ContactSurface::vertices};
+  for (const softbody::ContactSurface surface : order) {
+    const auto& all = softbody::contact_surfaces;
+    rig.click("Contact surface");
+    rig.click(std::ranges::find(all, surface, &softbody::ContactSurfaceInfo::value)->name);
+    EXPECT_EQ(rig.session.world().scene().contact_surface, surface);
+    rig.frames(3);
+    const bool counted = rig.recorder.find("surfaces, between bodies") != nullptr;
+    EXPECT_EQ(counted, surface == softbody::ContactSurface::surfaces);
+  }
+}
+
+TEST(DetectionPanel, EnablesOnlyWhatTheMethodUses) {
+  PanelRig rig;
+  rig.ui.hash_table = false;
+  for (const collide::Method& method : collide::method_table()) {
+    rig.session.settings.set_method(method.key);
+    rig.frames(2);
+    EXPECT_EQ(rig.widget("Subdivision level").enabled, method.uses_levels) << method.key;
+    EXPECT_EQ(rig.widget("Buckets").enabled, method.uses_hash) << method.key;
+    EXPECT_EQ(rig.widget("Auto").enabled, method.uses_hash) << method.key;
+    for (const char* label : {"x prime", "y prime", "z prime", "Default primes"})
+      EXPECT_EQ(rig.widget(label).enabled, method.uses_hash) << method.key;
+    EXPECT_TRUE(rig.widget("Tolerance").enabled);
+  }
+}
+
+TEST(DetectionPanel, EnablesWhatAViewOrTheComparisonUses) {
+  PanelRig rig;
+  rig.ui.hash_table = false;
+  ASSERT_FALSE(rig.session.world().method().uses_hash);
+  const auto enabled = [&] {
+    rig.frames(2);
+    return rig.widget("Buckets").enabled;
+  };
+  EXPECT_FALSE(enabled());
+  for (bool* shown :
+       {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.session.comparison.choice.on}) {
+    *shown = true;
+    EXPECT_TRUE(enabled());
+    *shown = false;
+    EXPECT_FALSE(enabled());
+  }
+}
+
+TEST(DetectionPanel, DragsEverySliderToItsEnds) {
+  PanelRig rig;
+  rig.session.settings.set_method("multi-level-sb");
+  rig.frames(2);
+  const auto& settings = [&]() -> const collide::Settings& { return rig.session.world().collision(); };
+  rig.drag("Subdivision level", -500);
+  EXPECT_EQ(settings().levels, 0);
+  rig.drag("Subdivision level", 500);
+  EXPECT_EQ(settings().levels, collide::max_levels);
+  rig.drag("Buckets", -500);
+  EXPECT_EQ(settings().buckets, 1u);
+  rig.drag("Buckets", 500);
+  EXPECT_EQ(settings().buckets, collide::max_buckets);
+  rig.drag("Buckets", -500);
+  rig.click("Auto");
+  EXPECT_FALSE(rig.session.world().scene().default_cell_size);
+  rig.drag("Cell size", -500);
+  EXPECT_NEAR(settings().cell_size.x, ui::min_cell, 1e-5);
+  rig.drag("Cell size", 500);
+  EXPECT_NEAR(settings().cell_size.y, ui::max_cell, 1e-5);
+  rig.drag("Tolerance", -500);
+  EXPECT_NEAR(settings().tolerance, ui::min_tolerance, 1e-5);
+  rig.drag("Tolerance", 500);
+  EXPECT_NEAR(settings().tolerance, ui::max_tolerance, 1e-5);
+  rig.click("Self-collision");
+  EXPECT_FALSE(settings().self_collision);
+  rig.click("Scene's settings");
+  EXPECT_EQ(rig.session.world().method().key, collide::default_method);
+  EXPECT_EQ(settings().levels, 3);
+  EXPECT_TRUE(rig.session.world().scene().default_cell_size);
+}
+
+TEST(DetectionPanel, RunsEveryMethodAtTheEndsOfEverySlider) {
+  PanelRig rig;
+  for (const collide::Method& method : collide::method_table()) {
+    rig.session.settings.set_method(method.key);
+    for (const int levels : {0, collide::max_levels}) {
+      for (const float cell : {ui::min_cell, ui::max_cell}) {
+        for (const float tolerance : {ui::min_tolerance, ui::max_tolerance}) {
+          collide::Settings settings = rig.session.world().collision();
+          settings.levels = levels;
+          settings.cell_size = glm::vec3(cell);
+          settings.tolerance = tolerance;
+          settings.buckets = 1;
+          rig.session.settings.set_collision(settings, false);
+          rig.frames(2);
+          EXPECT_FALSE(rig.session.simulation.clock.paused)
+              << method.key << ": " << rig.session.simulation.notice.text();
+        }
+      }
+    }
+  }
+}
+
+TEST(DetectionPanel, OffersThePapersBucketSizes) {
+  PanelRig rig;
+  for (const char* preset : {"101", "1,001", "1,009"}) {
+    rig.click("Bucket presets");
+    rig.click(preset);
+    std::string digits(preset);
+    std::erase(digits, ',');
+    EXPECT_EQ(std::to_string(rig.session.world().collision().buckets), digits);
+  }
+}
+
+TEST(DetectionPanel, TakesPrimesAndWarnsOfThoseThatSpoilTheHash) {
+  PanelRig rig;
+  const auto& primes = [&]() -> const auto& { return rig.session.world().collision().primes; };
+  ASSERT_FALSE(rig.recorder.find("Primes warning"));
+  rig.type("x prime", "7");
+  rig.type("y prime", "1001");  // the number of buckets
+  rig.type("z prime", "4294967295");
+  EXPECT_EQ(primes(), (std::array<std::uint32_t, 3>{7, 1001, 4294967295}));
+  EXPECT_TRUE(rig.recorder.find("Primes warning"));
+  EXPECT_TRUE(rig.recorder.find("Buckets warning"));
+  rig.session.settings.set_method("bounding-box");
+  rig.ui.hash_table = false;
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Primes warning")) << "the method hashes nothing";
+  rig.session.settings.set_method("grid-hash");
+  rig.frames(2);
+  rig.type("y prime", "0");
+  EXPECT_EQ(primes()[1], 1u) << "the smallest allowed";
+  rig.click("Default primes");
+  EXPECT_EQ(primes(), collide::default_primes);
+  EXPECT_FALSE(rig.recorder.find("Primes warning"));
+}
+
+}  // namespace
+}  // namespace app

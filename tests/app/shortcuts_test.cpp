@@ -1,0 +1,96 @@
+#include "app/ui/shortcuts.h"
+
+#include <gtest/gtest.h>
+
+#include "tests/app/scenes.h"
+
+#include <GLFW/glfw3.h>
+
+namespace app {
+namespace {
+
+TEST(Shortcuts, ActAsTheHelpSays) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  const auto tap = [&](int key) { return ui::handle_key(key, false, session, ui); };
+  EXPECT_TRUE(tap(' '));
+  EXPECT_TRUE(session.simulation.clock.paused);
+  tap('N');
+  session.advance(0);
+  EXPECT_EQ(session.world().frame(), 1);
+  tap('S');
+  EXPECT_TRUE(session.simulation.clock.slow_motion);
+  tap('D');
+  EXPECT_EQ(session.world().bodies().count(), 3u);
+  tap('R');
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  tap(']');
+  EXPECT_EQ(session.world().collision().levels, 4);
+  for (int i = 0; i < 20; ++i) tap('[');
+  EXPECT_EQ(session.world().collision().levels, 0);
+  tap('F');
+  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::surfaces);
+  tap('F');
+  EXPECT_EQ(session.world().scene().contact_surface, softbody::ContactSurface::vertices);
+  tap('M');
+  EXPECT_NE(session.world().method().key, collide::default_method);
+  for (const render::OverlayRow& row : render::overlay_table) {
+    const bool before = ui.overlays.*row.shown;
+    EXPECT_TRUE(tap(row.shortcut));
+    EXPECT_NE(ui.overlays.*row.shown, before);
+  }
+  tap('H');
+  EXPECT_FALSE(ui.panel);
+  tap('C');
+  EXPECT_TRUE(ui.reset_camera);
+  tap('?');
+  EXPECT_TRUE(ui.help);
+  tap('Q');
+  EXPECT_TRUE(ui.quit);
+  EXPECT_FALSE(tap('Z'));
+  EXPECT_FALSE(tap('/')) << "only some keyboards have it on the key of ?";
+}
+
+TEST(Shortcuts, IgnoreKeysWithAltOrSuper) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  for (const int mod : {GLFW_MOD_ALT, GLFW_MOD_SUPER}) {
+    for (const ui::Shortcut& shortcut : ui::shortcuts())
+      EXPECT_FALSE(ui::handle_key(shortcut.key, false, session, ui, shortcut.mods | mod)) << shortcut.keys_text;
+    for (const render::OverlayRow& row : render::overlay_table)
+      EXPECT_FALSE(ui::handle_key(row.shortcut, false, session, ui, mod)) << row.label;
+  }
+  EXPECT_FALSE(ui.overlays.any());
+}
+
+TEST(Shortcuts, RepeatOnlySomeActionsOfAHeldKey) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  EXPECT_FALSE(ui::handle_key(' ', true, session, ui));
+  EXPECT_FALSE(ui::handle_key('1', true, session, ui));
+  EXPECT_TRUE(ui::handle_key('N', true, session, ui));
+}
+
+TEST(Shortcuts, ActWithControlShiftAndDelete) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  EXPECT_TRUE(ui::handle_key('D', false, session, ui, GLFW_MOD_SHIFT));
+  EXPECT_EQ(session.world().bodies().count(), 22u);
+  session.bodies.select(3);
+  EXPECT_TRUE(ui::handle_key(GLFW_KEY_DELETE, false, session, ui));
+  EXPECT_EQ(session.world().bodies().count(), 21u);
+  EXPECT_FALSE(ui::handle_key('R', false, session, ui, GLFW_MOD_CONTROL))
+      << "it means something else in other programs";
+  EXPECT_TRUE(ui::handle_key('R', false, session, ui));
+  EXPECT_EQ(session.world().bodies().count(), 2u);
+  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_EQ(session.world().bodies().count(), 21u);
+  EXPECT_TRUE(ui::handle_key('B', false, session, ui));
+  EXPECT_TRUE(ui.throw_body);
+  session.bodies.select(0);
+  EXPECT_TRUE(ui::handle_key(GLFW_KEY_ESCAPE, false, session, ui));
+  EXPECT_FALSE(session.bodies.selected());
+}
+
+}  // namespace
+}  // namespace app

@@ -1,0 +1,313 @@
+#include "app/session/simulation.h"
+
+#include <gtest/gtest.h>
+
+#include "app/session/body_controls.h"
+#include "app/session/setting_controls.h"
+#include "tests/app/scenes.h"
+
+namespace app {
+namespace {
+
+void run(session::Simulation& simulation, int frames) {
+  for (int i = 0; i < frames; ++i) simulation.advance(tick);
+}
+
+TEST(Simulation, TakesTheStepsOfItsWorldToTheBit) {
+  softbody::World world(touching_pair(), {});
+  session::Simulation simulation(touching_pair(), 2);
+  for (int frame = 0; frame < 120; ++frame) {
+    world.step();
+    simulation.advance(tick);
+    ASSERT_EQ(simulation.world().state_hash(), world.state_hash()) << frame;
+  }
+}
+
+TEST(Simulation, InterpolatesSlowMotionBetweenTwoSteps) {
+  session::Simulation simulation(touching_pair(), 1);
+  EXPECT_EQ(simulation.between(), 1.0f);
+  simulation.clock.slow_motion = true;
+  simulation.clock.slow_factor = 0.25;
+  float last = -1;
+  for (int i = 0; i < 3; ++i) {
+    simulation.advance(tick);
+    EXPECT_GT(simulation.between(), last);
+    EXPECT_LT(simulation.between(), 1.0f);
+    last = simulation.between();
+  }
+  const float height = simulation.world().positions().y[0];
+  simulation.advance(tick);
+  EXPECT_LT(simulation.between(), last);
+  EXPECT_EQ(simulation.before_last_step().y[0], height);
+  simulation.clock.paused = true;
+  EXPECT_EQ(simulation.between(), 1.0f);
+}
+
+TEST(Simulation, HasTheCaptionOfTheFrame) {
+  session::Simulation simulation(touching_pair(), 1);
+  EXPECT_EQ(simulation.caption(), "");
+  for (int i = 0; i < 4; ++i) simulation.advance(tick);
+  EXPECT_EQ(simulation.caption(), "second");
+  for (int i = 0; i < 4; ++i) simulation.advance(tick);
+  EXPECT_EQ(simulation.caption(), "fifth");
+}
+
+TEST(Simulation, KeepsTheSettingsOverAReset) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  session::BodyControls bodies(simulation);
+  controls.set_method("grid-hash");
+  collide::Settings settings = simulation.world().collision();
+  settings.buckets = 77;
+  settings.cell_size = glm::vec3(0.25f);
+  controls.set_collision(settings, false);
+  bodies.drop();
+  for (int i = 0; i < 5; ++i) simulation.advance(tick);
+  simulation.reset();
+  EXPECT_EQ(simulation.world().frame(), 0);
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().method().key, "grid-hash");
+  EXPECT_EQ(simulation.world().collision().buckets, 77u);
+  EXPECT_EQ(simulation.world().collision().cell_size, glm::vec3(0.25f));
+  controls.restore_detection();
+  EXPECT_EQ(simulation.world().method().key, collide::default_method);
+  EXPECT_EQ(simulation.world().collision().buckets, 1001u);
+  EXPECT_TRUE(simulation.world().scene().default_cell_size);
+}
+
+TEST(Simulation, KeepsTheContactSurfaceOverAReset) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  const auto surface = [&] { return simulation.world().scene().contact_surface; };
+  const auto revision = simulation.revision();
+  controls.set_contact_surface(softbody::ContactSurface::surfaces);
+  EXPECT_NE(simulation.revision(), revision);
+  simulation.advance(tick);
+  simulation.reset();
+  EXPECT_EQ(surface(), softbody::ContactSurface::surfaces);
+  controls.restore_detection();
+  EXPECT_EQ(surface(), softbody::ContactSurface::vertices);
+}
+
+TEST(Simulation, GoesBackAndContinuesToTheBit) {
+  session::Simulation simulation(touching_pair(), 1);
+  run(simulation, 63);
+  const std::uint64_t there = simulation.world().state_hash();
+  const std::uint64_t revision = simulation.revision();
+  simulation.rewind_to(31);
+  EXPECT_TRUE(simulation.clock.paused);
+  EXPECT_EQ(simulation.world().frame(), 30);
+  EXPECT_GT(simulation.revision(), revision);
+  EXPECT_EQ(simulation.before_last_step().y[0], simulation.world().positions().y[0]);
+  simulation.rewind_to(63);
+  EXPECT_EQ(simulation.world().frame(), 63) << "the present was kept";
+  EXPECT_EQ(simulation.world().state_hash(), there);
+  simulation.rewind_to(30);
+  simulation.clock.paused = false;
+  run(simulation, 33);
+  EXPECT_EQ(simulation.world().frame(), 63);
+  EXPECT_EQ(simulation.world().state_hash(), there);
+}
+
+TEST(Simulation, ShowsTheFiguresOfTheFrameItWentBackTo) {
+  session::Simulation simulation(touching_pair(), 1);
+  run(simulation, 63);
+  simulation.rewind_to(30);
+  const softbody::Measures now = softbody::measure(simulation.world());
+  const session::StabilityHistory& shown = simulation.stability().history();
+  EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
+  EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
+  EXPECT_FLOAT_EQ(shown.speed.latest(), float(now.max_speed));
+  for (const TimeSeries* ring : {&shown.total, &simulation.history().contacts}) {
+    ASSERT_GT(ring->size(), 0u);
+    EXPECT_LE(ring->frame(ring->size() - 1), 30);
+  }
+  EXPECT_EQ(simulation.stability().margin().taken, 0);
+  EXPECT_FALSE(simulation.world().all_at_rest()) << "so the light may not say that nothing moves";
+}
+
+TEST(Simulation, KeepsTheSettingsInUseWhenItGoesBack) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  session::BodyControls bodies(simulation);
+  run(simulation, 20);
+  bodies.drop();
+  run(simulation, 20);
+  controls.set_method("grid-hash");
+  controls.set_contact_surface(softbody::ContactSurface::surfaces);
+  collide::Settings settings = simulation.world().collision();
+  settings.buckets = 77;
+  controls.set_collision(settings, false);
+  simulation.rewind_to(10);
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().method().key, "grid-hash");
+  EXPECT_EQ(simulation.world().collision().buckets, 77u);
+  EXPECT_FALSE(simulation.world().scene().default_cell_size);
+  EXPECT_EQ(simulation.world().scene().contact_surface, softbody::ContactSurface::surfaces);
+}
+
+TEST(Simulation, PausesAtABlowUpAndOffersTheLastGoodFrame) {
+  session::Simulation simulation(doomed_pair(), 1);
+  run(simulation, 40);
+  ASSERT_TRUE(simulation.stability().blow_up());
+  EXPECT_TRUE(simulation.clock.paused);
+  EXPECT_EQ(simulation.stability().blow_up()->body, 1u);
+  const int bad = simulation.stability().blow_up()->frame;
+  EXPECT_EQ(simulation.world().frame(), bad);
+  EXPECT_LT(simulation.stability().last_good_frame(), bad);
+  simulation.rewind_to(simulation.stability().last_good_frame());
+  EXPECT_FALSE(simulation.stability().blow_up());
+  EXPECT_TRUE(softbody::measure(simulation.world()).finite);
+}
+
+TEST(Simulation, ContinuesThroughABlowUpOnRequest) {
+  session::Simulation simulation(doomed_pair(), 1);
+  simulation.pause_on_blow_up = false;
+  run(simulation, 40);
+  EXPECT_FALSE(simulation.stability().blow_up());
+  EXPECT_FALSE(simulation.clock.paused);
+  simulation.reset();
+  simulation.pause_on_blow_up = true;
+  run(simulation, 40);
+  ASSERT_TRUE(simulation.stability().blow_up());
+  simulation.clock.paused = false;
+  const int bad = simulation.world().frame();
+  run(simulation, 5);
+  EXPECT_EQ(simulation.world().frame(), bad + 5) << "it stops once, not in every frame";
+  EXPECT_LT(simulation.stability().past().snapshots().back().frame, bad) << "no bad frame is kept";
+  EXPECT_FALSE(simulation.stability().blow_up()) << "who goes on has read it";
+}
+
+TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  for (int i = 0; i < 10; ++i) simulation.advance(tick);
+  const std::uint64_t before = simulation.world().state_hash();
+  bodies.grab({.body = 0, .target = {0, 4, 0}});
+  bodies.drop(20);
+  EXPECT_TRUE(simulation.world().grabbed()) << "a drop does not make the hand let go";
+  bodies.throw_body({0, 3, 9}, {0, 0, -1});
+  ASSERT_EQ(simulation.world().bodies().count(), 23u);
+  simulation.advance(tick);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 22u);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_FALSE(simulation.world().grabbed());
+  EXPECT_FALSE(simulation.can_undo());
+}
+
+TEST(SimulationUndo, KeepsTheSettingsInUse) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  session::BodyControls bodies(simulation);
+  bodies.drop();
+  controls.set_method("grid-hash");
+  controls.set_gravity(1.5);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().method().key, "grid-hash");
+  EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 1.5);
+}
+
+TEST(SimulationUndo, IgnoresAThrowThatFailed) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  const glm::dvec3 inside(0, 0, 0);  // of the solid sphere
+  bodies.throw_body(inside, {0, 0, -1});
+  ASSERT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_FALSE(simulation.notice.text().empty());
+  EXPECT_FALSE(simulation.can_undo());
+}
+
+TEST(SimulationUndo, RestoresADeletedBodyToTheBit) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  for (int i = 0; i < 10; ++i) simulation.advance(tick);
+  const std::uint64_t before = simulation.world().state_hash();
+  const int frame = simulation.world().frame();
+  bodies.select(0);
+  bodies.remove_selected();
+  EXPECT_EQ(simulation.world().body(0).number, 1u) << "the other one keeps its colour";
+  for (int i = 0; i < 10; ++i) simulation.advance(tick);
+  simulation.reset();  // undone first
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 1u);
+  EXPECT_EQ(simulation.world().frame(), frame + 10);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().frame(), frame);
+  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_FALSE(simulation.can_undo());
+  simulation.advance(tick);
+  EXPECT_TRUE(simulation.notice.text().empty());
+}
+
+TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  std::vector<std::uint64_t> hashes;
+  for (int i = 0; i < 3; ++i) {
+    session::SolidList solids = controls.solids();
+    solids[0].on = i % 2;
+    controls.set_solids(solids);
+    for (int k = 0; k < 5 + i; ++k) simulation.advance(tick);
+    hashes.push_back(simulation.world().state_hash());
+    simulation.reset();
+  }
+  for (int i = 2; i >= 0; --i) {
+    simulation.undo();
+    EXPECT_EQ(simulation.world().state_hash(), hashes[static_cast<std::size_t>(i)]);
+    EXPECT_EQ(controls.solids()[0].on, i % 2);
+  }
+  simulation.undo();  // nothing left to undo
+  EXPECT_EQ(simulation.world().state_hash(), hashes[0]);
+}
+
+/// Notes what it is told.
+struct Witness : session::SimulationObserver {
+  double stepped() override {
+    ++steps;
+    return 5;
+  }
+  void intervened() override { ++interventions; }
+  void detection_changed() override { ++detections; }
+  void replaced(bool new_scene) override { new_scene ? ++scenes : ++states; }
+  int steps = 0, interventions = 0, detections = 0, scenes = 0, states = 0;
+};
+
+TEST(SimulationObserver, IsToldOfStepsAndChanges) {
+  Witness witness;
+  session::Simulation simulation(touching_pair(), 1, "", &witness);
+  session::SettingControls controls(simulation);
+  run(simulation, 7);
+  EXPECT_EQ(witness.steps, 7);
+  EXPECT_GE(simulation.step_ms(), 5);
+  controls.set_gravity(3);
+  EXPECT_EQ(witness.interventions, 1);
+  EXPECT_EQ(witness.detections, 0);
+  controls.set_method("grid-hash");
+  EXPECT_EQ(witness.detections, 1);
+  simulation.rewind_to(5);
+  EXPECT_EQ(witness.states, 1);
+  simulation.reset();
+  EXPECT_EQ(witness.scenes, 1);
+  simulation.undo();
+  EXPECT_EQ(witness.scenes, 2);
+}
+
+TEST(Notice, GoesWithTimeUnlessItIsRenewed) {
+  session::Notice notice;
+  for (const char* text : {"first", "second"}) {
+    notice.set(text);
+    for (int i = 0; i < 30; ++i) notice.age(0.5);
+    EXPECT_EQ(notice.text(), text);
+  }
+  notice.set("second");  // the same words again
+  for (int i = 0; i < 15; ++i) notice.age(0.5);
+  EXPECT_TRUE(notice.text().empty());
+}
+
+}  // namespace
+}  // namespace app

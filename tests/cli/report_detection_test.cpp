@@ -1,0 +1,185 @@
+// `report detection`: its files and their contents.
+
+#include <gtest/gtest.h>
+#include <stdlib.h>
+
+#include <algorithm>
+
+#include "tests/cli/report_rig.h"
+
+namespace cli::test {
+namespace {
+
+/// Returns a scene of four balls that fall into each other. Its key has characters that must be quoted.
+const std::filesystem::path& balls() {
+  static const TemporaryFolder folder;
+  static const auto file = folder.write("four, 'balls'.toml", R"(
+[collision]
+tolerance = 0.1
+[ground]
+[[body]]
+position = [0, 0.6, 0]
+lattice = {size = [2, 2, 1], spacing = [1.02, 1.05, 1], jitter = 0.02}
+)");
+  return file;
+}
+
+/// Returns the folder of a quick report on them, which is made once.
+const std::filesystem::path& quick_report() {
+  static const TemporaryFolder folder;
+  static const auto out = folder.path() / "new" / "report";
+  static const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", out});
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.out, "");
+  return out;
+}
+
+std::vector<Row> sweep_rows() {
+  std::vector<Row> rows;
+  for (Row& row : read_csv(quick_report() / "detection.csv")) {
+    if (row["part"] == "sweep") rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+std::string methods_table() { return run({"list", "methods"}).out; }
+
+TEST(DetectionReport, HasEveryMethodWithAllItsSettingsInEveryState) {
+  std::map<std::string, std::set<std::string>> settings;  // by method and frame
+  std::set<std::string> frames, methods;
+  const auto rows = sweep_rows();
+  for (Row row : rows) {
+    EXPECT_EQ(row["scene"], "four, 'balls'");
+    EXPECT_EQ(row["bodies"], "4");
+    EXPECT_EQ(row["vertices"], "648");
+    EXPECT_EQ(row["not_run"], "");
+    EXPECT_EQ(row["reference"], "brute-force");
+    for (const char* column : {"ms_median", "ms_min", "contacts", "true_contacts", "missed", "recall", "precision",
+                               "pair_tests", "hashes", "boxes", "memory_bytes", "skipped_far_pairs"})
+      EXPECT_GE(number(row[column]), 0) << column;
+    EXPECT_LE(number(row["ms_min"]), number(row["ms_median"]));
+    EXPECT_GE(number(row["repetitions"]), 1);
+    EXPECT_EQ(number(row["contacts"]), number(row["true_contacts"]) - number(row["missed"]));
+    frames.insert(row["frame"]);
+    methods.insert(row["method"]);
+    EXPECT_NE(methods_table().find(row["method"] + "\t"), std::string::npos);
+    EXPECT_TRUE(
+        settings[row["method"] + row["frame"]].insert(row["levels"] + "/" + row["buckets"] + "/" + row["cell"]).second)
+        << "measured twice";
+  }
+  const std::string table = methods_table();
+  EXPECT_EQ(methods.size(), static_cast<std::size_t>(std::count(table.begin(), table.end(), '\n')));
+  EXPECT_EQ(frames.size(), 2u);
+  for (const std::string& frame : frames) {
+    EXPECT_EQ(settings["brute-force" + frame].size(), 1u);
+    EXPECT_EQ(settings["grid-hash" + frame].size(), 4u * 5);
+    EXPECT_EQ(settings["multi-level-sb" + frame].size(), 4u * 4 * 5);
+  }
+}
+
+TEST(DetectionReport, ShowsThatOnlyTheLiteralMethodMissesContacts) {
+  bool missed = false;
+  for (Row row : sweep_rows()) {
+    EXPECT_EQ(row["precision"], "1");
+    if (row["method"] != "multi-level-sb") {
+      EXPECT_EQ(row["recall"], "1") << row["method"];
+      EXPECT_EQ(row["coverage"], "exact");
+    } else {
+      EXPECT_LE(number(row["recall"]), 1);
+      missed |= row["cell"] == "0.25" && row["levels"] == "0" && number(row["recall"]) < 0.9;
+    }
+  }
+  EXPECT_TRUE(missed);
+}
+
+TEST(DetectionReport, HasTheCountsOfTheMethods) {
+  for (Row row : sweep_rows()) {
+    if (row["method"] == "multi-level-sb") {
+      EXPECT_EQ(number(row["hashes"]), 8 * number(row["boxes"]));
+    }
+    if (row["method"] == "multi-level-sb" && row["levels"] == "0") {
+      EXPECT_EQ(row["boxes"], "4");
+    }
+    if (row["method"] == "brute-force") {
+      EXPECT_EQ(row["pair_tests"], std::to_string(648 * 647 / 2));
+    }
+  }
+}
+
+TEST(DetectionReport, MeasuresGrowthOnMoreAndMoreBodies) {
+  std::set<std::string> bodies;
+  for (Row row : read_csv(quick_report() / "detection.csv")) {
+    if (row["part"] == "growth") bodies.insert(row["bodies"]);
+  }
+  EXPECT_EQ(bodies, (std::set<std::string>{"3", "4"}));
+}
+
+TEST(DetectionReport, SaysHowItWasMadeAndShowsItsPlots) {
+  const std::string text = read_file(quick_report() / "report.md");
+  EXPECT_NE(text.find("`sbcollide report detection --scene "), std::string::npos);
+  EXPECT_NE(text.find("--quick --out DIR`"), std::string::npos);
+  EXPECT_NE(text.find("1 thread,"), std::string::npos);
+  EXPECT_EQ(text.find("nan"), std::string::npos);
+  for (const std::string& name : file_names(quick_report())) {
+    EXPECT_GT(std::filesystem::file_size(quick_report() / name), 1000u) << name;
+    if (name.ends_with(".svg")) {
+      EXPECT_NE(text.find("](<" + name + ">)"), std::string::npos) << name;
+      EXPECT_TRUE(read_file(quick_report() / name).find("</svg>") != std::string::npos) << name;
+    }
+    if (name.ends_with(".png")) {
+      EXPECT_TRUE(read_file(quick_report() / name).starts_with("\x89PNG")) << name;
+    }
+  }
+}
+
+TEST(DetectionReport, HasThePapersScenesInTable1) {
+  const TemporaryFolder folder;
+  const Outcome o = run({"report", "detection", "--quick", "--scene", "A", "--threads", "2", "--out", folder.path()});
+  EXPECT_EQ(o.status, 0) << o.err;
+  const std::string text = read_file(folder.path() / "report.md");
+  EXPECT_NE(text.find("| method | A: 3 bodies, 101 buckets |"), std::string::npos);
+  EXPECT_NE(text.find("2 threads,"), std::string::npos);
+  EXPECT_EQ(text.find("Growth"), std::string::npos) << "three bodies are too few to grow";
+}
+
+TEST(DetectionReport, LeavesOutOnlyThePlotsWithoutGnuplot) {
+  const TemporaryFolder folder;
+  const std::string path = getenv("PATH");
+  setenv("PATH", folder.path().c_str(), 1);
+  const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", folder.path()});
+  setenv("PATH", path.c_str(), 1);
+  EXPECT_EQ(o.status, 0);
+  EXPECT_NE(o.err.find("gnuplot-nox"), std::string::npos) << o.err;
+  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1);
+  EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"detection.csv", "report.md"}));
+  EXPECT_EQ(read_file(folder.path() / "report.md").find("!["), std::string::npos) << "no links to what is not there";
+}
+
+TEST(DetectionReport, RefusesBadInputInOneLineAndWritesNothing) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("file", "not a folder");
+  const auto nobody = folder.write("nobody.toml", "[dropper]\n");
+  const auto refused = [](std::vector<std::string> arguments, const std::vector<std::string>& says) {
+    arguments.insert(arguments.begin(), "report");
+    const Outcome o = run(arguments);
+    EXPECT_EQ(o.status, 2);
+    EXPECT_EQ(o.out, "");
+    EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1) << o.err;
+    for (const std::string& words : says) EXPECT_NE(o.err.find(words), std::string::npos) << words << " in: " << o.err;
+  };
+  const std::string out = folder.path() / "out";
+  refused({"detection", "--quick"}, {"--out"});
+  refused({"--out", out}, {"say which one", "stability"});
+  refused({"friction", "--out", out}, {"friction", "use one of: detection"});
+  refused({"detection", "--scene", "E", "--out", out}, {"E", "drop-3000"});
+  refused({"detection", "--threads", "0", "--out", out}, {"--threads"});
+  refused({"detection", "--quick", "--out", file}, {"--out", file.string()});
+  refused({"detection", "--quick", "--out", file / "below"}, {"--out", file.string()});
+  EXPECT_EQ(read_file(file), "not a folder");
+  EXPECT_FALSE(std::filesystem::exists(out)) << "not even the folder";
+  refused({"detection", "--scene", nobody, "--quick", "--out", out}, {"nobody", "no body"});
+  EXPECT_EQ(file_names(out), std::set<std::string>{}) << "known only after a simulation";
+}
+
+}  // namespace
+}  // namespace cli::test

@@ -1,0 +1,79 @@
+#include "engine/program.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+
+#include "engine/headless.h"
+#include "tests/temporary_folder.h"
+
+namespace engine {
+namespace {
+
+class ProgramTest : public testing::Test {
+ protected:
+  std::filesystem::path write(const char* name, const char* text) const { return folder.write(name, text); }
+
+  /// Returns the message of the error that these shaders cause; empty if there is none.
+  std::string error_of(const char* vertex, const char* fragment) const {
+    try {
+      const Program program(folder.path(), vertex, fragment);
+    } catch (const ShaderError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  HeadlessContext context;
+  tests::TemporaryFolder folder;
+};
+
+constexpr const char* correct_vertex = "#version 330 core\nvoid main() { gl_Position = vec4(0.0); }\n";
+constexpr const char* correct_fragment = "#version 330 core\nout vec4 c;\nvoid main() { c = vec4(1.0); }\n";
+
+TEST_F(ProgramTest, ErrorNamesFileAndLine) {
+  write("correct.vert", correct_vertex);
+  write("bad.frag", "#version 330 core\nout vec4 c;\n\nvoid main() { c = nothing; }\n");
+  const std::string message = error_of("correct.vert", "bad.frag");
+  EXPECT_TRUE(message.starts_with((folder.path() / "bad.frag").string() + ":4")) << message;
+}
+
+TEST_F(ProgramTest, ErrorNamesTheIncludedFile) {
+  write("correct.vert", correct_vertex);
+  write("part.glsl", "float twice(float x) {\n  return 2.0 * y;\n}\n");
+  write("main.frag", "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = vec4(twice(1.0)); }\n");
+  const std::string message = error_of("correct.vert", "main.frag");
+  EXPECT_TRUE(message.starts_with((folder.path() / "part.glsl").string() + ":2")) << message;
+}
+
+TEST_F(ProgramTest, ErrorAfterAnIncludeNamesTheRightLine) {
+  write("correct.vert", correct_vertex);
+  write("part.glsl", "float one() {\n  return 1.0;\n}\n");
+  write("main.frag", "#version 330 core\n#include \"part.glsl\"\nout vec4 c;\nvoid main() { c = wrong; }\n");
+  const std::string message = error_of("correct.vert", "main.frag");
+  EXPECT_TRUE(message.starts_with((folder.path() / "main.frag").string() + ":4")) << message;
+}
+
+TEST_F(ProgramTest, ErrorNamesAMissingFile) {
+  write("correct.vert", correct_vertex);
+  EXPECT_NE(error_of("correct.vert", "missing.frag").find("missing.frag"), std::string::npos);
+}
+
+TEST_F(ProgramTest, LinkErrorNamesBothFiles) {
+  write("two.vert", "#version 330 core\nout vec2 v;\nvoid main() { gl_Position = vec4(v = vec2(0.0), 0.0, 1.0); }\n");
+  write("three.frag", "#version 330 core\nin vec3 v;\nout vec4 c;\nvoid main() { c = v.xyzz; }\n");
+  const std::string message = error_of("two.vert", "three.frag");
+  EXPECT_NE(message.find("two.vert"), std::string::npos) << message;
+  EXPECT_NE(message.find("three.frag"), std::string::npos) << message;
+}
+
+TEST_F(ProgramTest, LinksCorrectShaders) {
+  write("correct.vert", correct_vertex);
+  write("correct.frag", correct_fragment);
+  EXPECT_EQ(error_of("correct.vert", "correct.frag"), "");
+  EXPECT_EQ(glGetError(), static_cast<GLenum>(GL_NO_ERROR));
+}
+
+}  // namespace
+}  // namespace engine
