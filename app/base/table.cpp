@@ -25,6 +25,7 @@ void Table::add(const TableRow& row) {
 std::string Table::csv() const {
   std::string text;
   for (const auto& row : rows_) {
+    if (row.empty()) continue;  // a table without columns
     for (const std::string& cell : row) {
       const bool plain = cell.find_first_of(",\"\r\n") == std::string::npos;
       if (!plain) text += '"';

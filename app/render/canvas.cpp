@@ -74,7 +74,7 @@ void Canvas::show(glm::ivec2 origin) const {
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
 }
 
-void Canvas::pace(double interval, double drawing) {
+void Canvas::add_timing(double interval, double drawing) {
   if (moved_ && !is_fine_) render_scale_.add(interval, drawing);
 }
 

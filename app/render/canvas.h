@@ -9,7 +9,7 @@
 #include <glm/vec2.hpp>
 
 #include "engine/gl.h"
-#include "engine/renderer.h"
+#include "engine/render/renderer.h"
 
 namespace app::render {
 
@@ -44,7 +44,7 @@ class Canvas {
   engine::Image read() const { return full_ ? full_->read() : engine::Image{}; }
 
   /// Tells how long the last picture took, see RenderScale::add(). Only moving pictures count.
-  void pace(double interval, double drawing);
+  void add_timing(double interval, double drawing);
   /// Returns the render scale of the present picture.
   float render_scale() const { return is_coarse_ ? drawn_at_ : 1.0f; }
 

@@ -131,17 +131,17 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 }
 
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
-void add_touches(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> touches, Points positions,
-                 engine::FrameData& frame) {
+void add_surface_contacts(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> contacts,
+                          Points positions, engine::FrameData& frame) {
   engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
   engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
-  for (const softbody::SurfaceContactPoint& touch : touches) {
+  for (const softbody::SurfaceContactPoint& contact : contacts) {
     glm::vec3 first(0.0f), second(0.0f);
-    for (std::size_t k = 0; k < touch.vertex.size(); ++k)
-      (touch.weight[k] > 0 ? first : second) += std::abs(touch.weight[k]) * positions[touch.vertex[k]];
-    const glm::vec4 colour(touch.a == touch.b ? contact_inside_colour : contact_between_colour, 1.0f);
-    const float length = 0.5f * static_cast<float>(world.prototype(touch.a).mean_edge);
-    lines.lines.push_back({second, second + length * touch.normal, colour});
+    for (std::size_t k = 0; k < contact.vertex.size(); ++k)
+      (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * positions[contact.vertex[k]];
+    const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
+    const float length = 0.5f * static_cast<float>(world.prototype(contact.a).mean_edge);
+    lines.lines.push_back({second, second + length * contact.normal, colour});
     points.points.push_back({first, colour});
     points.points.push_back({second, colour});
   }
@@ -270,7 +270,7 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
   if (shown.areas) add_areas(request.areas, frame);
   if (shown.contacts) add_contacts(world, positions, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
-  if (shown.touches) add_touches(world, request.touches, positions, frame);
+  if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, positions, frame);
   if (shown.true_surfaces) add_marks(request.marks, positions, frame);
   if (request.selected_body) add_outline(world, *request.selected_body, viewpoint.eye, positions, frame);
   if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);

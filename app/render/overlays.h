@@ -14,12 +14,12 @@ struct Overlays {
   bool springs = false;
   bool missed = false;
   bool areas = false;
-  bool touches = false;
+  bool surface_contacts = false;
   bool true_surfaces = false;
 
   bool operator==(const Overlays&) const = default;
   bool any() const {
-    return body_boxes || boxes || cells || contacts || springs || missed || areas || touches || true_surfaces;
+    return body_boxes || boxes || cells || contacts || springs || missed || areas || surface_contacts || true_surfaces;
   }
 };
 
@@ -55,7 +55,7 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
     {"touches", "Surface contacts", '8',
      "Where surfaces pressed on each other at the end of the last step with motion: the two closest points and the "
      "normal. None with vertex-vertex contact, and none between bodies that sleep.",
-     &Overlays::touches},
+     &Overlays::surface_contacts},
     {"true-surfaces", "True surfaces", '9',
      "The surfaces judged exactly, beside the simulation: what is inside what, how deep, what passed through, and what "
      "of it the method's contacts do not show; that is drawn.",

@@ -10,7 +10,7 @@
 #include "app/compare/table_contents.h"
 #include "app/render/highlight.h"
 #include "app/render/overlays.h"
-#include "engine/renderer.h"
+#include "engine/render/renderer.h"
 #include "softbody/world.h"
 
 namespace app::render {
@@ -23,11 +23,11 @@ struct OverlayRequest {
   std::optional<compare::Cell> bucket_cell;         // ... those of this cell in another colour
   std::optional<softbody::BodyId> selected_body;    // its outline is shown
   std::vector<collide::DebugGeometry::Box> areas;
-  const std::vector<collide::Contact>* missed = nullptr;   // vertices of the present world
-  std::span<const softbody::SurfaceContactPoint> touches;  // of the present world
-  std::span<const compare::SurfaceMark> marks;             // of the present world
-  const Highlight* highlight = nullptr;                    // everything else is faded
-  const softbody::World* ghost = nullptr;                  // another world with the same bodies, drawn translucent
+  const std::vector<collide::Contact>* missed = nullptr;            // vertices of the present world
+  std::span<const softbody::SurfaceContactPoint> surface_contacts;  // of the present world
+  std::span<const compare::SurfaceMark> marks;                      // of the present world
+  const Highlight* highlight = nullptr;                             // everything else is faded
+  const softbody::World* ghost = nullptr;  // another world with the same bodies, drawn translucent
   compare::DrawnPositions ghost_positions;
 };
 
@@ -81,7 +81,7 @@ class SceneView {
   Bounds bounds(const softbody::Scene& scene);
   double radius(const softbody::MeshSource& source);
 
-  engine::Renderer renderer_;
+  engine::render::Renderer renderer_;
   // By content: worlds come and go, but their meshes are few and mostly the same.
   std::map<std::vector<softbody::Triangle>, UploadedMesh> meshes_;
   std::vector<std::pair<softbody::MeshSource, double>> radii_;  // m, of the meshes so far

@@ -68,15 +68,15 @@ std::string command_of(const ReportOptions& o) {
 
 void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
                   std::string_view page_name, const Page& page) {
-  const bool watched = isatty(STDERR_FILENO) != 0;
-  if (watched) std::fprintf(stderr, "\r%60s\r", "");
+  const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  if (is_terminal) std::fprintf(stderr, "\r%60s\r", "");
   auto files = draw_all(page.plots());
   const std::string text = page.markdown(!files.empty());
   files.emplace(files.begin(), csv_name, figures.csv());
   files.emplace_back(page_name, text);
   for (const auto& [name, bytes] : files) files::require_no_input(folder / name);
   for (const auto& [name, bytes] : files) files::write_file(folder / name, bytes);
-  if (watched) std::fprintf(stderr, "written: %s\n", (folder / page_name).c_str());
+  if (is_terminal) std::fprintf(stderr, "written: %s\n", (folder / page_name).c_str());
 }
 
 }  // namespace app::report

@@ -33,11 +33,10 @@ void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& direction
   std::optional<BodyId> body;
   simulation_.change_bodies([&](World& world) {
     body = world.throw_body(eye, throw_speed * direction);
+    if (body) select(body);
     return body.has_value();
   });
-  if (body)
-    select(body);
-  else if (simulation_.notice.text().empty())
+  if (!body && simulation_.notice.text().empty())
     simulation_.notice.set("there is no room for a body before the camera: turn or move it");
 }
 
@@ -61,8 +60,12 @@ void make_name_new(std::string& name, const std::vector<Material>& all) {
 }  // namespace
 
 void BodyControls::add(softbody::BodySource body, Material material) {
-  simulation_.change_bodies([&](World& world) {
+  try {
     files::protect_input(body.mesh);
+  } catch (const std::exception& error) {
+    return simulation_.notice.set(error.what());
+  }
+  simulation_.change_bodies([&](World& world) {
     std::vector<Material>& materials = simulation_.loaded.scene.materials;
     const std::size_t known = find_material(materials, material);
     body.material = static_cast<int>(known);

@@ -1,5 +1,5 @@
 #pragma once
-// What hands do to bodies: select, grab, drop, throw, add and delete them.
+// What the user does with bodies: select, grab, drop, throw, add and delete them.
 
 #include "app/session/simulation.h"
 

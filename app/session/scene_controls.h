@@ -1,5 +1,5 @@
 #pragma once
-// What the user does with scenes: choose, reset, save.
+// What the user does with scenes: choose and save them.
 
 #include <filesystem>
 

@@ -23,18 +23,18 @@ void Session::advance_one(double elapsed, bool allowed) {
 
 void Session::exchange() {
   constexpr float late_ms = 25;  // fewer than 40 pictures a second
-  // Those who work beside the demo rest longer while the pictures come late.
+  // The workers rest longer while pictures come late.
   const int rests = simulation.history().frame_ms.median(15) > late_ms ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step(), simulation.revision(), rests);
 }
 
 double Session::stepped() {
-  report(ghost_.step(world()));
+  notify(ghost_.step(world()));
   return ghost_.step_ms();
 }
 
-void Session::intervened() { report(ghost_.restart(world())); }
+void Session::intervened() { notify(ghost_.restart(world())); }
 
 void Session::detection_changed() {
   inspector.detection_changed();
@@ -46,15 +46,15 @@ void Session::replaced(bool new_scene) {
   inspector.replaced(new_scene);
   comparison.restart(world(), simulation.revision());
   surfaces.restart(simulation.revision());
-  report(ghost_.restart(world()));
+  notify(ghost_.restart(world()));
 }
 
 void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choice) {
   simulation.notice.clear();
-  report(ghost_.choose(world(), choice, simulation.threads()));
+  notify(ghost_.choose(world(), choice, simulation.threads()));
 }
 
-void Session::report(std::string problem) {
+void Session::notify(std::string problem) {
   if (!problem.empty()) simulation.notice.set(std::move(problem));
 }
 

@@ -49,7 +49,7 @@ class Session : private SimulationObserver {
   void replaced(bool new_scene) override;
 
   void exchange();
-  void report(std::string problem);
+  void notify(std::string problem);
 
   LiveGhost ghost_;
 };

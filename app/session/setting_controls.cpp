@@ -22,18 +22,17 @@ void SettingControls::set_material(std::size_t index, const softbody::Material& 
 }
 
 void SettingControls::set_solids(const SolidList& solids) {
-  simulation_.loaded.solids = solids;
   softbody::Scene scene = simulation_.world().scene();
   put_solids(solids, scene);
-  simulation_.change([&](World& world) { world.set_solids(scene); });
+  if (simulation_.change([&](World& world) { world.set_solids(scene); })) simulation_.loaded.solids = solids;
 }
 
 void SettingControls::restore_world() {
   const softbody::Scene& scene = simulation_.loaded.scene;
-  simulation_.loaded.solids = list_solids(scene);
   simulation_.change([&](World& world) {
     world.set_gravity(scene.gravity);
     world.set_solids(scene);
+    simulation_.loaded.solids = list_solids(scene);
     for (std::size_t i = 0; i < world.scene().materials.size(); ++i) world.set_material(i, scene.materials[i]);
   });
 }

@@ -5,7 +5,7 @@
 
 namespace app::session {
 
-/// Settings that are refused change nothing, and the notice says why.
+/// A setting that is refused changes nothing, and the notice says why.
 class SettingControls {
  public:
   explicit SettingControls(Simulation& simulation) : simulation_(simulation) {}

@@ -44,19 +44,19 @@ SimulationClock::Step Simulation::step() {
   before_last_step_.copy(world_->positions());
   const bool was_at_rest = world_->all_at_rest();
   if (!clock.paused) stability_.dismiss_blow_up();
-  const bool alarmed = stability_.blow_up().has_value();
+  const bool had_blown_up = stability_.blow_up().has_value();
   stability_.before_step(*world_);
   const bool stepped = attempt([&] { world_->step(); });
   if (world_->grabbed()) intervened();  // a hand brings energy
   stability_.after_step(*world_, pause_on_blow_up);
-  if (stability_.blow_up() && !alarmed) clock.paused = true;
+  if (stability_.blow_up() && !had_blown_up) clock.paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
-  const softbody::StepReport& profile = world_->last_step();
-  step_ms_ = profile.total_ms + observer_.stepped();
-  history_.detect_ms.push(world_->frame(), static_cast<float>(profile.detect_ms));
-  history_.solve_ms.push(world_->frame(), static_cast<float>(profile.solve_ms));
+  const softbody::StepReport& report = world_->last_step();
+  step_ms_ = report.total_ms + observer_.stepped();
+  history_.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
+  history_.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
   history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
-  return {profile.seconds, step_ms_};
+  return {report.seconds, step_ms_};
 }
 
 float Simulation::between() const {
@@ -92,7 +92,7 @@ bool Simulation::attempt(const std::function<void()>& action) {
   } catch (const std::length_error& beyond_a_limit) {
     notice.set(beyond_a_limit.what());
   } catch (const std::exception& error) {
-    notice.set(std::string(defect) + error.what());
+    notice.set(std::string(defect_prefix) + error.what());
   }
   clock.paused = true;
   return false;
@@ -153,6 +153,7 @@ Simulation::Past Simulation::present() const {
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
   world_ = std::move(world);
+  step_ms_ = world_->last_step().total_ms;
   as_scripted_ = true;
   history_ = {};
   notice.clear();
@@ -180,7 +181,11 @@ softbody::Scene Simulation::scene_in_use() const {
 }
 
 void Simulation::reset() {
-  attempt([&] { enter(make_world(scene_in_use(), world_->integrator_choice()), loaded); });
+  try {
+    enter(make_world(scene_in_use(), world_->integrator_choice()), loaded);
+  } catch (const std::exception& error) {
+    notice.set(error.what());
+  }
 }
 
 void Simulation::undo() {

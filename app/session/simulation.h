@@ -32,7 +32,7 @@ class SimulationObserver {
   virtual void replaced([[maybe_unused]] bool new_scene) {}
 };
 
-/// The scene as it was loaded, before the user changed anything.
+/// The scene as it was loaded, with the materials that added bodies brought.
 struct LoadedScene {
   softbody::Scene scene;
   SceneFile file;    // where the scene came from, or was saved to last
@@ -48,7 +48,7 @@ struct StepHistory {
 class Simulation {
  public:
   /// notice() begins with it where no user could have caused the error.
-  static constexpr std::string_view defect = "not enough memory, or a defect of this program: ";
+  static constexpr std::string_view defect_prefix = "not enough memory, or a defect of this program: ";
 
   SimulationClock clock;
   Notice notice;
@@ -57,6 +57,8 @@ class Simulation {
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
   Simulation(softbody::Scene scene, int threads, std::string scene_name = "", SimulationObserver* observer = nullptr);
+  Simulation(const Simulation&) = delete;
+  Simulation& operator=(const Simulation&) = delete;
 
   const softbody::World& world() const { return *world_; }
   int threads() const { return threads_; }
@@ -83,16 +85,16 @@ class Simulation {
   std::uint64_t world_number() const { return world_number_; }
 
   // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause.
-  /// Changes settings of the world. Returns false, with the world as it was, if `change` throws.
+  /// Changes settings of the world. Returns false if `change` throws. The world is then as `change` left it.
   bool change(const std::function<void(softbody::World&)>& change);
   /// Changes bodies, which can be undone. `change` returns whether it changed anything.
   bool change_bodies(const std::function<bool(softbody::World&)>& change);
-  /// The user touches a body: the scene's captions no longer hold.
+  /// The user touched a body: the scene's captions no longer apply. change_bodies() includes it.
   void leave_script() { as_scripted_ = false; }
-  /// What the hand does that holds a body: each step takes it for a change.
+  /// Move or release the body that the hand holds; each step counts a held body as a change.
   void pull_to(const glm::dvec3& target);  // m
   void release() { world_->grab({}); }
-  /// The bodies have other ids now.
+  /// To be called after a change that gives bodies other ids, as deleting one does.
   void renumber() { replace(false); }
   /// A world with threads() and the work limits of a window. Throws SceneError.
   std::unique_ptr<softbody::World> make_world(const softbody::Scene& scene,

@@ -1,6 +1,7 @@
 #pragma once
 // How much of a detector's work the thread of the window takes upon itself.
 
+#include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
 #include "softbody/world.h"
 
@@ -13,7 +14,7 @@ inline compare::WorkEstimate window_work(const softbody::World& world, const col
                                          const collide::Settings& settings) {
   compare::CostModel cost_model;
   cost_model.begin(world.positions(), settings, 0);
-  return cost_model.of(static_cast<std::size_t>(&method - collide::method_table().data()));
+  return cost_model.of(compare::method_index(method.key));
 }
 
 }  // namespace app::session

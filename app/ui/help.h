@@ -1,7 +1,7 @@
 #pragma once
 // The help window: what the program shows, the keyboard shortcuts and the mouse.
 
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 #include "app/ui/widgets/widgets.h"
 
 namespace app::ui {

@@ -2,10 +2,10 @@
 
 #include <cmath>
 
-#include "app/ui/compare_view.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/sidebar.h"
-#include "app/ui/sweep_view.h"
+#include "app/ui/views/compare_view.h"
+#include "app/ui/views/sweep_view.h"
 
 namespace app::ui {
 namespace {

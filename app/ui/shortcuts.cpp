@@ -44,7 +44,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
-    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_asked = true; }},
+    Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_requested = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",

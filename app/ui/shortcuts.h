@@ -4,7 +4,7 @@
 #include <span>
 
 #include "app/session/session.h"
-#include "app/ui/ui_state.h"
+#include "app/ui/panel/ui_state.h"
 
 namespace app::ui {
 

@@ -1,8 +1,8 @@
 #include "app/ui/sidebar.h"
 
-#include "app/ui/bucket_view.h"
-#include "app/ui/status.h"
-#include "app/ui/surface_view.h"
+#include "app/ui/views/bucket_view.h"
+#include "app/ui/views/status.h"
+#include "app/ui/views/surface_view.h"
 
 namespace app::ui {
 

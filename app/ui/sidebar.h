@@ -2,8 +2,8 @@
 // The sidebar at the right of the scene: the hash table, the selected bucket, the legend of the overlays and the
 // figures of the surface oracle, one below the other. It covers nothing of the scene.
 
-#include "app/ui/hash_table_view.h"
-#include "app/ui/ui_state.h"
+#include "app/ui/panel/ui_state.h"
+#include "app/ui/views/hash_table_view.h"
 #include "app/ui/widgets/dock.h"
 
 namespace app::ui {

@@ -1,12 +1,12 @@
 #include "app/ui/user_interface.h"
 
-#include "app/ui/compare_view.h"
 #include "app/ui/help.h"
-#include "app/ui/import_report.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/sidebar.h"
-#include "app/ui/status.h"
 #include "app/ui/tour/tour_view.h"
+#include "app/ui/views/compare_view.h"
+#include "app/ui/views/import_report.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 

@@ -1,9 +1,9 @@
 #pragma once
 // All that Dear ImGui draws over and beside the scene. It needs no window.
 
-#include "app/ui/hash_table_view.h"
 #include "app/ui/layout.h"
-#include "app/ui/sweep_view.h"
+#include "app/ui/views/hash_table_view.h"
+#include "app/ui/views/sweep_view.h"
 
 namespace app::ui {
 

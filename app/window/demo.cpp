@@ -26,7 +26,7 @@ namespace {
 
 /// Everything that the picture of the scene depends on.
 struct PictureKey {
-  std::uint64_t revision = 0, comparison = 0, judgement = 0, tour = 0;
+  std::uint64_t revision = 0, ghost = 0, comparison = 0, surface_report = 0, tour = 0;
   std::size_t misses_of = 0;
   render::Overlays overlays;
   std::optional<std::uint32_t> bucket;
@@ -128,7 +128,7 @@ class Demo {
     ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
-    graphics_->canvas.pace(elapsed, drawing);
+    graphics_->canvas.add_timing(elapsed, drawing);
     store_preferences();
     timer_.limit_rate();
   }
@@ -274,8 +274,9 @@ class Demo {
   PictureKey picture_key() const {
     const render::Overlays& shown = ui_.overlays;
     return {.revision = session_.simulation.revision(),
+            .ghost = session_.ghost().revision(),
             .comparison = shown.missed ? session_.comparison.reports() : 0,
-            .judgement = shown.true_surfaces ? session_.surfaces.reports() : 0,
+            .surface_report = shown.true_surfaces ? session_.surfaces.reports() : 0,
             .tour = ui_.tour.highlight_revision(),
             .misses_of = session_.comparison.misses_of(),
             .overlays = shown,

@@ -16,7 +16,7 @@ render::OverlayRequest overlay_request(const Session& session, const ui::UiState
   if (needs_debug) request.debug = &session.inspector.shown_geometry();
   if (request.shown.areas) request.areas = session.inspector.search_areas();
   request.missed = session.comparison.missed();
-  if (request.shown.touches) request.touches = session.inspector.surface_contacts();
+  if (request.shown.surface_contacts) request.surface_contacts = session.inspector.surface_contacts();
   request.marks = session.surfaces.report().marks;
   request.highlight = ui.tour.highlight();
   const session::Ghost* ghost = ui.tour.open() ? nullptr : session.ghost().get();

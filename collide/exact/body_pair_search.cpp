@@ -231,7 +231,7 @@ std::vector<DebugGeometry::Box> BodyPairSearch::boxes() const {
     }
   }
   for (const Thread& thread : threads_) {
-    const auto& leaves = thread.tree.leaves_list();
+    const auto& leaves = thread.tree.leaf_boxes();
     boxes.insert(boxes.end(), leaves.begin(), leaves.end());
   }
   return boxes;

@@ -25,7 +25,7 @@ class OverlapTree {
   std::uint64_t pair_tests() const { return pair_tests_; }
   std::uint64_t leaves() const { return leaves_.size(); }
   /// Returns the boxes of the leaves that come from cuts, and of the uncut areas inside bodies.
-  const std::vector<DebugGeometry::Box>& leaves_list() const { return leaves_; }
+  const std::vector<DebugGeometry::Box>& leaf_boxes() const { return leaves_; }
 
  private:
   struct Level {

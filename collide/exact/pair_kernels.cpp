@@ -148,7 +148,7 @@ HWY_INLINE void close_bits(float px, float py, float pz, const VertexSet& set, I
   bits.end();
 }
 
-void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
+void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < b.size / 64 + 2) words.resize(b.size / 64 + 2);
   for (Index i = 0; i < a.size; ++i) {
@@ -157,11 +157,11 @@ void ContactsBetween(const VertexSet& a, const VertexSet& b, float tolerance2, s
       const Contact pair{a.vertex[i], b.vertex[bit]};
       if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
     });
-    if (contacts.size() > most) throw_too_many_contacts(most);
+    if (contacts.size() > max_contacts) throw_too_many_contacts(max_contacts);
   }
 }
 
-void ContactsWithin(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
+void ContactsWithin(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
                     std::vector<Contact>& contacts, const Exclusion& excluded) {
   if (words.size() < set.size / 64 + 2) words.resize(set.size / 64 + 2);
   for (Index i = 0; i + 1 < set.size; ++i) {
@@ -172,7 +172,7 @@ void ContactsWithin(const VertexSet& set, float tolerance2, std::size_t most, Wo
       const Contact pair{set.vertex[i], set.vertex[begin + bit]};
       if (!excluded(pair.a, pair.b)) contacts.push_back(pair);
     });
-    if (contacts.size() > most) throw_too_many_contacts(most);
+    if (contacts.size() > max_contacts) throw_too_many_contacts(max_contacts);
   }
 }
 
@@ -223,14 +223,14 @@ void FacingScratch::reserve(Index size_a, Index size_b) {
   near_b.reserve(static_cast<Index>(list.size()));
 }
 
-void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
+void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
                       std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, most, words, contacts, excluded);
+  HWY_DYNAMIC_DISPATCH(ContactsBetween)(a, b, tolerance2, max_contacts, words, contacts, excluded);
 }
 
-void contacts_within(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
+void contacts_within(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded) {
-  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, most, words, contacts, excluded);
+  HWY_DYNAMIC_DISPATCH(ContactsWithin)(set, tolerance2, max_contacts, words, contacts, excluded);
 }
 
 void contacts_of(const VertexRun& run, Index first, Index i, float tolerance2, Words& words,

@@ -73,11 +73,11 @@ struct Exclusion {
 
 /// Appends every pair of a vertex of a and a vertex of b, in this order, whose squared_distance() is below tolerance2
 /// and that is not excluded. The pairs are sorted if both sets are. Throws std::length_error if `contacts` grows beyond
-/// `most`.
-void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t most, Words& words,
+/// `max_contacts`.
+void contacts_between(const VertexSet& a, const VertexSet& b, float tolerance2, std::size_t max_contacts, Words& words,
                       std::vector<Contact>& contacts, const Exclusion& excluded = {});
 /// Does the same for all pairs of one set, the earlier vertex first.
-void contacts_within(const VertexSet& set, float tolerance2, std::size_t most, Words& words,
+void contacts_within(const VertexSet& set, float tolerance2, std::size_t max_contacts, Words& words,
                      std::vector<Contact>& contacts, const Exclusion& excluded = {});
 /// Does the same, without a limit, for all pairs of vertex i of a run with another vertex of it. first: the number of
 /// the run's first vertex.

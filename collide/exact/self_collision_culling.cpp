@@ -40,7 +40,7 @@ double least_singular_value(const std::array<float, 9>& m) {
 CullingReference::CullingReference(const VertexRun& positions, const Topology& topology, float cutoff)
     : cutoff_(cutoff) {
   const Index size = positions.size;
-  if (size < fewest || size > most) return;
+  if (size < min_vertices || size > max_vertices) return;
   const BodyBounds bound = measure_bounds(positions);
   if (!(bound.finite && bound.radius < largest_radius)) return;
   glm::dvec3 centre(0);
@@ -81,7 +81,7 @@ void CullingReference::list_pairs(const Topology& topology) {
   covered_ = cutoff_ + 0.3f * radius_;
   Words words;
   std::vector<Contact> close;
-  contacts_within(all, covered_ * covered_, std::size_t{most} * most, words, close);
+  contacts_within(all, covered_ * covered_, std::size_t{max_vertices} * max_vertices, words, close);
   std::vector<std::pair<float, std::array<Index, 2>>> listed;
   std::span<const Index> joined;  // to the first of the pair, and greater than the second of the last one
   for (std::size_t k = 0; k < close.size(); ++k) {
@@ -162,7 +162,7 @@ void SelfCollisionCulling::make(Entry& entry, const Frame& frame, float cutoff) 
   const Index first = frame.bodies->first[entry.first_body], size = shape.vertex_count();
   entry.reference.reset();
   entry.from_frame = shape.rest().empty();
-  if (entry.from_frame && entry.bodies < enough) return;
+  if (entry.from_frame && entry.bodies < min_bodies) return;
   entry.cutoff = cutoff;
   std::vector<float> x, y, z;
   for (const glm::vec3& p : shape.rest()) x.push_back(p.x), y.push_back(p.y), z.push_back(p.z);

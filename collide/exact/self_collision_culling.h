@@ -26,8 +26,8 @@ struct SelfCollisionCandidates {
 /// decide how much is left to test, never which contacts are found.
 class CullingReference {
  public:
-  /// positions: of one body. cutoff: m. The reference is usable() if it has `fewest` to `most` vertices, is finite and
-  /// is not flat.
+  /// positions: of one body. cutoff: m. The reference is usable() if it has `min_vertices` to `max_vertices` vertices,
+  /// is finite and is not flat.
   CullingReference(const VertexRun& positions, const Topology& topology, float cutoff);
 
   bool usable() const { return usable_; }
@@ -42,7 +42,7 @@ class CullingReference {
  private:
   void list_pairs(const Topology& topology);
 
-  static constexpr Index fewest = sample_run, most = 2048;  // vertices
+  static constexpr Index min_vertices = sample_run, max_vertices = 2048;  // vertices
   bool usable_ = false;
   float cutoff_ = 0;
   std::vector<float> x_, y_, z_;             // centred
@@ -75,7 +75,7 @@ class SelfCollisionCulling {
   };
   static void make(Entry& entry, const Frame& frame, float cutoff);
 
-  static constexpr Index enough = 4;
+  static constexpr Index min_bodies = 4;
   std::unordered_map<const Topology*, Entry> entries_;
   std::vector<const Entry*> by_body_;
 };

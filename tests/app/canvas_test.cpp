@@ -89,7 +89,7 @@ class CanvasTest : public testing::Test {
     return target;
   }
   void let_it_be_slow() {
-    for (int i = 0; i < 200; ++i) canvas_.pace(0.1, 0.09);
+    for (int i = 0; i < 200; ++i) canvas_.add_timing(0.1, 0.09);
   }
 
   engine::HeadlessContext context_;  // first member: the canvas requires it

@@ -73,6 +73,20 @@ TEST(BodyControls, AskForASelectionBeforeTheyDelete) {
   EXPECT_FALSE(bodies.selected());
 }
 
+TEST(BodyControls, PullOnlyWhatIsGrabbed) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.pull_to({0, 9, 0});
+  EXPECT_FALSE(simulation.world().grabbed());
+  bodies.grab({.body = 1, .target = {0, 4, 0}});
+  bodies.pull_to({0, 9, 0});
+  ASSERT_TRUE(simulation.world().grabbed());
+  EXPECT_EQ(simulation.world().grabbed()->body, 1u);
+  EXPECT_EQ(simulation.world().grabbed()->target, glm::dvec3(0, 9, 0));
+  bodies.release();
+  EXPECT_FALSE(simulation.world().grabbed());
+}
+
 TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
   softbody::Scene scene = touching_pair();
   scene.contact_surface = softbody::ContactSurface::surfaces;  // for which no implicit step is in reserve

@@ -96,7 +96,7 @@ class ExporterTest : public testing::Test {
 TEST_F(ExporterTest, GivesPicturesTheNextFreeName) {
   folder.write("picture_0002.png", "mine");
   for (int i = 0; i < 2; ++i) {
-    exporter.picture_asked = true;
+    exporter.picture_requested = true;
     frame();
     EXPECT_FALSE(exporter.failed()) << exporter.message();
     frame();
@@ -146,7 +146,7 @@ TEST_F(ExporterTest, ReportsAFolderThatVanishes) {
 
 TEST_F(ExporterTest, ReportsAFolderThatCannotBeMade) {
   exporter.folder = (folder.write("file", "") / "below").string();
-  exporter.picture_asked = true;
+  exporter.picture_requested = true;
   frame();
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("below: cannot be written to"), std::string::npos) << exporter.message();

@@ -60,7 +60,7 @@ TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   exporter.write_curves(session);
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("curves_0002.csv: cannot be written"), std::string::npos) << exporter.message();
-  exporter.picture_asked = true;
+  exporter.picture_requested = true;
   exporter.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("picture_0001.png: cannot be written"), std::string::npos) << exporter.message();

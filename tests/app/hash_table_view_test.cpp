@@ -1,10 +1,10 @@
 // The views of the hash table and of a bucket.
 
-#include "app/ui/hash_table_view.h"
+#include "app/ui/views/hash_table_view.h"
 
 #include <algorithm>
 
-#include "app/ui/bucket_view.h"
+#include "app/ui/views/bucket_view.h"
 #include "tests/app/panel_rig.h"
 #include "tests/bucket_loads.h"
 

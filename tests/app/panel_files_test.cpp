@@ -118,7 +118,7 @@ TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   rig.type("Output folder", folder.path().string());
   EXPECT_EQ(rig.ui.exporter.folder, folder.path().string());
   rig.click("Picture");
-  EXPECT_TRUE(rig.ui.exporter.picture_asked);
+  EXPECT_TRUE(rig.ui.exporter.picture_requested);
   rig.click("Curves");
   EXPECT_TRUE(std::filesystem::exists(folder.path() / "curves_0001.csv"));
   for (const session::RecordingKind& kind : session::recording_kinds) {

@@ -2,6 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
+#include <thread>
+
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -60,6 +63,32 @@ TEST(Session, ForgetsTheSelectionWithTheScene) {
   session.simulation.reset();
   EXPECT_FALSE(session.bodies.selected());
   EXPECT_FALSE(session.inspector.selected_bucket());
+}
+
+TEST(Session, TellsTheComparisonOfChanges) {
+  Session session(touching_pair(), {}, 1);
+  session.simulation.clock.paused = true;
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(60);
+  while (!session.comparison.driver_row() && std::chrono::steady_clock::now() < end) {
+    session.advance(tick);
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  }
+  ASSERT_TRUE(session.comparison.driver_row());
+  session.settings.set_method("multi-level-sb");
+  EXPECT_EQ(session.comparison.driver(), compare::method_index("multi-level-sb"));
+  session.simulation.reset();
+  EXPECT_EQ(session.comparison.report().id, 0u);
+  EXPECT_EQ(session.comparison.missed(), nullptr);
+}
+
+TEST(Session, ChangesItsGhostsRevisionWhileThatMoves) {
+  Session session(touching_pair(), {}, 1);
+  const std::uint64_t none = session.ghost().revision();
+  session.choose_ghost(softbody::IntegratorChoice{"rk4", 8});
+  const std::uint64_t begun = session.ghost().revision();
+  EXPECT_NE(begun, none);
+  session.advance(tick);
+  EXPECT_NE(session.ghost().revision(), begun);
 }
 
 }  // namespace

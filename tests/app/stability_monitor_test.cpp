@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/session/session.h"
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 #include "softbody/prototype.h"
 #include "tests/app/scenes.h"
 

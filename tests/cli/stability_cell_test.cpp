@@ -78,7 +78,7 @@ TEST(StabilityCell, DoesNotCreditWhatAJoinersFirstFrameCarriesItInto) {
   scene.gravity = {0, -g, 0};
   softbody::World world(scene, {.frame_time = dt, .integrator = {"explicit-euler", 1}});
   for (int frame = 0; frame < appear; ++frame) world.step();
-  EXPECT_EQ(softbody::total(report::shield_energies_with(world, std::span(scene.bodies).subspan(1))), 0);
+  EXPECT_EQ(softbody::total(report::penalty_energies_with(world, std::span(scene.bodies).subspan(1))), 0);
   world.step();
   EXPECT_GT(softbody::total(world.pair_energies().next), 2 * speed * speed) << "J, more than was gained";
   EXPECT_NEAR(run(scene, "explicit-euler", appear + 1).energy, 1, 1e-3);
@@ -92,7 +92,7 @@ TEST(StabilityCell, LeavesTheWorldAsItWasWhenAskedWhatJoinersHold) {
     softbody::BodySource third = scene.bodies[0];
     third.position = {0, 0.7, 0};
     for (int frame = 0; frame < 30; ++frame) {
-      EXPECT_GT(softbody::total(report::shield_energies_with(asked, {{third}})), 0);
+      EXPECT_GT(softbody::total(report::penalty_energies_with(asked, {{third}})), 0);
       ASSERT_EQ(asked.bodies().count(), 2u);
       asked.step();
       other.step();

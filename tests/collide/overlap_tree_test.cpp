@@ -84,7 +84,7 @@ TEST(OverlapTree, BetweenTwoSetsFindsAllPairsOnceAtEveryLevel) {
         EXPECT_EQ(uncut, std::uint64_t{a.size} * b.size);
       }
       EXPECT_LE(tree.pair_tests(), uncut);
-      for (const auto& leaf : tree.leaves_list()) EXPECT_EQ(leaf.body, 3u);
+      for (const auto& leaf : tree.leaf_boxes()) EXPECT_EQ(leaf.body, 3u);
     }
   }
 }

@@ -1,4 +1,4 @@
-#include "engine/renderer.h"
+#include "engine/render/renderer.h"
 
 #include <gtest/gtest.h>
 
@@ -44,7 +44,7 @@ class RendererTest : public testing::Test {
   static int brightness(const glm::ivec3& c) { return (c.r + c.g + c.b) / 3; }
 
   HeadlessContext context;
-  Renderer renderer{find_folder("shaders")};
+  render::Renderer renderer{find_folder("shaders")};
   Camera camera;
   FrameData frame;
 };

@@ -10,7 +10,7 @@
 #include "engine/context.h"
 #include "engine/gl.h"
 #include "engine/gui.h"
-#include "engine/renderer.h"
+#include "engine/render/renderer.h"
 #include "engine/resources.h"
 // After GLEW, which must be the first.
 #include <GLFW/glfw3.h>
@@ -38,7 +38,7 @@ TEST(Window, ErrorWithoutADisplaySaysWhatToDo) {
 TEST(Window, ShowsASceneAndAPanel) {
   Window window({.title = "test", .size = {400, 300}, .samples = 4, .vsync = false});
   Gui gui(window);
-  Renderer renderer(find_folder("shaders"));
+  render::Renderer renderer(find_folder("shaders"));
   FrameData frame;
   frame.floor_height = 0.0f;
   frame.spheres = {{{0.0f, 1.0f, 0.0f}, 1.0f, {0.9f, 0.2f, 0.2f}}};

@@ -139,7 +139,7 @@ void rewind(DemoRig& demo, Dice& dice) {
 }
 
 void save(DemoRig& demo, Dice&) { demo.session.scenes.save(demo.ui.save_as, demo.ui.view); }
-void picture(DemoRig& demo, Dice&) { demo.ui.exporter.picture_asked = true; }
+void picture(DemoRig& demo, Dice&) { demo.ui.exporter.picture_requested = true; }
 void curves(DemoRig& demo, Dice&) { demo.ui.exporter.write_curves(demo.session); }
 
 /// Imports a tetrahedron of any size; every other file is broken.

@@ -144,7 +144,7 @@ class Soak {
     if (pair_tests_ > max_pair_tests) fail("a frame took " + std::to_string(pair_tests_) + " pair tests");
     if (slowest_ > max_seconds) fail("a frame took " + std::to_string(slowest_) + " s of processor time");
     if (const GLenum error = glGetError()) fail("OpenGL error " + std::to_string(error));
-    if (session.simulation.notice.text().starts_with(app::session::Simulation::defect))
+    if (session.simulation.notice.text().starts_with(app::session::Simulation::defect_prefix))
       fail(session.simulation.notice.text());
     if (session.simulation.stability().blow_up()) return recover();
     if (!softbody::measure(world).finite) fail("not finite, and no blow-up reported");

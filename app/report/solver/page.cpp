@@ -226,12 +226,12 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
   }
   if (too_long.empty() && too_many.empty())
     return page.text("All curves end at an error of {:.2g} R, the uncertainty of the reference.", known);
-  const auto say = [&](const std::string& why, const std::string& list) {
+  const auto add_reason = [&](const std::string& why, const std::string& list) {
     if (!list.empty())
       page.text("Left out, above the reference's uncertainty of {:.2g} R, since {}: {}.", known, why, list);
   };
-  say(fmt::format("runs took longer than {:g} s", r.max_run_seconds), too_long);
-  say("no more steps were tried", too_many);
+  add_reason(fmt::format("runs took longer than {:g} s", r.max_run_seconds), too_long);
+  add_reason("no more steps were tried", too_many);
 }
 
 }  // namespace

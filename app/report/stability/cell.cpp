@@ -126,7 +126,7 @@ class Run {
     }
     if (bodies_ == first) return;
     const auto joiners = std::span(sources).subspan(first, bodies_ - first);
-    work_ += contact_energy_.add_bodies(shield_energies_with(world, joiners), world.bodies().vertex_count());
+    work_ += contact_energy_.add_bodies(penalty_energies_with(world, joiners), world.bodies().vertex_count());
   }
 
   /// Solids push out what is inside them with up to 1 m/s. So their work is at most that times the impulse.
@@ -165,7 +165,7 @@ reference::ReferenceDeviation compare(const World& world, const StabilityStart& 
 
 }  // namespace
 
-std::vector<softbody::PairEnergy> shield_energies_with(softbody::World& world,
+std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
                                                        std::span<const softbody::BodySource> joiners) {
   if (!world.plan().has(softbody::Stage::contact_response)) return {};
   const softbody::Snapshot before = world.snapshot();

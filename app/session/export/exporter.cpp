@@ -108,7 +108,7 @@ void Exporter::toggle_recording() {
 }
 
 void Exporter::frame(const Session& session, const Picture& picture) {
-  if (std::exchange(picture_asked, false)) write_picture(picture);
+  if (std::exchange(picture_requested, false)) write_picture(picture);
   if (recording()) record(session, picture);
   follow_recording();
 }

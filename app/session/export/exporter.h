@@ -20,7 +20,7 @@ class Exporter {
   std::string folder = ".";    // for all files; made if it does not exist
   bool with_panel = false;     // pictures show the panel, too
   std::size_t kind = 0;        // of the next recording: an index of recording_kinds
-  bool picture_asked = false;  // take a picture with the next frame
+  bool picture_requested = false;  // take a picture with the next frame
 
   void write_curves(const Session& session);
   /// Starts a recording, or stops the one in progress.
@@ -33,7 +33,7 @@ class Exporter {
     return recording_->has_room();
   }
   /// Returns true if frame() will ask for a picture.
-  bool wants_picture() const { return picture_asked || (recording() && recorded_->pictures); }
+  bool wants_picture() const { return picture_requested || (recording() && recorded_->pictures); }
   /// Returns true while the last recording is still being written: no other one can start.
   bool finishing() const { return recording_ && recording_->progress().stopping; }
 

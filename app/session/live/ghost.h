@@ -9,24 +9,24 @@ namespace app::session {
 
 class Ghost {
  public:
-  /// From the present state of `of` on. Throws SceneError if the integrator cannot move it.
+  /// Starts from the present state of `of`. Throws SceneError if the integrator cannot move it.
   Ghost(const softbody::World& of, const softbody::IntegratorChoice& choice, int threads);
 
-  /// Into the present state of `of` again, which has been changed by hand. Throws as the constructor.
+  /// Starts again from the present state of `of`, which the user changed. Throws as the constructor.
   void restart(const softbody::World& of);
-  /// One frame, unless it has blown up.
+  /// Takes one step, unless the ghost has blown up.
   void step();
 
   const softbody::IntegratorChoice& choice() const { return choice_; }
   const softbody::World& world() const { return world_; }
-  /// `part` of the way from the last frame but one.
+  /// Returns positions `part` of the way from the frame before to the present one.
   compare::DrawnPositions drawn_positions(float part) const {
     return {world_.positions(), before_.x, before_.y, before_.z, part};
   }
-  /// The root mean square over all vertices of their distance to those of `of`, each over its body's radius. Of worlds
-  /// with the same bodies.
+  /// Returns the root mean square distance of all vertices to those of `of`, which has the same bodies; each distance
+  /// over the radius of its body.
   double distance(const softbody::World& of) const;
-  /// Some vertex is no longer finite, or thousands of radii away: it is neither moved nor worth a look.
+  /// True if some vertex is not finite or very far away. Then the ghost is neither stepped nor drawn.
   bool blown_up() const { return blown_up_; }
 
  private:

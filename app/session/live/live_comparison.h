@@ -37,7 +37,7 @@ class LiveComparison {
   void exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number, int rests);
   /// Another world: reports of states before this revision are dropped.
   void restart(const softbody::World& world, std::uint64_t revision);
-  /// What was measured with other settings: its report stays until there is a new one, its curves do not.
+  /// Drops the curves of other settings; their report stays until a new one arrives.
   void detection_changed(const softbody::World& world, std::uint64_t revision);
 
   /// Of a state a few frames old, whose vertices still exist.

@@ -24,7 +24,8 @@ std::string LiveGhost::restart(const softbody::World& world) try {
 }
 
 std::string LiveGhost::step(const softbody::World& world) try {
-  if (!ghost_ || world.grabbed()) return {};  // while a hand holds a body it begins anew with each step
+  // While a hand holds a body the ghost begins anew with each step.
+  if (!ghost_ || ghost_->blown_up() || world.grabbed()) return {};
   ghost_->step();
   if (!ghost_->world().all_at_rest()) ++revision_;
   if (ghost_->blown_up()) return {};

@@ -145,7 +145,7 @@ void draw_take_away(Widgets& w, Session& session, UiState& ui) {
                "Where all of this goes. Names end in the next free number; nothing is overwritten.");
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) exporter.picture_asked = true;
+  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) exporter.picture_requested = true;
   ImGui::SameLine();
   if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) exporter.write_curves(session);
   draw_recording(w, exporter);

@@ -5,27 +5,9 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
-namespace {
-
-/// Returns "Auto (Semi-implicit Euler)" or "Runge-Kutta 4, 8 substeps".
-std::string integrator_text(const softbody::World& world) {
-  std::string text(world.integrator_choice().integrator().name);
-  if (world.integrator_choice().integrator().automatic)
-    text.append(" (").append(world.last_step().integrator->name).append(")");
-  if (const auto substeps = world.integrator_choice().substeps)
-    text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
-  return text;
-}
-
-std::string distance_text(const Session& session) {
-  if (session.ghost().get()->blown_up()) return "has blown up";
-  return fmt::format("{:.3g} R", session.ghost().distances().latest());
-}
-
-}  // namespace
-
 bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorChoice& choice, int proposed) {
   const softbody::IntegratorChoice before = choice;
   const softbody::Integrator& now = *softbody::find_integrator(choice.key);
@@ -62,19 +44,9 @@ void draw_ghost(Widgets& w, Session& session) {
   const int used = session.ghost().get()->world().last_step().substeps;
   if (draw_integrator_choice(w, "Ghost ", choice, used)) session.choose_ghost(choice);
   if (!session.ghost().get()) return;
-  w.curve("Ghost apart", distance_text(session), session.ghost().distances(),
+  w.curve("Ghost apart", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
           "radii: the root mean square distance of all vertices to the ghost's, each over its body's radius");
-}
-
-void draw_ghost_legend(Widgets& w, const Session& session) {
-  ImGui::Text("Opaque: %s", integrator_text(session.world()).c_str());
-  w.register_item("Legend", nullptr);
-  w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
-  ImGui::SameLine();
-  ImGui::Text("ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
-  w.register_item("Legend", nullptr);
-  ImGui::Text("RMS distance: %s", distance_text(session).c_str());
 }
 
 }  // namespace app::ui

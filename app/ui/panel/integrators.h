@@ -13,7 +13,4 @@ bool draw_integrator_choice(Widgets& widgets, const char* name, softbody::Integr
 /// Draws the ghost's switch, its integrator, and its distance from the world that is shown.
 void draw_ghost(Widgets& widgets, Session& session);
 
-/// Draws the legend's lines on the opaque and the translucent world.
-void draw_ghost_legend(Widgets& widgets, const Session& session);
-
 }  // namespace app::ui

@@ -8,7 +8,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 #include "softbody/measures.h"
 
 namespace app::ui {
@@ -24,10 +24,10 @@ constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 
 
 void draw_curves(Widgets& w, const Session& session, float render_scale) {
   const session::StepHistory& history = session.simulation.history();
-  const softbody::StepReport& profile = session.world().last_step();
+  const softbody::StepReport& report = session.world().last_step();
   const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
-  w.curve("Detect", fmt::format("{:.2f} ms", profile.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", fmt::format("{:.2f} ms", profile.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
+  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
   w.curve("Picture", fmt::format("{:.1f} ms", history.frame_ms.latest()), history.frame_ms,
           {0, axis_end(history.frame_ms.max(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
   w.figure(
@@ -44,10 +44,10 @@ void draw_curves(Widgets& w, const Session& session, float render_scale) {
 
 void draw_surface_contacts(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) return;
-  const auto& touches = session.inspector.surface_contacts();
-  const auto inside = static_cast<std::size_t>(
-      std::ranges::count_if(touches, [](const softbody::SurfaceContactPoint& touch) { return touch.a == touch.b; }));
-  w.figure("surfaces, between bodies", grouped(touches.size() - inside),
+  const auto& contacts = session.inspector.surface_contacts();
+  const auto inside = static_cast<std::size_t>(std::ranges::count_if(
+      contacts, [](const softbody::SurfaceContactPoint& contact) { return contact.a == contact.b; }));
+  w.figure("surfaces, between bodies", grouped(contacts.size() - inside),
            "Vertices on faces and edges on edges of another body that pressed on each other in the last substep. "
            "Bodies that sleep are not looked at.");
   w.figure("surfaces, inside one body", grouped(inside), "The same within one body.");

@@ -3,7 +3,7 @@
 // numbers never move a widget.
 
 #include "app/session/session.h"
-#include "app/ui/ui_state.h"
+#include "app/ui/panel/ui_state.h"
 #include "app/ui/widgets/dock.h"
 
 namespace app::ui {

@@ -9,7 +9,7 @@
 #include "app/render/palette.h"
 #include "app/ui/panel/integrators.h"
 #include "app/ui/panel/panel.h"
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 #include "softbody/limits.h"
 
 namespace app::ui {

@@ -9,6 +9,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
 #include "app/compare/score.h"
 #include "app/ui/tour/body_subset.h"
@@ -188,9 +189,7 @@ std::uint64_t estimate_pair_tests(const softbody::World& world, std::size_t meth
   return cost_model.of(method).pair_tests;
 }
 
-std::size_t paper_index() {
-  return static_cast<std::size_t>(collide::find_method(collide::paper_method) - collide::method_table().data());
-}
+std::size_t paper_index() { return compare::method_index(collide::paper_method); }
 
 }  // namespace
 

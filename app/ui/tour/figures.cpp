@@ -10,7 +10,7 @@
 #include "app/base/text.h"
 #include "app/compare/cost_model.h"
 #include "app/render/palette.h"
-#include "app/ui/bucket_view.h"
+#include "app/ui/views/bucket_view.h"
 
 namespace app::ui {
 namespace {

@@ -1,8 +1,8 @@
 #pragma once
 // The window of the guided tour, and the labels in the scene.
 
-#include "app/ui/status.h"
 #include "app/ui/tour/tour.h"
+#include "app/ui/views/status.h"
 #include "engine/camera.h"
 
 namespace app::ui {

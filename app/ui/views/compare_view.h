@@ -1,7 +1,7 @@
 #pragma once
 // The comparison of all methods on one frozen frame: a row for each method with its cost and its true contacts.
 
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 

@@ -1,4 +1,4 @@
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,11 +6,20 @@
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
-#include "app/ui/coverage_light.h"
-#include "app/ui/panel/integrators.h"
+#include "app/ui/views/coverage_light.h"
 
 namespace app::ui {
 namespace {
+
+/// Returns "Auto (Semi-implicit Euler)" or "Runge-Kutta 4, 8 substeps".
+std::string integrator_text(const softbody::World& world) {
+  std::string text(world.integrator_choice().integrator().name);
+  if (world.integrator_choice().integrator().automatic)
+    text.append(" (").append(world.last_step().integrator->name).append(")");
+  if (const auto substeps = world.integrator_choice().substeps)
+    text.append(", ").append(std::to_string(*substeps)).append(*substeps == 1 ? " substep" : " substeps");
+  return text;
+}
 
 constexpr double hint_seconds = 20, fade_seconds = 2;
 
@@ -86,7 +95,22 @@ float draw_status(Widgets& w, Session& session, const std::string& no_room_messa
   return end;
 }
 
+std::string ghost_distance_text(const Session& session) {
+  if (session.ghost().get()->blown_up()) return "has blown up";
+  return fmt::format("{:.3g} R", session.ghost().distances().latest());
+}
+
 namespace {
+
+void draw_ghost_legend(Widgets& w, const Session& session) {
+  ImGui::Text("Opaque: %s", integrator_text(session.world()).c_str());
+  w.register_item("Legend", nullptr);
+  w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
+  ImGui::SameLine();
+  ImGui::Text("ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
+  w.register_item("Legend", nullptr);
+  ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
+}
 
 void draw_legend_line(Widgets& w, const glm::vec3& colour, const std::string& text) {
   w.swatch(colour, ImGui::GetTextLineHeight());
@@ -107,7 +131,7 @@ void draw_strain_scale(const Widgets& w) {
   ImGui::TextDisabled("+20 %%");
 }
 
-void draw_touches_legend(Widgets& w, const Session& session) {
+void draw_surface_contacts_legend(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
     ImGui::TextDisabled("no surface contacts: F switches them on");
     return;
@@ -135,7 +159,7 @@ void draw_bucket_legend(Widgets& w, const Session& session) {
 
 bool has_legend(const Session& session, const render::Overlays& shown) {
   return shown.boxes || shown.cells || session.inspector.bucket() || session.ghost().get() || shown.contacts ||
-         shown.springs || shown.missed || shown.areas || shown.touches;
+         shown.springs || shown.missed || shown.areas || shown.surface_contacts;
 }
 
 void draw_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
@@ -147,7 +171,7 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
     draw_legend_line(w, render::contact_inside_colour, "contact inside one body");
     draw_legend_line(w, render::contact_solid_colour, "contact with a solid");
   }
-  if (shown.touches) draw_touches_legend(w, session);
+  if (shown.surface_contacts) draw_surface_contacts_legend(w, session);
   if (shown.missed)
     draw_legend_line(w, render::contact_missed_colour,
                      std::string(session.comparison.missed() && session.comparison.missed()->empty() ? "none missed by "

@@ -1,4 +1,4 @@
-#include "app/ui/coverage_light.h"
+#include "app/ui/views/coverage_light.h"
 
 #include <fmt/core.h>
 #include <glm/common.hpp>

@@ -1,4 +1,4 @@
-#include "engine/renderer.h"
+#include "engine/render/renderer.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,7 +17,7 @@
 #include "engine/render/shadow_map.h"
 #include "engine/render/sphere_pass.h"
 
-namespace engine {
+namespace engine::render {
 namespace {
 
 constexpr float floor_map_half_size = 1.5f;  // in radii of the scene
@@ -56,20 +56,20 @@ struct Renderer::Passes {
   void draw_shadows();
   void draw_scene(const Viewport& viewport, const FrameData& frame);
   void find_casters(const FrameData& frame);
-  render::FrameUniforms frame_uniforms(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
+  FrameUniforms frame_uniforms(const Camera& camera, const Viewport& viewport, const FrameData& frame) const;
 
   const bool software_renderer = uses_software_renderer();
   glm::vec3 to_light = glm::normalize(glm::vec3(-0.40f, 1.0f, 0.42f));
-  render::LightView light{};
-  render::AmbientOcclusion occlusion;
+  LightView light{};
+  AmbientOcclusion occlusion;
   std::vector<glm::vec4> casters;  // spheres round all that casts shadows: centre, radius
-  render::ShadowMap shadow_map;
-  render::BodyPass bodies;
-  render::SpherePass spheres;
-  render::BoxPass boxes;
-  render::FloorMap floor_map;
-  render::EnvironmentPass environment;
-  render::OverlayPass overlays;
+  ShadowMap shadow_map;
+  BodyPass bodies;
+  SpherePass spheres;
+  BoxPass boxes;
+  FloorMap floor_map;
+  EnvironmentPass environment;
+  OverlayPass overlays;
   Buffer uniform_buffer;
 };
 
@@ -80,8 +80,7 @@ void Renderer::Passes::find_casters(const FrameData& frame) {
     const MeshDraw& draw = frame.meshes[i];
     const bool finite = occlusion.spheres()[i].w > 0;
     if (finite)
-      casters.emplace_back(centre,
-                           render::max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
+      casters.emplace_back(centre, max_distance(centre, frame.positions.subspan(draw.first_vertex, draw.vertex_count)));
   }
   for (const Sphere& s : frame.spheres) casters.emplace_back(s.centre, s.radius);
   for (const Capsule& c : frame.capsules)
@@ -92,11 +91,11 @@ void Renderer::Passes::find_casters(const FrameData& frame) {
   }
 }
 
-render::FrameUniforms Renderer::Passes::frame_uniforms(const Camera& camera, const Viewport& viewport,
-                                                       const FrameData& frame) const {
+FrameUniforms Renderer::Passes::frame_uniforms(const Camera& camera, const Viewport& viewport,
+                                               const FrameData& frame) const {
   const glm::vec3& centre = frame.bounds_centre;
   const float radius = frame.bounds_radius;
-  render::FrameUniforms values{};
+  FrameUniforms values{};
   values.clip_from_world = camera.projection(viewport.size) * camera.view();
   values.shadow_from_world = light.texture_from_world();
   values.eye = glm::vec4(camera.eye(), frame.pixel_scale);
@@ -114,7 +113,7 @@ void Renderer::Passes::update(const Camera& camera, const Viewport& viewport, co
   light = shadow_map.light_view(to_light, frame.bounds_centre, frame.bounds_radius);
   occlusion.update(frame);
   find_casters(frame);
-  const render::FrameUniforms values = frame_uniforms(camera, viewport, frame);
+  const FrameUniforms values = frame_uniforms(camera, viewport, frame);
   uniform_buffer.stream(GL_UNIFORM_BUFFER, std::span(&values, 1));
   glBindBufferBase(GL_UNIFORM_BUFFER, 0, uniform_buffer.id());
   const float pixels_at_one_metre = 0.5f * static_cast<float>(viewport.size.y) / std::tan(0.5f * camera.fov);
@@ -138,7 +137,7 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   glEnable(GL_SCISSOR_TEST);
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
-  shadow_map.texture().bind(render::unit_shadow_map, GL_TEXTURE_2D);
+  shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
   bodies.draw();
   spheres.draw();
   boxes.draw();
@@ -173,4 +172,4 @@ void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameD
   glBindVertexArray(0);
 }
 
-}  // namespace engine
+}  // namespace engine::render

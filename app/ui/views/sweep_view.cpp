@@ -1,4 +1,4 @@
-#include "app/ui/sweep_view.h"
+#include "app/ui/views/sweep_view.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "app/ui/bucket_view.h"
+#include "app/ui/views/bucket_view.h"
 
 #include <algorithm>
 #include <cassert>

@@ -3,7 +3,7 @@
 // moves nothing on the panel.
 
 #include "app/session/import.h"
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 

@@ -9,14 +9,9 @@
 
 #include "engine/camera.h"
 #include "engine/frame_data.h"
+#include "engine/viewport.h"
 
-namespace engine {
-
-/// The part of the bound framebuffer to draw into, in pixels from OpenGL's bottom left corner.
-struct Viewport {
-  glm::ivec2 origin{0};
-  glm::ivec2 size{0};
-};
+namespace engine::render {
 
 class Renderer {
  public:
@@ -38,4 +33,4 @@ class Renderer {
   std::unique_ptr<Passes> passes_;
 };
 
-}  // namespace engine
+}  // namespace engine::render

@@ -1,4 +1,4 @@
-#include "app/ui/compare_view.h"
+#include "app/ui/views/compare_view.h"
 
 #include <algorithm>
 #include <array>

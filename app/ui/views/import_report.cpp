@@ -1,4 +1,4 @@
-#include "app/ui/import_report.h"
+#include "app/ui/views/import_report.h"
 
 #include <algorithm>
 
@@ -8,13 +8,13 @@ namespace app::ui {
 
 namespace {
 
-void draw_verdict(Widgets& w, const session::Import::FileReport& verdict) {
-  if (verdict.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
-  for (const std::string& line : verdict.lines) {
+void draw_file_report(Widgets& w, const session::Import::FileReport& report) {
+  if (report.refused) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+  for (const std::string& line : report.lines) {
     ImGui::TextWrapped("%s", line.c_str());
     w.register_item("Import report", nullptr);
   }
-  if (verdict.refused) ImGui::PopStyleColor();
+  if (report.refused) ImGui::PopStyleColor();
 }
 
 }  // namespace
@@ -26,9 +26,9 @@ void draw_import_report(Widgets& w, session::Import& import, const ScreenRect& a
   ImGui::SetNextWindowSizeConstraints({width, 0}, {width, area.max.y - area.min.y - 2 * margin});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Import", nullptr, frameless_window & ~ImGuiWindowFlags_NoScrollbar);
-  for (const session::Import::FileReport& verdict : import.report()) {
-    draw_verdict(w, verdict);
-    if (&verdict != &import.report().back()) ImGui::Separator();
+  for (const session::Import::FileReport& report : import.report()) {
+    draw_file_report(w, report);
+    if (&report != &import.report().back()) ImGui::Separator();
   }
   if (import.busy()) {
     ImGui::TextWrapped("%s", import.progress().c_str());

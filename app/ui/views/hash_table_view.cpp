@@ -1,11 +1,11 @@
-#include "app/ui/hash_table_view.h"
+#include "app/ui/views/hash_table_view.h"
 
 #include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "app/render/palette.h"
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 namespace {

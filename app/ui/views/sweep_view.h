@@ -4,8 +4,8 @@
 
 #include "app/session/live/sweep_worker.h"
 #include "app/session/session.h"
-#include "app/ui/status.h"
-#include "app/ui/sweep_plot.h"
+#include "app/ui/views/status.h"
+#include "app/ui/views/sweep_plot.h"
 
 namespace app::ui {
 

@@ -1,7 +1,7 @@
 #pragma once
 // The status light of coverage (red, amber or green) and its explanation.
 
-#include "app/ui/status.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 

@@ -1,4 +1,4 @@
-#include "app/ui/sweep_plot.h"
+#include "app/ui/views/sweep_plot.h"
 
 #include <algorithm>
 #include <cmath>

@@ -1,4 +1,4 @@
-#include "app/ui/surface_view.h"
+#include "app/ui/views/surface_view.h"
 
 #include <fmt/core.h>
 
