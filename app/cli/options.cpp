@@ -115,8 +115,12 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
-  simulate->add_flag("--oracle", options.oracle, "with --json: what overlaps and passes through in each frame; slow")
-      ->needs(json);
+  simulate
+      ->add_flag("--json-lines", options.json_lines,
+                 "print a line of JSON for each frame as soon as it is simulated, and one at the end with the rest")
+      ->excludes(json);
+  simulate->add_flag("--oracle", options.oracle,
+                     "with --json or --json-lines: what overlaps and passes through in each frame; slow");
   return simulate;
 }
 
@@ -190,6 +194,8 @@ void check(const Options& options) {
   if (options.obj_every && *options.obj_every > options.frames)
     throw UsageError("--obj-every " + std::to_string(*options.obj_every) + ": lies beyond --frames " +
                      std::to_string(options.frames) + ", so that no file would be written");
+  if (options.oracle && !options.json && !options.json_lines)
+    throw UsageError("--oracle: only --json and --json-lines print what it sees; add one of them");
 }
 
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.

@@ -46,8 +46,9 @@ struct Options {
   std::optional<int> obj_every;  // write the bodies of every so many frames as OBJ files
   std::filesystem::path out = ".";
   bool json = false;
-  bool oracle = false;  // `simulate --json`: add the surface oracle's figures of each frame
-  std::string list_of;  // "scenes", "methods", "integrators" or "contact-surfaces"
+  bool json_lines = false;  // `simulate`: a line of JSON for each frame, and one at the end
+  bool oracle = false;      // `simulate` with JSON: add the surface oracle's figures of each frame
+  std::string list_of;      // "scenes", "methods", "integrators" or "contact-surfaces"
 };
 
 /// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.

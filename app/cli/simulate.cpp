@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/base/streams.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
@@ -89,17 +90,28 @@ Json to_json_integrator(const softbody::World& world) {
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
+/// Returns the document of a world after its last frame; without frames what it has beside them.
+Json to_json(const softbody::World& world, std::optional<Json> frames) {
+  Json document{{"scene", world.scene().key},
+                {"method", world.method().key},
+                {"integrator", to_json_integrator(world)},
+                {"plan", to_json(world.plan())},
+                {"warnings", warnings(world.method(), world.collision())}};
+  if (frames) document["frames"] = std::move(*frames);
+  document["state_hash"] = hex(world.state_hash());
+  return document;
+}
+
+/// Prints a line that a reader gets at once. Throws UsageError.
+void print_line(const Json& object) {
+  std::cout << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  flush_standard_output();
+}
+
 void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
   for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  const Json document{{"scene", world.scene().key},
-                      {"method", world.method().key},
-                      {"integrator", to_json_integrator(world)},
-                      {"plan", to_json(world.plan())},
-                      {"warnings", warnings(world.method(), world.collision())},
-                      {"frames", frames},
-                      {"state_hash", hex(world.state_hash())}};
-  std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  print_line(to_json(world, std::move(frames)));
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
@@ -230,23 +242,30 @@ void simulate(const Options& options) {
   Pictures pictures(options);
   ObjSequence obj_sequence(options);
   print_remarks(world.scene());
-  const bool progress = isatty(STDERR_FILENO) != 0;
+  // Where the lines of frames go to a terminal, they show the progress themselves.
+  const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   std::vector<FrameRow> rows;
-  rows.reserve(static_cast<std::size_t>(options.frames));
+  if (!options.json_lines) rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
-    rows.push_back(measure_row(world));
+    FrameRow row = measure_row(world);
     if (options.oracle)
-      rows.back().oracle =
-          collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+      row.oracle = collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
     obj_sequence.take(world);
-    if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
+    if (options.json_lines)
+      print_line(to_json(row));
+    else
+      rows.push_back(std::move(row));
+    if (progress && world.frame() % 10 == 0)
+      show_progress(fmt::format("frame {} of {}", world.frame(), options.frames));
   }
-  if (progress) std::fprintf(stderr, "\r%40s\r", "");
-  if (options.json)
+  if (progress) clear_progress();
+  if (options.json_lines)
+    print_line(to_json(world, {}));
+  else if (options.json)
     print_json(world, rows);
   else
     print_table(world, rows);
