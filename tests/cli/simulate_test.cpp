@@ -51,11 +51,12 @@ TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   ASSERT_EQ(d["frames"].size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     const json& f = d["frames"][i];
-    EXPECT_EQ(keys(f), (Keys{"frame", "time", "ms", "contacts", "energy", "volume_ratio", "deepest_penetration",
-                             "max_speed", "finite"}));
+    EXPECT_EQ(keys(f), (Keys{"frame", "time", "ms", "contacts", "energy", "energies", "volume_ratio",
+                             "deepest_penetration", "max_speed", "finite"}));
     EXPECT_EQ(f["frame"], i + 1) << "frame n is the state after n steps";
     EXPECT_EQ(keys(f["ms"]), (Keys{"detect", "solve", "total"}));
     EXPECT_EQ(keys(f["contacts"]), (Keys{"bodies", "self", "solid"}));
+    EXPECT_EQ(keys(f["energies"]), (Keys{"kinetic", "elastic", "gas", "gravity"}));
     EXPECT_EQ(keys(f["volume_ratio"]), (Keys{"min", "max"}));
     for (const char* key : {"detect", "solve", "total"}) EXPECT_TRUE(f["ms"][key].is_number()) << key;
     for (const char* key : {"bodies", "self", "solid"}) EXPECT_TRUE(f["contacts"][key].is_number_unsigned()) << key;
@@ -125,6 +126,19 @@ TEST(Simulate, PrintsFiguresThatAgreeWithPhysics) {
   EXPECT_NEAR(last["energy"], 2 * 9.81 * 50 + 0.5 * 2 * 9, 10) << "joules: potential and kinetic";
   EXPECT_EQ(last["contacts"], json({{"bodies", 0}, {"self", 0}, {"solid", 0}}));
   EXPECT_EQ(last["deepest_penetration"], 0.0);
+}
+
+TEST(Simulate, PrintsEnergiesWhoseSumIsTheEnergy) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("small.toml", small_scene);
+  for (const json& frame : simulate({"--scene", scene, "--frames", "20"})["frames"]) {
+    const json& e = frame["energies"];
+    const double energy = frame["energy"];
+    EXPECT_NEAR(double(e["kinetic"]) + double(e["elastic"]) + double(e["gas"]) + double(e["gravity"]), energy,
+                1e-9 * std::abs(energy));
+    EXPECT_GT(e["kinetic"], 0.0);
+    EXPECT_GT(e["elastic"], 0.0) << "the gas stretches the springs from the start";
+  }
 }
 
 /// Returns the lines of standard output, each an object.
