@@ -72,5 +72,17 @@ TEST(Progress, OfSimulateIsShownOnATerminalAndCleared) {
   EXPECT_EQ(lines.terminal.find("frame 20 of 30"), std::string::npos) << "the lines themselves are the progress";
 }
 
+TEST(Progress, OfReportIsShownOnATerminalAndCleared) {
+  const Terminal terminal;
+  if (terminal.device().empty()) GTEST_SKIP() << "no pseudo-terminals";
+  const TemporaryFolder folder;
+  const Shown shown = run_on(terminal, {"report", "detection", "--quick", "--scene", "A", "--out", folder.path()});
+  EXPECT_EQ(shown.outcome.status, 0);
+  EXPECT_NE(shown.terminal.find("\rA: simulating "), std::string::npos);
+  EXPECT_NE(shown.terminal.find(" 50 %"), std::string::npos);
+  EXPECT_NE(shown.terminal.find(cleared), std::string::npos);
+  EXPECT_EQ(shown.outcome.out.find('%'), std::string::npos) << shown.outcome.out;
+}
+
 }  // namespace
 }  // namespace cli::test
