@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <iostream>
 #include <set>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +19,7 @@
 #include "app/files/scene_folder.h"
 #include "softbody/measures.h"
 #if SBCOLLIDE_GRAPHICS
+#include "app/render/animation.h"
 #include "app/render/capture.h"
 #endif
 
@@ -138,35 +140,57 @@ std::filesystem::path result_file(const Options& options, const char* prefix, in
   return options.out / fmt::format("{}_{:04}{}", prefix, frame, ending);
 }
 
-/// Writes the requested pictures. Without graphics the constructor throws before anything runs.
+#if SBCOLLIDE_GRAPHICS
+/// Writes the requested pictures and the animation.
 class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
-    if (options.captures.empty()) return;
-#if SBCOLLIDE_GRAPHICS
+    if (options.captures.empty() && !options.animation) return;
     capture_ = std::make_unique<render::Capture>(options.width,
                                                  options.height);  // first: without OpenGL no folder should be made
-    files::prepare_folder(options.out);
-    for (const int frame : options.captures) files::require_no_input(picture(frame));
-#else
-    throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
-#endif
+    if (!options.captures.empty()) files::prepare_folder(options.out);
+    for (const int frame : options.captures) files::require_no_input(picture_file(frame));
+    if (options.animation) animation_.emplace(*options.animation);
   }
   void take(const softbody::World& world) {
-    if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
-#if SBCOLLIDE_GRAPHICS
-    capture_->write(world, picture(world.frame()));
-#endif
+    const int frame = world.frame();
+    const bool captured = std::binary_search(options_.captures.begin(), options_.captures.end(), frame);
+    const bool animated = animation_ && (frame - 1) % stride_ == 0;
+    if (!captured && !animated) return;
+    engine::Image picture = capture_->draw(world);
+    if (captured) files::write_file(picture_file(frame), engine::encode_png(picture));
+    if (animated) animation_->add(std::move(picture), start_of(frame));
+  }
+  /// Writes the animation of the whole run.
+  void finish() {
+    const int pictures = (options_.frames - 1) / stride_ + 1;
+    if (animation_) animation_->write(start_of(1 + pictures * stride_));
   }
 
  private:
-  const Options& options_;
-#if SBCOLLIDE_GRAPHICS
-  std::filesystem::path picture(int frame) const { return result_file(options_, "frame", frame, ".png"); }
+  std::filesystem::path picture_file(int frame) const { return result_file(options_, "frame", frame, ".png"); }
+  /// Returns the time (s) at which the animation shows that frame: frame 1 at 0.
+  double start_of(int frame) const { return (frame - 1) * options_.frame_time; }
 
+  const Options& options_;
+  int stride_ = frames_per_picture(options_.frame_time);
   std::unique_ptr<render::Capture> capture_;
-#endif
+  std::optional<render::Animation> animation_;
 };
+#else
+/// Refuses pictures before anything runs.
+class Pictures {
+ public:
+  explicit Pictures(const Options& options) {
+    for (const auto& [option, requested] :
+         {std::pair("--capture", !options.captures.empty()), std::pair("--animation", options.animation.has_value())})
+      if (requested)
+        throw UsageError(std::string(option) + ": this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
+  }
+  void take(const softbody::World&) {}
+  void finish() {}
+};
+#endif
 
 /// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed.
 class ObjSequence {
@@ -245,6 +269,7 @@ void simulate(const Options& options) {
     obj_sequence.take(world);
     if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
   }
+  pictures.finish();
   if (progress) std::fprintf(stderr, "\r%40s\r", "");
   if (options.json)
     print_json(world, rows);

@@ -171,6 +171,7 @@ TEST(Errors, NameAFolderThatCannotBeMadeBeforeAnythingRuns) {
 #else
 TEST(Errors, RefusePicturesInABuildWithoutGraphics) {
   expect_refused(drop({"--capture", "1"}), {"--capture", "graphics"});
+  expect_refused(drop({"--animation", "run.webp"}), {"--animation", "graphics"});
 }
 TEST(Errors, RefuseTheWindowInABuildWithoutGraphics) { expect_refused({}, {"simulate"}); }
 #endif
