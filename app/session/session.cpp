@@ -12,8 +12,22 @@ Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folde
 }
 
 void Session::advance(double elapsed) {
-  simulation.advance(elapsed);
+  simulation.advance(elapsed, stands_still());
   exchange();
+}
+
+void Session::wait(double elapsed) {
+  simulation.wait(elapsed);
+  exchange();
+}
+
+bool Session::stands_still() const {
+  if (simulation.clock.paused) return simulation.clock.stands_still();
+  return simulation.has_come_to_rest() && (!ghost_.get() || ghost_.get()->at_rest());
+}
+
+bool Session::awaits_answer() const {
+  return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision());
 }
 
 void Session::advance_one(double elapsed, bool allowed) {

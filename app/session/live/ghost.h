@@ -28,6 +28,7 @@ class Ghost {
   double distance(const softbody::World& of) const;
   /// Some vertex is no longer finite, or thousands of radii away: it is neither moved nor worth a look.
   bool blown_up() const { return blown_up_; }
+  bool at_rest() const { return blown_up_ || world_.all_at_rest(); }
 
  private:
   bool has_blown_up() const;
