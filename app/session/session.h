@@ -60,6 +60,7 @@ class Session : private SimulationObserver {
   void report(std::string problem);
 
   LiveGhost ghost_;
+  bool has_left_world_ = false;  // whose memory is not yet given back
 };
 
 }  // namespace app::session

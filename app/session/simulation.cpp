@@ -155,6 +155,7 @@ PastWorld Simulation::present() const {
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
   world_ = std::move(world);
+  before_last_step_ = {};  // may hold the memory of many bodies
   as_scripted_ = true;
   history_ = {};
   notice.clear();
