@@ -3,9 +3,9 @@
 #include <csignal>
 #include <cstdio>
 #include <exception>
-#include <iostream>
 #include <new>
 
+#include "app/base/streams.h"
 #include "app/cli/detect.h"
 #include "app/cli/list.h"
 #include "app/cli/options.h"
@@ -60,13 +60,14 @@ int main(int argc, char** argv) {
     std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a size limit then fails like one on a full disk
     const auto options = app::cli::parse_options(argc, argv);
     const int status = options ? run(*options) : 0;
-    if (!std::cout.flush() || std::fflush(stdout) != 0)
-      throw app::UsageError("standard output cannot be written to; is the disk full?");
+    app::flush_standard_output();
     return status;
   } catch (const std::bad_alloc&) {
+    app::clear_progress();
     std::fprintf(stderr, "sbcollide: not enough memory; give it less at a time\n");
     return 2;
   } catch (const std::exception& error) {
+    app::clear_progress();
     std::fprintf(stderr, "sbcollide: %s\n", error.what());
     return 2;
   }

@@ -84,6 +84,7 @@ Window::Window(const WindowOptions& options) {
     throw;
   }
   glfwSetWindowUserPointer(window_, this);
+  glfwSetWindowRefreshCallback(window_, &Window::on_refresh);
   glfwSetKeyCallback(window_, &Window::on_key);
   glfwSetDropCallback(window_, &Window::on_drop);
   glfwSetMouseButtonCallback(window_, &Window::on_button);
@@ -100,8 +101,9 @@ Window::~Window() { glfwTerminate(); }
 bool Window::is_open() const { return !glfwWindowShouldClose(window_); }
 void Window::close() { glfwSetWindowShouldClose(window_, GLFW_TRUE); }
 
-void Window::poll(double seconds) {
-  if (minimised()) seconds = 0.1;
+bool Window::poll(double seconds) {
+  if (minimised()) seconds = 0.25;
+  const double end = glfwGetTime() + seconds;
   if (seconds > 0) {
     glfwWaitEventsTimeout(seconds);
   } else {
@@ -109,6 +111,8 @@ void Window::poll(double seconds) {
   }
   last_poll_ = glfwGetTime();
   update_size();
+  constexpr double precision = 1e-3;  // s, of the wait
+  return std::exchange(event_, false) || has_pending_input() || last_poll_ < end - precision;
 }
 
 void Window::update_size() {
@@ -116,8 +120,9 @@ void Window::update_size() {
   int width = 0, height = 0;
   glfwGetWindowSize(window_, &width, &height);
   pixel_ratio_ = width > 0 ? std::max(1.0f, static_cast<float>(framebuffer_size_.x) / static_cast<float>(width)) : 1.0f;
-  minimised_ =
-      glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE || framebuffer_size_.x <= 0 || framebuffer_size_.y <= 0;
+  minimised_ = glfwGetWindowAttrib(window_, GLFW_ICONIFIED) == GLFW_TRUE ||
+               glfwGetWindowAttrib(window_, GLFW_VISIBLE) == GLFW_FALSE || framebuffer_size_.x <= 0 ||
+               framebuffer_size_.y <= 0;
 }
 
 std::vector<std::string> Window::take_dropped_files() { return std::exchange(dropped_files_, {}); }
@@ -155,12 +160,18 @@ Window& self(GLFWwindow* window) { return *static_cast<Window*>(glfwGetWindowUse
 
 }  // namespace
 
+void Window::on_refresh(GLFWwindow* window) { self(window).event_ = true; }
+
 void Window::on_drop(GLFWwindow* window, int count, const char** paths) {
-  auto& files = self(window).dropped_files_;
-  files.insert(files.end(), paths, paths + count);
+  Window& w = self(window);
+  w.event_ = true;
+  w.dropped_files_.insert(w.dropped_files_.end(), paths, paths + count);
 }
 
-void Window::on_cursor(GLFWwindow* window, double x, double y) { self(window).cursor_ = {x, y}; }
+void Window::on_cursor(GLFWwindow* window, double x, double y) {
+  self(window).event_ = true;
+  self(window).cursor_ = {x, y};
+}
 
 void Window::on_button(GLFWwindow* window, int button, int action, int) {
   Window& w = self(window);

@@ -31,8 +31,9 @@ class Window {
   void close();
 
   /// Handles the events since the last call and waits up to `seconds` for one. While the window is minimised, it waits
-  /// up to 0.1 s instead, so that a loop does not spin.
-  void poll(double seconds = 0);
+  /// up to 0.25 s instead, so that a loop does not spin. Returns true if there were any: the window may need another
+  /// frame.
+  bool poll(double seconds = 0);
   // Events of all calls of poll() are kept until they are taken.
   std::vector<InputEvent> take_input() { return input_.take(); }  // of the next frame; see InputQueue::take()
   bool has_pending_input() const { return !input_.empty(); }      // for a further frame
@@ -46,7 +47,9 @@ class Window {
   void wait_for_context_reset() const;
 
   // State after the last poll().
-  bool minimised() const { return minimised_; }  // true: there is nothing to draw, framebuffer_size() may be 0 x 0
+  /// True if nobody can see the window, minimised or unmapped: there is nothing to draw, framebuffer_size() may be
+  /// 0 x 0.
+  bool minimised() const { return minimised_; }
   glm::ivec2 framebuffer_size() const { return framebuffer_size_; }
   /// Framebuffer pixels per screen coordinate. On X11 it differs from content_scale().
   float pixel_ratio() const { return pixel_ratio_; }
@@ -61,6 +64,7 @@ class Window {
  private:
   void update_size();
 
+  static void on_refresh(GLFWwindow* window);
   static void on_key(GLFWwindow* window, int key, int scancode, int action, int mods);
   static void on_character(GLFWwindow* window, unsigned int code);
   static void on_cursor(GLFWwindow* window, double x, double y);
@@ -73,6 +77,7 @@ class Window {
   glm::ivec2 framebuffer_size_{0};
   float pixel_ratio_ = 1.0f;
   bool minimised_ = false;
+  bool event_ = false;  // since the last poll()
   InputQueue input_;
   glm::vec2 cursor_{0.0f};  // screen coordinates at the event being handled; cursor() is already further
   double last_poll_ = 0;    // s: pending events happened after it

@@ -53,8 +53,10 @@ std::filesystem::path scene_path(const std::string& name, const std::filesystem:
 }
 
 Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
-  return load_scene(scene_path(name, folder));
+  return load_scene(scene_path(name, folder), presets_path(folder));
 }
+
+std::filesystem::path presets_path(const std::filesystem::path& folder) { return folder / "../materials.toml"; }
 
 const ContactSurfaceInfo* find_contact_surface(std::string_view key) {
   for (const ContactSurfaceInfo& c : contact_surfaces)

@@ -195,8 +195,15 @@ struct Scene {
   bool operator==(const Scene&) const = default;
 };
 
-/// Reads a scene file. Throws SceneError; unknown keys, wrong types and values out of range are errors too.
-Scene load_scene(const std::filesystem::path& file);
+/// Reads a scene file. `presets`: a file of materials that the scene may name; it is read only if the scene does.
+/// Throws SceneError; unknown keys, wrong types and values out of range are errors too.
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets = {});
+
+/// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
+std::vector<Material> load_presets(const std::filesystem::path& file);
+
+/// Returns the presets of the scenes in `folder`.
+std::filesystem::path presets_path(const std::filesystem::path& folder);
 
 /// The keys of a folder's scenes (stems of its .toml files), in order.
 std::vector<std::string> scene_keys(const std::filesystem::path& folder);
@@ -205,7 +212,7 @@ std::vector<std::string> scene_keys(const std::filesystem::path& folder);
 /// unknown key; the message lists the known ones.
 std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder);
 
-/// Loads the scene of that name. Throws SceneError.
+/// Loads the scene of that name, with presets_path(folder). Throws SceneError.
 Scene find_scene(const std::string& name, const std::filesystem::path& folder);
 
 }  // namespace softbody

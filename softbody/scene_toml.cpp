@@ -25,9 +25,9 @@ SpringLaw read_springs(Table table, SpringLaw law) {
   return law;
 }
 
-Material read_material(Table& table) {
-  Material m;
-  m.name = table.text("name", "");
+/// `m`: the values of keys that the table does not have.
+Material read_material(Table& table, Material m = {}) {
+  m.name = table.text("name", m.name);
   m.mass = table.number("mass", m.mass, tiny, 1e9);
   m.structural = read_springs(table.child("structural"), m.structural);
   m.bend = read_springs(table.child("bend"), m.bend);
@@ -41,7 +41,7 @@ Material read_material(Table& table) {
   m.restitution = table.number("restitution", m.restitution, 0, 1);
   m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
   m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
-  const double shape = table.number("shape_frequency", -1, 0, 1e3);
+  const double shape = table.number("shape_frequency", m.shape_frequency.value_or(-1), 0, 1e3);
   if (shape >= 0) m.shape_frequency = shape;
   m.start_in_equilibrium = table.boolean("start_in_equilibrium", m.start_in_equilibrium);
   table.close();
@@ -243,13 +243,31 @@ void add_lattice(const Table& owner, Table table, const BodySource& body, std::v
   }
 }
 
-void read_bodies(Table& root, Scene& scene) {
-  for (Table& t : root.children("material")) {
-    Material m = read_material(t);
-    if (std::ranges::count(scene.materials, m.name, &Material::name) > 0)
-      t.fail("name", "'" + m.name + "' is that of an earlier [[material]]; give each its own");
-    scene.materials.push_back(std::move(m));
+/// Returns the material that the key `preset` names; one with the default values if the table has no such key.
+Material read_preset(Table& table, const std::filesystem::path& presets) {
+  if (!table.has("preset")) return {};
+  const std::string name = table.text("preset", "");
+  std::string known;
+  for (const Material& m : load_presets(presets)) {
+    if (m.name == name) return m;
+    known.append(known.empty() ? "" : ", ").append(m.name);
   }
+  table.fail("preset", "must be one of: " + known);
+}
+
+std::vector<Material> read_materials(Table& root, const std::filesystem::path& presets) {
+  std::vector<Material> materials;
+  for (Table& t : root.children("material")) {
+    Material m = read_material(t, read_preset(t, presets));
+    if (std::ranges::count(materials, m.name, &Material::name) > 0)
+      t.fail("name", "'" + m.name + "' is that of an earlier [[material]]; give each its own");
+    materials.push_back(std::move(m));
+  }
+  return materials;
+}
+
+void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets) {
+  scene.materials = read_materials(root, presets);
   if (scene.materials.empty()) scene.materials.emplace_back();
   constexpr int forever = 1'000'000'000;
   std::uint64_t particles = 0;
@@ -283,7 +301,7 @@ void read_view(Table& root, Scene& scene) {
   }
 }
 
-Scene read_scene(Table root, const std::filesystem::path& file) {
+Scene read_scene(Table root, const std::filesystem::path& file, const std::filesystem::path& presets) {
   Scene scene;
   scene.key = file.stem().string();
   scene.name = root.text("name", scene.key);
@@ -291,7 +309,7 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
   scene.gravity = root.vector("gravity", scene.gravity, -max_gravity, max_gravity);
   read_collision(root.child("collision"), scene);
   read_solids(root, scene);
-  read_bodies(root, scene);
+  read_bodies(root, scene, presets);
   Table sleep = root.child("sleep");
   scene.sleep.speed = sleep.number("speed", scene.sleep.speed, 0, 1e3);
   scene.sleep.frames = sleep.integer("frames", scene.sleep.frames, 1, 1'000'000);
@@ -305,9 +323,17 @@ Scene read_scene(Table root, const std::filesystem::path& file) {
 
 }  // namespace
 
-Scene load_scene(const std::filesystem::path& file) {
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets) {
   const toml::table table = read_toml(file);
-  return read_scene(Table(table, file.string(), ""), file);
+  return read_scene(Table(table, file.string(), ""), file, presets);
+}
+
+std::vector<Material> load_presets(const std::filesystem::path& file) {
+  const toml::table table = read_toml(file);
+  Table root(table, file.string(), "");
+  std::vector<Material> presets = read_materials(root, {});
+  root.close();
+  return presets;
 }
 
 }  // namespace softbody

@@ -32,6 +32,12 @@ class BackgroundWorker {
     return !busy_ && !waiting_ && Clock::now() >= answered_ + rests * took_;
   }
 
+  /// Returns true if a question waits, is being answered, or was answered and take() has not been called since.
+  bool has_work() const {
+    const std::scoped_lock lock(mutex_);
+    return busy_ || waiting_ || done_;
+  }
+
   /// Takes the question; drops it if another one waits or is being answered. Does not wait for an answer.
   void offer(Question question) {
     {

@@ -11,12 +11,25 @@
 
 namespace app {
 
-/// Returns the processor time of this thread (s).
-inline double thread_seconds() {
+/// Returns what a clock shows (s).
+inline double clock_seconds(clockid_t clock) {
   timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  clock_gettime(clock, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
+/// Returns the processor time (s) of this thread, or of all threads together.
+inline double thread_seconds() { return clock_seconds(CLOCK_THREAD_CPUTIME_ID); }
+inline double process_seconds() { return clock_seconds(CLOCK_PROCESS_CPUTIME_ID); }
+
+/// What was timed, summed over all of it.
+struct TimedParts {
+  double wall = 0, processor = 0;  // s
+  TimedParts& operator+=(const TimedParts& other) {
+    wall += other.wall;
+    processor += other.processor;
+    return *this;
+  }
+};
 
 /// Runs an action and returns its duration (ms).
 template <class Action>

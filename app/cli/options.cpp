@@ -1,6 +1,7 @@
 #include "app/cli/options.h"
 
 #include <algorithm>
+#include <cmath>
 #include <thread>
 
 #include <fmt/core.h>
@@ -107,6 +108,9 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate->add_option("--dt", options.frame_time, "length of a frame in seconds (default 1/60)")->type_name("SECONDS");
   simulate->add_option("--capture", captures, "frames to write as pictures, e.g. 100,400,600,800")
       ->type_name("N,N,...");
+  simulate
+      ->add_option("--animation", options.animation, "animated image of the run in real time; a name ending in .webp")
+      ->type_name("FILE");
   simulate->add_option("--size", size, "size of the pictures in pixels (default 1280x720)")->type_name("WxH");
   simulate
       ->add_option("--obj-every", options.obj_every, "write the bodies of every Nth frame as an OBJ file, for `detect`")
@@ -115,8 +119,12 @@ CLI::App* add_simulate(CLI::App& cli, Options& options, std::string& size, std::
   simulate->add_option("--out", options.out, "folder for pictures and OBJ files (default: the current one)")
       ->type_name("DIR");
   CLI::Option* json = simulate->add_flag("--json", options.json, "print one JSON document instead of a table");
-  simulate->add_flag("--oracle", options.oracle, "with --json: what overlaps and passes through in each frame; slow")
-      ->needs(json);
+  simulate
+      ->add_flag("--json-lines", options.json_lines,
+                 "print a line of JSON for each frame as soon as it is simulated, and one at the end with the rest")
+      ->excludes(json);
+  simulate->add_flag("--oracle", options.oracle,
+                     "with --json or --json-lines: what overlaps and passes through in each frame; slow");
   return simulate;
 }
 
@@ -178,6 +186,22 @@ void refuse_values_of_flags(CLI::App& command) {
   for (CLI::App* below : command.get_subcommands({})) refuse_values_of_flags(*below);
 }
 
+/// Throws UsageError if the animation cannot be written.
+void check_animation(const Options& options) {
+  constexpr int max_pictures = 10'000;  // bounds the memory that they take until the file is written
+  constexpr int max_side = 16'383;      // a limit of WebP
+  const std::string animation = "--animation " + options.animation->string();
+  if (options.animation->extension() != ".webp")
+    throw UsageError(animation + ": the name must end in .webp; no other kind of animation is written");
+  if (std::max(options.width, options.height) > max_side)
+    throw UsageError(animation + ": must be at most " + std::to_string(max_side) +
+                     " pixels wide and high; use a smaller --size");
+  const int stride = frames_per_picture(options.frame_time);
+  if ((options.frames - 1) / stride >= max_pictures)
+    throw UsageError(animation + ": would have more than " + std::to_string(max_pictures) + " pictures; use --frames " +
+                     std::to_string(max_pictures * stride) + " or fewer");
+}
+
 void check(const Options& options) {
   if (!softbody::find_integrator(options.integrator.key))
     throw UsageError("--integrator " + options.integrator.key +
@@ -190,6 +214,9 @@ void check(const Options& options) {
   if (options.obj_every && *options.obj_every > options.frames)
     throw UsageError("--obj-every " + std::to_string(*options.obj_every) + ": lies beyond --frames " +
                      std::to_string(options.frames) + ", so that no file would be written");
+  if (options.oracle && !options.json && !options.json_lines)
+    throw UsageError("--oracle: only --json and --json-lines print what it sees; add one of them");
+  if (options.animation) check_animation(options);
 }
 
 /// Throws UsageError unless a scene file may have this length: a saved scene must be readable again.
@@ -200,6 +227,11 @@ void require_length(const std::string& option, float metres, double most) {
 }
 
 }  // namespace
+
+int frames_per_picture(double frame_time) {
+  const double frames = 1 / (30 * frame_time);
+  return std::max(1, static_cast<int>(std::ceil(frames - 0.01)));  // 0.0166667 is meant as 1/60
+}
 
 std::optional<Options> parse_options(int argc, const char* const* argv) {
   Options options;

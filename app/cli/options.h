@@ -42,13 +42,19 @@ struct Options {
   bool size_given = false;          // the window opens in this size, not in that of the last run
   std::vector<std::string> meshes;  // OBJ files to open in the window
   int frames = 800;
-  std::vector<int> captures;     // frames to take pictures of, ascending
-  std::optional<int> obj_every;  // write the bodies of every so many frames as OBJ files
+  std::vector<int> captures;                       // frames to take pictures of, ascending
+  std::optional<std::filesystem::path> animation;  // the animated image to write
+  std::optional<int> obj_every;                    // write the bodies of every so many frames as OBJ files
   std::filesystem::path out = ".";
   bool json = false;
-  bool oracle = false;  // `simulate --json`: add the surface oracle's figures of each frame
-  std::string list_of;  // "scenes", "methods", "integrators" or "contact-surfaces"
+  bool json_lines = false;  // `simulate`: a line of JSON for each frame, and one at the end
+  bool oracle = false;      // `simulate` with JSON: add the surface oracle's figures of each frame
+  std::string list_of;      // "scenes", "methods", "integrators" or "contact-surfaces"
 };
+
+/// Returns how many frames of this length (s) each picture of an animation stands for: the fewest that last 1/30 s, so
+/// that the animation runs in real time.
+int frames_per_picture(double frame_time);
 
 /// Returns the options; nothing if help or the version was asked for and has been printed. Throws UsageError.
 std::optional<Options> parse_options(int argc, const char* const* argv);

@@ -7,10 +7,12 @@
 #include <cstdlib>
 #include <iostream>
 #include <set>
+#include <utility>
 
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
+#include "app/base/streams.h"
 #include "app/compare/world_oracle.h"
 #include "app/files/inputs.h"
 #include "app/files/obj_writer.h"
@@ -18,6 +20,7 @@
 #include "app/files/scene_folder.h"
 #include "softbody/measures.h"
 #if SBCOLLIDE_GRAPHICS
+#include "app/render/animation.h"
 #include "app/render/capture.h"
 #endif
 
@@ -64,6 +67,11 @@ Json to_json(const FrameRow& r) {
            {"ms", {{"detect", r.step.detect_ms}, {"solve", r.step.solve_ms}, {"total", r.step.total_ms}}},
            {"contacts", {{"bodies", r.bodies}, {"self", r.self}, {"solid", r.solid}}},
            {"energy", m.energy},
+           {"energies",
+            {{"kinetic", m.energies.kinetic},
+             {"elastic", m.energies.elastic},
+             {"gas", m.energies.gas},
+             {"gravity", m.energies.gravity}}},
            {"volume_ratio", {{"min", ratio(m.volume_ratio_min)}, {"max", ratio(m.volume_ratio_max)}}},
            {"deepest_penetration", m.deepest_penetration},
            {"max_speed", m.max_speed},
@@ -89,17 +97,28 @@ Json to_json_integrator(const softbody::World& world) {
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
+/// Returns the document of a world after its last frame; without frames what it has beside them.
+Json to_json(const softbody::World& world, std::optional<Json> frames) {
+  Json document{{"scene", world.scene().key},
+                {"method", world.method().key},
+                {"integrator", to_json_integrator(world)},
+                {"plan", to_json(world.plan())},
+                {"warnings", warnings(world.method(), world.collision())}};
+  if (frames) document["frames"] = std::move(*frames);
+  document["state_hash"] = hex(world.state_hash());
+  return document;
+}
+
+/// Prints a line that a reader gets at once. Throws UsageError.
+void print_line(const Json& object) {
+  std::cout << object.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  flush_standard_output();
+}
+
 void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
   for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  const Json document{{"scene", world.scene().key},
-                      {"method", world.method().key},
-                      {"integrator", to_json_integrator(world)},
-                      {"plan", to_json(world.plan())},
-                      {"warnings", warnings(world.method(), world.collision())},
-                      {"frames", frames},
-                      {"state_hash", hex(world.state_hash())}};
-  std::cout << document.dump(-1, ' ', false, Json::error_handler_t::replace) << '\n';
+  print_line(to_json(world, std::move(frames)));
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
@@ -138,35 +157,57 @@ std::filesystem::path result_file(const Options& options, const char* prefix, in
   return options.out / fmt::format("{}_{:04}{}", prefix, frame, ending);
 }
 
-/// Writes the requested pictures. Without graphics the constructor throws before anything runs.
+#if SBCOLLIDE_GRAPHICS
+/// Writes the requested pictures and the animation.
 class Pictures {
  public:
   explicit Pictures(const Options& options) : options_(options) {
-    if (options.captures.empty()) return;
-#if SBCOLLIDE_GRAPHICS
+    if (options.captures.empty() && !options.animation) return;
     capture_ = std::make_unique<render::Capture>(options.width,
                                                  options.height);  // first: without OpenGL no folder should be made
-    files::prepare_folder(options.out);
-    for (const int frame : options.captures) files::require_no_input(picture(frame));
-#else
-    throw UsageError("--capture: this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
-#endif
+    if (!options.captures.empty()) files::prepare_folder(options.out);
+    for (const int frame : options.captures) files::require_no_input(picture_file(frame));
+    if (options.animation) animation_.emplace(*options.animation);
   }
   void take(const softbody::World& world) {
-    if (!std::binary_search(options_.captures.begin(), options_.captures.end(), world.frame())) return;
-#if SBCOLLIDE_GRAPHICS
-    capture_->write(world, picture(world.frame()));
-#endif
+    const int frame = world.frame();
+    const bool captured = std::binary_search(options_.captures.begin(), options_.captures.end(), frame);
+    const bool animated = animation_ && (frame - 1) % stride_ == 0;
+    if (!captured && !animated) return;
+    engine::Image picture = capture_->draw(world);
+    if (captured) files::write_file(picture_file(frame), engine::encode_png(picture));
+    if (animated) animation_->add(std::move(picture), start_of(frame));
+  }
+  /// Writes the animation of the whole run.
+  void finish() {
+    const int pictures = (options_.frames - 1) / stride_ + 1;
+    if (animation_) animation_->write(start_of(1 + pictures * stride_));
   }
 
  private:
-  const Options& options_;
-#if SBCOLLIDE_GRAPHICS
-  std::filesystem::path picture(int frame) const { return result_file(options_, "frame", frame, ".png"); }
+  std::filesystem::path picture_file(int frame) const { return result_file(options_, "frame", frame, ".png"); }
+  /// Returns the time (s) at which the animation shows that frame: frame 1 at 0.
+  double start_of(int frame) const { return (frame - 1) * options_.frame_time; }
 
+  const Options& options_;
+  int stride_ = frames_per_picture(options_.frame_time);
   std::unique_ptr<render::Capture> capture_;
-#endif
+  std::optional<render::Animation> animation_;
 };
+#else
+/// Refuses pictures before anything runs.
+class Pictures {
+ public:
+  explicit Pictures(const Options& options) {
+    for (const auto& [option, requested] :
+         {std::pair("--capture", !options.captures.empty()), std::pair("--animation", options.animation.has_value())})
+      if (requested)
+        throw UsageError(std::string(option) + ": this build has no graphics; configure with -DSBCOLLIDE_GRAPHICS=ON");
+  }
+  void take(const softbody::World&) {}
+  void finish() {}
+};
+#endif
 
 /// Writes the bodies of every Nth frame, and at rest whenever the bodies have changed.
 class ObjSequence {
@@ -223,6 +264,7 @@ void print_remarks(const softbody::Scene& scene) {
 void simulate(const Options& options) {
   softbody::Scene scene = load_scene(options);
   files::protect_input(softbody::scene_path(options.scene, files::scene_folder()));
+  files::protect_input(softbody::presets_path(files::scene_folder()));
   files::protect_inputs(scene);
   softbody::World world(
       std::move(scene),
@@ -230,23 +272,31 @@ void simulate(const Options& options) {
   Pictures pictures(options);
   ObjSequence obj_sequence(options);
   print_remarks(world.scene());
-  const bool progress = isatty(STDERR_FILENO) != 0;
+  // Where the lines of frames go to a terminal, they show the progress themselves.
+  const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);
   if (options.oracle) oracle.crossings(world);  // keeps the start positions of the first frame
   std::vector<FrameRow> rows;
-  rows.reserve(static_cast<std::size_t>(options.frames));
+  if (!options.json_lines) rows.reserve(static_cast<std::size_t>(options.frames));
   while (world.frame() < options.frames) {
     world.step();
-    rows.push_back(measure_row(world));
+    FrameRow row = measure_row(world);
     if (options.oracle)
-      rows.back().oracle =
-          collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
+      row.oracle = collide::oracle::figures_of(world.positions(), oracle.overlaps(world), oracle.crossings(world));
     pictures.take(world);
     obj_sequence.take(world);
-    if (progress && world.frame() % 10 == 0) std::fprintf(stderr, "\rframe %d of %d", world.frame(), options.frames);
+    if (options.json_lines)
+      print_line(to_json(row));
+    else
+      rows.push_back(std::move(row));
+    if (progress && world.frame() % 10 == 0)
+      show_progress(fmt::format("frame {} of {}", world.frame(), options.frames));
   }
-  if (progress) std::fprintf(stderr, "\r%40s\r", "");
-  if (options.json)
+  pictures.finish();
+  if (progress) clear_progress();
+  if (options.json_lines)
+    print_line(to_json(world, {}));
+  else if (options.json)
     print_json(world, rows);
   else
     print_table(world, rows);

@@ -5,8 +5,9 @@
 
 namespace app::cli {
 
-/// Prints the figures as a table or as JSON, and writes pictures and OBJ files on request. Throws UsageError,
-/// SceneError, or what Capture throws. Calls OpenGL only if pictures are requested.
+/// Prints the figures as a table, as one JSON document or as lines of JSON, and writes pictures, an animation and OBJ
+/// files on request. Throws UsageError, SceneError, or what Capture throws. Calls OpenGL only if pictures are
+/// requested.
 void simulate(const Options& options);
 
 }  // namespace app::cli

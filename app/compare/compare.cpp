@@ -30,12 +30,16 @@ std::size_t method_index(std::string_view key) {
   return static_cast<std::size_t>(method - collide::method_table().data());
 }
 
-Comparison::Comparison(std::uint32_t seed, std::uint64_t budget)
-    : budget_(budget), random_(seed), entries_(collide::method_table().size()) {
+Comparison::Comparison(std::uint32_t seed, std::uint64_t budget) : budget_(budget), random_(seed) { make_detectors(); }
+
+/// In place of those before, which may hold much memory.
+void Comparison::make_detectors() {
+  entries_ = std::vector<Entry>(collide::method_table().size());
   for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::method_table()[i].make();
 }
 
 CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_token& stop) {
+  if (std::exchange(world_, snapshot.world) != snapshot.world) make_detectors();
   CompareReport report;
   report.id = snapshot.id;
   report.frame = snapshot.frame_number;

@@ -55,7 +55,7 @@ struct CompareReport {
   std::vector<CompareRow> rows;    // by method
 };
 
-/// Runs the methods one after another. Each has a detector of its own, which is kept from frame to frame.
+/// Runs the methods one after another. Each has a detector of its own, which is kept from frame to frame of a world.
 class Comparison {
  public:
   /// The pair tests that one method may take on one frame: about a second on one core.
@@ -77,6 +77,7 @@ class Comparison {
     std::string error;
   };
 
+  void make_detectors();
   std::vector<std::size_t> choose(const FrameSnapshot& snapshot, CompareReport& report);
   void detect(std::size_t method, const FrameSnapshot& snapshot);
   std::optional<std::size_t> find_reference(const FrameSnapshot& snapshot, std::string& reference_note) const;
@@ -85,6 +86,7 @@ class Comparison {
   std::uint64_t budget_;
   std::mt19937 random_;
   std::vector<Entry> entries_;  // by method
+  std::uint64_t world_ = 0;     // of the last frame
   CostModel cost_model_;
   collide::Workers alone_{1};
 };

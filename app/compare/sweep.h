@@ -52,6 +52,7 @@ struct SweepReport {
   std::string reference_note;              // why the reference is not brute force, or is missing; else empty
   std::size_t true_contacts = 0;
   std::vector<SweepRow> rows;  // by configuration
+  TimedParts timed;            // the timed runs, with the processor time of the whole program
 };
 
 struct SweepLimits {

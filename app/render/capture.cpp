@@ -1,6 +1,5 @@
 #include "app/render/capture.h"
 
-#include "app/files/output_file.h"
 #include "app/render/scene_view.h"
 #include "engine/gl.h"
 #include "engine/headless.h"
@@ -21,11 +20,11 @@ Capture::Capture(int width, int height)
 
 Capture::~Capture() = default;
 
-void Capture::write(const softbody::World& world, const std::filesystem::path& file) {
+engine::Image Capture::draw(const softbody::World& world) {
   const glm::ivec2 size = offscreen_->target.size();
   offscreen_->target.bind();
   offscreen_->view.draw(world, {}, offscreen_->view.camera(world.scene(), size), {{0, 0}, size}, 1.0f);
-  files::write_file(file, engine::encode_png(offscreen_->target.read()));
+  return offscreen_->target.read();
 }
 
 }  // namespace app::render

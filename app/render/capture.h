@@ -1,9 +1,9 @@
 #pragma once
 // Draws pictures of a world without a window.
 
-#include <filesystem>
 #include <memory>
 
+#include "engine/image.h"
 #include "softbody/world.h"
 
 namespace app::render {
@@ -14,8 +14,8 @@ class Capture {
   Capture(int width, int height);
   ~Capture();
 
-  /// Writes a PNG of exactly that size, seen by the scene's own camera. Throws UsageError.
-  void write(const softbody::World& world, const std::filesystem::path& file);
+  /// Returns a picture of exactly that size, seen by the scene's own camera.
+  engine::Image draw(const softbody::World& world);
 
  private:
   struct Offscreen;

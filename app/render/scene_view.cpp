@@ -120,6 +120,10 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
   // The colours of overlays have meanings, so the bodies are dimmed.
   const bool dimmed = overlays.shown.any() || overlays.bucket;
   positions_.clear();
+  if (positions_.capacity() > 8 * positions.size()) {  // of a world that was left
+    positions_ = {};
+    normals_ = {};
+  }
   gather_positions(positions);
   frame_.meshes = gather_bodies(world, 0);
   for (softbody::BodyId b = 0; b < frame_.meshes.size(); ++b) {

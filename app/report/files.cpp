@@ -1,10 +1,12 @@
 #include "app/report/files.h"
 
-#include <unistd.h>
-
 #include <atomic>
 #include <cstdio>
+#include <iostream>
 
+#include <fmt/core.h>
+
+#include "app/base/streams.h"
 #include "app/files/inputs.h"
 #include "app/files/output_file.h"
 #include "app/files/scene_folder.h"
@@ -18,10 +20,12 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
   std::vector<std::pair<std::string, std::string>> pictures;
   try {
     for (const Plot& plot : plots) {
+      say("plot " + plot.name, static_cast<double>(pictures.size() / 2) / static_cast<double>(plots.size()));
       pictures.emplace_back(plot.name + ".svg", draw(script(plot), Picture::svg));
       pictures.emplace_back(plot.name + ".png", draw(script(plot), Picture::png));
     }
   } catch (const std::runtime_error& error) {
+    clear_progress();
     std::fprintf(stderr, "sbcollide: the plots are left out: %s\n", error.what());
     pictures.clear();
   }
@@ -31,7 +35,7 @@ std::vector<std::pair<std::string, std::string>> draw_all(const std::vector<Plot
 }  // namespace
 
 void say(const std::string& what, double progress) {
-  if (isatty(STDERR_FILENO)) std::fprintf(stderr, "\r%-50s %3.0f %%", what.c_str(), 100 * progress);
+  show_progress(fmt::format("{:<50} {:3.0f} %", what, 100 * progress));
 }
 
 void run_in_parallel(collide::Workers& workers, std::size_t count, const std::function<std::string(std::size_t)>& what,
@@ -49,6 +53,7 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options) {
   const auto scene_named = [](const std::string& name) {
     softbody::Scene scene = softbody::find_scene(name, files::scene_folder());
     files::protect_input(softbody::scene_path(name, files::scene_folder()));
+    files::protect_input(softbody::presets_path(files::scene_folder()));
     files::protect_inputs(scene);
     return scene;
   };
@@ -68,15 +73,15 @@ std::string command_of(const ReportOptions& o) {
 
 void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
                   std::string_view page_name, const Page& page) {
-  const bool is_terminal = isatty(STDERR_FILENO) != 0;
-  if (is_terminal) std::fprintf(stderr, "\r%60s\r", "");
   auto files = draw_all(page.plots());
+  clear_progress();
   const std::string text = page.markdown(!files.empty());
   files.emplace(files.begin(), csv_name, figures.csv());
   files.emplace_back(page_name, text);
   for (const auto& [name, bytes] : files) files::require_no_input(folder / name);
   for (const auto& [name, bytes] : files) files::write_file(folder / name, bytes);
-  if (is_terminal) std::fprintf(stderr, "written: %s\n", (folder / page_name).c_str());
+  for (const auto& [name, bytes] : files) std::cout << (folder / name).string() << '\n';
+  for (const std::string& warning : page.warnings()) std::fprintf(stderr, "sbcollide: %s\n", warning.c_str());
 }
 
 }  // namespace app::report

@@ -13,7 +13,7 @@
 
 namespace app::report {
 
-/// Shows in the last line of a terminal what is going on. `progress`: from 0 to 1.
+/// Shows what is going on, and how much of it is done. `progress`: from 0 to 1.
 void say(const std::string& what, double progress);
 
 /// Calls `task(i)` for each i below `count`, on all workers side by side, and shows `what(i)` meanwhile.
@@ -26,8 +26,8 @@ std::vector<softbody::Scene> chosen_scenes(const ReportOptions& options);
 /// Returns the command that makes the report again.
 std::string command_of(const ReportOptions& options);
 
-/// Writes the figures, the page and its plots into a folder that exists, and tells a terminal where they are. Without
-/// gnuplot it leaves out the plots and says so.
+/// Writes the figures, the page and its plots into a folder that exists, and prints the path of each file. The page's
+/// warnings go to standard error. Without gnuplot it leaves out the plots and says so there, too.
 void write_report(const std::filesystem::path& folder, std::string_view csv_name, const Table& figures,
                   std::string_view page_name, const Page& page);
 

@@ -2,6 +2,19 @@
 
 namespace app::report {
 
+std::string warn_of_busy_machine(const TimedParts& timed) {
+  constexpr double min_share = 0.9;  // of a core; waits of a few percent are in any long run
+  if (!(timed.processor < min_share * timed.wall)) return {};
+  return fmt::format("Times may be off: the program got only {:.0f} % of a core while they were taken.",
+                     100 * timed.processor / timed.wall);
+}
+
+void Page::warn(const std::string& text) {
+  if (text.empty()) return;
+  parts_.push_back(text + "\n");
+  warnings_.push_back(text);
+}
+
 void Page::plot(Plot plot) {
   if (plot.series.empty()) return;
   plots_.push_back(std::move(plot));

@@ -87,13 +87,12 @@ void BodyControls::select(std::optional<BodyId> body) {
 
 void BodyControls::remove_selected() {
   if (!selected_) return simulation_.notice.set("click a body first, then delete it");
-  const bool removed = simulation_.change_bodies([body = *selected_](World& world) {
+  simulation_.change_bodies([body = *selected_](World& world) {
     world.grab({});
     world.remove(body);
     return true;
   });
   selected_.reset();
-  if (removed) simulation_.renumber();
 }
 
 void BodyControls::grab(const softbody::Grab& grab) {

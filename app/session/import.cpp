@@ -62,8 +62,8 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
       read.prototype = softbody::shared_prototype(read.mesh, imported_material(read.mesh.imported->findings.extent));
       return read;
     }
-    const auto& [path, threads] = std::get<SceneToRead>(question);
-    softbody::Scene scene = softbody::load_scene(path);
+    const auto& [path, threads, presets] = std::get<SceneToRead>(question);
+    softbody::Scene scene = softbody::load_scene(path, presets);
     auto world = std::make_unique<softbody::World>(
         scene, softbody::World::Options{.threads = threads, .max_work = softbody::work_of_a_window});
     return World{path, std::move(scene), std::move(world)};
@@ -126,7 +126,8 @@ void Import::load(Session& session) {
 
 void Import::open(Session& session) {
   const std::filesystem::path file(path);
-  if (file.extension() == ".toml") return read(FileReader::SceneToRead{file, session.simulation.threads()});
+  if (file.extension() == ".toml")
+    return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");

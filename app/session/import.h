@@ -18,6 +18,7 @@ struct FileReader {
   struct SceneToRead {
     std::filesystem::path path;
     int threads;  // of its world
+    std::filesystem::path presets;
   };
   struct Mesh {
     softbody::MeshSource mesh;

@@ -18,11 +18,24 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
   return list;
 }
 
+/// Returns none if the file is missing or damaged: a scene that names one says why.
+std::vector<softbody::Material> list_presets(const std::filesystem::path& file) {
+  try {
+    return softbody::load_presets(file);
+  } catch (const softbody::SceneError&) {
+    return {};
+  }
+}
+
 }  // namespace
 
 SceneControls::SceneControls(Simulation& simulation, std::filesystem::path folder)
-    : simulation_(simulation), folder_(std::move(folder)), choices_(list_scenes(folder_)) {
+    : simulation_(simulation),
+      folder_(std::move(folder)),
+      choices_(list_scenes(folder_)),
+      presets_(list_presets(presets_file())) {
   files::protect_inputs(simulation_.loaded.scene);
+  files::protect_input(presets_file());
 }
 
 void SceneControls::choose(const std::string& key_or_path) {

@@ -17,6 +17,10 @@ class SceneControls {
   SceneControls(Simulation& simulation, std::filesystem::path folder);
 
   const std::vector<SceneChoice>& choices() const { return choices_; }
+  /// Materials to choose from.
+  const std::vector<softbody::Material>& presets() const { return presets_; }
+  /// Their file.
+  std::filesystem::path presets_file() const { return softbody::presets_path(folder_); }
   /// Loads another scene with its own settings. On an error the present one stays, and the notice says why.
   void choose(const std::string& key_or_path);
   /// The same with a world of that scene, made elsewhere with the simulation's threads(). Throws UsageError or
@@ -32,6 +36,7 @@ class SceneControls {
   Simulation& simulation_;
   std::filesystem::path folder_;
   std::vector<SceneChoice> choices_;
+  std::vector<softbody::Material> presets_;
 };
 
 }  // namespace app::session

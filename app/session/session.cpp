@@ -1,5 +1,7 @@
 #include "app/session/session.h"
 
+#include "app/base/freed_memory.h"
+
 namespace app::session {
 
 Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folder, int threads, std::string scene_name)
@@ -12,8 +14,22 @@ Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folde
 }
 
 void Session::advance(double elapsed) {
-  simulation.advance(elapsed);
+  simulation.advance(elapsed, stands_still());
   exchange();
+}
+
+void Session::wait(double elapsed) {
+  simulation.wait(elapsed);
+  exchange();
+}
+
+bool Session::stands_still() const {
+  if (simulation.clock.paused) return simulation.clock.stands_still();
+  return simulation.has_come_to_rest() && (!ghost_.get() || ghost_.get()->at_rest());
+}
+
+bool Session::awaits_answer() const {
+  return comparison.awaits_report(simulation.revision()) || surfaces.awaits_report(simulation.revision());
 }
 
 void Session::advance_one(double elapsed, bool allowed) {
@@ -27,6 +43,11 @@ void Session::exchange() {
   const int rests = simulation.history().frame_ms.median(15) > late_ms ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step(), simulation.revision(), rests);
+  // With its first report of another world the comparison has let go of the one before; all others did so earlier.
+  if (has_left_world_ && comparison.report().id != 0) {
+    return_freed_memory();
+    has_left_world_ = false;
+  }
 }
 
 double Session::stepped() {
@@ -42,6 +63,7 @@ void Session::detection_changed() {
 }
 
 void Session::replaced(bool new_scene) {
+  has_left_world_ |= new_scene;
   bodies.replaced(new_scene);
   inspector.replaced(new_scene);
   comparison.restart(world(), simulation.revision());

@@ -37,6 +37,14 @@ class Session : private SimulationObserver {
   /// The same for recordings: one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
 
+  /// Returns true if advance() would take no step: the world is paused, or has been at rest for so long that all curves
+  /// show it, and no sentence is still to come.
+  bool stands_still() const;
+  /// Lets time pass in which the world stands still and nothing is drawn.
+  void wait(double elapsed);
+  /// Returns true if those who look at the world may have an answer soon, though it stands still.
+  bool awaits_answer() const;
+
   /// A second world that goes on from the present state by another integrator. It begins anew whenever hands or
   /// settings change the one that is shown. Nothing: there is none.
   void choose_ghost(const std::optional<softbody::IntegratorChoice>& choice);
@@ -52,6 +60,7 @@ class Session : private SimulationObserver {
   void notify(std::string problem);
 
   LiveGhost ghost_;
+  bool has_left_world_ = false;  // whose memory is not yet given back
 };
 
 }  // namespace app::session

@@ -30,9 +30,9 @@ void Simulation::begin_advance(double elapsed) {
   history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
 }
 
-void Simulation::advance(double elapsed) {
+void Simulation::advance(double elapsed, bool stands_still) {
   begin_advance(elapsed);
-  clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
+  if (!stands_still) clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
@@ -51,12 +51,19 @@ SimulationClock::Step Simulation::step() {
   stability_.after_step(*world_, pause_on_blow_up);
   if (stability_.blow_up() && !had_blown_up) clock.paused = true;
   if (!stepped || !was_at_rest || !world_->all_at_rest()) ++revision_;
+  rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
   const softbody::StepReport& report = world_->last_step();
   step_ms_ = report.total_ms + observer_.stepped();
   history_.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
   history_.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
   history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
   return {report.seconds, step_ms_};
+}
+
+bool Simulation::has_come_to_rest() const {
+  if (last_revision_ != revision_ || rest_steps_ < TimeSeries::capacity) return false;
+  const auto is_past = [this](const softbody::Caption& caption) { return caption.frame <= world_->frame(); };
+  return world_->all_at_rest() && (!as_scripted_ || std::ranges::all_of(world_->scene().captions, is_past));
 }
 
 float Simulation::between() const {
@@ -116,10 +123,12 @@ bool Simulation::change(const std::function<void(World&)>& change) {
 
 bool Simulation::change_bodies(const std::function<bool(World&)>& change) {
   leave_script();
-  Past before = present();
+  PastWorld before = present();
   bool changed = false;
+  const std::size_t bodies = world_->bodies().count();
   this->change([&](World& world) { changed = change(world); });
-  if (changed) remember(std::move(before));
+  if (changed) past_.push(std::move(before));
+  if (world_->bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
 
@@ -139,21 +148,17 @@ void Simulation::replace(bool new_scene) {
   observer_.replaced(new_scene);
 }
 
-void Simulation::remember(Past past) {
-  if (past_.size() == max_past) past_.erase(past_.begin());
-  past_.push_back(std::move(past));
-}
-
 /// Without the hand that may hold a body: after an undo nobody would let go.
-Simulation::Past Simulation::present() const {
+PastWorld Simulation::present() const {
   softbody::Snapshot now = world_->snapshot();
   now.grab.reset();
-  return {nullptr, std::move(now), loaded};
+  return {std::move(now), loaded};
 }
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
   world_ = std::move(world);
   step_ms_ = world_->last_step().total_ms;
+  before_last_step_ = {};  // may hold the memory of many bodies
   as_scripted_ = true;
   history_ = {};
   notice.clear();
@@ -162,8 +167,10 @@ void Simulation::leave_for(std::unique_ptr<World> world) {
 }
 
 void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene) {
-  world_->grab({});
-  remember({std::move(world_), {}, std::exchange(loaded, std::move(scene))});
+  PastWorld before = present();
+  before.left = true;
+  past_.push(std::move(before));
+  loaded = std::move(scene);
   leave_for(std::move(world));
 }
 
@@ -190,16 +197,23 @@ void Simulation::reset() {
 
 void Simulation::undo() {
   if (past_.empty()) return;
-  Past past = std::move(past_.back());
-  past_.pop_back();
-  if (past.world) {
-    loaded = std::move(past.loaded);
-    return leave_for(std::move(past.world));
+  PastWorld& last = past_.last();
+  if (last.left) {
+    attempt([&] {
+      auto world = make_world({}, {});
+      world->restore(last.snapshot);
+      loaded = std::move(last.loaded);
+      leave_for(std::move(world));
+      past_.pop();
+    });
+    return;
   }
+  PastWorld past = std::move(last);
+  past_.pop();
   // Later worlds are gone again, so this one is the snapshot's. The solids in use stay.
   past.loaded.solids = std::move(loaded.solids);
   loaded = std::move(past.loaded);
-  restore(*past.snapshot);
+  restore(past.snapshot);
   after_going_back();
 }
 

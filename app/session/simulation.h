@@ -10,11 +10,9 @@
 #include "app/base/time_series.h"
 #include "app/compare/drawn_positions.h"
 #include "app/session/notice.h"
-#include "app/session/scene_file.h"
 #include "app/session/simulation_clock.h"
-#include "app/session/solid_list.h"
 #include "app/session/stability/stability_monitor.h"
-#include "softbody/snapshot.h"
+#include "app/session/undo_history.h"
 
 namespace app::session {
 
@@ -30,13 +28,6 @@ class SimulationObserver {
   virtual void detection_changed() {}
   /// The world is another one, or went back, or its bodies have other ids. `new_scene`: it begins at its start.
   virtual void replaced([[maybe_unused]] bool new_scene) {}
-};
-
-/// The scene as it was loaded, with the materials that added bodies brought.
-struct LoadedScene {
-  softbody::Scene scene;
-  SceneFile file;    // where the scene came from, or was saved to last
-  SolidList solids;  // in use, also those that are switched off
 };
 
 /// Frame by frame, against the frame of the world.
@@ -64,8 +55,11 @@ class Simulation {
   int threads() const { return threads_; }
 
   // Time. The world moves in whole frames.
-  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed.
-  void advance(double elapsed);
+  /// Takes the steps that are due, now that `elapsed` seconds of real time have passed; none if the world
+  /// `stands_still`.
+  void advance(double elapsed, bool stands_still = false);
+  /// In place of advance() while no pictures are drawn: the world stands still.
+  void wait(double elapsed) { notice.age(elapsed); }
   /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.
@@ -81,6 +75,9 @@ class Simulation {
   const StepHistory& history() const { return history_; }
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
+  /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
+  /// as curves last, and no caption is still to come.
+  bool has_come_to_rest() const;
   /// Another number after each SimulationObserver::replaced().
   std::uint64_t world_number() const { return world_number_; }
 
@@ -94,8 +91,6 @@ class Simulation {
   /// Move or release the body that the hand holds; each step counts a held body as a change.
   void pull_to(const glm::dvec3& target);  // m
   void release() { world_->grab({}); }
-  /// To be called after a change that gives bodies other ids, as deleting one does.
-  void renumber() { replace(false); }
   /// A world with threads() and the work limits of a window. Throws SceneError.
   std::unique_ptr<softbody::World> make_world(const softbody::Scene& scene,
                                               const softbody::IntegratorChoice& integrator) const;
@@ -108,25 +103,17 @@ class Simulation {
 
   /// The last few worlds before a reset, a choice of scene or a change of bodies, to the bit.
   bool can_undo() const { return !past_.empty(); }
+  /// Stays where it is, with a notice, if there is too little memory for the world of then.
   void undo();
   const StabilityMonitor& stability() const { return stability_; }
   /// Goes back to the last snapshot of stability().past() that is not after `frame`, and pauses. Settings stay.
   void rewind_to(int frame);
 
  private:
-  /// A world that was left, or the present one as it was; and its scene.
-  struct Past {
-    std::unique_ptr<softbody::World> world;
-    std::optional<softbody::Snapshot> snapshot;
-    LoadedScene loaded;
-  };
-  static constexpr std::size_t max_past = 8;
-
   bool attempt(const std::function<void()>& action);
   void intervened();
   void replace(bool new_scene);
-  void remember(Past past);
-  Past present() const;
+  PastWorld present() const;
   void leave_for(std::unique_ptr<softbody::World> world);
   void restore(const softbody::Snapshot& snapshot);
   void keep_settings(const softbody::Scene& in_use);
@@ -138,13 +125,15 @@ class Simulation {
   SimulationObserver& observer_;
   int threads_;
   std::unique_ptr<softbody::World> world_;
-  std::vector<Past> past_;  // the latest last
+  UndoHistory past_;
   bool as_scripted_ = true;
   compare::Positions before_last_step_;
   double step_ms_ = 0;
   StepHistory history_;
   StabilityMonitor stability_;
   std::uint64_t revision_ = 1, world_number_ = 0;
+  std::uint64_t last_revision_ = 0;  // after the last step
+  std::size_t rest_steps_ = 0;       // without another revision
 };
 
 }  // namespace app::session

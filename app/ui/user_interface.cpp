@@ -1,5 +1,7 @@
 #include "app/ui/user_interface.h"
 
+#include <algorithm>
+
 #include "app/ui/help.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/sidebar.h"
@@ -28,6 +30,13 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   if (ui.help) draw_help(widgets, layout_.scene, ui.help);
   session.surfaces.on = ui.overlays.true_surfaces;
   ui.popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+}
+
+double UserInterface::seconds_to_change(const UiState& ui, double seconds) const {
+  double next = seconds_to_hint_change(seconds);
+  for (const double copied : ui.copied)
+    if (const double left = copied + UiState::copied_seconds - ImGui::GetTime(); left >= 0) next = std::min(next, left);
+  return next;
 }
 
 void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds) {

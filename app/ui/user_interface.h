@@ -12,6 +12,11 @@ class UserInterface {
   /// Draws one frame. Call it between begin_frame() and end_frame() of the Gui. `seconds`: since the window opened.
   void draw(Session& session, UiState& ui, float scale, double seconds, WidgetRecorder* recorder = nullptr);
 
+  /// Returns the seconds until the interface changes by itself; infinity if it does not.
+  double seconds_to_change(const UiState& ui, double seconds) const;
+  /// Returns true while a sweep shows its progress.
+  bool shows_sweep(const UiState& ui) const { return ui.sweep && sweep_view_.state().running; }
+
   /// The area of the scene in the last draw(), in ImGui units. Docked windows draw no background: clear the frame to
   /// dock_colour() before.
   const ScreenRect& scene_area() const { return layout_.scene; }

@@ -1,5 +1,6 @@
 #include "app/window/demo.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
@@ -7,11 +8,13 @@
 #include <memory>
 #include <optional>
 #include <stdexcept>
+#include <string>
 #include <utility>
 
 #include "app/ui/shortcuts.h"
 #include "app/ui/tour/tour_view.h"
 #include "app/ui/user_interface.h"
+#include "app/window/frame_schedule.h"
 #include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
 #include "app/window/open_session.h"
@@ -38,6 +41,13 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
+/// What the interface shows and changes without input, beside what Activity names.
+struct InterfaceKey {
+  std::uint64_t revision = 0, comparison = 0, judgement = 0;
+  std::string notice;
+  bool operator==(const InterfaceKey&) const = default;
+};
+
 class Demo {
  public:
   explicit Demo(const DemoOptions& options)
@@ -54,10 +64,14 @@ class Demo {
 
   void run() {
     while (graphics_->window.is_open() && !ui_.quit) {
-      graphics_->window.poll(timer_.idle_wait());
+      const double wait = schedule_.wait(now(), session_.awaits_answer());
+      if (graphics_->window.poll(wait)) schedule_.input(now());
       const double elapsed = timer_.tick();
-      if (graphics_->window.minimised()) continue;  // poll() has slept; the world waits until the window is shown
-      frame(elapsed);
+      const bool was_hidden = std::exchange(hidden_, graphics_->window.minimised());
+      if (hidden_) continue;  // poll() has slept; the world waits until the window is shown
+      if (was_hidden) schedule_.input(now());
+      const bool interrupted = was_hidden || wait > FrameSchedule::max_running_wait;
+      frame_or_wait(elapsed, interrupted);
     }
     store_preferences(true);
     // A search for a mesh's equilibrium could keep the program running for minutes after its window is closed.
@@ -65,6 +79,18 @@ class Demo {
   }
 
  private:
+  /// Draws a frame if something has changed. After an interruption the world, the camera and the tooltips go on as if
+  /// no time had passed; hints and notices age.
+  void frame_or_wait(double elapsed, bool interrupted) {
+    const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
+    seconds_ += elapsed - moving;
+    if (interrupted) session_.wait(elapsed - moving);
+    if (schedule_.due(now()) || interface_key() != shown_ || graphics_->window.context_lost()) return frame(moving);
+    seconds_ += moving;
+    session_.wait(moving);
+    store_preferences();
+  }
+
   void frame(double elapsed) {
     if (graphics_->window.context_lost()) recreate_graphics();
     try {
@@ -111,7 +137,6 @@ class Demo {
   void draw_frame(double elapsed) {
     seconds_ += elapsed;
     ui_.import.drop(graphics_->window.take_dropped_files(), session_);
-    if (graphics_->window.has_pending_input() || ui_.exporter.recording()) timer_.mark_active();
     // Handles all waiting input in this frame, a click at a time, so that a slow world does not delay typing and
     // clicks.
     handle_input(elapsed);
@@ -126,11 +151,29 @@ class Demo {
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
     ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
+    shown_ = interface_key();
     if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, drawing);
     store_preferences();
+    schedule_.drawn(now(), activity());
     timer_.limit_rate();
+  }
+
+  /// What goes on after the frame that was just drawn.
+  Activity activity() const {
+    return {.moving = !still_ || ui_.exporter.recording() || ImGui::IsAnyMouseDown(),
+            .counting = !session_.stands_still() || interface_.shows_sweep(ui_),
+            .reporting = ui_.import.busy() || ui_.exporter.finishing(),
+            .typing = graphics_->gui.wants_keyboard(),
+            .next_change = interface_.seconds_to_change(ui_, seconds_)};
+  }
+
+  InterfaceKey interface_key() const {
+    return {.revision = session_.simulation.revision(),
+            .comparison = session_.comparison.reports(),
+            .judgement = session_.surfaces.reports(),
+            .notice = session_.simulation.notice.text()};
   }
 
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.
@@ -151,7 +194,7 @@ class Demo {
 
   /// Moves the camera and draws the last frame's bodies again. Uses nothing that a step writes.
   void move_camera_only(double elapsed) {
-    graphics_->window.poll();
+    if (graphics_->window.poll()) schedule_.input(now());
     const engine::Viewport viewport = scene_viewport();
     if (drawn_ == PictureKey{} || graphics_->window.minimised() || viewport.size.x <= 0 || viewport.size.y <= 0) return;
     if (graphics_->window.left_button_down())
@@ -251,17 +294,17 @@ class Demo {
   }
 
   void draw_scene(const engine::Viewport& viewport) {
+    still_ = true;
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
-    const bool still = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still || ui_.exporter.wants_picture();
+    still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
+    const bool fine = still_ || ui_.exporter.wants_picture();
     graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
       graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole,
                            pixel_scale(whole, viewport),
                            session_.simulation.drawn_positions(shows_present_state(session_, ui_.overlays)));
     });
     ui_.render_scale = graphics_->canvas.render_scale();
-    if (!still) timer_.mark_active();
     drawn_ = key;
   }
 
@@ -306,7 +349,11 @@ class Demo {
   glm::ivec2 fitted_{0};     // the viewport's size that camera_ is fitted to
   std::string shown_scene_;  // that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
+  InterfaceKey shown_;       // by the last frame
+  bool still_ = false;       // the picture of the last frame is that of the frame before
+  bool hidden_ = false;
   FrameTimer timer_;
+  FrameSchedule schedule_{now()};
   double seconds_ = 0;  // since the window opened; see key_hint_seconds
   double recreated_at_ = now() - min_context_seconds;
 };

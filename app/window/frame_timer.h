@@ -1,7 +1,6 @@
 #pragma once
-// The time between frames: measured, and limited where nothing moves or no monitor sets the pace.
+// The time between frames: measured, and limited where no monitor sets the pace.
 
-#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <thread>
@@ -31,13 +30,6 @@ class FrameTimer {
     const double frames = std::round(elapsed * 60);
     return frames >= 1 && std::abs(elapsed * 60 - frames) < 0.2 ? frames / 60 : elapsed;
   }
-  /// Call it in frames in which anything moves or the user does anything.
-  void mark_active() { active_ = last_; }
-  /// Returns the seconds that the next frame may wait for input: while nothing is active, 30 frames a second suffice.
-  double idle_wait() const {
-    constexpr double settling = 1, interval = 1.0 / 30;  // tooltips appear and scrolling ends within a second
-    return last_ - active_ > settling ? std::max(0.0, interval - (now() - last_)) : 0;
-  }
   /// Sleeps so that there are at most 125 frames a second. Without a monitor to wait for, frames would follow each
   /// other at once and load the machine for nothing.
   void limit_rate() const {
@@ -47,7 +39,7 @@ class FrameTimer {
   }
 
  private:
-  double last_ = now(), active_ = last_;
+  double last_ = now();
 };
 
 }  // namespace app::window

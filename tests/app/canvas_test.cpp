@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <optional>
-#include <thread>
 
 #include "app/render/canvas.h"
-#include "app/window/frame_timer.h"
 #include "engine/headless.h"
 
 namespace app {
@@ -22,22 +20,6 @@ struct Cost {
 float after(int pictures, render::RenderScale& render_scale, const Cost& cost) {
   for (int i = 0; i < pictures; ++i) cost.draw(render_scale);
   return render_scale.value();
-}
-
-TEST(FrameTimer, WaitsAfterASecondWithoutActivity) {
-  window::FrameTimer timer;
-  timer.tick();
-  EXPECT_EQ(timer.idle_wait(), 0);
-  std::this_thread::sleep_for(std::chrono::milliseconds(1100));
-  double longest = 0;
-  for (int i = 0; i < 100 && longest == 0; ++i) {  // a busy machine may use up the time to wait
-    timer.tick();
-    longest = std::max(longest, timer.idle_wait());
-  }
-  EXPECT_GT(longest, 0);
-  EXPECT_LE(longest, 1.0 / 30);
-  timer.mark_active();
-  EXPECT_EQ(timer.idle_wait(), 0);
 }
 
 TEST(RenderScale, DropsIfDrawingTakesTooLong) {

@@ -77,5 +77,25 @@ TEST(LiveComparison, TimesAllMethodsAgainAndAgainWhileAskedTo) {
   EXPECT_EQ(times.size(), 0u) << "other settings, other times";
 }
 
+TEST(LiveComparison, HasNothingMoreToLearnAboutAStateOnceEachMethodWasTimedOften) {
+  Rig rig;
+  rig.comparison.choice.on = true;
+  const TimeSeries& times = rig.comparison.method_ms()[compare::method_index("grid-hash")];
+  constexpr auto enough = std::size_t{session::LiveComparison::times_per_state};
+  const auto rests = [&] { return !rig.comparison.awaits_report(rig.revision); };
+  ASSERT_TRUE(rig.wait(rests));
+  EXPECT_EQ(times.size(), enough);
+  rig.comparison.choice.methods[compare::method_index("bounding-box")] = false;
+  EXPECT_FALSE(rests()) << "other methods were chosen";
+  ASSERT_TRUE(rig.wait(rests));
+  EXPECT_EQ(times.size(), 2 * enough);
+  ++rig.revision;
+  EXPECT_FALSE(rests()) << "the world moved";
+  ASSERT_TRUE(rig.wait(rests));
+  EXPECT_EQ(times.size(), 3 * enough);
+  rig.comparison.choice.on = false;
+  EXPECT_TRUE(rests());
+}
+
 }  // namespace
 }  // namespace app

@@ -2,6 +2,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/files/scene_folder.h"
 #include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
 
@@ -88,6 +89,21 @@ TEST(Slider, TakesATypedValueAfterADoubleClick) {
   EXPECT_NEAR(gravity(), 30, 1e-6) << "the upper end";
   rig.double_click("Bend stiffness");
   EXPECT_NEAR(gravity(), 30, 1e-6) << "another slider";
+}
+
+TEST(WorldPanel, OffersThePresetsOfMaterials) {
+  PanelRig rig(1, touching_pair(), files::scene_folder());
+  rig.click("World");
+  const auto& presets = rig.session.scenes.presets();
+  ASSERT_GE(presets.size(), 4u);
+  const softbody::Material& chosen = presets[1];
+  rig.click("Material preset");
+  rig.click(chosen.name.c_str());
+  const softbody::Material& now = rig.session.world().scene().materials[0];
+  EXPECT_EQ(now.name, "rubber") << "the material keeps its name";
+  EXPECT_EQ(now.mass, chosen.mass);
+  EXPECT_EQ(now.structural, chosen.structural);
+  EXPECT_EQ(now.gas_pressure, chosen.gas_pressure);
 }
 
 TEST(WorldPanel, SwitchesAndChoosesSolids) {

@@ -97,15 +97,12 @@ TEST_F(SceneViewTest, DrawsAGhostThatHardlyDiffersBehind) {
   EXPECT_NE(picture(request), with_ghost);
 }
 
-TEST(Capture, WritesAPictureOfTheRequestedSize) {
-  const auto file = std::filesystem::path(testing::TempDir()) / "sbcollide_capture_test.png";
+TEST(Capture, DrawsAPictureOfTheRequestedSize) {
   render::Capture capture(321, 123);
-  capture.write(softbody::World(touching_pair(), {}), file);
-  const engine::Image image = engine::load_png(file);
+  const engine::Image image = capture.draw(softbody::World(touching_pair(), {}));
   EXPECT_EQ(image.width, 321);
   EXPECT_EQ(image.height, 123);
   EXPECT_NE(std::ranges::count(image.rgba, image.rgba[0]), static_cast<std::ptrdiff_t>(image.rgba.size()));
-  std::filesystem::remove(file);
 }
 
 TEST(Palette, HasDistinctColoursForDozensOfBodies) {

@@ -30,6 +30,77 @@ TEST(Session, GoesOnAfterAnUndoneResetAsIfNothingHadBeen) {
   EXPECT_EQ(session.world().state_hash(), undisturbed.world().state_hash());
 }
 
+/// A body that lies on the ground from the start.
+softbody::Scene lone_body() {
+  softbody::Scene scene = touching_pair();
+  scene.bodies.resize(1);
+  scene.bodies[0].position = {5, 0.55, 0};
+  scene.captions = {{2, "second"}};
+  return scene;
+}
+
+TEST(Session, StandsStillOnceAllHasBeenAtRestForAsLongAsCurvesLast) {
+  Session session(lone_body(), {}, 1);
+  int rested = 0;
+  for (int i = 0; i < 5000 && !session.stands_still(); ++i) {
+    session.advance(tick);
+    rested = session.world().all_at_rest() ? rested + 1 : 0;
+  }
+  ASSERT_TRUE(session.stands_still());
+  EXPECT_NEAR(rested, int{TimeSeries::capacity}, 2);
+  const int frame = session.world().frame();
+  for (int i = 0; i < 10; ++i) session.advance(tick);
+  EXPECT_EQ(session.world().frame(), frame) << "its time stands still";
+  collide::Settings settings = session.world().collision();
+  ++settings.levels;
+  session.settings.set_collision(settings, true);
+  EXPECT_FALSE(session.stands_still()) << "curves show the change";
+  session.advance(tick);
+  EXPECT_EQ(session.world().frame(), frame + 1);
+  for (int i = 0; i < 5000 && !session.stands_still(); ++i) session.advance(tick);
+  ASSERT_TRUE(session.stands_still());
+  session.bodies.drop();
+  EXPECT_FALSE(session.stands_still());
+}
+
+TEST(Session, GoesOnAtRestUntilItsLastSentence) {
+  softbody::Scene scene = lone_body();
+  constexpr int last = 3000;
+  scene.captions.push_back({last, "the end"});
+  Session session(std::move(scene), {}, 1);
+  while (session.world().frame() < last) {
+    ASSERT_FALSE(session.stands_still());
+    session.advance(tick);
+  }
+  EXPECT_EQ(session.simulation.caption(), "the end");
+  EXPECT_TRUE(session.world().all_at_rest());
+  EXPECT_TRUE(session.stands_still());
+}
+
+TEST(Session, StandsStillWhilePausedButForASingleStep) {
+  Session session(touching_pair(), {}, 1);
+  session.advance(tick);
+  EXPECT_FALSE(session.stands_still());
+  session.simulation.clock.paused = true;
+  EXPECT_TRUE(session.stands_still());
+  session.simulation.clock.single_step();
+  EXPECT_FALSE(session.stands_still());
+  session.advance(tick);
+  EXPECT_EQ(session.world().frame(), 2);
+  EXPECT_TRUE(session.stands_still());
+}
+
+TEST(Session, AgesItsNoticeWhileItWaits) {
+  Session session(touching_pair(), {}, 1);
+  session.simulation.clock.paused = true;
+  session.simulation.notice.set("something");
+  for (int i = 0; i < 79; ++i) session.wait(0.25);
+  EXPECT_FALSE(session.simulation.notice.text().empty());
+  for (int i = 0; i < 3; ++i) session.wait(0.25);
+  EXPECT_TRUE(session.simulation.notice.text().empty()) << "after 20 s";
+  EXPECT_EQ(session.world().frame(), 0);
+}
+
 TEST(Session, KeepsTheSelectedBucketInsideTheTable) {
   Session session(touching_pair(), {}, 1);
   session.inspector.select_bucket(900);

@@ -265,6 +265,28 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
   EXPECT_EQ(simulation.world().state_hash(), hashes[0]);
 }
 
+TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
+  session::Simulation simulation(touching_pair(), 1), undisturbed(touching_pair(), 1);
+  for (session::Simulation* s : {&simulation, &undisturbed}) {
+    session::SettingControls controls(*s);
+    controls.set_method("grid-hash");
+    controls.set_gravity(3);
+    controls.set_integrator({.key = "velocity-verlet"});
+    run(*s, 20);
+  }
+  softbody::Scene other = touching_pair();
+  other.bodies.resize(1);
+  simulation.enter(simulation.make_world(other, {}), {other, session::SceneFile("other", other), {}});
+  run(simulation, 5);
+  ASSERT_EQ(simulation.world().bodies().count(), 1u);
+  simulation.undo();
+  EXPECT_EQ(simulation.loaded.scene.bodies.size(), 2u);
+  EXPECT_EQ(simulation.world().method().key, "grid-hash");
+  EXPECT_EQ(simulation.world().integrator_choice(), undisturbed.world().integrator_choice());
+  for (session::Simulation* s : {&simulation, &undisturbed}) run(*s, 20);
+  EXPECT_EQ(simulation.world().state_hash(), undisturbed.world().state_hash());
+}
+
 /// Notes what it is told.
 struct Witness : session::SimulationObserver {
   double stepped() override {

@@ -37,7 +37,10 @@ const Bad bad_lines[]{
      {"simulate", "--scene", "drop", "--json=99999999999999999999"},
      {"--json", "without a value"}},
     {"number_for_help", {"simulate", "--help=99999999999999999999"}, {"--help", "without a value"}},
-    {"oracle_without_json", {"simulate", "--scene", "drop", "--frames", "2", "--oracle"}, {"--oracle", "--json"}},
+    {"oracle_without_json", {"simulate", "--scene", "drop", "--frames", "2", "--oracle"}, {"--oracle", "--json-lines"}},
+    {"json_lines_beside_json", drop({"--json-lines"}), {"--json-lines", "--json"}},
+    {"number_for_json_lines", {"simulate", "--scene", "drop", "--json-lines=3"}, {"--json-lines", "without a value"}},
+    {"json_lines_of_detect", {"detect", "a.obj", "--tolerance", "1", "--json-lines"}, {"--json-lines"}},
     {"unknown_option", drop({"--magic"}), {"--magic"}},
     {"unknown_command", {"magic"}, {"magic"}},
     {"unknown_list", {"list", "magic"}, {"magic", "scenes"}},
@@ -171,6 +174,7 @@ TEST(Errors, NameAFolderThatCannotBeMadeBeforeAnythingRuns) {
 #else
 TEST(Errors, RefusePicturesInABuildWithoutGraphics) {
   expect_refused(drop({"--capture", "1"}), {"--capture", "graphics"});
+  expect_refused(drop({"--animation", "run.webp"}), {"--animation", "graphics"});
 }
 TEST(Errors, RefuseTheWindowInABuildWithoutGraphics) { expect_refused({}, {"simulate"}); }
 #endif

@@ -30,7 +30,7 @@ lists() {
 build_in "$work/first"
 mkdir "$work/first/build/release/bin"
 cp "$program" "$work/first/build/release/bin/sbcollide"
-cp "$sources/assets/scenes/drop.toml" "$work/first/assets/scenes/scene-of-first.toml"
+cp "$sources/assets/scenes/A.toml" "$work/first/assets/scenes/scene-of-first.toml"
 lists "$work/first" scene-of-first
 cp -r "$work/first" "$work/the copy"
 mv "$work/the copy/assets/scenes/scene-of-first.toml" "$work/the copy/assets/scenes/scene-of-copy.toml"

@@ -38,12 +38,14 @@ std::vector<char*> pointers(std::vector<std::string>& strings) {
 }  // namespace
 
 Process::Process(const std::vector<std::string>& arguments, const std::filesystem::path& where,
-                 const std::vector<std::string>& environment) {
+                 const std::vector<std::string>& environment, const std::filesystem::path& out,
+                 const std::filesystem::path& err)
+    : out_(out.empty() ? folder_.path() / "out" : out), err_(err.empty() ? folder_.path() / "err" : err) {
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
   posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  for (const auto& [name, descriptor] : {std::pair("out", STDOUT_FILENO), std::pair("err", STDERR_FILENO)})
-    posix_spawn_file_actions_addopen(&actions, descriptor, (folder_.path() / name).c_str(), O_WRONLY | O_CREAT, 0600);
+  for (const auto& [file, descriptor] : {std::pair(&out_, STDOUT_FILENO), std::pair(&err_, STDERR_FILENO)})
+    posix_spawn_file_actions_addopen(&actions, descriptor, file->c_str(), O_WRONLY | O_CREAT, 0600);
   posix_spawn_file_actions_addchdir_np(&actions, where.c_str());
   posix_spawnattr_t attributes;
   posix_spawnattr_init(&attributes);
@@ -69,10 +71,13 @@ bool Process::running() {
 void Process::send(int signal) const { kill(id_, signal); }
 
 Outcome Process::wait() {
+  const auto written = [](const std::filesystem::path& file) {
+    return std::filesystem::is_regular_file(file) ? read_file(file) : "";
+  };
   int status = 0;
   waitpid(id_, &status, 0);
-  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, read_file(folder_.path() / "out"),
-          read_file(folder_.path() / "err"), WIFSIGNALED(status) ? WTERMSIG(status) : 0};
+  return {WIFEXITED(status) ? WEXITSTATUS(status) : -1, written(out_), written(err_),
+          WIFSIGNALED(status) ? WTERMSIG(status) : 0};
 }
 
 Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where,

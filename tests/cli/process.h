@@ -22,11 +22,13 @@ struct Outcome {
 };
 
 /// Runs `sbcollide arguments...` in a working directory. Neither output is a terminal. environment: changes of the
-/// test's own environment, as "NAME=value". No signal is ignored.
+/// test's own environment, as "NAME=value". No signal is ignored. out, err: files or devices for standard output and
+/// standard error; empty: files of the process's own.
 class Process {
  public:
   explicit Process(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
-                   const std::vector<std::string>& environment = {});
+                   const std::vector<std::string>& environment = {}, const std::filesystem::path& out = {},
+                   const std::filesystem::path& err = {});
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
@@ -36,6 +38,7 @@ class Process {
 
  private:
   TemporaryFolder folder_;
+  std::filesystem::path out_, err_;
   pid_t id_ = 0;
 };
 

@@ -30,7 +30,8 @@ const std::filesystem::path& quick_report() {
   static const auto out = folder.path() / "new" / "report";
   static const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", out});
   EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(o.out, "");
+  EXPECT_EQ(printed_files(o, out), file_names(out));
+  EXPECT_EQ(errors_of(o), "") << "progress is for terminals";
   return out;
 }
 
@@ -149,8 +150,10 @@ TEST(DetectionReport, LeavesOutOnlyThePlotsWithoutGnuplot) {
   const Outcome o = run({"report", "detection", "--quick", "--scene", balls(), "--out", folder.path()});
   setenv("PATH", path.c_str(), 1);
   EXPECT_EQ(o.status, 0);
-  EXPECT_NE(o.err.find("gnuplot-nox"), std::string::npos) << o.err;
-  EXPECT_EQ(std::count(o.err.begin(), o.err.end(), '\n'), 1);
+  const std::string errors = errors_of(o);
+  EXPECT_NE(errors.find("gnuplot-nox"), std::string::npos) << errors;
+  EXPECT_EQ(std::count(errors.begin(), errors.end(), '\n'), 1);
+  EXPECT_EQ(printed_files(o, folder.path()), file_names(folder.path()));
   EXPECT_EQ(file_names(folder.path()), (std::set<std::string>{"detection.csv", "report.md"}));
   EXPECT_EQ(read_file(folder.path() / "report.md").find("!["), std::string::npos) << "no links to what is not there";
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <sstream>
 
 namespace cli::test {
 namespace {
@@ -50,6 +51,25 @@ double number(const std::string& text) {
   const double value = text.empty() ? -1 : std::stod(text, &end);
   EXPECT_TRUE(!text.empty() && end == text.size()) << "'" << text << "' is no number";
   return value;
+}
+
+std::set<std::string> printed_files(const Outcome& report, const std::filesystem::path& folder) {
+  std::set<std::string> names;
+  std::istringstream lines(report.out);
+  for (std::string line; std::getline(lines, line);) {
+    const std::filesystem::path file = line;
+    EXPECT_EQ(file.parent_path(), folder);
+    EXPECT_TRUE(names.insert(file.filename()).second) << line << " is there twice";
+  }
+  return names;
+}
+
+std::string errors_of(const Outcome& report) {
+  std::string rest;
+  std::istringstream lines(report.err);
+  for (std::string line; std::getline(lines, line);)
+    if (!line.starts_with("sbcollide: Times may be off: ")) rest += line + '\n';
+  return rest;
 }
 
 }  // namespace cli::test

@@ -27,6 +27,7 @@ class SolverReport : public testing::Test {
     out_ = folder_.path() / "out";
     const Outcome o = run({"report", "solver", "--quick", "--scene", scene, "--out", out_});
     ASSERT_EQ(o.status, 0) << o.err;
+    EXPECT_EQ(printed_files(o, out_), file_names(out_));
   }
   TemporaryFolder folder_;
   std::filesystem::path out_;

@@ -66,5 +66,23 @@ TEST(Page, HasOneEmptyLineBetweenItsParts) {
   EXPECT_EQ(page.markdown(false), "# Balls\n\n- first\n- second\n\nThe end.\n");
 }
 
+TEST(WarnOfBusyMachine, ComparesProcessorTimeWithTheClock) {
+  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 6.1}),
+            "Times may be off: the program got only 61 % of a core while they were taken.");
+  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 9.1}), "");
+  EXPECT_EQ(report::warn_of_busy_machine({.wall = 10, .processor = 17}), "") << "of two threads";
+  EXPECT_EQ(report::warn_of_busy_machine({}), "") << "nothing was timed";
+}
+
+TEST(Page, KeepsItsWarningsApartToo) {
+  report::Page page;
+  page.text("# Balls");
+  page.warn("");
+  page.warn("Times may be off.");
+  page.text("The end.");
+  EXPECT_EQ(page.markdown(true), "# Balls\n\nTimes may be off.\n\nThe end.\n");
+  EXPECT_EQ(page.warnings(), std::vector<std::string>{"Times may be off."});
+}
+
 }  // namespace
 }  // namespace app::test

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdlib>
 #include <regex>
 #include <set>
+#include <sstream>
+#include <thread>
 
 #include "tests/cli/process.h"
 
@@ -47,11 +51,12 @@ TEST(Simulate, PrintsOneDocumentOfTheContractsForm) {
   ASSERT_EQ(d["frames"].size(), 5u);
   for (std::size_t i = 0; i < 5; ++i) {
     const json& f = d["frames"][i];
-    EXPECT_EQ(keys(f), (Keys{"frame", "time", "ms", "contacts", "energy", "volume_ratio", "deepest_penetration",
-                             "max_speed", "finite"}));
+    EXPECT_EQ(keys(f), (Keys{"frame", "time", "ms", "contacts", "energy", "energies", "volume_ratio",
+                             "deepest_penetration", "max_speed", "finite"}));
     EXPECT_EQ(f["frame"], i + 1) << "frame n is the state after n steps";
     EXPECT_EQ(keys(f["ms"]), (Keys{"detect", "solve", "total"}));
     EXPECT_EQ(keys(f["contacts"]), (Keys{"bodies", "self", "solid"}));
+    EXPECT_EQ(keys(f["energies"]), (Keys{"kinetic", "elastic", "gas", "gravity"}));
     EXPECT_EQ(keys(f["volume_ratio"]), (Keys{"min", "max"}));
     for (const char* key : {"detect", "solve", "total"}) EXPECT_TRUE(f["ms"][key].is_number()) << key;
     for (const char* key : {"bodies", "self", "solid"}) EXPECT_TRUE(f["contacts"][key].is_number_unsigned()) << key;
@@ -121,6 +126,77 @@ TEST(Simulate, PrintsFiguresThatAgreeWithPhysics) {
   EXPECT_NEAR(last["energy"], 2 * 9.81 * 50 + 0.5 * 2 * 9, 10) << "joules: potential and kinetic";
   EXPECT_EQ(last["contacts"], json({{"bodies", 0}, {"self", 0}, {"solid", 0}}));
   EXPECT_EQ(last["deepest_penetration"], 0.0);
+}
+
+TEST(Simulate, PrintsEnergiesWhoseSumIsTheEnergy) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("small.toml", small_scene);
+  for (const json& frame : simulate({"--scene", scene, "--frames", "20"})["frames"]) {
+    const json& e = frame["energies"];
+    const double energy = frame["energy"];
+    EXPECT_NEAR(double(e["kinetic"]) + double(e["elastic"]) + double(e["gas"]) + double(e["gravity"]), energy,
+                1e-9 * std::abs(energy));
+    EXPECT_GT(e["kinetic"], 0.0);
+    EXPECT_GT(e["elastic"], 0.0) << "the gas stretches the springs from the start";
+  }
+}
+
+/// Returns the lines of standard output, each an object.
+std::vector<json> parse_lines(const std::string& text) {
+  std::vector<json> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(json::parse(line, nullptr, false));
+  return lines;
+}
+
+TEST(SimulateJsonLines, HaveTheFramesAndThenTheRestOfTheDocument) {
+  const TemporaryFolder folder;
+  const auto scene = folder.write("small.toml", small_scene);
+  const std::vector<std::string> arguments{"--scene", scene, "--frames", "15", "--oracle"};
+  json document = simulate(arguments);
+  std::vector<std::string> line_arguments{"simulate", "--json-lines"};
+  line_arguments.insert(line_arguments.end(), arguments.begin(), arguments.end());
+  const Outcome o = run(line_arguments);
+  EXPECT_EQ(o.status, 0);
+  EXPECT_EQ(o.err, "");
+  std::vector<json> lines = parse_lines(o.out);
+  ASSERT_EQ(lines.size(), 16u);
+  const auto without_times = [](json& frame) {
+    EXPECT_EQ(frame.erase("ms"), 1u);
+    return frame;
+  };
+  for (std::size_t i = 0; i < 15; ++i) EXPECT_EQ(without_times(lines[i]), without_times(document["frames"][i]));
+  document.erase("frames");
+  EXPECT_EQ(lines.back(), document);
+}
+
+TEST(SimulateJsonLines, ArriveFrameByFrame) {
+  const TemporaryFolder folder;
+  const auto lines = folder.path() / "lines";
+  const std::vector<std::string> arguments{"simulate", "--scene", "drop", "--frames", "10000000", "--json-lines"};
+  Process process(arguments, "/", {}, lines);
+  const auto arrived = [&] {
+    const std::string text = read_file(lines);
+    return std::count(text.begin(), text.end(), '\n');
+  };
+  while (process.running() && arrived() < 3) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.send(SIGTERM);
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.signal, SIGTERM) << o.err;
+  const std::vector<json> parsed = parse_lines(o.out);
+  ASSERT_GE(parsed.size(), 3u);
+  EXPECT_EQ(parsed[2]["frame"], 3);
+  EXPECT_TRUE(o.out.ends_with('\n')) << "whole lines";
+}
+
+TEST(SimulateJsonLines, EndTheRunWhenStandardOutputIsFull) {
+  if (!std::filesystem::exists("/dev/full")) GTEST_SKIP() << "no full device";
+  for (const char* frames : {"2", "10000000"}) {
+    Process process({"simulate", "--scene", "drop", "--frames", frames, "--json-lines"}, "/", {}, "/dev/full");
+    const Outcome o = process.wait();
+    EXPECT_EQ(o.status, 2);
+    EXPECT_EQ(o.err, "sbcollide: standard output cannot be written to; is the disk full?\n");
+  }
 }
 
 TEST(Simulate, PrintsNoVolumeRatioOfOpenMeshes) {

@@ -71,6 +71,34 @@ TEST(Window, ShowsASceneAndAPanel) {
   EXPECT_FALSE(window.is_open());
 }
 
+/// Polls until `done`; false if that takes too long.
+bool poll_until(Window& window, auto done) {
+  for (int i = 0; i < 100; ++i) {
+    window.poll(0.05);
+    if (done()) return true;
+  }
+  return false;
+}
+
+TEST(Window, TellsOfEventsAndWaitsInVainWithoutAny) {
+  Window window({.title = "test", .size = {400, 300}, .samples = 0, .vsync = false});
+  ASSERT_TRUE(poll_until(window, [&] { return !window.poll(0.05); })) << "those of its opening come to an end";
+  const GLFWcursorposfun on_cursor = glfwSetCursorPosCallback(window.handle(), nullptr);
+  on_cursor(window.handle(), 20, 30);
+  EXPECT_TRUE(window.poll());
+  EXPECT_FALSE(window.poll());
+  glfwPostEmptyEvent();
+  EXPECT_TRUE(window.poll(60)) << "an event ends the wait";
+}
+
+TEST(Window, IsMinimisedWhileNobodyCanSeeIt) {
+  Window window({.title = "test", .size = {400, 300}, .samples = 0, .vsync = false});
+  glfwHideWindow(window.handle());
+  EXPECT_TRUE(poll_until(window, [&] { return window.minimised(); }));
+  glfwShowWindow(window.handle());
+  EXPECT_TRUE(poll_until(window, [&] { return !window.minimised(); }));
+}
+
 /// Sends mouse and keyboard events to a window that shows a text field at a known place.
 class WindowInputTest : public testing::Test {
  protected:

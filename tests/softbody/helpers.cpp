@@ -62,7 +62,7 @@ Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dve
   return scene;
 }
 
-Scene drop_scene() { return load_scene(std::filesystem::path(SBCOLLIDE_SCENES) / "drop.toml"); }
+Scene drop_scene() { return find_scene("drop", SBCOLLIDE_SCENES); }
 
 void run(World& world, int frames) {
   for (int i = 0; i < frames; ++i) world.step();

@@ -88,7 +88,7 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
   EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, Stage::shear_springs, Stage::shape_matching, Stage::grab,
                                    Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules,
-                                   Stage::solid_features}));
+                                   Stage::solid_features, Stage::rebound_damping}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.

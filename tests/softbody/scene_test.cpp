@@ -314,5 +314,77 @@ TEST(SceneFolder, OfTheProgramLoadsWhole) {
   }
 }
 
+constexpr const char* two_presets = R"(
+[[material]]
+name = "soft"
+mass = 2
+friction = 0.25
+[[material]]
+name = "hard"
+structural = {stiffness = 900, damping_ratio = 0.2}
+)";
+
+TEST(MaterialPresets, GiveTheValuesThatASceneLeavesOut) {
+  const TemporaryFolder folder;
+  const auto presets = folder.write("materials.toml", two_presets);
+  const Scene s = load_scene(folder.write("scene.toml", R"(
+[[material]]
+preset = "soft"
+[[material]]
+name = "mine"
+preset = "soft"
+mass = 3
+[[body]]
+material = "mine"
+)"),
+                             presets);
+  ASSERT_EQ(s.materials.size(), 2u);
+  EXPECT_EQ(s.materials[0], load_presets(presets)[0]);
+  EXPECT_EQ(s.materials[1].name, "mine");
+  EXPECT_EQ(s.materials[1].mass, 3);
+  EXPECT_EQ(s.materials[1].friction, 0.25);
+  EXPECT_EQ(s.bodies[0].material, 1);
+}
+
+TEST(MaterialPresets, ThatAreUnknownOrMissingAreErrors) {
+  const TemporaryFolder folder;
+  const auto presets = folder.write("materials.toml", two_presets);
+  const auto scene = folder.write("scene.toml", "[[material]]\npreset = \"wood\"\n[[body]]\n");
+  const auto message = [&](const std::filesystem::path& file) -> std::string {
+    try {
+      load_scene(scene, file);
+    } catch (const SceneError& error) {
+      return error.what();
+    }
+    return "";
+  };
+  EXPECT_NE(message(presets).find("scene.toml:2"), std::string::npos) << message(presets);
+  EXPECT_NE(message(presets).find("must be one of: soft, hard"), std::string::npos) << message(presets);
+  EXPECT_NE(message(folder.path() / "none.toml").find("none.toml"), std::string::npos);
+}
+
+/// Soft: a ball at rest is clearly flattened; and it is round before it touches anything.
+TEST(MaterialPresets, TheDefaultOneIsSoft) {
+  Scene scene = find_scene("drop", SBCOLLIDE_SCENES);
+  scene.bodies.resize(1);
+  scene.bodies[0].position = {4, 1.5, 0};
+  scene.bodies[0].release = 0;
+  World world(scene, {});
+  const auto flatness = [&] {
+    const collide::Frame f = world.positions();
+    const auto extent = [](std::span<const float> x) {
+      const auto [lo, hi] = std::ranges::minmax_element(x);
+      return *hi - *lo;
+    };
+    return extent(f.y) / std::max(extent(f.x), extent(f.z));
+  };
+  for (int i = 0; i < 10; ++i) world.step();
+  EXPECT_NEAR(flatness(), 1, 0.03);
+  for (int i = 0; i < 300; ++i) world.step();
+  EXPECT_TRUE(world.all_at_rest());
+  EXPECT_GT(flatness(), 0.75);
+  EXPECT_LT(flatness(), 0.85);
+}
+
 }  // namespace
 }  // namespace softbody::test

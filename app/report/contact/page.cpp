@@ -282,6 +282,10 @@ void add_impact(Page& page, std::span<const ContactCase> cases) {
 Page contact_page(const ContactResults& results) {
   Page page;
   add_introduction(page, results);
+  TimedParts timed;
+  for (const ContactCase& c : results.cases)
+    for (const ContactTrial& trial : c.trials) timed += trial.timed;
+  page.warn(warn_of_busy_machine(timed));
   page.text("## All scenes");
   page.text("Over the scenes that were run with every choice: sums; for depths at the end and jitter the worst scene.");
   page.table(overview(results));

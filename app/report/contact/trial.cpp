@@ -58,13 +58,17 @@ class Trial {
     result_.radius = smallest_closed_radius(world_);
     const double start = thread_seconds();
     double looking = 0;  // s
-    world_.step([&] {
-      const double from = thread_seconds();
-      look_for_passages(straight_way);
-      looking += thread_seconds() - from;
+    const double wall_ms = time_ms([&] {
+      world_.step([&] {
+        const double from = thread_seconds();
+        look_for_passages(straight_way);
+        looking += thread_seconds() - from;
+      });
     });
+    const double processor = thread_seconds() - start;
     require_whole_frame(world_);
-    result_.cpu_ms += 1e3 * (thread_seconds() - start - looking);
+    result_.timed += {.wall = 1e-3 * wall_ms, .processor = processor};
+    result_.cpu_ms += 1e3 * (processor - looking);
     result_.detect_ms += world_.last_step().detect_ms;
     result_.solve_ms += world_.last_step().solve_ms;
     look_for_passages(rest_way);

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "app/base/timings.h"
 #include "softbody/world.h"
 
 namespace app::report {
@@ -30,6 +31,7 @@ struct ContactTrial {
   int frames = 0;  // fewer than the limit if all bodies fell asleep or something was not finite
   int looks = 0;
   double cpu_ms = 0, detect_ms = 0, solve_ms = 0;  // means a frame: processor time of a step; clock time of its parts
+  TimedParts timed{};                              // all steps
   // Over all looks:
   std::size_t penetrations = 0;        // vertices inside other bodies
   std::size_t missed = 0;              // of those, joined to that body by no contact of the detector

@@ -294,6 +294,11 @@ std::string over_budget(const std::vector<Mean>& means) {
 Page detection_page(const DetectionResults& results) {
   Page page;
   add_introduction(page, results);
+  TimedParts timed;
+  for (const SceneResult& scene : results.scenes)
+    for (const StateResult& state : scene.states) timed += state.sweep.timed;
+  for (const StateResult& state : results.growth.states) timed += state.sweep.timed;
+  page.warn(warn_of_busy_machine(timed));
   add_table_1(page, results);
   page.text("## Scenes: the best of every method");
   page.text(

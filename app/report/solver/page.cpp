@@ -239,6 +239,7 @@ void add_left_out(Page& page, const SolverResults& r, const SolverCase& c) {
 Page solver_page(const SolverResults& results) {
   Page page;
   add_introduction(page, results);
+  page.warn(warn_of_busy_machine(results.timed));
   add_overview(page, results);
   for (const SolverCase& c : results.cases) {
     page.text("## {}", c.name);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "app/base/timings.h"
 #include "app/report/page.h"
 #include "softbody/integrators.h"
 
@@ -63,6 +64,7 @@ struct SolverResults {
   int repetitions = 0;
   double max_run_seconds = 0;  // of processor time: a curve ends with the first run that takes longer ...
   int max_substeps = 0;        // ... or with this many steps per frame
+  TimedParts timed;            // the repetitions
   std::vector<SolverCase> cases;
 };
 

@@ -47,8 +47,10 @@ class SolverReport {
     for (std::size_t s = 0; s < scenes_.size(); ++s) find_errors(s);
     // One repetition of all points after the other: what disturbs the machine for a while disturbs all alike.
     for (int r = 0; r < effort_.repetitions; ++r) {
-      say("repetition " + std::to_string(r + 1), double(r) / effort_.repetitions);
-      for (TimedPoint& point : points_) repeat(point);
+      for (std::size_t i = 0; i < points_.size(); ++i) {
+        say("repetition " + std::to_string(r + 1), (r + double(i) / double(points_.size())) / effort_.repetitions);
+        repeat(points_[i]);
+      }
     }
     for (const TimedPoint& point : points_) take_times(point);
   }
@@ -70,11 +72,11 @@ class SolverReport {
       for (int n = 1; n <= max_steps && took < effort_.seconds && !curve.reaches(c.uncertainty(results.bound));
            n *= 2) {
         const Outcome outcome = run_solver(scene, run_, integrator, n, 1);
-        took = outcome.finite ? outcome.cpu : 0;
+        took = outcome.finite ? outcome.timed.processor : 0;
         WorkPoint point = judge(scene, outcome, reference);
         if (!integrator.automatic) point.substeps = n;
         if (!point.blew_up) points_.push_back({s, c.curves.size() - 1, curve.points.size(), n});
-        point.cpu_alone = 1e3 * outcome.cpu / run_.seconds() / double(outcome.bodies.size());
+        point.cpu_alone = 1e3 * outcome.timed.processor / run_.seconds() / double(outcome.bodies.size());
         curve.points.push_back(point);
       }
     }
@@ -86,7 +88,9 @@ class SolverReport {
     const softbody::Integrator& integrator = *results.cases[p.scene].curves[p.curve].integrator;
     const auto time = [&](Timings& times, int copies) {
       if (times.total() > 1e3 * effort_.seconds) return;  // the time of a long run depends less on chance
-      times.ms.push_back(1e3 * run_solver(scene, run_, integrator, p.substeps, copies).cpu);
+      const TimedParts timed = run_solver(scene, run_, integrator, p.substeps, copies).timed;
+      times.ms.push_back(1e3 * timed.processor);
+      results.timed += timed;
     };
     time(p.alone, 1);
     if (scene.repeatable) time(p.batch, softbody::lanes);

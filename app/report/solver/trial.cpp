@@ -43,8 +43,8 @@ Outcome advance(World& world, int frames) {
   Outcome o;
   for (int frame = 0; frame < frames && o.finite; ++frame) {
     const double start = thread_seconds();
-    world.step();
-    o.cpu += thread_seconds() - start;
+    const double wall_ms = time_ms([&] { world.step(); });
+    o.timed += {.wall = 1e-3 * wall_ms, .processor = thread_seconds() - start};
     o.finite = softbody::measure(world).finite;
   }
   for (BodyId b = 0; b < world.bodies().count(); ++b) o.bodies.push_back(reference::state_of(world, b));

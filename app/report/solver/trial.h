@@ -1,6 +1,7 @@
 #pragma once
 // One scene, run to its end by one integrator and compared with a reference.
 
+#include "app/base/timings.h"
 #include "app/reference/reference_trajectory.h"
 #include "app/report/solver/results.h"
 #include "app/report/solver/scenes.h"
@@ -14,7 +15,7 @@ struct SolverRun {
 };
 
 struct Outcome {
-  double cpu = 0;  // s of processor time
+  TimedParts timed{};  // the steps
   bool finite = true;
   std::vector<reference::BodyState> bodies{};
   double energy = 0;  // J

@@ -28,6 +28,7 @@ class Ghost {
   double distance(const softbody::World& of) const;
   /// True if some vertex is not finite or very far away. Then the ghost is neither stepped nor drawn.
   bool blown_up() const { return blown_up_; }
+  bool at_rest() const { return blown_up_ || world_.all_at_rest(); }
 
  private:
   bool has_blown_up() const;

@@ -1,5 +1,7 @@
 #include "app/session/live/live_comparison.h"
 
+#include <utility>
+
 namespace app::session {
 namespace {
 
@@ -34,12 +36,19 @@ compare::CompareReport CompareTask::answer(const compare::FrameSnapshot& snapsho
 void LiveComparison::exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number,
                               int rests) {
   if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
-  // A world at rest has nothing new for the recall, but times want to be taken again and again.
-  if ((offered_ == revision && !choice.on) || !worker_.ready(rests)) return;
-  offered_ = revision;
+  if (!wants_report(revision) || !worker_.ready(rests)) return;
   compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
   if (choice.on) snapshot.chosen = choice.methods;
+  if (std::exchange(offered_, revision) != revision || snapshot.chosen != offered_methods_) offers_ = 0;
+  offered_methods_ = snapshot.chosen;
+  ++offers_;
   worker_.offer(std::move(snapshot));
+}
+
+/// A world at rest has nothing new for the recall, but times want to be taken until their median is worth something.
+bool LiveComparison::wants_report(std::uint64_t revision) const {
+  if (offered_ != revision) return true;
+  return choice.on && (choice.methods != offered_methods_ || offers_ < times_per_state);
 }
 
 void LiveComparison::keep(compare::CompareReport report) {

@@ -30,11 +30,17 @@ struct CompareChoice {
 
 class LiveComparison {
  public:
+  /// So often the methods of the choice are timed in a state that does not change.
+  static constexpr int times_per_state = 15;
+
   CompareChoice choice;
 
-  /// Takes the report that is ready, if any, and offers the present state if it was not yet. revision: names the state,
-  /// ascending; world_number: another number, another world; rests: as BackgroundWorker::ready().
+  /// Takes the report that is ready, if any, and offers the present state if more is to be found out about it.
+  /// revision: names the state, ascending; world_number: another number, another world; rests: as
+  /// BackgroundWorker::ready().
   void exchange(const softbody::World& world, std::uint64_t revision, std::uint64_t world_number, int rests);
+  /// Returns true if exchange() must be called again, though the state of this revision stays.
+  bool awaits_report(std::uint64_t revision) const { return wants_report(revision) || worker_.has_work(); }
   /// Another world: reports of states before this revision are dropped.
   void restart(const softbody::World& world, std::uint64_t revision);
   /// Drops the curves of other settings; their report stays until a new one arrives.
@@ -58,6 +64,7 @@ class LiveComparison {
   const std::vector<TimeSeries>& method_ms() const { return method_ms_; }
 
  private:
+  bool wants_report(std::uint64_t revision) const;
   const compare::CompareRow* scored_row(std::size_t method) const;
   void keep(compare::CompareReport report);
   void forget_times();
@@ -66,6 +73,8 @@ class LiveComparison {
   std::size_t driver_ = 0;
   compare::CompareReport report_;
   std::uint64_t reports_ = 0, offered_ = 0, first_wanted_ = 0;
+  int offers_ = 0;                     // of the state offered_, with the same methods
+  std::vector<bool> offered_methods_;  // empty: none but the driver
   TimeSeries recall_;
   std::vector<TimeSeries> method_ms_ = std::vector<TimeSeries>(collide::method_table().size());
   CompareWorker worker_;

@@ -68,8 +68,8 @@ void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
 
 /// Draws a button that copies `command` to the clipboard and then says so for a moment.
 void draw_copy_button(Widgets& w, const char* name, const std::string& command, double& copied, float width) {
-  constexpr double confirmation = 1.5;  // s
-  const std::string label = (ImGui::GetTime() < copied + confirmation ? "Copied###" : std::string(name) + "###") + name;
+  const std::string label =
+      (ImGui::GetTime() < copied + UiState::copied_seconds ? "Copied###" : std::string(name) + "###") + name;
   if (!w.button(label.c_str(), command.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
   copied = ImGui::GetTime();

@@ -33,9 +33,11 @@ struct UiState {
   session::Exporter exporter;
   Tour tour;
   session::Import import;
-  std::string save_as = "scene.toml";      // the file that the scene is saved to
-  std::size_t material = 0, solid = 0;     // whose values the panel shows
-  std::array<double, 2> copied{-10, -10};  // when each command was copied, in ImGui's seconds
+  std::string save_as = "scene.toml";   // the file that the scene is saved to
+  std::size_t material = 0, solid = 0;  // whose values the panel shows
+  // When each command was copied, in ImGui's seconds. Its button says so for a moment.
+  static constexpr double copied_seconds = 1.5;
+  std::array<double, 2> copied{-10, -10};
 };
 
 }  // namespace app::ui

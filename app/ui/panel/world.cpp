@@ -74,11 +74,33 @@ std::size_t choose(Widgets& w, const char* label, const char* tooltip, std::size
   return chosen;
 }
 
+/// Offers the presets for a material of the scene, which keeps its name.
+void draw_preset(Widgets& w, Session& session, std::size_t index) {
+  const softbody::Material now = session.world().scene().materials[index];
+  softbody::Material chosen = now;
+  const auto renamed = [&](softbody::Material preset) {
+    preset.name = now.name;
+    preset.start_in_equilibrium = now.start_in_equilibrium;
+    return preset;
+  };
+  const auto& presets = session.scenes.presets();
+  const auto same = std::ranges::find(presets, now, renamed);
+  w.row_label("Preset", w.px(label_column));
+  if (!w.begin_combo("Material preset", same == presets.end() ? "own values" : same->name.c_str(),
+                     "Takes all values from one of the shipped materials."))
+    return;
+  for (const softbody::Material& preset : presets)
+    if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr)) chosen = renamed(preset);
+  ImGui::EndCombo();
+  if (chosen != now) session.settings.set_material(index, chosen);
+}
+
 void draw_material(Widgets& w, Session& session, UiState& ui) {
   const std::vector<softbody::Material>& all = session.world().scene().materials;
   ui.material = choose(w, "Material", "Whose values stand below.", ui.material, all.size(), [&](std::size_t i) {
     return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name;
   });
+  draw_preset(w, session, ui.material);
   for (const MaterialRow& row : material_rows) {
     softbody::Material changed = session.world().scene().materials[ui.material];
     double& value = row.value(changed);

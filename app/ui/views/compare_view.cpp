@@ -11,7 +11,7 @@
 namespace app::ui {
 namespace {
 
-constexpr std::size_t median_count = 15;  // measurements that a median is taken of
+constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
 enum ColumnIndex { run, name, time, tests, hashes, contacts, recall, precision, plot, misses, column_count };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <fmt/core.h>
 
@@ -213,6 +214,12 @@ float draw_scene_text(const Widgets& w, const char* text, float y, const ScreenR
 }
 
 }  // namespace
+
+double seconds_to_hint_change(double seconds) {
+  if (seconds > hint_seconds) return std::numeric_limits<double>::infinity();
+  constexpr double fade_step = 1.0 / 30;
+  return std::max(fade_step, hint_seconds - fade_seconds - seconds);
+}
 
 float draw_caption(Widgets& w, const Session& session, const ScreenRect& area, double seconds) {
   const float bottom = area.max.y - w.px(14), line = ImGui::GetTextLineHeight() + w.px(14);

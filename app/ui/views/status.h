@@ -52,5 +52,7 @@ void draw_floating_legend(Widgets& widgets, const Session& session, const render
 /// Draws the caption and the hint at the lower edge of `area`. Returns their upper end (y). `seconds`: since the window
 /// opened; the hint fades out after a while.
 float draw_caption(Widgets& widgets, const Session& session, const ScreenRect& area, double seconds);
+/// Returns the seconds until the hint looks otherwise; infinity once it is gone.
+double seconds_to_hint_change(double seconds);
 
 }  // namespace app::ui

@@ -55,8 +55,9 @@ void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
   if (mouse_.hovered != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
     mouse_.hovered = label;
     mouse_.seconds = 0;
+  } else {  // the first frame may follow a long wait
+    mouse_.seconds += ImGui::GetIO().DeltaTime;
   }
-  mouse_.seconds += ImGui::GetIO().DeltaTime;
   if (mouse_.seconds >= MouseState::tooltip_delay) show_tooltip(tooltip);
 }
 

@@ -1,0 +1,106 @@
+#include "app/window/frame_schedule.h"
+
+#include <gtest/gtest.h>
+
+namespace app {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// A loop as the demo's, with a clock of its own. Nothing happens but what the test says.
+struct Loop {
+  double now = 100;
+  window::FrameSchedule schedule{now};
+  window::Activity activity;
+  bool awaits_answer = false;
+  int frames = 0, wake_ups = 0;
+
+  /// Runs for so long (s). A frame takes 1/60 s.
+  void run(double seconds) {
+    frames = wake_ups = 0;
+    for (const double end = now + seconds; now < end; ++wake_ups) {
+      now += schedule.wait(now, awaits_answer);
+      if (!schedule.due(now)) continue;
+      ++frames;
+      now += 1.0 / 60;
+      schedule.drawn(now, activity);
+    }
+  }
+};
+
+TEST(SecondsToNextFrame, AreThoseOfTheMostUrgent) {
+  EXPECT_EQ(window::seconds_to_next_frame({}), infinity);
+  EXPECT_EQ(window::seconds_to_next_frame({.next_change = 3}), 3);
+  EXPECT_EQ(window::seconds_to_next_frame({.typing = true, .next_change = 3}), 0.4);
+  EXPECT_EQ(window::seconds_to_next_frame({.typing = true, .next_change = 0.1}), 0.1);
+  EXPECT_EQ(window::seconds_to_next_frame({.reporting = true, .typing = true}), 0.25);
+  EXPECT_EQ(window::seconds_to_next_frame({.counting = true, .reporting = true}), 1.0 / 30);
+  EXPECT_EQ(window::seconds_to_next_frame({.moving = true, .counting = true, .next_change = 3}), 0);
+  EXPECT_EQ(window::seconds_to_next_frame({.next_change = -1}), 0) << "it should be gone already";
+}
+
+TEST(FrameSchedule, DrawsNothingOnceNothingChanges) {
+  Loop loop;
+  loop.run(2);
+  EXPECT_GT(loop.frames, 55) << "for a second after the start";
+  EXPECT_LT(loop.frames, 65);
+  loop.run(100);
+  EXPECT_EQ(loop.frames, 0);
+  EXPECT_LE(loop.wake_ups, 401) << "a few times a second it looks whether anything has changed";
+}
+
+TEST(FrameSchedule, DrawsFrameAfterFrameWhileAnythingMovesAndASecondLonger) {
+  Loop loop;
+  loop.activity.moving = true;
+  loop.run(10);
+  EXPECT_NEAR(loop.frames, 600, 2);
+  loop.activity.moving = false;
+  loop.run(3);
+  EXPECT_NEAR(loop.frames, 60, 2);
+}
+
+TEST(FrameSchedule, DrawsAtOnceAfterInputAndForASecond) {
+  Loop loop;
+  loop.run(3);
+  loop.schedule.input(loop.now);
+  EXPECT_TRUE(loop.schedule.due(loop.now));
+  EXPECT_EQ(loop.schedule.wait(loop.now, false), 0);
+  loop.run(3);
+  EXPECT_NEAR(loop.frames, 60, 2) << "a tooltip has time to appear";
+}
+
+TEST(FrameSchedule, DrawsOnceWhenAHintGoes) {
+  Loop loop;
+  loop.run(2);
+  loop.schedule.input(loop.now);
+  loop.run(1.5);
+  loop.schedule.drawn(loop.now, {.next_change = 7.3});
+  loop.run(7);
+  EXPECT_EQ(loop.frames, 0);
+  loop.run(1);
+  EXPECT_EQ(loop.frames, 1);
+}
+
+TEST(FrameSchedule, DrawsSlowlyWhereOnlyNumbersOrATextCursorChange) {
+  Loop loop;
+  loop.activity.counting = true;
+  loop.run(2);
+  loop.run(10);
+  EXPECT_NEAR(loop.frames, 200, 5) << "a wait of 1/30 s and a frame of 1/60 s";
+  loop.activity = {.typing = true};
+  loop.run(2);
+  loop.run(10);
+  EXPECT_NEAR(loop.frames, 24, 1);
+}
+
+TEST(FrameSchedule, LooksMoreOftenForAnAnswerWithoutDrawing) {
+  Loop loop;
+  loop.awaits_answer = true;
+  loop.run(2);
+  loop.run(10);
+  EXPECT_EQ(loop.frames, 0);
+  EXPECT_NEAR(loop.wake_ups, 300, 2);
+}
+
+}  // namespace
+}  // namespace app

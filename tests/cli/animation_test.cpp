@@ -1,0 +1,184 @@
+// Reads the animations of `simulate --animation` back.
+
+#include <gtest/gtest.h>
+
+#if SBCOLLIDE_GRAPHICS
+#include <webp/demux.h>
+
+#include <chrono>
+#include <csignal>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+#include <utility>
+
+#include "engine/image.h"
+#include "tests/cli/process.h"
+#include "tests/full_disk.h"
+
+namespace cli::test {
+namespace {
+
+/// What a WebP file shows.
+struct Film {
+  std::uint32_t width = 0, height = 0, loops = 1;
+  std::vector<int> ends;              // when each picture disappears (ms)
+  std::vector<std::string> pictures;  // RGBA
+};
+
+Film film(const std::filesystem::path& file) {
+  const std::string bytes = read_file(file);
+  const WebPData data{reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()};
+  const std::unique_ptr<WebPAnimDecoder, decltype(&WebPAnimDecoderDelete)> decoder(WebPAnimDecoderNew(&data, nullptr),
+                                                                                   &WebPAnimDecoderDelete);
+  WebPAnimInfo info;
+  if (!decoder || !WebPAnimDecoderGetInfo(decoder.get(), &info)) {
+    ADD_FAILURE() << file << " is no WebP file";
+    return {};
+  }
+  Film f{
+      .width = info.canvas_width, .height = info.canvas_height, .loops = info.loop_count, .ends = {}, .pictures = {}};
+  while (WebPAnimDecoderHasMoreFrames(decoder.get())) {
+    std::uint8_t* rgba = nullptr;
+    f.ends.push_back(0);
+    if (!WebPAnimDecoderGetNext(decoder.get(), &rgba, &f.ends.back())) {
+      ADD_FAILURE() << file << ": a picture cannot be read";
+      break;
+    }
+    f.pictures.emplace_back(reinterpret_cast<const char*>(rgba), std::size_t{4} * f.width * f.height);
+  }
+  return f;
+}
+
+/// Returns a command that animates a scene whose bodies move from the first frame on.
+std::vector<std::string> animate(const std::string& frames, const std::filesystem::path& file,
+                                 const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"simulate", "--scene", "A", "--frames", frames, "--animation", file};
+  const std::vector<std::string> small{"--size", "64x48"};
+  arguments.insert(arguments.end(), more.empty() ? small.begin() : more.begin(),
+                   more.empty() ? small.end() : more.end());
+  return arguments;
+}
+
+TEST(Animation, ShowsEverySecondFrameInRealTimeForever) {
+  const TemporaryFolder folder;
+  const Outcome o = run(animate("121", "run.webp", {"--size", "203x117"}), folder.path());
+  EXPECT_EQ(o.status, 0) << o.err;
+  EXPECT_EQ(o.err, "");
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"run.webp"});
+  const Film f = film(folder.path() / "run.webp");
+  EXPECT_EQ(f.width, 203u);
+  EXPECT_EQ(f.height, 117u);
+  EXPECT_EQ(f.loops, 0u) << "0: forever";
+  ASSERT_EQ(f.pictures.size(), 61u) << "frames 1, 3, ..., 121";
+  for (std::size_t i = 0; i < f.ends.size(); ++i) EXPECT_NEAR(f.ends[i], 1000 * double(i + 1) / 30, 0.5);
+}
+
+TEST(Animation, HasAtMostThirtyPicturesASecond) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.webp";
+  struct Case {
+    const char *frame_time, *frames;
+    std::vector<int> ends;  // ms
+  };
+  for (const auto& [frame_time, frames, ends] :
+       {Case{"0.0166667", "3", {33, 67}}, Case{"0.01", "9", {40, 80, 120}}, Case{"0.1", "2", {100, 200}}}) {
+    EXPECT_EQ(run(animate(frames, file, {"--dt", frame_time, "--size", "64x48"})).status, 0);
+    EXPECT_EQ(film(file).ends, ends) << "--dt " << frame_time;
+  }
+}
+
+TEST(Animation, ShowsWhatCapturesShow) {
+  const TemporaryFolder folder;
+  ASSERT_EQ(run(animate("31", "run.webp", {"--size", "203x117", "--capture", "1,31"}), folder.path()).status, 0);
+  const Film f = film(folder.path() / "run.webp");
+  ASSERT_EQ(f.pictures.size(), 16u);
+  for (const auto& [name, shown] :
+       {std::pair("frame_0001.png", f.pictures.front()), std::pair("frame_0031.png", f.pictures.back())}) {
+    const engine::Image capture = engine::load_png(folder.path() / name);
+    ASSERT_EQ(capture.rgba.size(), shown.size());
+    double sum = 0;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      sum += std::abs(int(capture.rgba[i]) - int(static_cast<unsigned char>(shown[i])));
+    EXPECT_LT(sum / static_cast<double>(shown.size()), 3) << name;
+  }
+}
+
+TEST(Animation, KeepsAPictureForAsLongAsNothingMoves) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.webp";
+  // The body of `drop` hangs in the air until frame 90.
+  ASSERT_EQ(run({"simulate", "--frames", "95", "--size", "64x48", "--animation", file}).status, 0);
+  EXPECT_EQ(film(file).ends, (std::vector<int>{1500, 1533, 1567, 1600}));
+}
+
+TEST(Animation, OfOnePictureIsAStillImage) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.webp";
+  ASSERT_EQ(run(animate("2", file)).status, 0);
+  EXPECT_EQ(film(file).pictures.size(), 1u);
+}
+
+TEST(Animation, IsTheSameInEachRunAndDoesNotChangeTheSimulation) {
+  const TemporaryFolder folder;
+  const auto one = folder.path() / "one.webp", other = folder.path() / "other.webp";
+  const std::vector<std::string> plain{"--scene", "A", "--frames", "20", "--size", "64x48"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), plain.begin(), plain.end());
+    return simulate(more)["state_hash"];
+  };
+  const auto hash = with({});
+  EXPECT_EQ(with({"--animation", one, "--threads", "1"}), hash);
+  EXPECT_EQ(with({"--animation", other, "--threads", "3", "--capture", "1,2", "--out", folder.path()}), hash);
+  EXPECT_EQ(read_file(one), read_file(other));
+}
+
+TEST(Animation, RefusesOtherKindsOfFile) {
+  const TemporaryFolder folder;
+  for (const char* name : {"run.gif", "run.WEBP", "run", "webp", ".webp", "run.webp.png"})
+    expect_refused(animate("2", folder.path() / name), {std::string("/") + name + ": the name must end in .webp"});
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
+}
+
+TEST(Animation, RefusesWhatAWebPFileCannotHoldBeforeAnythingRuns) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "run.webp";
+  expect_refused(animate("20001", file), {"--animation", "--frames 20000 or fewer"});
+  expect_refused(animate("2", file, {"--size", "16384x1"}), {"--animation", "16383", "--size"});
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
+}
+
+TEST(Animation, ReplacesOnlyAnOlderWebPFile) {
+  const TemporaryFolder folder;
+  const auto old = folder.write("old.webp", "RIFF, an old one"), other = folder.write("other.webp", "something else");
+  EXPECT_EQ(run(animate("3", old)).status, 0);
+  EXPECT_EQ(film(old).pictures.size(), 2u);
+  expect_refused(animate("3", other), {"other.webp: cannot be written: it exists"});
+  EXPECT_EQ(read_file(other), "something else");
+}
+
+TEST(Animation, LeavesNothingBehindWhenItCannotBeWritten) {
+  const TemporaryFolder folder;
+  const auto old = folder.write("old.webp", "RIFF, an old one");
+  expect_refused(animate("3", folder.path() / "missing" / "run.webp"), {"missing/run.webp: cannot be written"});
+  {
+    const tests::FullDisk full;
+    expect_refused(animate("3", old), {"old.webp: cannot be written"});
+  }
+  EXPECT_EQ(read_file(old), "RIFF, an old one");
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{"old.webp"});
+}
+
+TEST(Animation, LeavesNothingBehindWhenTheRunIsInterrupted) {
+  const TemporaryFolder folder;
+  Process process(animate("20000", folder.path() / "run.webp"));  // for minutes
+  while (process.running() && file_names(folder.path()).empty())
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  process.send(SIGINT);
+  EXPECT_EQ(process.wait().signal, SIGINT);
+  EXPECT_EQ(file_names(folder.path()), std::set<std::string>{});
+}
+
+}  // namespace
+}  // namespace cli::test
+#endif
