@@ -57,7 +57,9 @@ int run(const app::cli::Options& options) {
 int main(int argc, char** argv) {
   try {
     app::files::remove_temporary_files_on_signals();
-    std::signal(SIGXFSZ, SIG_IGN);  // a write beyond a size limit then fails like one on a full disk
+    // A write beyond a size limit, or to a pipe that nobody reads, then fails like one on a full disk.
+    std::signal(SIGXFSZ, SIG_IGN);
+    std::signal(SIGPIPE, SIG_IGN);
     const auto options = app::cli::parse_options(argc, argv);
     const int status = options ? run(*options) : 0;
     app::flush_standard_output();

@@ -56,7 +56,9 @@ Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
   return load_scene(scene_path(name, folder), presets_path(folder));
 }
 
-std::filesystem::path presets_path(const std::filesystem::path& folder) { return folder / "../materials.toml"; }
+std::filesystem::path presets_path(const std::filesystem::path& folder) {
+  return folder.parent_path() / "materials.toml";
+}
 
 const ContactSurfaceInfo* find_contact_surface(std::string_view key) {
   for (const ContactSurfaceInfo& c : contact_surfaces)

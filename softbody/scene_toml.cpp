@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
@@ -244,11 +245,12 @@ void add_lattice(const Table& owner, Table table, const BodySource& body, std::v
 }
 
 /// Returns the material that the key `preset` names; one with the default values if the table has no such key.
-Material read_preset(Table& table, const std::filesystem::path& presets) {
+Material read_preset(Table& table, std::span<const Material> presets) {
   if (!table.has("preset")) return {};
   const std::string name = table.text("preset", "");
+  if (presets.empty()) table.fail("preset", "cannot be used here: there are no presets");
   std::string known;
-  for (const Material& m : load_presets(presets)) {
+  for (const Material& m : presets) {
     if (m.name == name) return m;
     known.append(known.empty() ? "" : ", ").append(m.name);
   }
@@ -256,9 +258,10 @@ Material read_preset(Table& table, const std::filesystem::path& presets) {
 }
 
 std::vector<Material> read_materials(Table& root, const std::filesystem::path& presets) {
-  std::vector<Material> materials;
+  std::vector<Material> materials, known;
   for (Table& t : root.children("material")) {
-    Material m = read_material(t, read_preset(t, presets));
+    if (known.empty() && !presets.empty() && t.has("preset")) known = load_presets(presets);
+    Material m = read_material(t, read_preset(t, known));
     if (std::ranges::count(materials, m.name, &Material::name) > 0)
       t.fail("name", "'" + m.name + "' is that of an earlier [[material]]; give each its own");
     materials.push_back(std::move(m));

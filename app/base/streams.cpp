@@ -11,7 +11,7 @@ namespace app {
 
 void flush_standard_output() {
   if (!std::cout.flush() || std::fflush(stdout) != 0)
-    throw UsageError("standard output cannot be written to; is the disk full?");
+    throw UsageError("standard output cannot be written to; is the disk full, or did its reader end?");
 }
 
 void show_progress(const std::string& text) {

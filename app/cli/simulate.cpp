@@ -98,7 +98,7 @@ Json to_json_integrator(const softbody::World& world) {
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
 /// Returns the document of a world after its last frame; without frames what it has beside them.
-Json to_json(const softbody::World& world, std::optional<Json> frames) {
+Json document_json(const softbody::World& world, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
                 {"integrator", to_json_integrator(world)},
@@ -118,7 +118,7 @@ void print_line(const Json& object) {
 void print_json(const softbody::World& world, const std::vector<FrameRow>& rows) {
   Json frames = Json::array();
   for (const FrameRow& r : rows) frames.push_back(to_json(r));
-  print_line(to_json(world, std::move(frames)));
+  print_line(document_json(world, std::move(frames)));
 }
 
 std::string ratio_text(const softbody::Measures& measures, double ratio) {
@@ -295,7 +295,7 @@ void simulate(const Options& options) {
   pictures.finish();
   if (progress) clear_progress();
   if (options.json_lines)
-    print_line(to_json(world, {}));
+    print_line(document_json(world, {}));
   else if (options.json)
     print_json(world, rows);
   else

@@ -32,14 +32,16 @@ std::size_t method_index(std::string_view key) {
 
 Comparison::Comparison(std::uint32_t seed, std::uint64_t budget) : budget_(budget), random_(seed) { make_detectors(); }
 
-/// In place of those before, which may hold much memory.
+/// Replaces the detectors, since those of another world may hold much memory.
 void Comparison::make_detectors() {
-  entries_ = std::vector<Entry>(collide::method_table().size());
-  for (std::size_t i = 0; i < entries_.size(); ++i) entries_[i].detector = collide::method_table()[i].make();
+  std::vector<Entry> entries(collide::method_table().size());
+  for (std::size_t i = 0; i < entries.size(); ++i) entries[i].detector = collide::method_table()[i].make();
+  entries_ = std::move(entries);
 }
 
 CompareReport Comparison::run(const FrameSnapshot& snapshot, const std::stop_token& stop) {
-  if (std::exchange(world_, snapshot.world) != snapshot.world) make_detectors();
+  if (world_ != snapshot.world) make_detectors();
+  world_ = snapshot.world;
   CompareReport report;
   report.id = snapshot.id;
   report.frame = snapshot.frame_number;

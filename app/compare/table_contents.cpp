@@ -48,7 +48,7 @@ const CellGroup* BucketContents::group(const std::optional<Cell>& cell) const {
 
 TableContents::TableContents(const collide::DebugGeometry& debug, const collide::Frame& frame,
                              const collide::Settings& settings)
-    : vertices_(!debug.vertices.empty()) {
+    : entries_are_vertices_(!debug.vertices.empty()) {
   assert(collide::is_complete(frame));
   const collide::methods::CellHash hash(settings);
   const auto add = [&](const Cell& cell, collide::Index item) { entries_.push_back({hash.bucket(cell), cell, item}); };
@@ -70,7 +70,7 @@ TableContents::TableContents(const collide::DebugGeometry& debug, const collide:
 BucketContents TableContents::bucket(std::uint32_t number) const {
   const auto first = std::ranges::lower_bound(entries_, number, {}, &TableEntry::bucket);
   const std::span entries(first, std::ranges::upper_bound(first, entries_.end(), number, {}, &TableEntry::bucket));
-  BucketContents contents{.bucket = number, .vertices = vertices_};
+  BucketContents contents{.bucket = number, .vertices = entries_are_vertices_};
   std::vector<collide::Index> items;
   for (const TableEntry& entry : entries) {
     if (contents.groups.empty() || contents.groups.back().cell != entry.cell)

@@ -53,7 +53,7 @@ class TableContents {
 
  private:
   std::vector<TableEntry> entries_;  // ascending
-  bool vertices_ = false;
+  bool entries_are_vertices_ = false;
   Sharing sharing_;
 };
 

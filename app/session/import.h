@@ -66,7 +66,7 @@ class Import {
   /// Takes what has been read. Call it once a frame.
   void update(Session& session);
 
-  bool busy() const { return reading_; }
+  bool busy() const { return reading_ || !dropped_.empty(); }
   /// Returns what is being read, and for how long; empty unless busy().
   std::string progress() const;
   /// Returns the reports since the last load(), in order: all refusals, and the last few of the others.

@@ -18,8 +18,8 @@ void Session::advance(double elapsed) {
   exchange();
 }
 
-void Session::wait(double elapsed) {
-  simulation.wait(elapsed);
+void Session::let_pass(double elapsed) {
+  simulation.let_pass(elapsed);
   exchange();
 }
 

@@ -38,10 +38,10 @@ class Session : private SimulationObserver {
   void advance_one(double elapsed, bool allowed);
 
   /// Returns true if advance() would take no step: the world is paused, or has been at rest for so long that all curves
-  /// show it, and no sentence is still to come.
+  /// show it, and no caption is still to come.
   bool stands_still() const;
   /// Lets time pass in which the world stands still and nothing is drawn.
-  void wait(double elapsed);
+  void let_pass(double elapsed);
   /// Returns true if those who look at the world may have an answer soon, though it stands still.
   bool awaits_answer() const;
 

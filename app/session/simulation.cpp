@@ -203,8 +203,8 @@ void Simulation::undo() {
       auto world = make_world({}, {});
       world->restore(last.snapshot);
       loaded = std::move(last.loaded);
-      leave_for(std::move(world));
       past_.pop();
+      leave_for(std::move(world));
     });
     return;
   }

@@ -59,7 +59,7 @@ class Simulation {
   /// `stands_still`.
   void advance(double elapsed, bool stands_still = false);
   /// In place of advance() while no pictures are drawn: the world stands still.
-  void wait(double elapsed) { notice.age(elapsed); }
+  void let_pass(double elapsed) { notice.age(elapsed); }
   /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
   /// How long (ms) the last step took, the observer's work with it.

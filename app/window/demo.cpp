@@ -41,10 +41,11 @@ struct PictureKey {
   bool operator==(const PictureKey&) const = default;
 };
 
-/// What the interface shows and changes without input, beside what Activity names.
+/// What the interface shows that may change without input, apart from the contents of Activity.
 struct InterfaceKey {
-  std::uint64_t revision = 0, comparison = 0, judgement = 0;
-  std::string notice;
+  std::uint64_t revision = 0, comparison = 0, surface_report = 0;
+  std::string notice, exporter_message;
+  bool finishing = false;
   bool operator==(const InterfaceKey&) const = default;
 };
 
@@ -84,10 +85,10 @@ class Demo {
   void frame_or_wait(double elapsed, bool interrupted) {
     const double moving = interrupted ? std::min(elapsed, 1.0 / 60) : elapsed;
     seconds_ += elapsed - moving;
-    if (interrupted) session_.wait(elapsed - moving);
+    if (interrupted) session_.let_pass(elapsed - moving);
     if (schedule_.due(now()) || interface_key() != shown_ || graphics_->window.context_lost()) return frame(moving);
     seconds_ += moving;
-    session_.wait(moving);
+    session_.let_pass(moving);
     store_preferences();
   }
 
@@ -150,8 +151,8 @@ class Demo {
       ui::draw_labels(highlight->labels, camera_, viewport.size, interface_.scene_area(), graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
     shown_ = interface_key();
+    ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, drawing);
@@ -172,8 +173,10 @@ class Demo {
   InterfaceKey interface_key() const {
     return {.revision = session_.simulation.revision(),
             .comparison = session_.comparison.reports(),
-            .judgement = session_.surfaces.reports(),
-            .notice = session_.simulation.notice.text()};
+            .surface_report = session_.surfaces.reports(),
+            .notice = session_.simulation.notice.text(),
+            .exporter_message = ui_.exporter.message(),
+            .finishing = ui_.exporter.finishing()};
   }
 
   /// Runs long steps in a thread of their own. Meanwhile the camera can move; clicks and keys wait for the next frame.

@@ -94,9 +94,9 @@ TEST(Session, AgesItsNoticeWhileItWaits) {
   Session session(touching_pair(), {}, 1);
   session.simulation.clock.paused = true;
   session.simulation.notice.set("something");
-  for (int i = 0; i < 79; ++i) session.wait(0.25);
+  for (int i = 0; i < 79; ++i) session.let_pass(0.25);
   EXPECT_FALSE(session.simulation.notice.text().empty());
-  for (int i = 0; i < 3; ++i) session.wait(0.25);
+  for (int i = 0; i < 3; ++i) session.let_pass(0.25);
   EXPECT_TRUE(session.simulation.notice.text().empty()) << "after 20 s";
   EXPECT_EQ(session.world().frame(), 0);
 }

@@ -166,7 +166,7 @@ reference::ReferenceDeviation compare(const World& world, const StabilityStart& 
 }  // namespace
 
 std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
-                                                       std::span<const softbody::BodySource> joiners) {
+                                                        std::span<const softbody::BodySource> joiners) {
   if (!world.plan().has(softbody::Stage::contact_response)) return {};
   const softbody::Snapshot before = world.snapshot();
   for (const softbody::BodySource& joiner : joiners) world.add(joiner);

@@ -17,9 +17,9 @@ class Exporter {
   /// Returns a picture of the window, with the panel or of the scene alone.
   using Picture = std::function<engine::Image(bool with_panel)>;
 
-  std::string folder = ".";    // for all files; made if it does not exist
-  bool with_panel = false;     // pictures show the panel, too
-  std::size_t kind = 0;        // of the next recording: an index of recording_kinds
+  std::string folder = ".";        // for all files; made if it does not exist
+  bool with_panel = false;         // pictures show the panel, too
+  std::size_t kind = 0;            // of the next recording: an index of recording_kinds
   bool picture_requested = false;  // take a picture with the next frame
 
   void write_curves(const Session& session);

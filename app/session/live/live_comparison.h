@@ -30,7 +30,7 @@ struct CompareChoice {
 
 class LiveComparison {
  public:
-  /// So often the methods of the choice are timed in a state that does not change.
+  /// Number of times that each chosen method is timed while the state stays the same.
   static constexpr int times_per_state = 15;
 
   CompareChoice choice;

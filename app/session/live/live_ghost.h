@@ -24,7 +24,7 @@ class LiveGhost {
   const Ghost* get() const { return ghost_.get(); }
   /// How long (ms) its last step took.
   double step_ms() const { return ghost_ ? ghost_->world().last_step().total_ms : 0; }
-  /// Ghost::distance() by frame.
+  /// The distance of the ghost from the world, by frame.
   const TimeSeries& distances() const { return distances_; }
   /// Changes whenever the ghost may be elsewhere or another.
   std::uint64_t revision() const { return revision_; }

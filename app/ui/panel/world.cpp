@@ -86,7 +86,7 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
   const auto& presets = session.scenes.presets();
   const auto same = std::ranges::find(presets, now, renamed);
   w.row_label("Preset", w.px(label_column));
-  if (!w.begin_combo("Material preset", same == presets.end() ? "own values" : same->name.c_str(),
+  if (!w.begin_combo("Material preset", same == presets.end() ? "Custom" : same->name.c_str(),
                      "Takes all values from one of the shipped materials."))
     return;
   for (const softbody::Material& preset : presets)
