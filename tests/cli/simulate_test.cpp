@@ -195,7 +195,7 @@ TEST(SimulateJsonLines, EndTheRunWhenStandardOutputIsFull) {
     Process process({"simulate", "--scene", "drop", "--frames", frames, "--json-lines"}, "/", {}, "/dev/full");
     const Outcome o = process.wait();
     EXPECT_EQ(o.status, 2);
-    EXPECT_EQ(o.err, "sbcollide: standard output cannot be written to; is the disk full?\n");
+    EXPECT_EQ(o.err, "sbcollide: standard output cannot be written to; is the disk full, or did its reader end?\n");
   }
 }
 
