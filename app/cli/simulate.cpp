@@ -89,7 +89,7 @@ Json to_json(const softbody::Plan& plan) {
 }
 
 /// Returns the integrator asked for, the one that the last frame used and, if this was chosen automatically, why.
-Json to_json_integrator(const softbody::World& world) {
+Json integrator_json(const softbody::World& world) {
   return {{"key", world.integrator_choice().key},
           {"used", world.last_step().integrator->key},
           {"why", world.last_step().why}};
@@ -97,11 +97,11 @@ Json to_json_integrator(const softbody::World& world) {
 
 std::string hex(std::uint64_t value) { return fmt::format("{:016x}", value); }
 
-/// Returns the document of a world after its last frame; without frames what it has beside them.
+/// Returns the document of a world after its last frame; without `frames`, its other fields.
 Json document_json(const softbody::World& world, std::optional<Json> frames) {
   Json document{{"scene", world.scene().key},
                 {"method", world.method().key},
-                {"integrator", to_json_integrator(world)},
+                {"integrator", integrator_json(world)},
                 {"plan", to_json(world.plan())},
                 {"warnings", warnings(world.method(), world.collision())}};
   if (frames) document["frames"] = std::move(*frames);

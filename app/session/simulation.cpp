@@ -257,8 +257,8 @@ void Simulation::keep_settings(const softbody::Scene& in_use) {
 
 void Simulation::after_going_back() {
   stability_.went_back(*world_);
-  for (TimeSeries* ring : {&history_.detect_ms, &history_.solve_ms, &history_.contacts})
-    ring->forget_from(world_->frame());
+  for (TimeSeries* series : {&history_.detect_ms, &history_.solve_ms, &history_.contacts})
+    series->forget_from(world_->frame());
   replace(false);
 }
 

@@ -38,7 +38,7 @@ struct StepHistory {
 
 class Simulation {
  public:
-  /// notice() begins with it where no user could have caused the error.
+  /// The notice begins with it if no input explains the error.
   static constexpr std::string_view defect_prefix = "not enough memory, or a defect of this program: ";
 
   SimulationClock clock;

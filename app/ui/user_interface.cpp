@@ -16,6 +16,7 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   if (recorder) recorder->widgets.clear();
   Widgets widgets(scale, mouse_, ui.sections, recorder);
   ui.import.update(session);
+  sweep_view_.update();
   ui.tour.update(session, &ui.view);
   layout_ = compute_layout(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);

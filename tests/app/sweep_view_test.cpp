@@ -63,6 +63,15 @@ TEST(SweepView, AddsPointsInsideThePlotDuringTheSweep) {
   EXPECT_TRUE(missing) << "the literal method with small cells";
 }
 
+TEST(SweepView, SeesTheEndOfASweepBehindTheTour) {
+  PanelRig rig;
+  sweep(rig);
+  rig.ui.tour.toggle(rig.session, rig.ui.overlays);
+  ASSERT_TRUE(wait_until(rig, [](const session::SweepState& state) { return !state.running; }));
+  EXPECT_TRUE(rig.ui.tour.open());
+  EXPECT_FALSE(rig.interface.shows_sweep(rig.ui)) << "nothing to draw for";
+}
+
 TEST(SweepView, PutsSlowerPointsFurtherRightAndBetterOnesLower) {
   PanelRig rig;
   sweep(rig);

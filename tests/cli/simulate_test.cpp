@@ -1,6 +1,10 @@
 // The JSON document of `simulate`, and the effect of the options.
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
@@ -197,6 +201,21 @@ TEST(SimulateJsonLines, EndTheRunWhenStandardOutputIsFull) {
     EXPECT_EQ(o.status, 2);
     EXPECT_EQ(o.err, "sbcollide: standard output cannot be written to; is the disk full, or did its reader end?\n");
   }
+}
+
+TEST(SimulateJsonLines, EndTheRunWhenTheReaderEnds) {
+  const TemporaryFolder folder;
+  const std::string pipe = folder.path() / "pipe";
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  ASSERT_GE(reader, 0);
+  Process process({"simulate", "--scene", "drop", "--frames", "10000000", "--json-lines"}, "/", {}, pipe);
+  pollfd arrival{.fd = reader, .events = POLLIN, .revents = 0};
+  EXPECT_EQ(poll(&arrival, 1, 60'000), 1) << "nothing was printed";
+  close(reader);
+  const Outcome o = process.wait();
+  EXPECT_EQ(o.status, 2) << "signal " << o.signal;
+  EXPECT_NE(o.err.find("did its reader end?"), std::string::npos) << o.err;
 }
 
 TEST(Simulate, PrintsNoVolumeRatioOfOpenMeshes) {

@@ -346,7 +346,7 @@ material = "mine"
   EXPECT_EQ(s.bodies[0].material, 1);
 }
 
-TEST(MaterialPresets, ThatAreUnknownOrMissingAreErrors) {
+TEST(MaterialPresets, RefuseUnknownNamesAndMissingFiles) {
   const TemporaryFolder folder;
   const auto presets = folder.write("materials.toml", two_presets);
   const auto scene = folder.write("scene.toml", "[[material]]\npreset = \"wood\"\n[[body]]\n");
@@ -361,10 +361,12 @@ TEST(MaterialPresets, ThatAreUnknownOrMissingAreErrors) {
   EXPECT_NE(message(presets).find("scene.toml:2"), std::string::npos) << message(presets);
   EXPECT_NE(message(presets).find("must be one of: soft, hard"), std::string::npos) << message(presets);
   EXPECT_NE(message(folder.path() / "none.toml").find("none.toml"), std::string::npos);
+  EXPECT_NE(message({}).find("scene.toml:2"), std::string::npos) << message({});
+  EXPECT_NE(message({}).find("there are no presets"), std::string::npos) << message({});
 }
 
-/// Soft: a ball at rest is clearly flattened; and it is round before it touches anything.
-TEST(MaterialPresets, TheDefaultOneIsSoft) {
+/// A ball of the scene drop flattens at rest, and is round before it touches anything.
+TEST(MaterialPresets, JellyIsSoft) {
   Scene scene = find_scene("drop", SBCOLLIDE_SCENES);
   scene.bodies.resize(1);
   scene.bodies[0].position = {4, 1.5, 0};

@@ -213,11 +213,14 @@ void SweepView::draw_footer(Widgets& w) const {
                   why.empty() ? "The frame that is swept, whatever the demo shows by now." : why.c_str());
 }
 
+void SweepView::update() {
+  auto state = worker_.take();
+  if (!state) return;
+  state_ = std::move(*state);
+  plot_.set(state_.report);
+}
+
 void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
-  if (auto state = worker_.take()) {
-    state_ = std::move(*state);
-    plot_.set(state_.report);
-  }
   const float margin = w.px(margin_width), room = area.max.y - area.min.y - 2 * margin;
   ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
   ImGui::SetNextWindowSize({std::min(w.px(max_width), area.max.x - area.min.x - 2 * margin),
