@@ -207,7 +207,7 @@ TEST(SimulateJsonLines, EndTheRunWhenTheReaderEnds) {
   const TemporaryFolder folder;
   const std::string pipe = folder.path() / "pipe";
   ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
-  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   ASSERT_GE(reader, 0);
   Process process({"simulate", "--scene", "drop", "--frames", "10000000", "--json-lines"}, "/", {}, pipe);
   pollfd arrival{.fd = reader, .events = POLLIN, .revents = 0};
