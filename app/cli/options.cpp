@@ -282,6 +282,7 @@ std::optional<Options> parse_options(int argc, const char* const* argv) {
     throw UsageError("--mesh: only the window takes it; a scene file names meshes for `simulate`");
   if (!size.empty()) parse_size(size, options);
   options.size_given = !size.empty();
+  options.scene_given = cli.count("--scene") > 0;
   if (simulate->count("--capture")) parse_captures(captures, options);
   check(options);
   options.report.cores = options.threads;

@@ -29,6 +29,7 @@ struct DetectOptions {
 struct Options {
   Command command = Command::demo;
   std::string scene = "drop";
+  bool scene_given = false;
   DetectionOptions detection;
   std::optional<std::string> contact_surface;  // a key; otherwise the scene's
   std::optional<bool> self_collision;          // otherwise the scene's

@@ -47,7 +47,8 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
      "along edges: come closer to see all.",
      &Overlays::springs},
     {"missed", "Missed contacts", '6',
-     "Contacts that brute force finds and the driving method does not. Only the literal method can miss any.",
+     "True contacts that the paper's method does not find on this frame, or the method that you choose in the "
+     "comparison (V).",
      &Overlays::missed},
     {"areas", "Areas searched", '7',
      "Where two bodies can touch, and how these areas are cut: the exact method looks nowhere else (§2.1, §5).",

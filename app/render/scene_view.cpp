@@ -117,8 +117,10 @@ void SceneView::draw(const softbody::World& world, const OverlayRequest& overlay
                      const engine::Viewport& viewport, float pixel_scale, const compare::DrawnPositions& positions) {
   frame_ = {};
   frame_.pixel_scale = pixel_scale;
-  // The colours of overlays have meanings, so the bodies are dimmed.
-  const bool dimmed = overlays.shown.any() || overlays.bucket;
+  // The colours of overlays have meanings, so the bodies are dimmed. Missed contacts have marks of their own.
+  Overlays coloured = overlays.shown;
+  coloured.missed = false;
+  const bool dimmed = coloured.any() || overlays.bucket;
   positions_.clear();
   if (positions_.capacity() > 8 * positions.size()) {  // of a world that was left
     positions_ = {};

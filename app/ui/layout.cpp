@@ -4,6 +4,7 @@
 
 #include "app/ui/panel/panel.h"
 #include "app/ui/sidebar.h"
+#include "app/ui/time_line.h"
 #include "app/ui/views/compare_view.h"
 #include "app/ui/views/sweep_view.h"
 
@@ -12,8 +13,7 @@ namespace {
 
 // All in design pixels.
 constexpr float tour_width = 340;
-constexpr float min_scene_height = 200;  // above the comparison
-constexpr float status_height = 150;     // of what draw_status() draws, in most cases
+constexpr float min_scene_height = 200;
 
 float width_of(const ScreenRect& area) { return area.max.x - area.min.x; }
 
@@ -27,12 +27,19 @@ ScreenRect cut_tour(ScreenRect& scene, float scale) {
   return tour;
 }
 
+/// Returns the height of what stands below the scene.
+float lower_height(LowerView view, const ScreenRect& scene, float scale) {
+  if (view == LowerView::comparison) return compare_height(width_of(scene), scale);
+  return std::max(SweepView::min_height * scale, std::floor(0.5f * scene.max.y));
+}
+
 }  // namespace
 
 Layout compute_layout(const Session& session, const UiState& ui, float scale) {
   const ImVec2 display = ImGui::GetIO().DisplaySize;
   Layout layout;
   layout.scene = {{0, 0}, display};
+  if (ui.clean) return layout;
   ScreenRect& scene = layout.scene;
   layout.panel_covers_scene = ui.panel && display.x < (panel_width + min_scene_width) * scale;
   // A panel that covers the scene is hidden during the tour.
@@ -44,15 +51,19 @@ Layout compute_layout(const Session& session, const UiState& ui, float scale) {
     return layout;
   }
   if (layout.panel_covers_scene) return layout;
-  const float compare_top = display.y - compare_height(width_of(scene), scale);
-  const float min_above = ui.sweep ? status_height + SweepView::min_height : min_scene_height;
-  if (session.comparison.choice.on && compare_top >= min_above * scale) {
-    layout.compare = {{scene.min.x, compare_top}, display};
-    scene.max.y = compare_top;
-  } else if (session.comparison.choice.on) {
-    layout.no_room_message = "No room for the comparison: enlarge the window";
-    layout.no_room_message += ui.sweep ? " or close the error against run time (E)." : ".";
+  const float line = time_line_height(scale);
+  if (ui.lower != LowerView::none) {
+    const float top = display.y - lower_height(ui.lower, scene, scale);
+    if (top >= min_scene_height * scale + line)
+      layout.lower = {{scene.min.x, top}, display};
+    else
+      layout.no_room_message = ui.lower == LowerView::comparison
+                                   ? "No room for the comparison: enlarge the window."
+                                   : "No room for error against run time: enlarge the window.";
   }
+  if (layout.lower) scene.max.y = layout.lower->min.y;
+  layout.time_line = {{scene.min.x, scene.max.y - line}, scene.max};
+  scene.max.y -= line;
   if (has_sidebar(session, ui) && width_of(scene) >= (sidebar_width + min_scene_width) * scale) {
     layout.sidebar = {{scene.max.x - sidebar_width * scale, scene.min.y}, scene.max};
     scene.max.x = layout.sidebar->min.x;

@@ -13,13 +13,14 @@ namespace app::ui {
 inline constexpr float min_scene_width = 240;  // design pixels
 
 struct Layout {
-  bool panel_covers_scene = false;    // the window is too narrow for both
-  std::optional<ScreenRect> panel;    // at the left edge
-  std::optional<ScreenRect> sidebar;  // at the right edge
-  std::optional<ScreenRect> compare;  // at the lower edge
-  std::optional<ScreenRect> tour;     // instead of sidebar and comparison
-  ScreenRect scene;                   // the rest; all of the window if the panel covers the scene
-  std::string no_room_message;        // names a part that is switched on and has no room; else empty
+  bool panel_covers_scene = false;      // the window is too narrow for both
+  std::optional<ScreenRect> panel;      // at the left edge
+  std::optional<ScreenRect> sidebar;    // at the right edge
+  std::optional<ScreenRect> lower;      // at the lower edge, for UiState::lower
+  std::optional<ScreenRect> time_line;  // between the scene and `lower`
+  std::optional<ScreenRect> tour;       // instead of sidebar, `lower` and time line
+  ScreenRect scene;                     // the rest; all of the window if the panel covers the scene
+  std::string no_room_message;          // names a part that is switched on and has no room; else empty
 };
 
 /// Lays the parts out in ImGui's display.

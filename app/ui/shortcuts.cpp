@@ -40,18 +40,24 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: the step before", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: the next step", [](Session&, UiState& ui) { ui.tour.next(); }},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
-             [](Session& s, UiState&) { s.comparison.choice.on = !s.comparison.choice.on; }},
-    Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.sweep = !ui.sweep; }},
+             [](Session&, UiState& ui) { ui.toggle(LowerView::comparison); }},
+    Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.toggle(LowerView::sweep); }},
+    Shortcut{GLFW_KEY_W, 0, "W", "What the paper's method misses",
+             [](Session&, UiState& ui) { ui.set_story(!ui.story); }},
+    Shortcut{GLFW_KEY_L, 0, "L", "Status lights", [](Session&, UiState& ui) { ui.lights = !ui.lights; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
     Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_requested = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
+    Shortcut{GLFW_KEY_X, GLFW_KEY_F11, "X or F11", "Nothing but the scene",
+             [](Session&, UiState& ui) { ui.clean = !ui.clean; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
     Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
              [](Session& s, UiState& ui) {
                if (ui.popup_open) return;  // the key closes this list and nothing else
-               if (ui.tour.open() && !ui.help) return ui.tour.close(s, ui.overlays);
-               ui.help = false;
+               if (ui.clean || ui.help) return void(ui.clean = ui.help = false);
+               if (ui.tour.open()) return ui.tour.close(s, ui.overlays);
+               if (!s.bodies.selected() && !s.inspector.selected_bucket()) ui.set_story(false);
                s.bodies.select(std::nullopt);
                s.inspector.select_bucket(std::nullopt);
              }},

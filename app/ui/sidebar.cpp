@@ -7,7 +7,7 @@
 namespace app::ui {
 
 bool has_sidebar(const Session& session, const UiState& ui) {
-  return ui.hash_table || session.inspector.bucket() || ui.overlays.true_surfaces || has_legend(session, ui.overlays);
+  return ui.hash_table || session.inspector.bucket() || ui.overlays.true_surfaces;
 }
 
 void draw_sidebar(Widgets& w, Session& session, UiState& ui, HashTableView& hash_table_view, const ScreenRect& area) {

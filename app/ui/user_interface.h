@@ -3,6 +3,7 @@
 
 #include "app/ui/layout.h"
 #include "app/ui/views/hash_table_view.h"
+#include "app/ui/views/story_card.h"
 #include "app/ui/views/sweep_view.h"
 
 namespace app::ui {
@@ -15,7 +16,7 @@ class UserInterface {
   /// Returns the seconds until the interface changes by itself; infinity if it does not.
   double seconds_to_change(const UiState& ui, double seconds) const;
   /// Returns true while a sweep shows its progress.
-  bool shows_sweep(const UiState& ui) const { return ui.sweep && sweep_view_.state().running; }
+  bool shows_sweep(const UiState& ui) const { return ui.lower == LowerView::sweep && sweep_view_.state().running; }
 
   /// The area of the scene in the last draw(), in ImGui units. Docked windows draw no background: clear the frame to
   /// dock_colour() before.
@@ -24,11 +25,15 @@ class UserInterface {
   const SweepView& sweep_view() const { return sweep_view_; }
 
  private:
+  void draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
+  void draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
   void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds);
 
   Layout layout_;
   HashTableView hash_table_view_;
   SweepView sweep_view_;
+  FloatingBox lights_;
+  StoryCard story_;
   MouseState mouse_;
 };
 

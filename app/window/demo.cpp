@@ -58,7 +58,8 @@ class Demo {
         session_owner_(open_session(options, *graphics_)),
         session_(*session_owner_) {
     session_.settings.set_integrator(options.integrator);
-    apply(preferences_.stored(), session_, ui_);
+    apply(preferences_.is_new() ? first_preferences(window_size()) : preferences_.stored(), session_, ui_);
+    ui_.story = ui_.story_at_start && !options.scene_given;
     store_preferences();
     ui_.import.drop(options.meshes, session_);
   }
@@ -252,6 +253,7 @@ class Demo {
 
   void move_camera(const engine::Viewport& viewport, double elapsed) {
     if (ui_.reset_camera || shown_scene_ != session_.world().scene().key) {
+      if (!shown_scene_.empty() && !ui_.reset_camera) ui_.story = false;  // another scene was asked for
       shown_scene_ = session_.world().scene().key;
       camera_ = graphics_->view.camera(session_.world().scene(), viewport.size);
       fitted_ = viewport.size;
@@ -321,10 +323,10 @@ class Demo {
     const render::Overlays& shown = ui_.overlays;
     return {.revision = session_.simulation.revision(),
             .ghost = session_.ghost().revision(),
-            .comparison = shown.missed ? session_.comparison.reports() : 0,
+            .comparison = ui_.shows_misses() ? session_.comparison.reports() : 0,
             .surface_report = shown.true_surfaces ? session_.surfaces.reports() : 0,
             .tour = ui_.tour.highlight_revision(),
-            .misses_of = session_.comparison.misses_of(),
+            .misses_of = session_.comparison.choice.misses_of,
             .overlays = shown,
             .bucket = session_.inspector.selected_bucket(),
             .cell = session_.inspector.selected_cell(),

@@ -11,6 +11,7 @@ namespace app::window {
 struct DemoOptions {
   softbody::Scene scene;
   std::string scene_name;              // its key or file
+  bool scene_given = false;            // else it is the default scene, which opens with the story
   std::filesystem::path scene_folder;  // of the other scenes that the panel offers
   std::vector<std::string> meshes;     // OBJ files that are imported as if dropped on the window
   softbody::IntegratorChoice integrator;

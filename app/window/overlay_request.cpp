@@ -9,6 +9,7 @@ bool shows_present_state(const Session& session, const render::Overlays& shown) 
 render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui) {
   render::OverlayRequest request;
   request.shown = ui.overlays;
+  request.shown.missed = ui.shows_misses();
   request.bucket = session.inspector.bucket();
   request.bucket_cell = session.inspector.selected_cell();
   request.selected_body = session.bodies.selected();

@@ -18,10 +18,11 @@ struct Flag {
   bool Preferences::*value;
 };
 constexpr std::array flags{Flag{"panel", &Preferences::panel},            //
+                           Flag{"lights", &Preferences::lights},          //
                            Flag{"hash_table", &Preferences::hash_table},  //
-                           Flag{"error_time", &Preferences::sweep},       //
-                           Flag{"compare", &Preferences::compare},        //
+                           Flag{"story", &Preferences::story},            //
                            Flag{"picture_with_panel", &Preferences::picture_with_panel}};
+constexpr std::array<std::string_view, 3> lower_views{"none", "comparison", "error_time"};  // by ui::LowerView
 
 /// Ignores the keys of other versions of the program.
 Preferences read(softbody::Table root) {
@@ -31,6 +32,8 @@ Preferences read(softbody::Table root) {
   p.slow_factor = root.number("slow_motion", p.slow_factor, session::SimulationClock::min_slow_factor,
                               session::SimulationClock::max_slow_factor);
   for (const auto& [key, value] : flags) p.*value = root.boolean(key, p.*value);
+  const auto lower = std::ranges::find(lower_views, root.text("below", ""));
+  if (lower != lower_views.end()) p.lower = static_cast<ui::LowerView>(lower - lower_views.begin());
   softbody::Table shown = root.child("show");
   for (const render::OverlayRow& row : render::overlay_table) {
     bool& on = p.overlays.*row.shown;
@@ -45,6 +48,7 @@ std::string text_of(const Preferences& p) {
   softbody::TomlLines out;
   out.add("width", p.size.x).add("height", p.size.y).add("slow_motion", p.slow_factor);
   for (const auto& [key, value] : flags) out.add(key, p.*value);
+  out.add("below", lower_views[static_cast<std::size_t>(p.lower)]);
   out.heading("[show]");
   for (const render::OverlayRow& row : render::overlay_table) out.add(row.key, p.overlays.*row.shown);
   for (const auto& [name, open] : p.sections) out.heading("[[section]]").add("name", name).add("open", open);
@@ -60,13 +64,23 @@ fs::path folder_in(const char* variable) {
 
 }  // namespace
 
+Preferences first_preferences(glm::ivec2 size) {
+  constexpr int for_panel = 900, for_hash_table = 1600;  // widths in screen coordinates
+  Preferences p;
+  p.size = size;
+  p.panel = size.x >= for_panel;
+  p.hash_table = size.x >= for_hash_table;
+  return p;
+}
+
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size) {
   return {.size = size,
           .overlays = ui.tour.saved_overlays().value_or(ui.overlays),
           .panel = ui.panel,
+          .lights = ui.lights,
           .hash_table = ui.hash_table,
-          .sweep = ui.sweep,
-          .compare = session.comparison.choice.on,
+          .story = ui.story_at_start,
+          .lower = ui.lower,
           .picture_with_panel = ui.exporter.with_panel,
           .slow_factor = session.simulation.clock.slow_factor,
           .sections = ui.sections};
@@ -74,11 +88,12 @@ Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::i
 
 void apply(const Preferences& p, Session& session, ui::UiState& ui) {
   ui.overlays = p.overlays;
-  session.comparison.choice.on = p.compare;
   session.simulation.clock.slow_factor = p.slow_factor;
   ui.panel = p.panel;
+  ui.lights = p.lights;
   ui.hash_table = p.hash_table;
-  ui.sweep = p.sweep;
+  ui.story_at_start = p.story;
+  ui.lower = p.lower;
   ui.exporter.with_panel = p.picture_with_panel;
   ui.sections = p.sections;
 }
@@ -96,6 +111,7 @@ fs::path preferences_path() {
 PreferencesFile::PreferencesFile(fs::path file) : file_(std::move(file)) {
   std::error_code error;
   if (!file_.empty() && fs::exists(file_, error)) {
+    is_new_ = false;
     try {
       const toml::table table = softbody::read_toml(file_);
       stored_ = read(softbody::Table(table, file_.string(), ""));

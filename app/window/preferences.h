@@ -15,7 +15,8 @@ namespace app::window {
 struct Preferences {
   glm::ivec2 size{1280, 720};  // of the window, as WindowOptions::size
   render::Overlays overlays;
-  bool panel = true, hash_table = true, sweep = false, compare = false;
+  bool panel = true, lights = true, hash_table = true, story = true;
+  ui::LowerView lower = ui::LowerView::none;
   bool picture_with_panel = false;
   double slow_factor = 0.1;
   std::map<std::string, bool> sections;  // of the panel: whether they are open
@@ -23,6 +24,8 @@ struct Preferences {
   bool operator==(const Preferences&) const = default;
 };
 
+/// Returns what is open at the first start: where space is short, less is.
+Preferences first_preferences(glm::ivec2 size);
 Preferences preferences_of(const Session& session, const ui::UiState& ui, glm::ivec2 size);
 /// Applies everything except the window's size.
 void apply(const Preferences& preferences, Session& session, ui::UiState& ui);
@@ -36,6 +39,8 @@ class PreferencesFile {
   explicit PreferencesFile(std::filesystem::path file);
 
   const Preferences& stored() const { return stored_; }
+  /// Returns true if there was no file.
+  bool is_new() const { return is_new_; }
   /// Writes the preferences if they differ from the stored ones and have not changed for some seconds, or if this is
   /// the last call (`last`). `seconds`: a clock's time. Never throws: on failure the file stays as it was, and
   /// take_problem() says why.
@@ -50,6 +55,7 @@ class PreferencesFile {
 
   std::filesystem::path file_;
   Preferences stored_, pending_;
+  bool is_new_ = true;
   double pending_since_ = 0;  // s
   std::string problem_;
 };

@@ -8,12 +8,14 @@
 #include "app/ui/shortcuts.h"
 #include "tests/app/panel_rig.h"
 
+#include <GLFW/glfw3.h>
+
 namespace app {
 namespace {
 
 TEST(Tooltip, StandsBesideThePanel) {
   PanelRig rig;
-  for (const char* label : {"Pause", "Tolerance", "Contacts", "Detect"}) {
+  for (const char* label : {"Reset", "Tolerance", "Contacts", "Detect"}) {
     const auto [name, min, max, enabled] = rig.widget(label);
     rig.move(0.5f * (min.x + max.x), 0.5f * (min.y + max.y));
     rig.frames(40);  // the mouse rests
@@ -24,7 +26,7 @@ TEST(Tooltip, StandsBesideThePanel) {
 
 TEST(Tooltip, StandsAboveTheComparison) {
   PanelRig rig;
-  rig.session.comparison.choice.on = true;
+  rig.ui.lower = ui::LowerView::comparison;
   rig.frames(3);
   const ui::WidgetRecorder::Widget head = rig.widget("Column Method"), row = rig.widget("Drive Grid Hash");
   rig.move(0.5f * (row.min.x + row.max.x), 0.5f * (row.min.y + row.max.y));
@@ -42,34 +44,76 @@ TEST(Layout, NamesThePartsThatHaveNoRoom) {
   rig.ui.hash_table = false;
   rig.resize(800, 350);
   EXPECT_FALSE(rig.recorder.find("No room"));
-  rig.session.comparison.choice.on = true;
+  rig.ui.lower = ui::LowerView::comparison;
   rig.frames(2);
   EXPECT_TRUE(rig.recorder.find("No room")) << "for the comparison";
   rig.resize(1280, 1150);
   EXPECT_FALSE(rig.recorder.find("No room"));
 }
 
-TEST(Layout, PutsTheSweepBelowTheStatus) {
+TEST(Layout, LeavesTheSceneVisibleAboveTheComparisonAndTheSweep) {
   PanelRig rig;
-  rig.ui.sweep = true;
   for (const glm::ivec2 size : {glm::ivec2(800, 600), glm::ivec2(1280, 720)}) {
     rig.resize(size.x, size.y);
-    for (const bool compare : {false, true}) {
-      rig.session.comparison.choice.on = compare;
+    for (const ui::LowerView view : {ui::LowerView::comparison, ui::LowerView::sweep}) {
+      rig.ui.lower = view;
       rig.frames(3);
-      float status_ends = 0;
-      for (const char* label : {"Live recall", "Step light", "No room"})
-        if (const ui::WidgetRecorder::Widget* line = rig.recorder.find(label))
-          status_ends = std::max(status_ends, line->max.y);
-      const float title = ImGui::GetFrameHeight() + ImGui::GetStyle().WindowPadding.y;
-      EXPECT_GE(rig.widget("Sweep").min.y - title, status_ends) << size.x << ", compare: " << compare;
+      const ui::ScreenRect scene = rig.interface.scene_area();
+      EXPECT_GE(scene.max.y, 200);
+      const bool sweep = view == ui::LowerView::sweep;
+      EXPECT_EQ(rig.recorder.find("Scatter") != nullptr, sweep);
+      EXPECT_EQ(rig.recorder.find("Column Method") != nullptr, !sweep);
+      const float time_line = rig.widget("Time line").min.y;
+      EXPECT_GE(time_line, scene.max.y);
+      EXPECT_LE(time_line, rig.widget(sweep ? "Sweep" : "Column Method").min.y);
+      if (!sweep) continue;
       const ui::WidgetRecorder::Widget plot = rig.widget("Scatter");
-      EXPECT_GE(plot.max.y - plot.min.y, 120) << size.x << ", compare: " << compare;
-      EXPECT_LE(plot.max.y, rig.interface.scene_area().max.y);
-      const bool has_room = size.y > 700;
-      EXPECT_EQ(rig.recorder.find("Column Method") != nullptr, compare && has_room);
+      EXPECT_GE(plot.max.y - plot.min.y, 120) << size.x;
+      EXPECT_LE(plot.max.y, static_cast<float>(size.y));
     }
   }
+}
+
+TEST(Layout, ShowsNothingButTheSceneInTheCleanView) {
+  PanelRig rig;
+  rig.ui.lower = ui::LowerView::comparison;
+  rig.ui.story = true;
+  rig.frames(3);
+  ui::handle_key('X', false, rig.session, rig.ui);
+  rig.frames(2);
+  EXPECT_TRUE(rig.recorder.widgets.empty());
+  const ui::ScreenRect scene = rig.interface.scene_area();
+  EXPECT_EQ(scene.min.x, 0);
+  EXPECT_EQ(scene.max.x, 1280);
+  EXPECT_EQ(scene.max.y, 1150);
+  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  rig.frames(2);
+  EXPECT_FALSE(rig.ui.clean);
+  EXPECT_TRUE(rig.ui.story) << "the key closes one thing at a time";
+  EXPECT_TRUE(rig.recorder.find("Tolerance"));
+}
+
+TEST(Layout, KeepsBoxesOverTheSceneApart) {
+  for (const glm::ivec2 size :
+       {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720), glm::ivec2(1600, 1000)})
+    for (const bool panel : {false, true}) {
+      PanelRig rig;
+      rig.ui.story = true;
+      rig.ui.panel = panel;
+      rig.ui.hash_table = false;
+      rig.ui.overlays.contacts = true;
+      rig.resize(size.x, size.y);
+      rig.frames(3);
+      const float lights_end = rig.widget("Step light").max.y, lights_right = rig.widget("Close lights").max.x;
+      const ui::WidgetRecorder::Widget card = rig.widget("Close story");
+      const ui::WidgetRecorder::Widget row = rig.widget("Story of Multi-Level SB");
+      EXPECT_TRUE(row.min.x > lights_right || card.min.y > lights_end) << size.x << " panel " << panel;
+      for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets) {
+        if (line.label != "Legend") continue;
+        EXPECT_GE(line.min.y, lights_end);
+        EXPECT_TRUE(line.max.x < row.min.x || line.max.y < card.min.y || line.min.y > row.max.y) << size.x;
+      }
+    }
 }
 
 TEST(Layout, KeepsLegendsWithinTheirArea) {
@@ -117,12 +161,12 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
   for (const glm::ivec2 size : {glm::ivec2(1280, 720), glm::ivec2(1600, 1000)}) {
     PanelRig rig;
     for (const render::OverlayRow& row : render::overlay_table) rig.ui.overlays.*row.shown = true;
-    rig.session.comparison.choice.on = true;
+    rig.ui.lower = ui::LowerView::comparison;
     rig.resize(size.x, size.y);
     const ui::ScreenRect scene = rig.interface.scene_area();
     const float width = scene.max.x - scene.min.x, height = scene.max.y - scene.min.y;
     EXPECT_GE(width, 0.5f * static_cast<float>(size.x));
-    EXPECT_GE(height, 0.75f * static_cast<float>(size.y));
+    EXPECT_GE(height, 0.7f * static_cast<float>(size.y));
     for (const char* label : {"Buckets of the table", "Judged frame", "Drive Multi-Level SB"})
       ASSERT_TRUE(rig.recorder.find(label)) << label;
     for (const auto& [label, min, max, enabled] : rig.recorder.widgets) {

@@ -58,12 +58,14 @@ TEST(DetectionPanel, EnablesWhatAViewOrTheComparisonUses) {
   };
   EXPECT_FALSE(enabled());
   for (bool* shown :
-       {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.session.comparison.choice.on}) {
+       {&rig.ui.hash_table, &rig.ui.overlays.boxes, &rig.ui.overlays.cells, &rig.ui.overlays.missed, &rig.ui.story}) {
     *shown = true;
     EXPECT_TRUE(enabled());
     *shown = false;
     EXPECT_FALSE(enabled());
   }
+  rig.ui.lower = ui::LowerView::comparison;
+  EXPECT_TRUE(enabled());
 }
 
 TEST(DetectionPanel, DragsEverySliderToItsEnds) {

@@ -108,15 +108,15 @@ TEST(Panel, KeepsTheStatusWhenItIsHidden) {
   PanelRig rig;
   rig.ui.panel = false;
   rig.frames(2);
-  EXPECT_FALSE(rig.recorder.find("Pause"));
+  EXPECT_FALSE(rig.recorder.find("Tolerance"));
   EXPECT_TRUE(rig.recorder.find("Coverage"));
   EXPECT_TRUE(rig.recorder.find("Live recall"));
   EXPECT_LT(rig.widget("Coverage").min.x, 100);
 }
 
 TEST(Panel, IsTwiceAsLargeOnAHighDensityScreen) {
-  const ImVec2 one = PanelRig().widget("Pause").max;
-  const ImVec2 two = PanelRig(2).widget("Pause").max;
+  const ImVec2 one = PanelRig().widget("Reset").max;
+  const ImVec2 two = PanelRig(2).widget("Reset").max;
   EXPECT_NEAR(two.x, 2 * one.x, 8);
   EXPECT_NEAR(two.y, 2 * one.y, 8);
 }

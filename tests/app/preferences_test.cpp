@@ -13,11 +13,12 @@ using tests::TemporaryFolder;
 /// Returns preferences that all differ from the defaults. The structured binding does not compile if one is missing.
 window::Preferences changed() {
   window::Preferences p;
-  auto& [size, overlays, panel, hash_table, sweep, compare, with_panel, slow_factor, sections] = p;
+  auto& [size, overlays, panel, lights, hash_table, story, lower, with_panel, slow_factor, sections] = p;
   size = {900, 700};
   for (const render::OverlayRow& row : render::overlay_table) overlays.*row.shown = true;
-  panel = hash_table = false;
-  sweep = compare = with_panel = true;
+  panel = lights = hash_table = story = false;
+  lower = ui::LowerView::sweep;
+  with_panel = true;
   slow_factor = 0.5;
   sections = {{"Detection", false}, {"A \"new\" one", true}};
   return p;

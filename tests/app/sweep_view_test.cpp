@@ -19,7 +19,7 @@ bool has_ended(const session::SweepState& state) { return !state.running; }
 /// Pauses, opens the window and starts a sweep.
 void sweep(PanelRig& rig) {
   rig.session.simulation.clock.paused = true;
-  rig.ui.sweep = true;
+  rig.ui.lower = ui::LowerView::sweep;
   rig.frames(3);
   rig.click("Sweep");
 }
@@ -102,10 +102,10 @@ TEST(SweepView, SweepsItsFrameWhileItIsClosedAndTheWorldChanges) {
   sweep(rig);
   const int frame = rig.session.world().frame();
   ASSERT_GT(frame, 0);
-  rig.ui.sweep = false;
+  rig.ui.lower = ui::LowerView::none;
   rig.session.simulation.reset();
   rig.frames(5);
-  rig.ui.sweep = true;
+  rig.ui.lower = ui::LowerView::sweep;
   ASSERT_TRUE(wait_until(rig, has_ended));
   EXPECT_EQ(rig.interface.sweep_view().state().frame, frame);
   EXPECT_EQ(rig.interface.sweep_view().state().progress, 1.0);
@@ -142,7 +142,7 @@ TEST(SweepView, KeepsEverythingInPlaceDuringTheSweep) {
   for (const float scale : {1.0f, 2.0f}) {
     PanelRig rig(scale);
     rig.session.simulation.clock.paused = true;
-    rig.ui.sweep = true;
+    rig.ui.lower = ui::LowerView::sweep;
     rig.frames(3);
     const auto before = rig.recorder.widgets;
     rig.click("Sweep");

@@ -160,8 +160,10 @@ void view(DemoRig& demo, Dice& dice) {
   demo.ui.panel = dice.heads();
   demo.ui.hash_table = dice.heads();
   demo.ui.help = dice.pick(8) == 0;
-  demo.ui.sweep = dice.heads();
-  demo.session.comparison.choice.on = dice.heads();
+  demo.ui.lower = static_cast<app::ui::LowerView>(dice.pick(3));
+  demo.ui.lights = dice.heads();
+  demo.ui.story = dice.heads();
+  demo.ui.clean = dice.pick(8) == 0;
   demo.session.inspector.select_bucket(dice.pick(1001));
   demo.restart_camera();
 }

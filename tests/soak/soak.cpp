@@ -175,7 +175,7 @@ class Soak {
   /// Lets each method build its largest table once before memory is compared: a method keeps that memory.
   void fill_tables() {
     app::Session& session = demo_.session;
-    session.comparison.choice.on = true;
+    demo_.ui.lower = app::ui::LowerView::comparison;
     for (const collide::Method& method : collide::method_table()) {
       if (!method.uses_hash) continue;
       session.settings.set_method(method.key);

@@ -38,7 +38,7 @@ void LiveComparison::exchange(const softbody::World& world, std::uint64_t revisi
   if (auto report = worker_.take(); report && report->id >= first_wanted_) keep(std::move(*report));
   if (!wants_report(revision) || !worker_.ready(rests)) return;
   compare::FrameSnapshot snapshot = copy_frame(world, revision, world_number);
-  if (choice.on) snapshot.chosen = choice.methods;
+  snapshot.chosen = chosen();
   if (std::exchange(offered_, revision) != revision || snapshot.chosen != offered_methods_) offers_ = 0;
   offered_methods_ = snapshot.chosen;
   ++offers_;
@@ -48,7 +48,19 @@ void LiveComparison::exchange(const softbody::World& world, std::uint64_t revisi
 /// A world at rest has nothing new for the recall, but times want to be taken until their median is worth something.
 bool LiveComparison::wants_report(std::uint64_t revision) const {
   if (offered_ != revision) return true;
-  return choice.on && (choice.methods != offered_methods_ || offers_ < times_per_state);
+  const std::vector<bool> wanted = chosen();
+  return (!wanted.empty() && wanted != offered_methods_) || (choice.on && offers_ < times_per_state);
+}
+
+/// Returns which methods run beside the driver; empty if none does.
+std::vector<bool> LiveComparison::chosen() const {
+  std::vector<bool> methods;
+  if (choice.on) methods = choice.methods;
+  if (choice.shows_misses && choice.misses_of != driver_) {
+    methods.resize(collide::method_table().size());
+    methods[choice.misses_of] = true;
+  }
+  return methods;
 }
 
 void LiveComparison::keep(compare::CompareReport report) {
@@ -90,7 +102,7 @@ const compare::CompareRow* LiveComparison::scored_row(std::size_t method) const 
 }
 
 const std::vector<collide::Contact>* LiveComparison::missed() const {
-  const compare::CompareRow* row = scored_row(misses_of());
+  const compare::CompareRow* row = scored_row(choice.misses_of);
   return row ? &row->missed : nullptr;
 }
 

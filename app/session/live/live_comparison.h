@@ -23,9 +23,10 @@ using CompareWorker = BackgroundWorker<CompareTask>;
 
 /// What to compare with the driving method, which is compared with the reference in any case.
 struct CompareChoice {
-  bool on = false;
+  bool on = false;  // whether `methods` are compared
   std::vector<bool> methods = std::vector<bool>(collide::method_table().size(), true);
-  std::optional<std::size_t> misses_of;  // whose missed contacts to show; none: the driver's
+  bool shows_misses = false;                                             // whether `misses_of` is compared
+  std::size_t misses_of = compare::method_index(collide::paper_method);  // whose missed contacts are shown
 };
 
 class LiveComparison {
@@ -50,13 +51,12 @@ class LiveComparison {
   const compare::CompareReport& report() const { return report_; }
   /// Counts the reports, so that a new one is noticed.
   std::uint64_t reports() const { return reports_; }
-  /// The index of the driving method in collide::method_table(), and its row: nullptr until it is measured, or if it
-  /// cannot be.
+  /// The index of the driving method in collide::method_table(), and its scored_row().
   std::size_t driver() const { return driver_; }
   const compare::CompareRow* driver_row() const { return scored_row(driver_); }
-  /// The index of the method whose missed contacts are shown.
-  std::size_t misses_of() const { return choice.on ? choice.misses_of.value_or(driver_) : driver_; }
-  /// What that method missed; nullptr if that is not known.
+  /// The row of a method: nullptr until it is measured, or if it cannot be.
+  const compare::CompareRow* scored_row(std::size_t method) const;
+  /// What CompareChoice::misses_of missed; nullptr if that is not known.
   const std::vector<collide::Contact>* missed() const;
 
   // By frame: recall of the driver; ms of each method.
@@ -65,7 +65,7 @@ class LiveComparison {
 
  private:
   bool wants_report(std::uint64_t revision) const;
-  const compare::CompareRow* scored_row(std::size_t method) const;
+  std::vector<bool> chosen() const;
   void keep(compare::CompareReport report);
   void forget_times();
 

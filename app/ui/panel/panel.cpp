@@ -43,14 +43,7 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
 
 void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  const char* pause = session.simulation.clock.paused ? "Go on###Pause" : "Pause###Pause";
-  if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
-    session.simulation.clock.paused = !session.simulation.clock.paused;
-  }
-  ImGui::SameLine();
-  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.simulation.clock.single_step();
-  ImGui::SameLine();
+  const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
   if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
     session.simulation.reset();
   ImGui::SameLine();
@@ -76,30 +69,7 @@ void draw_time_controls(Widgets& w, Session& session) {
   ImGui::EndDisabled();
 }
 
-void draw_progress(Widgets& w, const Session& session) {
-  const softbody::World& world = session.world();
-  ImGui::TextDisabled("Frame %d", world.frame());
-  ImGui::SameLine(w.px(label_column));
-  ImGui::TextDisabled("%.2f s", world.last_step().time);
-  ImGui::SameLine(w.px(label_column + 76));
-  std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
-  if (session.simulation.clock.paused) {
-    right = "paused";
-  } else if (session.simulation.clock.pace() < 0.95) {
-    right = "slowed to " + std::to_string(static_cast<int>(session.simulation.clock.pace() * 100)) + " %";
-  } else if (world.all_at_rest()) {
-    right += ", all at rest";
-  }
-  w.right_text(right);
-  w.register_item(
-      "Progress",
-      session.simulation.clock.pace() < 0.95
-          ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
-            "asked for, and no time is made up for."
-          : "Simulated frames and time; bodies in the world.");
-}
-
-void draw_overlays(Widgets& w, Session& session, UiState& ui) {
+void draw_overlays(Widgets& w, UiState& ui) {
   const auto next_cell = [&](std::size_t i) {
     if (i % 2) ImGui::SameLine(ImGui::GetContentRegionAvail().x * 0.54f);
   };
@@ -111,12 +81,22 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
   }
   next_cell(i++);
   w.checkbox("Hash table", ui.hash_table, "The hash table itself, one square a bucket (T).");
+  const auto lower = [&](const char* label, LowerView view, const char* tooltip) {
+    next_cell(i++);
+    bool shown = ui.lower == view;
+    if (w.checkbox(label, shown, tooltip)) ui.toggle(view);
+  };
+  lower("Error vs run time###Error against run time", LowerView::sweep,
+        "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+  lower("Compare methods", LowerView::comparison,
+        "All methods on the same frozen frame: what each costs, and what it misses (V).");
   next_cell(i++);
-  w.checkbox("Error vs run time###Error against run time", ui.sweep,
-             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+  bool story = ui.story;
+  if (w.checkbox("Paper vs exact###Story", story,
+                 "A card with what the paper's method misses on this frame, and why. The scene marks it (W)."))
+    ui.set_story(story);
   next_cell(i++);
-  w.checkbox("Compare methods", session.comparison.choice.on,
-             "All methods on the same frozen frame: what each costs, and what it misses (V).");
+  w.checkbox("Status lights", ui.lights, "What to expect of the method and of the step (L).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {
@@ -140,12 +120,11 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& are
   begin_dock("Panel", area, opaque);
   draw_scene(w, session, ui);
   draw_time_controls(w, session);
-  draw_progress(w, session);
   draw_bodies(w, session, ui);
   ImGui::Spacing();
   if (w.section("Detection", true))
     draw_detection(w, session, ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
-  if (w.section("Show", true)) draw_overlays(w, session, ui);
+  if (w.section("Show", true)) draw_overlays(w, ui);
   if (w.section("World", false)) draw_world(w, session, ui);
   if (w.section("Numbers", true)) draw_numbers(w, session, ui.render_scale);
   if (w.section("Stability", false)) draw_stability(w, session);

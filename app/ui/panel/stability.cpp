@@ -1,4 +1,4 @@
-// The panel's section on stability: integrator, ghost, rewind, and the curves of energies, volumes, strain and speed.
+// The panel's section on stability: integrator, ghost, and the curves of energies, volumes, strain and speed.
 // The status light of the step is here, too.
 
 #include <algorithm>
@@ -23,25 +23,6 @@ std::string step_text(const session::StepMargin& margin, const softbody::World& 
     return fmt::format("substeps of {:.2f} ms, stable at any length", margin.substep * 1e3);
   return fmt::format("substeps of {:.2f} ms, stable up to {:.2f} ms", margin.substep * 1e3,
                      margin.bound * 1e3 / (1 - session::StepMargin::reserve));
-}
-
-/// Draws the slider from the first snapshot to the newest. Dragging it rewinds and pauses.
-void draw_rewind(Widgets& w, Session& session) {
-  const auto& past = session.simulation.stability().past().snapshots();
-  const auto frame = session.world().frame();
-  w.row_label("Go back to", w.px(label_column));
-  ImGui::BeginDisabled(past.empty());
-  int place = past.empty() ? 0 : static_cast<int>(session.simulation.stability().past().at(frame));
-  const int last = past.empty() ? 0 : static_cast<int>(past.size()) - 1;
-  const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().last_step().time);
-  if (w.slider("Go back to", place, 0, last, shown.c_str(),
-               "Drag through what has been; the world pauses there and goes on from there, to the bit as it did, with "
-               "the settings in use. Snapshots are dense lately and sparse long ago."))
-    session.simulation.rewind_to(past[static_cast<std::size_t>(place)].frame);
-  ImGui::EndDisabled();
-  const double mebi = static_cast<double>(session.simulation.stability().past().bytes()) / (1 << 20);
-  w.figure("Snapshots", fmt::format("{}, {:.1f} of {} MiB", past.size(), mebi, session::Rewind::max_bytes >> 20),
-           "Memory is bounded: when it is full, old snapshots are thinned out.");
 }
 
 /// Draws the choice of integrator and substeps, and the integrator in use if it is chosen automatically.
@@ -134,7 +115,6 @@ void draw_stability(Widgets& w, Session& session) {
   w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
              "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
              "there could give it, and names it.");
-  draw_rewind(w, session);
   const session::StabilityHistory& history = session.simulation.stability().history();
   for (const StabilityCurve& c : curves) {
     const TimeSeries& series = history.*c.series;

@@ -13,11 +13,18 @@
 
 namespace app::ui {
 
+/// What stands below the scene.
+enum class LowerView { none, comparison, sweep };
+
 struct UiState {
   render::Overlays overlays;
   bool panel = true;
+  bool lights = true;
   bool hash_table = true;
-  bool sweep = false;  // the window "Error against run time"
+  LowerView lower = LowerView::none;
+  bool story = false;          // the card on what the paper's method misses
+  bool story_at_start = true;  // whether the default scene opens with it
+  bool clean = false;          // nothing but the scene
   bool help = false;
   bool coverage_explained = false;  // below the coverage light
   bool popup_open = false;          // a list to choose from, in the last frame
@@ -32,6 +39,10 @@ struct UiState {
   softbody::View view;                   // the camera, as a scene file describes it
   session::Exporter exporter;
   Tour tour;
+
+  bool shows_misses() const { return overlays.missed || story; }
+  void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
+  void set_story(bool on) { story = story_at_start = on; }
   session::Import import;
   std::string save_as = "scene.toml";   // the file that the scene is saved to
   std::size_t material = 0, solid = 0;  // whose values the panel shows

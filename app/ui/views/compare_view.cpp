@@ -128,7 +128,7 @@ void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& 
     }
   }
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
-  const bool shown = session.comparison.misses_of() == row.index;
+  const bool shown = session.comparison.choice.misses_of == row.index;
   if (w.radio(row.label("Misses of").c_str(), shown, "Shows what this method misses, in the scene.")) {
     session.comparison.choice.misses_of = row.index;
     show_misses = true;
@@ -224,7 +224,7 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
   if (drive) session.settings.set_method(row.method.key);
 }
 
-void draw_header(Widgets& w, Session& session, Grid& grid) {
+void draw_header(Widgets& w, Grid& grid, bool& open) {
   grid.next_row();
   for (std::size_t i = 0; i < column_count; ++i) {
     const auto at = static_cast<ColumnIndex>(i);
@@ -232,7 +232,7 @@ void draw_header(Widgets& w, Session& session, Grid& grid) {
     grid.cell(w, at, (std::string("Column ") + columns[i].label).c_str(), columns[i].tooltip);
   }
   ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
-  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) session.comparison.choice.on = false;
+  if (w.button("x###Close compare", "Closes the comparison (V).", grid.height())) open = false;
   ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
 }
 
@@ -254,7 +254,7 @@ float compare_height(float width, float scale) {
          2 * window_padding * scale + (scrolls ? ImGui::GetStyle().ScrollbarSize : 0);
 }
 
-void draw_compare(Widgets& w, Session& session, bool& show_misses, const ScreenRect& area) {
+void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, const ScreenRect& area) {
   const ImGuiStyle& style = ImGui::GetStyle();
   const float width = std::max(w.px(min_content_width()), area.max.x - area.min.x - 2 * style.WindowPadding.x);
   ImGui::SetNextWindowContentSize({width, 0});
@@ -264,7 +264,7 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, const ScreenR
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});
   Grid grid(w, ImGui::GetCursorScreenPos().x, width);
-  draw_header(w, session, grid);
+  draw_header(w, grid, open);
   const Scale scale = common_scale(session);
   const compare::CompareReport& report = session.comparison.report();
   const std::size_t driver = session.comparison.driver();

@@ -7,8 +7,8 @@ namespace app::ui {
 
 /// Returns the height in ImGui units that the comparison needs in an area of this width.
 float compare_height(float width, float scale);
-/// Draws the comparison over `area`. Sets `show_misses` when the user chooses the method whose misses the scene shows.
-/// Call it between begin_frame() and end_frame() of the Gui.
-void draw_compare(Widgets& widgets, Session& session, bool& show_misses, const ScreenRect& area);
+/// Draws the comparison over `area`. Sets `show_misses` when the user chooses the method whose misses the scene shows,
+/// and `open` to false when the user closes the comparison. Call it between begin_frame() and end_frame() of the Gui.
+void draw_compare(Widgets& widgets, Session& session, bool& show_misses, bool& open, const ScreenRect& area);
 
 }  // namespace app::ui

@@ -65,13 +65,14 @@ std::string reference_sentence(const compare::CompareReport& report) {
   return report.reference_note.empty() ? text : text + ": " + report.reference_note;
 }
 
-float draw_status(Widgets& w, Session& session, const std::string& no_room_message, const ScreenRect& area,
-                  bool& explained) {
-  const float margin = w.px(12);
-  const float width = std::min(w.px(520), area.max.x - area.min.x - 2 * margin);
-  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
-  ImGui::SetNextWindowSize({width, 0});
-  ImGui::Begin("Status", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize);
+float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained, bool& open) {
+  const float side = ImGui::GetFrameHeight();
+  box.begin(w, "Status", area, std::min(w.px(box_width), area.max.x - area.min.x - w.px(24)), false, false);
+  const ImVec2 top = ImGui::GetCursorScreenPos();
+  ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
+  if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side)) open = false;
+  ImGui::SetCursorScreenPos(top);
+  ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
   draw_coverage_light(w, session, explained);
   w.text_line(recall_sentence(session));
   const std::string against = reference_sentence(session.comparison.report());
@@ -81,13 +82,25 @@ float draw_status(Widgets& w, Session& session, const std::string& no_room_messa
                    against)
                       .c_str());
   draw_step_light(w, session);
+  ImGui::PopTextWrapPos();
+  const ScreenRect covered = box.end();
+  return box.in_its_place() ? covered.max.y : area.min.y;
+}
+
+float draw_notices(Widgets& w, const Session& session, const std::string& no_room_message, const ScreenRect& area) {
+  const std::string& notice = session.simulation.notice.text();
+  if (notice.empty() && no_room_message.empty()) return area.min.y;
+  const float margin = w.px(12);
+  ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
+  ImGui::SetNextWindowSize({std::min(w.px(box_width), area.max.x - area.min.x - 2 * margin), 0});
+  ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize);
   if (!no_room_message.empty()) {
     ImGui::TextWrapped("%s", no_room_message.c_str());
     w.register_item("No room", nullptr);
   }
-  if (!session.simulation.notice.text().empty()) {
+  if (!notice.empty()) {
     ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
-    ImGui::TextWrapped("%s", session.simulation.notice.text().c_str());
+    ImGui::TextWrapped("%s", notice.c_str());
     ImGui::PopStyleColor();
     w.register_item("Notice", nullptr);
   }
@@ -177,7 +190,7 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
     draw_legend_line(w, render::contact_missed_colour,
                      std::string(session.comparison.missed() && session.comparison.missed()->empty() ? "none missed by "
                                                                                                      : "missed by ") +
-                         std::string(collide::method_table()[session.comparison.misses_of()].name));
+                         std::string(collide::method_table()[session.comparison.choice.misses_of].name));
   if (shown.areas) draw_legend_line(w, render::area_colour, "area that the exact method searches");
   if (shown.springs) {
     ImGui::TextUnformatted("Springs: shorter, longer than at rest");

@@ -4,11 +4,11 @@
 
 #include "app/render/overlays.h"
 #include "app/session/session.h"
-#include "app/ui/widgets/dock.h"
+#include "app/ui/widgets/floating_box.h"
 
 namespace app::ui {
 
-/// ImGui's flags for windows without a frame over the scene.
+/// ImGui's flags for windows without a frame over the scene, which cannot be moved.
 inline constexpr ImGuiWindowFlags frameless_window = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                                      ImGuiWindowFlags_NoSavedSettings |
                                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav;
@@ -35,10 +35,15 @@ double rounded_down(double share);
 /// Returns "Measured against ...", with the reason if that is not brute force.
 std::string reference_sentence(const compare::CompareReport& report);
 
-/// Draws the coverage light and the recall; below them Layout::no_room_message and the session's notice(), if any.
-/// Returns the lower end (y). `explained`: the meaning of all three colours is shown.
-float draw_status(Widgets& widgets, Session& session, const std::string& no_room_message, const ScreenRect& area,
-                  bool& explained);
+/// Draws the two lights and the recall in `box` over `area`. Returns the lower end (y) of a box that stands in its
+/// place, else the upper end of the area. `explained`: the meaning of all three colours is shown. The close button sets
+/// `open` to false.
+float draw_status(Widgets& widgets, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained,
+                  bool& open);
+/// Draws Layout::no_room_message and the session's notice, if any, at the upper edge of `area`. Returns their lower end
+/// (y).
+float draw_notices(Widgets& widgets, const Session& session, const std::string& no_room_message,
+                   const ScreenRect& area);
 /// True if an overlay that is shown needs a legend.
 bool has_legend(const Session& session, const render::Overlays& shown);
 /// Returns the distance between the ghost, which must be there, and the world that is shown: "0.01 R".

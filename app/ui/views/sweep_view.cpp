@@ -9,7 +9,6 @@
 namespace app::ui {
 namespace {
 
-constexpr float max_width = 720, max_height = 480, margin_width = 12;  // design pixels
 constexpr std::size_t max_reasons = 8;
 
 bool was_run(const compare::SweepRow& row) { return row.not_run.empty(); }
@@ -221,23 +220,16 @@ void SweepView::update() {
 }
 
 void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
-  const float margin = w.px(margin_width), room = area.max.y - area.min.y - 2 * margin;
-  ImGui::SetNextWindowPos({area.min.x + margin, area.max.y - margin}, ImGuiCond_Always, {0, 1});
-  ImGui::SetNextWindowSize({std::min(w.px(max_width), area.max.x - area.min.x - 2 * margin),
-                            std::clamp(room, w.px(min_height - 2 * margin_width), w.px(max_height))});
-  ImGui::SetNextWindowBgAlpha(1.0f);  // the scene's colours would make the points hard to tell apart
-  // The user can collapse the window to its title bar, to see the scene.
-  if (ImGui::Begin("Error against run time###Sweep view", &open,
-                   ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
-                       ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing)) {
-    draw_controls(w, session);
-    ImGui::Spacing();
-    draw_legend(w);
-    const ImGuiStyle& style = ImGui::GetStyle();
-    draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
-    draw_footer(w);
-  }
-  ImGui::End();
+  // Opaque: the scene's colours would make the points hard to tell apart.
+  begin_dock("Error against run time###Sweep view", area, true, ImGuiWindowFlags_NoScrollbar);
+  if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight())) open = false;
+  ImGui::SameLine();
+  draw_controls(w, session);
+  draw_legend(w);
+  const ImGuiStyle& style = ImGui::GetStyle();
+  draw_plot(w, session, ImGui::GetContentRegionAvail().y - ImGui::GetTextLineHeight() - style.ItemSpacing.y);
+  draw_footer(w);
+  end_dock();
 }
 
 }  // namespace app::ui

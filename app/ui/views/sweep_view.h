@@ -11,12 +11,12 @@ namespace app::ui {
 
 class SweepView {
  public:
-  static constexpr float min_height = 364;  // of the area, in design pixels
+  static constexpr float min_height = 260;  // of the area, in design pixels
 
   /// Takes the sweep's progress. To be called in each frame, also if something covers the window.
   void update();
-  /// Draws the window in the lower left corner of `area`. Its close button sets `open` to false; a sweep runs on while
-  /// the window is closed. A click on a point gives its method and settings to the session.
+  /// Draws the plot over `area`. Its close button sets `open` to false; a sweep runs on while the plot is closed. A
+  /// click on a point gives its method and settings to the session.
   void draw(Widgets& widgets, Session& session, const ScreenRect& area, bool& open);
 
   // For tests.

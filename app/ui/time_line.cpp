@@ -1,0 +1,67 @@
+#include "app/ui/time_line.h"
+
+#include <fmt/core.h>
+
+namespace app::ui {
+namespace {
+
+constexpr float padding = 4, button_width = 64, state_width = 190;  // design pixels
+
+std::string state_text(const Session& session) {
+  const softbody::World& world = session.world();
+  const session::SimulationClock& clock = session.simulation.clock;
+  if (clock.paused) return "paused";
+  if (clock.pace() < 0.95) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
+  const std::size_t count = world.bodies().count();
+  return fmt::format("{} {}{}", grouped(count), count == 1 ? "body" : "bodies",
+                     world.all_at_rest() ? ", all at rest" : "");
+}
+
+/// Draws the slider from the first snapshot to the newest.
+void draw_past(Widgets& w, Session& session) {
+  const auto& past = session.simulation.stability().past();
+  const int frame = session.world().frame();
+  ImGui::BeginDisabled(past.snapshots().empty());
+  int place = past.snapshots().empty() ? 0 : static_cast<int>(past.at(frame));
+  const int last = past.snapshots().empty() ? 0 : static_cast<int>(past.snapshots().size()) - 1;
+  const std::string shown = fmt::format("frame {}, {:.2f} s", frame, session.world().last_step().time);
+  if (w.slider("Time line", place, 0, last, shown.c_str(),
+               fmt::format("Drag it to go back in time. The world pauses there and continues from there, exactly as "
+                           "it did unless you change something. {} snapshots, {:.1f} of at most {} MiB: dense in the "
+                           "recent past, sparse further back.",
+                           past.snapshots().size(), static_cast<double>(past.bytes()) / (1 << 20),
+                           session::Rewind::max_bytes >> 20)
+                   .c_str()))
+    session.simulation.rewind_to(past.snapshots()[static_cast<std::size_t>(place)].frame);
+  ImGui::EndDisabled();
+}
+
+}  // namespace
+
+float time_line_height(float scale) { return ImGui::GetFrameHeight() + 2 * padding * scale; }
+
+void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
+  const ImGuiStyle& style = ImGui::GetStyle();
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(padding)});
+  begin_dock("Time line", area, false, ImGuiWindowFlags_NoScrollbar);
+  ImGui::PopStyleVar();
+  session::SimulationClock& clock = session.simulation.clock;
+  if (w.button(clock.paused ? "Resume###Pause" : "Pause###Pause", "Pauses or resumes the simulation (Space).",
+               w.px(button_width)))
+    clock.paused = !clock.paused;
+  ImGui::SameLine();
+  if (w.button("Step", "Simulates one frame of 1/60 s, then pauses (N).", w.px(button_width))) clock.single_step();
+  ImGui::SameLine();
+  ImGui::SetNextItemWidth(std::max(w.px(60), ImGui::GetContentRegionAvail().x - w.px(state_width)));
+  draw_past(w, session);
+  ImGui::SameLine();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + style.FramePadding.y);
+  w.right_text(state_text(session));
+  w.register_item("Progress", clock.pace() < 0.95
+                                  ? "The machine does not keep up, or frames take more substeps than allowed: the "
+                                    "simulation runs slower than real time."
+                                  : "What the simulation does now.");
+  end_dock();
+}
+
+}  // namespace app::ui

@@ -1,0 +1,14 @@
+#pragma once
+// The strip below the scene: pause, single step, and a slider through the world's past.
+
+#include "app/session/session.h"
+#include "app/ui/widgets/dock.h"
+
+namespace app::ui {
+
+/// Returns the height of the strip in ImGui units.
+float time_line_height(float scale);
+
+void draw_time_line(Widgets& widgets, Session& session, const ScreenRect& area);
+
+}  // namespace app::ui

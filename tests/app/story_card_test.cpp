@@ -1,0 +1,103 @@
+// The card on what the paper's method misses.
+
+#include "app/ui/shortcuts.h"
+#include "tests/app/panel_rig.h"
+
+#include <GLFW/glfw3.h>
+
+namespace app {
+namespace {
+
+/// Makes cells so small that the corners of boxes skip some.
+void make_it_miss(PanelRig& rig) {
+  rig.session.simulation.clock.paused = true;
+  collide::Settings settings = rig.session.world().collision();
+  settings.cell_size = glm::vec3(0.13f);
+  settings.buckets = 1'000'003;
+  rig.session.settings.set_collision(settings, false);
+}
+
+TEST(StoryCard, CountsWhatThePapersMethodMissesBesideAnExactDriver) {
+  PanelRig rig;
+  rig.ui.story = true;
+  make_it_miss(rig);
+  const auto paper = compare::method_index(collide::paper_method);
+  ASSERT_TRUE(rig.frames_until([&] { return rig.session.comparison.scored_row(paper) != nullptr; }));
+  rig.frame();
+  EXPECT_FALSE(rig.session.comparison.missed()->empty());
+  EXPECT_EQ(rig.session.comparison.missed(), &rig.session.comparison.scored_row(paper)->missed);
+  EXPECT_TRUE(rig.recorder.find("Story of Multi-Level SB"));
+  EXPECT_TRUE(rig.recorder.find("Story of Multi-Level SB, exact"));
+  rig.session.settings.set_method(collide::paper_method);
+  ASSERT_TRUE(rig.frames_until([&] { return rig.recorder.find("Story of Brute force") != nullptr; }))
+      << "the reference stands beside the paper's method when that drives";
+}
+
+TEST(StoryCard, GoesAwayByKeyAndButtonAndStaysAway) {
+  PanelRig rig;
+  rig.ui.story = true;
+  rig.frames(3);
+  ui::handle_key(GLFW_KEY_ESCAPE, false, rig.session, rig.ui);
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Story sentence"));
+  EXPECT_FALSE(rig.ui.story_at_start);
+  ui::handle_key('W', false, rig.session, rig.ui);
+  rig.frames(3);
+  EXPECT_TRUE(rig.ui.story_at_start);
+  rig.click("Close story");
+  EXPECT_FALSE(rig.ui.story || rig.ui.story_at_start);
+}
+
+TEST(StoryCard, OpensTheTourByOneClick) {
+  PanelRig rig;
+  rig.ui.story = true;
+  make_it_miss(rig);
+  rig.frames(3);
+  rig.click("Explain story");
+  EXPECT_TRUE(rig.ui.tour.open());
+}
+
+TEST(FloatingBox, IsMovedByTheMouseWithinTheScene) {
+  PanelRig rig;
+  rig.frames(3);
+  const ui::WidgetRecorder::Widget before = rig.widget("Close lights"), light = rig.widget("Step light");
+  const auto drag = [&](float x, float y) {
+    const ui::WidgetRecorder::Widget at = rig.widget("Step light");
+    rig.move(at.max.x - 4, at.max.y - 4);
+    rig.press();
+    rig.move(at.max.x - 4 + x, at.max.y - 4 + y);
+    rig.release();
+    rig.frames(2);
+  };
+  drag(60, 200);
+  EXPECT_NEAR(rig.widget("Close lights").min.x, before.min.x + 60, 1.5f);
+  EXPECT_NEAR(rig.widget("Close lights").min.y, before.min.y + 200, 1.5f);
+  drag(4000, 4000);
+  EXPECT_LE(rig.widget("Step light").max.x, rig.interface.scene_area().max.x);
+  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
+  rig.resize(900, 600);
+  EXPECT_LE(rig.widget("Step light").max.y, rig.interface.scene_area().max.y);
+  rig.click("Close lights");
+  EXPECT_FALSE(rig.ui.lights);
+  rig.frame();
+  EXPECT_FALSE(rig.recorder.find("Step light"));
+  EXPECT_GT(light.max.x, 0);
+}
+
+TEST(TimeLine, GoesBackInTime) {
+  PanelRig rig;
+  rig.frames(60);
+  ASSERT_GT(rig.session.world().frame(), 40);
+  rig.drag("Time line", -2000);
+  EXPECT_EQ(rig.session.world().frame(), 0);
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  rig.drag("Time line", 2000);
+  EXPECT_GT(rig.session.world().frame(), 40) << "what was is still there";
+  rig.ui.panel = false;
+  rig.frames(2);
+  rig.click("Pause");
+  EXPECT_FALSE(rig.session.simulation.clock.paused);
+}
+
+}  // namespace
+}  // namespace app
