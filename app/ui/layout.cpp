@@ -30,7 +30,7 @@ ScreenRect cut_tour(ScreenRect& scene, float scale) {
 /// Returns the height of what stands below the scene.
 float lower_height(LowerView view, const ScreenRect& scene, float scale) {
   if (view == LowerView::comparison) return compare_height(width_of(scene), scale);
-  return std::max(SweepView::min_height * scale, std::floor(0.5f * scene.max.y));
+  return std::clamp(std::floor(0.5f * scene.max.y), SweepView::min_height * scale, SweepView::max_height * scale);
 }
 
 }  // namespace

@@ -36,6 +36,16 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::EndDisabled();
 }
 
+void draw_state(Widgets& w, const Session& session) {
+  ImGui::SameLine();
+  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
+  w.right_text(state_text(session));
+  w.register_item("Progress", session.simulation.clock.pace() < 0.95
+                                  ? "The machine does not keep up, or frames take more substeps than allowed: the "
+                                    "simulation runs slower than real time."
+                                  : "What the simulation does now.");
+}
+
 }  // namespace
 
 float time_line_height(float scale) { return ImGui::GetFrameHeight() + 2 * padding * scale; }
@@ -52,15 +62,11 @@ void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
   ImGui::SameLine();
   if (w.button("Step", "Simulates one frame of 1/60 s, then pauses (N).", w.px(button_width))) clock.single_step();
   ImGui::SameLine();
-  ImGui::SetNextItemWidth(std::max(w.px(60), ImGui::GetContentRegionAvail().x - w.px(state_width)));
+  const float room = ImGui::GetContentRegionAvail().x;
+  const bool has_state = room >= w.px(2 * state_width);
+  ImGui::SetNextItemWidth(has_state ? room - w.px(state_width) : room);
   draw_past(w, session);
-  ImGui::SameLine();
-  ImGui::SetCursorPosY(ImGui::GetCursorPosY() + style.FramePadding.y);
-  w.right_text(state_text(session));
-  w.register_item("Progress", clock.pace() < 0.95
-                                  ? "The machine does not keep up, or frames take more substeps than allowed: the "
-                                    "simulation runs slower than real time."
-                                  : "What the simulation does now.");
+  if (has_state) draw_state(w, session);
   end_dock();
 }
 

@@ -63,10 +63,10 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
   draw_import_report(widgets, ui.import, free);
 }
 
-/// Draws the card beside the lights if both fit, else at the lower edge.
+/// Draws the card at the upper edge, unless the lights leave no room there. The views below the scene say the same.
 void UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  if (!ui.story) return;
-  const bool beside = area.max.x - area.min.x >= widgets.px(2 * box_width + 36);
+  if (!ui.story || layout_.lower) return;
+  const bool beside = !ui.lights || area.max.x - area.min.x >= widgets.px(2 * box_width + 36);
   switch (story_.draw(widgets, session, area, !beside)) {
     case StoryCard::Action::close:
       return ui.set_story(false);

@@ -65,10 +65,11 @@ fs::path folder_in(const char* variable) {
 }  // namespace
 
 Preferences first_preferences(glm::ivec2 size) {
-  constexpr int for_panel = 900, for_hash_table = 1600;  // widths in screen coordinates
+  constexpr int for_panel = 900, for_lights = 1200, for_hash_table = 1600;  // widths in screen coordinates
   Preferences p;
   p.size = size;
   p.panel = size.x >= for_panel;
+  p.lights = size.x >= for_lights;
   p.hash_table = size.x >= for_hash_table;
   return p;
 }

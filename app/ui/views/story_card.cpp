@@ -33,8 +33,8 @@ void draw_method(Widgets& w, std::size_t method, const char* remark, std::option
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
   w.right_text(!missed         ? "measuring"
                : contacts == 0 ? "no contacts yet"
-               : misses        ? fmt::format("misses {} of {} contacts", grouped(*missed), grouped(contacts))
-                               : fmt::format("finds all {} contacts", grouped(contacts)));
+               : misses        ? fmt::format("misses {} of {}", grouped(*missed), grouped(contacts))
+                               : fmt::format("finds all {}", grouped(contacts)));
   if (misses) ImGui::PopStyleColor();
   w.register_item(fmt::format("Story of {}", row.name).c_str(), std::string(row.summary).c_str());
 }
@@ -73,7 +73,8 @@ StoryCard::Action StoryCard::draw(Widgets& w, const Session& session, const Scre
   Action action = Action::none;
   const float width = std::min(w.px(box_width), area.max.x - area.min.x - w.px(24));
   box_.begin(w, "Story", area, width, true, at_bottom);
-  if (w.closable_heading("Two methods, the same frame###story", "Puts this card away (W or Esc). W brings it back."))
+  if (w.closable_heading("Contacts found in the same frame###story",
+                         "Puts this card away (W or Esc). W brings it back."))
     action = Action::close;
   const std::size_t contacts = session.comparison.report().true_contacts;
   const compare::CompareRow* row = paper_row(session);

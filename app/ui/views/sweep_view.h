@@ -11,7 +11,7 @@ namespace app::ui {
 
 class SweepView {
  public:
-  static constexpr float min_height = 260;  // of the area, in design pixels
+  static constexpr float min_height = 260, max_height = 420;  // of the area, in design pixels
 
   /// Takes the sweep's progress. To be called in each frame, also if something covers the window.
   void update();
