@@ -13,7 +13,7 @@ void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const bool pressed = ImGui::Button("Tour", {width, 0});
   ImGui::PopStyleColor(3);
-  w.register_item("Tour", "Five steps show how the method works, on this very frame (G).");
+  w.register_item("Tour", "Explains the method step by step on this frame (G).");
   if (pressed) ui.tour.toggle(session, ui.overlays);
 }
 
@@ -38,39 +38,38 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   ImGui::SameLine(0, gap);
   draw_tour_button(w, session, ui, tour_button_width);
   ImGui::SameLine(0, gap);
-  if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
+  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
 void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
-  const char* pause = session.simulation.clock.paused ? "Go on###Pause" : "Pause###Pause";
-  if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
+  const char* pause = session.simulation.clock.paused ? "Resume###Pause" : "Pause###Pause";
+  if (w.button(pause,
+               session.simulation.clock.paused ? "Resumes the simulation (Space)." : "Pauses the simulation (Space).",
+               width)) {
     session.simulation.clock.paused = !session.simulation.clock.paused;
   }
   ImGui::SameLine();
-  if (w.button("Step", "One frame of 1/60 s, then pause (N).", width)) session.simulation.clock.single_step();
+  if (w.button("Step", "Simulates one frame of 1/60 s, then pauses (N).", width))
+    session.simulation.clock.single_step();
   ImGui::SameLine();
-  if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
+  if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
     session.simulation.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo",
-               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
-               "deletion "
-               "(Ctrl+Z).",
-               width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, drop, throw, import or deletion (Ctrl+Z).", width))
     session.simulation.undo();
   ImGui::EndDisabled();
 
-  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "The world runs slower than real time (S).");
+  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S).");
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
   float percent = static_cast<float>(session.simulation.clock.slow_factor * 100);
   if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(session::SimulationClock::min_slow_factor),
                100 * static_cast<float>(session::SimulationClock::max_slow_factor), "%.0f %% of real time",
-               "How fast slow motion runs.", true)) {
+               "The speed of slow motion.", true)) {
     session.simulation.clock.slow_factor = static_cast<double>(percent) / 100;
   }
   ImGui::EndDisabled();
@@ -86,7 +85,7 @@ void draw_progress(Widgets& w, const Session& session) {
   if (session.simulation.clock.paused) {
     right = "paused";
   } else if (session.simulation.clock.pace() < 0.95) {
-    right = "slowed to " + std::to_string(static_cast<int>(session.simulation.clock.pace() * 100)) + " %";
+    right = "at " + std::to_string(static_cast<int>(session.simulation.clock.pace() * 100)) + " % speed";
   } else if (world.all_at_rest()) {
     right += ", all at rest";
   }
@@ -94,9 +93,8 @@ void draw_progress(Widgets& w, const Session& session) {
   w.register_item(
       "Progress",
       session.simulation.clock.pace() < 0.95
-          ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
-            "asked for, and no time is made up for."
-          : "Simulated frames and time; bodies in the world.");
+          ? "The simulation runs slower than real time: the machine is too slow, or a frame needs too many substeps."
+          : "Frames and seconds simulated so far, and the number of bodies.");
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {
@@ -110,13 +108,13 @@ void draw_overlays(Widgets& w, Session& session, UiState& ui) {
     w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
   }
   next_cell(i++);
-  w.checkbox("Hash table", ui.hash_table, "The hash table itself, one square a bucket (T).");
+  w.checkbox("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).");
   next_cell(i++);
   w.checkbox("Error vs run time###Error against run time", ui.sweep,
-             "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+             "Plots error against run time of all methods with many settings, on one frame (E).");
   next_cell(i++);
   w.checkbox("Compare methods", session.comparison.choice.on,
-             "All methods on the same frozen frame: what each costs, and what it misses (V).");
+             "Shows the cost and the misses of all methods side by side, on the same frame (V).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {
@@ -150,7 +148,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& are
   if (w.section("Numbers", true)) draw_numbers(w, session, ui.render_scale);
   if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Files", false)) draw_files(w, session, ui);
-  if (w.section("Take away", false)) draw_take_away(w, session, ui);
+  if (w.section("Export", false)) draw_take_away(w, session, ui);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
   end_dock();
 }
