@@ -16,18 +16,21 @@ inline constexpr ImGuiWindowFlags frameless_window = ImGuiWindowFlags_NoDecorati
 struct StatusLight {
   glm::vec3 colour;
   const char* name;      // the colour in words
+  const char* label;     // what the colour means, in one to three words
   const char* sentence;  // what the colour means
 };
+/// Returns the light of a method that can or cannot miss contacts, before any frame is known.
+StatusLight status_light(const collide::Method& method);
 StatusLight status_light(collide::Coverage coverage);
 /// Returns green if the step keeps within the stability bound and its reserve, amber if it is within the bound, red if
 /// it is beyond the bound.
 StatusLight status_light(const session::StepMargin& margin);
-/// Draws the status light of the step with its numbers. Below it stand the alarm, if there is one, and the button that
-/// rewinds.
+/// Draws the status light of the step with its numbers. Below it stand the blow-up, if there is one, and the button
+/// that rewinds.
 void draw_step_light(Widgets& widgets, Session& session);
 
-/// Returns "of the driving method", or names the method whose boxes and buckets are shown because the driving method
-/// has no table.
+/// Names the method whose boxes and buckets are shown: "Grid Hash, driving", or "Multi-Level SB, for comparison" if the
+/// driving method has no table.
 std::string shown_method_text(const Session& session);
 
 /// Rounds down to four digits, so that one missed contact of a million is not shown as a recall of 1.
@@ -35,8 +38,8 @@ double rounded_down(double share);
 /// Returns "Measured against ...", with the reason if that is not brute force.
 std::string reference_sentence(const compare::CompareReport& report);
 
-/// Draws the coverage light and the recall; below them Layout::no_room_message and the session's notice(), if any.
-/// Returns the lower end (y). `explained`: the meaning of all three colours is shown.
+/// Draws the coverage light and the missed contacts; below them Layout::no_room_message and the session's notice(), if
+/// any. Returns the lower end (y). `explained`: the meaning of all three colours is shown.
 float draw_status(Widgets& widgets, Session& session, const std::string& no_room_message, const ScreenRect& area,
                   bool& explained);
 /// True if an overlay that is shown needs a legend.
