@@ -16,20 +16,20 @@ constexpr glm::vec3 rgb(int red, int green, int blue) {
 
 // key, name, summary, colour, exact, uses_levels, uses_hash, make
 constexpr std::array table{
-    Method{"brute-force", "Brute force", "Every vertex against every other: the exact reference.", rgb(153, 153, 153),
-           true, false, false, methods::make_brute_force},
-    Method{"grid-hash", "Grid Hash", "Every vertex is hashed into a grid, without boxes (§3).", rgb(213, 94, 0), true,
+    Method{"brute-force", "Brute force", "Tests every vertex against every other: the exact reference.",
+           rgb(153, 153, 153), true, false, false, methods::make_brute_force},
+    Method{"grid-hash", "Grid Hash", "Hashes every vertex into a grid, without boxes (§3).", rgb(213, 94, 0), true,
            false, true, methods::make_grid_hash},
-    Method{"bounding-box", "Bounding Box", "All vertices of bodies whose boxes overlap (§3).", rgb(230, 159, 0), true,
-           false, false, methods::make_bounding_box},
+    Method{"bounding-box", "Bounding Box", "Tests all vertices of bodies whose boxes overlap (§3).", rgb(230, 159, 0),
+           true, false, false, methods::make_bounding_box},
     Method{"bounding-box-grid-hash", "Bounding Box + Grid Hash",
-           "Only the vertices of bodies whose boxes overlap are hashed (§3).", rgb(204, 121, 167), true, false, true,
+           "Hashes only the vertices of bodies whose boxes overlap (§3).", rgb(204, 121, 167), true, false, true,
            methods::make_bounding_box_grid_hash},
     Method{"multi-level-sb", "Multi-Level SB",
-           "The paper's: eight corner hashes a subdivided box (§2); may miss contacts.", rgb(86, 180, 233), false, true,
-           true, methods::make_multi_level_sb},
+           "The paper's method: hashes the eight corners of each subdivided box (§2). It can miss contacts.",
+           rgb(86, 180, 233), false, true, true, methods::make_multi_level_sb},
     Method{"multi-level-sb-exact", "Multi-Level SB, exact",
-           "Only what faces another body, subdivided where that pays, without a hash (§2.1, §5); misses nothing.",
+           "Searches only where bodies face each other, without a hash (§2.1, §5). It misses nothing.",
            rgb(0, 158, 115), true, true, false, exact::make_multi_level_sb_exact},
 };
 

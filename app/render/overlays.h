@@ -32,34 +32,30 @@ struct OverlayRow {
 };
 
 inline constexpr std::array<OverlayRow, 9> overlay_table{{
-    {"body-boxes", "Body boxes", '1', "The axis-aligned bounding box of each body, in the body's colour (§2.1).",
+    {"body-boxes", "Body boxes", '1', "The bounding box of each body, in the body's colour (§2.1).",
      &Overlays::body_boxes},
     {"boxes", "Subdivided boxes", '2',
-     "The boxes that the method hashes, each in the colour of the bucket of its minimum corner (§2.1, §2.2). Boxes of "
-     "one colour meet in one bucket.",
+     "The boxes that the method hashes (§2.1). The colour is that of the bucket of the box's minimum corner (§2.2).",
      &Overlays::boxes},
-    {"cells", "Occupied cells", '3', "The grid cells that hold at least one entry of the hash table (§2.2).",
+    {"cells", "Occupied cells", '3', "The grid cells with at least one entry in the hash table (§2.2).",
      &Overlays::cells},
     {"contacts", "Contacts", '4',
      "Pairs of vertices closer than the tolerance, and vertices that touch a solid (§2.3).", &Overlays::contacts},
     {"springs", "Springs", '5',
-     "The springs of every body, coloured by their strain: shorter or longer than at rest. From far away only those "
-     "along edges: come closer to see all.",
+     "All springs, coloured by their strain. From far away only the springs along edges are drawn.",
      &Overlays::springs},
     {"missed", "Missed contacts", '6',
-     "True contacts that the paper's method does not find on this frame, or the method that you choose in the "
-     "comparison (V).",
+     "True contacts that the paper's method misses, or the method that you choose in the comparison (V).",
      &Overlays::missed},
-    {"areas", "Areas searched", '7',
-     "Where two bodies can touch, and how these areas are cut: the exact method looks nowhere else (§2.1, §5).",
+    {"areas", "Areas searched", '7', "Where the exact method searches for contacts between two bodies (§2.1, §5).",
      &Overlays::areas},
     {"touches", "Surface contacts", '8',
-     "Where surfaces pressed on each other at the end of the last step with motion: the two closest points and the "
-     "normal. None with vertex-vertex contact, and none between bodies that sleep.",
+     "The two closest points and the normal of each surface contact. There are none with vertex-vertex contact, and "
+     "none between bodies that sleep.",
      &Overlays::surface_contacts},
     {"true-surfaces", "True surfaces", '9',
-     "The surfaces judged exactly, beside the simulation: what is inside what, how deep, what passed through, and what "
-     "of it the method's contacts do not show; that is drawn.",
+     "Checks the surfaces exactly: how many vertices are inside other bodies, and which of these overlaps have no "
+     "contact. The latter are drawn.",
      &Overlays::true_surfaces},
 }};
 

@@ -75,9 +75,9 @@ void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
   const float left = ImGui::GetCursorPosX();
   ImGui::PushTextWrapPos(left + (narrow ? first : both));
   ImGui::TextUnformatted(
-      "Soft spheres fall on a solid sphere. In every frame a detector finds which of their vertices come closer than "
-      "the tolerance. With vertex-vertex contact, the paper's, these push the bodies apart; with surface contact faces "
-      "and edges do. Choose in the panel, and switch on what you want to see.");
+      "Soft spheres fall on a solid sphere. In every frame a method finds all pairs of vertices that are closer than "
+      "the tolerance. With vertex-vertex contact, these pairs push the bodies apart, as in the paper. With surface "
+      "contact, faces and edges do. The panel has all settings.");
   ImGui::PopTextWrapPos();
   ImGui::Spacing();
   draw_entries(w, keys, left);
@@ -87,7 +87,7 @@ void draw_help(Widgets& w, const ScreenRect& area, bool& open) {
     ImGui::SameLine();
   draw_entries(w, others, narrow ? left : left + first + w.px(between_columns));
   ImGui::Spacing();
-  if (w.button("Close", "F1 or Esc closes it too.", w.px(80))) open = false;
+  if (w.button("Close", "Closes the help (F1 or Esc).", w.px(80))) open = false;
   ImGui::End();
 }
 

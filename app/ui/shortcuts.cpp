@@ -15,7 +15,7 @@ void change_levels(Session& session, int by) {
 }
 
 constexpr std::array shortcut_table{
-    Shortcut{GLFW_KEY_SPACE, 0, "Space", "Pause or go on",
+    Shortcut{GLFW_KEY_SPACE, 0, "Space", "Pause or resume",
              [](Session& s, UiState&) { s.simulation.clock.paused = !s.simulation.clock.paused; }},
     Shortcut{GLFW_KEY_N, GLFW_KEY_PERIOD, "N or .", "Single step",
              [](Session& s, UiState&) { s.simulation.clock.single_step(); }, true},
@@ -26,19 +26,21 @@ constexpr std::array shortcut_table{
              [](Session& s, UiState&) { s.simulation.undo(); }, false, GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",
              [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_D, 0, "D", "Drop another body", [](Session& s, UiState&) { s.bodies.drop(); }},
+    Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }},
     Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; }},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
              [](Session& s, UiState&) { s.bodies.remove_selected(); }},
     Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { s.settings.next_method(); }},
     Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface",
              [](Session& s, UiState&) { s.settings.next_contact_surface(); }},
-    Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes", [](Session& s, UiState&) { change_levels(s, -1); }, true},
-    Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes", [](Session& s, UiState&) { change_levels(s, 1); }, true},
+    Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes per body", [](Session& s, UiState&) { change_levels(s, -1); },
+             true},
+    Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes per body", [](Session& s, UiState&) { change_levels(s, 1); },
+             true},
     Shortcut{GLFW_KEY_G, 0, "G", "Guided tour of the method",
              [](Session& s, UiState& ui) { ui.tour.toggle(s, ui.overlays); }},
-    Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: the step before", [](Session&, UiState& ui) { ui.tour.back(); }},
-    Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: the next step", [](Session&, UiState& ui) { ui.tour.next(); }},
+    Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: previous page", [](Session&, UiState& ui) { ui.tour.back(); }},
+    Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: next page", [](Session&, UiState& ui) { ui.tour.next(); }},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
              [](Session&, UiState& ui) { ui.toggle(LowerView::comparison); }},
     Shortcut{GLFW_KEY_E, 0, "E", "Error against run time", [](Session&, UiState& ui) { ui.toggle(LowerView::sweep); }},
@@ -46,13 +48,13 @@ constexpr std::array shortcut_table{
              [](Session&, UiState& ui) { ui.set_story(!ui.story); }},
     Shortcut{GLFW_KEY_L, 0, "L", "Status lights", [](Session&, UiState& ui) { ui.lights = !ui.lights; }},
     Shortcut{GLFW_KEY_T, 0, "T", "Hash table", [](Session&, UiState& ui) { ui.hash_table = !ui.hash_table; }},
-    Shortcut{GLFW_KEY_C, 0, "C", "The scene's camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
+    Shortcut{GLFW_KEY_C, 0, "C", "Reset the camera", [](Session&, UiState& ui) { ui.reset_camera = true; }},
     Shortcut{GLFW_KEY_P, 0, "P", "Take a picture", [](Session&, UiState& ui) { ui.exporter.picture_requested = true; }},
     Shortcut{GLFW_KEY_H, 0, "H", "Hide or show the panel", [](Session&, UiState& ui) { ui.panel = !ui.panel; }},
     Shortcut{GLFW_KEY_X, GLFW_KEY_F11, "X or F11", "Nothing but the scene",
              [](Session&, UiState& ui) { ui.clean = !ui.clean; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
-    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, select nothing",
+    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, clear selection",
              [](Session& s, UiState& ui) {
                if (ui.popup_open) return;  // the key closes this list and nothing else
                if (ui.clean || ui.help) return void(ui.clean = ui.help = false);
@@ -68,10 +70,10 @@ constexpr std::array mouse_table{
     MouseAction{"On a body", "Drag: pull it"},
     MouseAction{"", "Click: select it"},
     MouseAction{"", "Double-click: look at it"},
-    MouseAction{"Elsewhere", "Drag: turn"},
-    MouseAction{"Right drag", "Move sideways"},
-    MouseAction{"Wheel", "Closer or further"},
-    MouseAction{"Drop a file", "An OBJ joins, a scene (.toml) replaces"},
+    MouseAction{"Background", "Drag: orbit"},
+    MouseAction{"Right drag", "Pan"},
+    MouseAction{"Wheel", "Zoom"},
+    MouseAction{"Drop a file", "OBJ: adds a body. TOML: opens a scene"},
 };
 
 }  // namespace

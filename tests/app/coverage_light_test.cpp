@@ -1,5 +1,6 @@
 #include "app/ui/views/coverage_light.h"
 
+#include "app/ui/panel/panel.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {
@@ -22,6 +23,49 @@ TEST(CoverageLight, ExplainsItselfAtAClick) {
   EXPECT_TRUE(rig.recorder.find("Coverage explained"));
   rig.click("Coverage");
   EXPECT_FALSE(rig.recorder.find("Coverage explained"));
+}
+
+TEST(CoverageLight, FitsOneLineWithEveryMethodInANarrowWindow) {
+  PanelRig rig;
+  rig.resize(static_cast<int>(ui::panel_width) + 424, 600);
+  for (const collide::Method& method : collide::method_table())
+    for (const float cell : {0.2f, 2.0f}) {
+      rig.session.settings.set_method(method.key);
+      collide::Settings settings = rig.session.world().collision();
+      settings.cell_size = glm::vec3(cell);
+      rig.session.settings.set_collision(settings, false);
+      ASSERT_TRUE(rig.frames_until([&] { return rig.session.comparison.driver_row() != nullptr; }));
+      rig.frames(2);
+      for (const char* light : {"Coverage", "Live recall", "Step light"})
+        EXPECT_LT(rig.widget(light).max.y - rig.widget(light).min.y, 20) << light << " of " << method.key;
+    }
+}
+
+TEST(SurfaceRemark, WarnsOfAToleranceThatLetsVerticesThroughFaces) {
+  PanelRig rig;
+  EXPECT_EQ(ui::surface_remark(rig.session).text, "");
+  const double safe = ui::safe_vertex_tolerance(rig.session.world());
+  EXPECT_GT(safe, 0.16 * 0.5);  // of the sphere of 162 vertices and radius 0.5 m
+  EXPECT_LT(safe, 0.19 * 0.5);
+  collide::Settings settings = rig.session.world().collision();
+  settings.tolerance = 0.05f;
+  rig.session.settings.set_collision(settings, true);
+  EXPECT_NE(ui::surface_remark(rig.session).text.find("slip through faces"), std::string::npos);
+  rig.session.settings.set_contact_surface(softbody::ContactSurface::surfaces);
+  EXPECT_EQ(ui::surface_remark(rig.session).text, "");
+}
+
+TEST(SurfaceRemark, CountsTheVerticesInsideOtherBodies) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].position.x = -0.3;
+  scene.bodies[1].position.x = 0.3;
+  PanelRig rig(1, scene);
+  rig.session.simulation.clock.paused = true;
+  rig.click("True surfaces");
+  ASSERT_TRUE(rig.frames_until([&] { return rig.session.surfaces.report().id != 0; }));
+  const ui::SurfaceRemark remark = ui::surface_remark(rig.session);
+  EXPECT_TRUE(remark.penetrates);
+  EXPECT_EQ(remark.text.substr(0, 4), "But ") << remark.text;
 }
 
 /// The literal method's coverage agrees with the explanation of the largest box.

@@ -98,10 +98,10 @@ TEST(Ghost, IsChosenOnThePanel) {
   rig.click("Detection");  // folded, so that all has room
   rig.click("Numbers");
   rig.click("Stability");
-  EXPECT_FALSE(rig.recorder.find("Ghost apart"));
+  EXPECT_FALSE(rig.recorder.find("Ghost distance"));
   rig.click("Ghost world");
   ASSERT_TRUE(rig.session.ghost().get());
-  EXPECT_TRUE(rig.recorder.find("Ghost apart"));
+  EXPECT_TRUE(rig.recorder.find("Ghost distance"));
   rig.click("Ghost Integrator");
   rig.click("Runge-Kutta 4");
   EXPECT_EQ(rig.session.ghost().get()->choice().key, "rk4");

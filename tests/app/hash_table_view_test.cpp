@@ -25,7 +25,7 @@ TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   rig.session.inspector.select_bucket(fullest_bucket(rig.session));
   rig.frames(3);
   EXPECT_TRUE(rig.recorder.find("Same cell / aliased"));
-  EXPECT_TRUE(rig.recorder.find("Whole table"));
+  EXPECT_TRUE(rig.recorder.find("All buckets"));
   ASSERT_GT(rig.session.inspector.bucket()->groups.size(), 1u);
   const compare::Cell second = rig.session.inspector.bucket()->groups[1].cell;
   rig.click("Cell " + ui::cell_text(second));

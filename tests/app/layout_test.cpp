@@ -167,7 +167,7 @@ TEST(Layout, LeavesTheMiddleOfTheSceneFreeWithAllPartsShown) {
     const float width = scene.max.x - scene.min.x, height = scene.max.y - scene.min.y;
     EXPECT_GE(width, 0.5f * static_cast<float>(size.x));
     EXPECT_GE(height, 0.7f * static_cast<float>(size.y));
-    for (const char* label : {"Buckets of the table", "Judged frame", "Drive Multi-Level SB"})
+    for (const char* label : {"Buckets of the table", "Checked frame", "Drive Multi-Level SB"})
       ASSERT_TRUE(rig.recorder.find(label)) << label;
     for (const auto& [label, min, max, enabled] : rig.recorder.widgets) {
       const bool beside = max.x <= scene.min.x || min.x >= scene.max.x || min.y >= scene.max.y;

@@ -49,14 +49,14 @@ TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
   for (const char* label :
        {"Gravity", "Mass", "Spring stiffness", "Spring damping", "Bend stiffness", "Shear stiffness", "Gas pressure",
         "Internal damping", "Rebound speed", "Friction", "Rolling resistance", "Contact stiffness", "Restitution",
-        "Solid place", "Solid radius", "Solid friction", "Solid restitution"}) {
+        "Solid position", "Solid radius", "Solid friction", "Solid restitution"}) {
     for (const float by : {500.0f, -500.0f}) {
       rig.drag(label, by);
       rig.frames(5);
       EXPECT_FALSE(rig.session.simulation.clock.paused) << label << ": " << rig.session.simulation.notice.text();
       EXPECT_TRUE(softbody::measure(world).finite) << label;
     }
-    rig.click("Scene's world");
+    rig.click("Restore world");
     EXPECT_EQ(world.scene().materials[0].mass, 1) << label;
   }
   EXPECT_EQ(world.scene().spheres.at(0).radius, 1);
@@ -78,7 +78,7 @@ TEST(Slider, TakesATypedValueAfterADoubleClick) {
   const double before = gravity();
   rig.click("Gravity");
   EXPECT_NE(gravity(), before) << "a click sets the value at its position";
-  rig.click("Scene's world");
+  rig.click("Restore world");
   rig.double_click("Gravity");
   EXPECT_NEAR(gravity(), before, 1e-6) << "a double-click keeps the value";
   rig.type("3.5");
@@ -110,7 +110,7 @@ TEST(WorldPanel, SwitchesAndChoosesSolids) {
   PanelRig rig;
   rig.click("Detection");
   rig.click("World");
-  rig.click("Solid is there");
+  rig.click("Solid enabled");
   EXPECT_TRUE(rig.session.world().scene().spheres.empty());
   EXPECT_FALSE(rig.widget("Solid radius").enabled);
   rig.click("Solid");

@@ -94,7 +94,7 @@ TEST(DetectionPanel, DragsEverySliderToItsEnds) {
   EXPECT_NEAR(settings().tolerance, ui::max_tolerance, 1e-5);
   rig.click("Self-collision");
   EXPECT_FALSE(settings().self_collision);
-  rig.click("Scene's settings");
+  rig.click("Restore settings");
   EXPECT_EQ(rig.session.world().method().key, collide::default_method);
   EXPECT_EQ(settings().levels, 3);
   EXPECT_TRUE(rig.session.world().scene().default_cell_size);

@@ -114,7 +114,7 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
 TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
   const TemporaryFolder folder;
   PanelRig rig;
-  open_only(rig, "Take away");
+  open_only(rig, "Export");
   rig.type("Output folder", folder.path().string());
   EXPECT_EQ(rig.ui.exporter.folder, folder.path().string());
   rig.click("Picture");

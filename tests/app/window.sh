@@ -194,7 +194,7 @@ done
 mkdir "$work/bin"
 printf '#!/bin/sh\nfor last; do :; done\ncat >"$last"\n' >"$work/bin/ffmpeg"
 chmod +x "$work/bin/ffmpeg"
-open_only "Take away"
+open_only "Export"
 PATH=$work/bin:$PATH start
 click 270 $((field + 58)) 1
 sleep 1

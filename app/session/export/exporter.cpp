@@ -29,8 +29,8 @@ std::vector<Curve> curves_of(const Session& session) {
                             {"gas_J", motion.gas},
                             {"gravity_J", motion.gravity},
                             {"total_J", motion.total},
-                            {"least_volume", motion.min_volume},
-                            {"most_volume", motion.max_volume},
+                            {"smallest_volume", motion.min_volume},
+                            {"largest_volume", motion.max_volume},
                             {"strain", motion.strain},
                             {"speed_m_s", motion.speed}};
   for (std::size_t i = 0; i < session.comparison.method_ms().size(); ++i)

@@ -6,9 +6,12 @@
 #include <fmt/core.h>
 
 #include "app/ui/panel/panel.h"
+#include "app/ui/views/status.h"
 
 namespace app::ui {
 namespace {
+
+constexpr float promise_column = 200;  // design pixels: where the list of methods says which can miss contacts
 
 constexpr std::array<std::uint32_t, 10> bucket_presets{1, 101, 499, 997, 1001, 1009, 10007, 100003, 1000003, 1u << 24};
 
@@ -24,11 +27,8 @@ void draw_method(Widgets& w, Session& session) {
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   std::string summary(method.summary);
-  if (uses_surface_contact(session))
-    summary +=
-        " With surface contact it moves nothing: its contacts are shown, compared, and tell which bodies sleep "
-        "together.";
-  summary += " (M: next method)";
+  if (uses_surface_contact(session)) summary += " With surface contact it does not move the bodies.";
+  summary += " M: next method.";
   const std::string name(method.name);
   if (!w.begin_combo("Method", name.c_str(), summary.c_str())) return;
   std::string_view chosen = method.key;
@@ -37,6 +37,10 @@ void draw_method(Widgets& w, Session& session) {
     ImGui::SameLine();
     const std::string label(each.name), tooltip(each.summary);
     if (w.combo_item(label.c_str(), each.key == method.key, tooltip.c_str())) chosen = each.key;
+    const StatusLight light = status_light(each);
+    ImGui::SameLine(w.px(promise_column));
+    w.dot(light.colour);
+    ImGui::TextDisabled("%s", light.label);
   }
   ImGui::EndCombo();
   session.settings.set_method(chosen);
@@ -47,7 +51,7 @@ void draw_contact_surface(Widgets& w, Session& session) {
   w.row_label("Contact", w.px(label_column));
   const auto text = [](std::string_view part) { return std::string(part); };
   const auto& info = *std::ranges::find(softbody::contact_surfaces, now, &softbody::ContactSurfaceInfo::value);
-  const std::string tooltip = "What keeps bodies apart. " + text(info.summary) + " (F: the next one)";
+  const std::string tooltip = "What pushes bodies apart. " + text(info.summary) + " F: next.";
   if (!w.begin_combo("Contact surface", text(info.name).c_str(), tooltip.c_str())) return;
   softbody::ContactSurface chosen = now;
   for (const softbody::ContactSurfaceInfo& each : softbody::contact_surfaces) {
@@ -60,10 +64,10 @@ void draw_contact_surface(Widgets& w, Session& session) {
 bool draw_levels(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::BeginDisabled(!used);
   w.row_label("Subdivision", w.px(label_column));
-  const std::string format = fmt::format("%d  ({} boxes a body)", grouped(1ull << settings.levels));
-  const bool changed = w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.c_str(),
-                                "Level n cuts a body's box at midpoints into 2^n boxes (§2.1; the paper uses 3). "
-                                "Empty boxes are not hashed. Keys [ and ].");
+  const std::string format = fmt::format("%d  ({} boxes per body)", grouped(1ull << settings.levels));
+  const bool changed =
+      w.slider("Subdivision level", settings.levels, 0, collide::max_levels, format.c_str(),
+               "Level n cuts the box of a body into 2^n boxes (§2.1; the paper uses 3). Keys [ and ].");
   ImGui::EndDisabled();
   return changed;
 }
@@ -81,8 +85,8 @@ void draw_hash_label(Widgets& w, const std::string& label, float column, const c
 
 bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
   static constexpr const char* tooltip =
-      "The number of buckets of the hash table: the paper's bucket size (§2.2; it uses 101 and 1001). "
-      "With few buckets different cells share one (aliasing). 1 to 16,777,216.";
+      "The number of buckets of the hash table (§2.2; the paper uses 101 and 1001). "
+      "If there are few, different cells share a bucket (aliasing).";
   ImGui::BeginDisabled(!used);
   draw_hash_label(w, "Buckets", w.px(label_column), settings, used);
   const float arrow = ImGui::GetFrameHeight(), gap = ImGui::GetStyle().ItemInnerSpacing.x;
@@ -93,7 +97,7 @@ bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
   ImGui::SetNextItemWidth(field_width);
   changed |= w.number_field("Number of buckets", settings.buckets, 1, collide::max_buckets, tooltip);
   ImGui::SameLine(0, gap);
-  if (w.begin_combo("Bucket presets", "", "The paper's bucket sizes, and primes near them.",
+  if (w.begin_combo("Bucket presets", "", "Common numbers of buckets: the paper's, and primes near them.",
                     ImGuiComboFlags_NoPreview)) {
     for (const std::uint32_t preset : bucket_presets) {
       if (!w.combo_item(grouped(preset).c_str(), preset == settings.buckets, nullptr)) continue;
@@ -108,9 +112,8 @@ bool draw_buckets(Widgets& w, collide::Settings& settings, bool used) {
 
 bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
   static constexpr const char* tooltip =
-      "What the hash function multiplies a cell's x, y and z by, before it takes the sum modulo the buckets (§2.2: "
-      "xprime, yprime, zprime). If one is 0 modulo the buckets its axis is lost; if two are equal their axes are "
-      "mixed.";
+      "The hash function multiplies a cell's x, y and z by these factors (§2.2). If a factor is 0 modulo the number "
+      "of buckets, its axis has no effect.";
   static constexpr std::array labels{"x prime", "y prime", "z prime"};
   ImGui::BeginDisabled(!used);
   draw_hash_label(w, "Primes", w.px(62), settings, used);  // three numbers need more room than one
@@ -124,7 +127,7 @@ bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
         w.number_field(labels[axis], settings.primes[axis], 1, std::numeric_limits<std::uint32_t>::max(), tooltip);
     ImGui::SameLine(0, gap);
   }
-  if (w.button("x###Default primes", "Back to the default: 73856093, 19349669, 83492791.", reset)) {
+  if (w.button("x###Default primes", "Restores the default: 73856093, 19349669, 83492791.", reset)) {
     settings.primes = collide::default_primes;
     changed = true;
   }
@@ -136,17 +139,17 @@ bool draw_primes(Widgets& w, collide::Settings& settings, bool used) {
 bool draw_cell_size(Widgets& w, collide::Settings& settings, bool& automatic, bool used) {
   ImGui::BeginDisabled(!used);
   w.row_label("Cell size", w.px(label_column));
-  bool changed = w.checkbox("Auto", automatic,
-                            "The largest subdivided box at rest plus the tolerance, along each axis. A default, no "
-                            "guarantee that the literal method misses nothing.");
+  bool changed =
+      w.checkbox("Auto", automatic,
+                 "Makes cells as large as the largest subdivided box at rest plus the tolerance. The paper's "
+                 "method can still miss contacts.");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(automatic);
   float side = std::max({settings.cell_size.x, settings.cell_size.y, settings.cell_size.z});
   if (w.slider(
           "Cell size", side, min_cell, max_cell, "%.3f m",
-          "The side of the hash function's grid cells (§2.2: length, height, width). Smaller than a subdivided box, "
-          "and the literal method skips cells.",
+          "The side of a grid cell (§2.2). If it is smaller than a subdivided box, the paper's method skips cells.",
           true)) {
     settings.cell_size = glm::vec3(side);
     changed = true;
@@ -173,21 +176,20 @@ void draw_detection(Widgets& w, Session& session, bool structure_shown) {
   changed |= draw_cell_size(w, settings, automatic, hash);
   draw_contact_surface(w, session);
   w.row_label("Tolerance", w.px(label_column));
-  changed |=
-      w.slider("Tolerance", settings.tolerance, min_tolerance, max_tolerance, "%.3f m",
-               uses_surface_contact(session)
-                   ? "Vertices closer than this are in contact (§2.3). With surface contact that pushes nothing: "
-                     "it is detected, shown and compared, and tells which bodies sleep together."
-                   : "Vertices closer than this are in contact, and push each other apart (§2.3).",
-               true);
+  changed |= w.slider(
+      "Tolerance", settings.tolerance, min_tolerance, max_tolerance, "%.3f m",
+      uses_surface_contact(session)
+          ? "Vertices closer than this are in contact (§2.3). With surface contact they do not push each other."
+          : "Vertices closer than this are in contact and push each other apart (§2.3).",
+      true);
   changed |= w.checkbox("Self-collision", settings.self_collision,
                         uses_surface_contact(session)
-                            ? "Also contact inside one body (§2.4): of its surface with itself, and of its vertices, "
-                              "which are shown but push nothing."
-                            : "Also pairs of vertices of one body (§2.4), unless an edge joins them or they are as "
-                              "close at rest.");
+                            ? "Also finds contacts of a body with itself (§2.4)."
+                            : "Also finds pairs of vertices of one body (§2.4), except those that an edge joins or "
+                              "that are as close at rest.");
   ImGui::SameLine(w.px(label_column + 46));
-  if (w.button("Scene's settings", "Method and settings as the scene has them.", ImGui::GetContentRegionAvail().x)) {
+  if (w.button("Restore settings", "Restores the method and settings of the scene file.",
+               ImGui::GetContentRegionAvail().x)) {
     session.settings.restore_detection();
   } else if (changed) {
     session.settings.set_collision(settings, automatic);

@@ -20,14 +20,13 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
   }
   bool fixed = choice.substeps.has_value();
   if (w.checkbox(fmt::format("Fixed substeps###{}Fixed substeps", name).c_str(), fixed,
-                 "So many steps of the integrator a frame, whatever becomes of it: too few, and an explicit one blows "
-                 "up. Else as many as the stability bound asks for."))
+                 "Takes a fixed number of steps per frame. If they are too few, explicit integrators blow up."))
     choice.substeps = fixed ? std::optional(std::max(1, proposed)) : std::nullopt;
   ImGui::BeginDisabled(!fixed);
   w.row_label("Substeps", w.px(label_column));
   int substeps = choice.substeps.value_or(std::max(1, proposed));
-  if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d a frame",
-               "Fewer are faster, until it explodes."))
+  if (w.slider(fmt::format("{}Substeps", name).c_str(), substeps, 1, std::max(100, substeps), "%d per frame",
+               "Steps of the integrator in each frame. Fewer are faster but less stable."))
     choice.substeps = substeps;
   ImGui::EndDisabled();
   return choice != before;
@@ -36,17 +35,17 @@ bool draw_integrator_choice(Widgets& w, const char* name, softbody::IntegratorCh
 void draw_ghost(Widgets& w, Session& session) {
   bool on = session.ghost().get() != nullptr;
   if (w.checkbox("Ghost world", on,
-                 "The same bodies from this moment on, moved by another integrator: translucent, in a colour of their "
-                 "own. Whenever hands or settings change the world, the ghost begins anew from it."))
+                 "Simulates the same bodies with another integrator, and draws them translucent. A change of the world "
+                 "restarts the ghost."))
     session.choose_ghost(on ? std::optional(softbody::IntegratorChoice{"velocity-verlet", {}}) : std::nullopt);
   if (!session.ghost().get()) return;
   softbody::IntegratorChoice choice = session.ghost().get()->choice();
   const int used = session.ghost().get()->world().last_step().substeps;
   if (draw_integrator_choice(w, "Ghost ", choice, used)) session.choose_ghost(choice);
   if (!session.ghost().get()) return;
-  w.curve("Ghost apart", ghost_distance_text(session), session.ghost().distances(),
+  w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
-          "radii: the root mean square distance of all vertices to the ghost's, each over its body's radius");
+          "radii (root mean square distance between the vertices of the two worlds)");
 }
 
 }  // namespace app::ui

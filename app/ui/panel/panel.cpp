@@ -13,7 +13,7 @@ void draw_tour_button(Widgets& w, Session& session, UiState& ui, float width) {
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_PopupBg));
   const bool pressed = ImGui::Button("Tour", {width, 0});
   ImGui::PopStyleColor(3);
-  w.register_item("Tour", "Five steps show how the method works, on this very frame (G).");
+  w.register_item("Tour", "Explains the method step by step on this frame (G).");
   if (pressed) ui.tour.toggle(session, ui.overlays);
 }
 
@@ -38,32 +38,28 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
   ImGui::SameLine(0, gap);
   draw_tour_button(w, session, ui, tour_button_width);
   ImGui::SameLine(0, gap);
-  if (w.button("?", "What this shows, keys and mouse (F1).", help_width)) ui.help = !ui.help;
+  if (w.button("?", "Shows the help: keys and mouse (F1).", help_width)) ui.help = !ui.help;
 }
 
 void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
   const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
-  if (w.button("Reset", "The scene from its start, with the settings below and without added bodies (R).", width))
+  if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
     session.simulation.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo",
-               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
-               "deletion "
-               "(Ctrl+Z).",
-               width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, drop, throw, import or deletion (Ctrl+Z).", width))
     session.simulation.undo();
   ImGui::EndDisabled();
 
-  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "The world runs slower than real time (S).");
+  w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S).");
   ImGui::SameLine(w.px(label_column + 20));
   ImGui::SetNextItemWidth(-FLT_MIN);
   ImGui::BeginDisabled(!session.simulation.clock.slow_motion);
   float percent = static_cast<float>(session.simulation.clock.slow_factor * 100);
   if (w.slider("Slow motion speed", percent, 100 * static_cast<float>(session::SimulationClock::min_slow_factor),
                100 * static_cast<float>(session::SimulationClock::max_slow_factor), "%.0f %% of real time",
-               "How fast slow motion runs.", true)) {
+               "The speed of slow motion.", true)) {
     session.simulation.clock.slow_factor = static_cast<double>(percent) / 100;
   }
   ImGui::EndDisabled();
@@ -80,23 +76,22 @@ void draw_overlays(Widgets& w, UiState& ui) {
     w.checkbox(std::string(row.label).c_str(), ui.overlays.*row.shown, tooltip.c_str());
   }
   next_cell(i++);
-  w.checkbox("Hash table", ui.hash_table, "The hash table itself, one square a bucket (T).");
+  w.checkbox("Hash table", ui.hash_table, "Shows the hash table: each square is a bucket (T).");
   const auto lower = [&](const char* label, LowerView view, const char* tooltip) {
     next_cell(i++);
     bool shown = ui.lower == view;
     if (w.checkbox(label, shown, tooltip)) ui.toggle(view);
   };
   lower("Error vs run time###Error against run time", LowerView::sweep,
-        "All methods over all their settings on one frozen frame, as a plot: what each costs, and misses (E).");
+        "Plots error against run time of all methods with many settings, on one frame (E).");
   lower("Compare methods", LowerView::comparison,
-        "All methods on the same frozen frame: what each costs, and what it misses (V).");
+        "Shows the cost and the misses of all methods side by side, on the same frame (V).");
   next_cell(i++);
   bool story = ui.story;
-  if (w.checkbox("Paper vs exact###Story", story,
-                 "A card with what the paper's method misses on this frame, and why. The scene marks it (W)."))
+  if (w.checkbox("Paper vs exact###Story", story, "Counts and marks what the paper's method misses, and says why (W)."))
     ui.set_story(story);
   next_cell(i++);
-  w.checkbox("Status lights", ui.lights, "What to expect of the method and of the step (L).");
+  w.checkbox("Status lights", ui.lights, "What to expect of the method and of the time step (L).");
 }
 
 void draw_plan(Widgets& w, const softbody::World& world) {
@@ -129,7 +124,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& are
   if (w.section("Numbers", true)) draw_numbers(w, session, ui.render_scale);
   if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Files", false)) draw_files(w, session, ui);
-  if (w.section("Take away", false)) draw_take_away(w, session, ui);
+  if (w.section("Export", false)) draw_take_away(w, session, ui);
   if (w.section("Stages of a step", false)) draw_plan(w, session.world());
   end_dock();
 }

@@ -16,12 +16,11 @@ namespace app::ui {
 namespace {
 
 std::string step_text(const session::StepMargin& margin, const softbody::World& world) {
-  if (margin.taken == 0)
-    return world.all_at_rest() ? "nothing moves, so there is no step to judge" : "the next step will be judged";
-  if (margin.share < 1) return fmt::format("slow motion: {:.2g} of a frame in {} substeps", margin.share, margin.taken);
+  if (margin.taken == 0) return world.all_at_rest() ? "nothing moves" : "not measured yet";
+  if (margin.share < 1) return fmt::format("{:.2g} % of each frame in {} substeps", 100 * margin.share, margin.taken);
   if (margin.kind == session::StepMargin::Bound::unconditional)
-    return fmt::format("substeps of {:.2f} ms, stable at any length", margin.substep * 1e3);
-  return fmt::format("substeps of {:.2f} ms, stable up to {:.2f} ms", margin.substep * 1e3,
+    return fmt::format("{:.2f} ms, stable at any length", margin.substep * 1e3);
+  return fmt::format("{:.2f} ms, limit {:.2f} ms", margin.substep * 1e3,
                      margin.bound * 1e3 / (1 - session::StepMargin::reserve));
 }
 
@@ -34,9 +33,10 @@ void draw_integrator(Widgets& w, Session& session) {
   const int proposed = std::min(needed, softbody::max_substeps);
   if (draw_integrator_choice(w, "", choice, proposed)) session.settings.set_integrator(choice);
   const bool chosen = !last.integrator->automatic;  // not before the first step
-  const std::string why = world.integrator_choice().integrator().automatic ? "Because " + std::string(last.why) + "."
-                                                                           : "The one that was chosen.";
-  w.figure("At work", chosen ? std::string(last.integrator->name) : "from the next step on", why.c_str());
+  const std::string why = world.integrator_choice().integrator().automatic
+                              ? "Chosen automatically: " + std::string(last.why) + "."
+                              : "The integrator that you chose.";
+  w.figure("Active integrator", chosen ? std::string(last.integrator->name) : "next step", why.c_str());
 }
 
 struct StabilityCurve {
@@ -50,18 +50,19 @@ struct StabilityCurve {
 constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
 constexpr std::array<StabilityCurve, 9> curves{{
     {"Kinetic", &session::StabilityHistory::kinetic, "{:.3g} J", 1, "J of motion", energy_colour},
-    {"Elastic", &session::StabilityHistory::elastic, "{:.3g} J", 1, "J in springs and kept shapes, against the start",
-     energy_colour},
-    {"Gas", &session::StabilityHistory::gas, "{:.3g} J", 1, "J in the gas and the air outside, against the start",
+    {"Elastic", &session::StabilityHistory::elastic, "{:.3g} J", 1,
+     "J in springs and kept shapes, compared with the start", energy_colour},
+    {"Gas", &session::StabilityHistory::gas, "{:.3g} J", 1, "J in the gas and the air outside, compared with the start",
      energy_colour},
     {"Gravity", &session::StabilityHistory::gravity, "{:.4g} J", 1, "J above or below the world's origin",
      energy_colour},
-    {"Total", &session::StabilityHistory::total, "{:.4g} J", 1, "J, but for what contacts store", energy_colour},
-    {"Least volume", &session::StabilityHistory::min_volume, "{:.3f}", 0.1f, "of the volume at the start",
+    {"Total", &session::StabilityHistory::total, "{:.4g} J", 1, "J, without the energy that contacts store",
+     energy_colour},
+    {"Smallest volume", &session::StabilityHistory::min_volume, "{:.3f}", 0.1f, "of the volume at the start",
      shape_colour},
-    {"Most volume", &session::StabilityHistory::max_volume, "{:.3f}", 0.1f, "of the volume at the start", shape_colour},
-    {"Strain", &session::StabilityHistory::strain, "{:.3f}", 0.1f, "of a spring's resting length, the largest",
+    {"Largest volume", &session::StabilityHistory::max_volume, "{:.3f}", 0.1f, "of the volume at the start",
      shape_colour},
+    {"Strain", &session::StabilityHistory::strain, "{:.3f}", 0.1f, "(the largest strain of a spring)", shape_colour},
     {"Speed", &session::StabilityHistory::speed, "{:.2f} m/s", 1, "m/s of the fastest particle", plain},
 }};
 
@@ -70,19 +71,19 @@ constexpr std::array<StabilityCurve, 9> curves{{
 StatusLight status_light(const session::StepMargin& margin) {
   using Bound = session::StepMargin::Bound;
   if (margin.share < 1)
-    return {render::status_amber, "Amber",
-            "a frame would take more substeps than there may be, so less of it is simulated."};
+    return {render::status_amber, "Amber", "Slow motion",
+            "A frame needs more substeps than are allowed, so only a part of it is simulated."};
   const bool within = margin.taken >= margin.needed;
   if (margin.kind == Bound::unconditional && !within)
-    return {render::status_amber, "Amber",
-            "stable at any step, but bodies this fast near solids, or frames this long, want shorter ones."};
+    return {render::status_amber, "Amber", "Step long",
+            "The step is stable, but too long for bodies this fast near solids."};
   if (margin.kind == Bound::by_damping && within && margin.taken > 0)
-    return {render::status_amber, "Amber",
-            "stable where dampers are strong enough: gas and contacts may still gain energy."};
-  if (within) return {render::status_green, "Green", "the step is within the stability bound."};
+    return {render::status_amber, "Amber", "Step stable by damping",
+            "Dampers keep the springs stable. Gas and contacts may still gain energy."};
+  if (within) return {render::status_green, "Green", "Step stable", "The step is within the stability bound."};
   if (margin.taken >= (1 - session::StepMargin::reserve) * margin.needed)
-    return {render::status_amber, "Amber", "the step uses up the bound's reserve of a fifth."};
-  return {render::status_red, "Red", "the step is beyond the stability bound: expect the bodies to explode."};
+    return {render::status_amber, "Amber", "Step near the limit", "The step uses up the reserve of a fifth."};
+  return {render::status_red, "Red", "Step unstable", "The step exceeds the stability bound. Bodies may explode."};
 }
 
 void draw_step_light(Widgets& w, Session& session) {
@@ -90,22 +91,19 @@ void draw_step_light(Widgets& w, Session& session) {
   const StatusLight light = status_light(margin);
   ImGui::BeginGroup();
   w.dot(light.colour);
-  w.text_line(std::string(light.name).append(": ").append(step_text(margin, session.world())));
+  w.text_line(std::string(light.label).append(": ").append(step_text(margin, session.world())));
   ImGui::EndGroup();
   w.register_item(
       "Step light",
-      fmt::format("{}: {} Taken: {} substeps a frame; needed: {}{}.", light.name, light.sentence, margin.taken,
-                  margin.needed,
-                  margin.kind == session::StepMargin::Bound::unconditional ? "" : ", with a reserve of a fifth")
-          .c_str());
+      fmt::format("{} Substeps per frame: {} taken, {} needed.", light.sentence, margin.taken, margin.needed).c_str());
   if (!session.simulation.stability().blow_up()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::ColorConvertU32ToFloat4(to_imgui(render::status_red)));
-  ImGui::TextWrapped("%s (frame %d). Rewind, then take more substeps, Auto or softer springs.",
+  ImGui::TextWrapped("%s (frame %d). Rewind, then choose more substeps, Auto, or softer springs.",
                      session.simulation.stability().blow_up()->what.c_str(),
                      session.simulation.stability().blow_up()->frame);
   ImGui::PopStyleColor();
-  w.register_item("Alarm", nullptr);
-  if (w.button("Rewind to the last good frame", "The world as it was before; then try other settings, or go on."))
+  w.register_item("Blow-up", nullptr);
+  if (w.button("Rewind to the last good frame", "Goes back to the last frame before the blow-up."))
     session.simulation.rewind_to(session.simulation.stability().last_good_frame());
 }
 
@@ -113,8 +111,7 @@ void draw_stability(Widgets& w, Session& session) {
   draw_integrator(w, session);
   draw_ghost(w, session);
   w.checkbox("Pause when a body explodes", session.simulation.pause_on_blow_up,
-             "Pauses in the first frame in which a body is no longer finite, or has more energy or speed than anything "
-             "there could give it, and names it.");
+             "Pauses in the first frame in which a body has more energy or speed than possible, and names it.");
   const session::StabilityHistory& history = session.simulation.stability().history();
   for (const StabilityCurve& c : curves) {
     const TimeSeries& series = history.*c.series;

@@ -24,38 +24,42 @@ struct MaterialRow {
 
 #define SB_VALUE(member) [](softbody::Material& m) -> double& { return m.member; }
 constexpr std::array material_rows{
-    MaterialRow{"Mass", "Mass", "Of a body, shared equally by its vertices.", "%.2f kg", 0.05f, 20, true, 1,
+    MaterialRow{"Mass", "Mass", "The mass of a body. Its vertices share it equally.", "%.2f kg", 0.05f, 20, true, 1,
                 SB_VALUE(mass)},
-    MaterialRow{"Springs", "Spring stiffness", "Structural springs, along the mesh's edges (Hooke's law).", "%.0f N/m",
-                10, 3000, true, 1, SB_VALUE(structural.stiffness)},
-    MaterialRow{"  damping", "Spring damping", "Of the structural springs, as a part of the critical damping.", "%.2f",
-                0, 1, false, 1, SB_VALUE(structural.damping_ratio)},
-    MaterialRow{"Bend springs", "Bend stiffness", "Between the two vertices opposite an edge: they resist folding.",
-                "%.1f N/m", 0, 1000, true, 1, SB_VALUE(bend.stiffness)},
-    MaterialRow{"Shear springs", "Shear stiffness", "Across the quads of grids; other meshes have none.", "%.0f N/m", 0,
-                1000, true, 1, SB_VALUE(shear.stiffness)},
-    MaterialRow{"Gas", "Gas pressure", "Absolute, at the mesh's own volume; the air outside presses against it.",
-                "%.1f kPa", 50, 200, false, 1e3, SB_VALUE(gas_pressure)},
-    MaterialRow{"Damping", "Internal damping", "How quickly a body's motion becomes that of a rigid one.", "%.1f 1/s",
-                0, 50, false, 1, SB_VALUE(internal_damping)},
-    MaterialRow{"Rebound", "Rebound speed", "Solids throw a body back no faster; 0: no such limit.", "%.1f m/s", 0, 10,
-                false, 1, SB_VALUE(rebound_speed)},
-    MaterialRow{"Friction", "Friction", "Coulomb's coefficient against other bodies.", "%.2f", 0, 2, false, 1,
+    MaterialRow{"Springs", "Spring stiffness", "Stiffness of the structural springs along the edges of the mesh.",
+                "%.0f N/m", 10, 3000, true, 1, SB_VALUE(structural.stiffness)},
+    MaterialRow{"  damping", "Spring damping", "Damping of the structural springs. 1 is critical damping.", "%.2f", 0,
+                1, false, 1, SB_VALUE(structural.damping_ratio)},
+    MaterialRow{"Bend springs", "Bend stiffness",
+                "Stiffness of the springs between the two vertices opposite an edge. They resist folding.", "%.1f N/m",
+                0, 1000, true, 1, SB_VALUE(bend.stiffness)},
+    MaterialRow{"Shear springs", "Shear stiffness",
+                "Stiffness of the diagonal springs of grids. Other meshes have none.", "%.0f N/m", 0, 1000, true, 1,
+                SB_VALUE(shear.stiffness)},
+    MaterialRow{"Gas", "Gas pressure",
+                "Absolute pressure of the gas at the volume of the mesh. The air presses from outside.", "%.1f kPa", 50,
+                200, false, 1e3, SB_VALUE(gas_pressure)},
+    MaterialRow{"Damping", "Internal damping", "How quickly a body stops wobbling.", "%.1f 1/s", 0, 50, false, 1,
+                SB_VALUE(internal_damping)},
+    MaterialRow{"Rebound", "Rebound speed", "Largest speed at which a solid throws a body back. 0: no limit.",
+                "%.1f m/s", 0, 10, false, 1, SB_VALUE(rebound_speed)},
+    MaterialRow{"Friction", "Friction", "Coefficient of friction against other bodies.", "%.2f", 0, 2, false, 1,
                 SB_VALUE(friction)},
-    MaterialRow{"Rolling", "Rolling resistance", "Torque over radius times normal force, on solids.", "%.2f", 0, 1,
-                false, 1, SB_VALUE(rolling_resistance)},
-    MaterialRow{"Contact", "Contact stiffness", "Of the shield round each vertex, for vertex-vertex contact (§2.3).",
-                "%.0f N/m", 1, 1000, true, 1, SB_VALUE(contact_stiffness)},
-    MaterialRow{"Restitution", "Restitution", "With which bodies bounce off one another, for surface contact.", "%.2f",
-                0, 1, false, 1, SB_VALUE(restitution)},
+    MaterialRow{"Rolling", "Rolling resistance", "Coefficient of rolling resistance on solids.", "%.2f", 0, 1, false, 1,
+                SB_VALUE(rolling_resistance)},
+    MaterialRow{"Contact", "Contact stiffness", "Stiffness of vertex-vertex contact (§2.3).", "%.0f N/m", 1, 1000, true,
+                1, SB_VALUE(contact_stiffness)},
+    MaterialRow{"Restitution", "Restitution",
+                "How strongly bodies bounce off each other with surface contact. 1: without loss.", "%.2f", 0, 1, false,
+                1, SB_VALUE(restitution)},
 };
 #undef SB_VALUE
 
 void draw_gravity(Widgets& w, Session& session) {
   auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
   w.row_label("Gravity", w.px(label_column));
-  if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2", "Along the scene's own direction. The earth's is 9.81.",
-               false) &&
+  if (w.slider("Gravity", strength, 0, 30, "%.2f m/s\u00b2",
+               "Acceleration in the direction of the scene. On Earth it is 9.81.", false) &&
       std::isfinite(strength))
     session.settings.set_gravity(static_cast<double>(strength));
 }
@@ -87,7 +91,7 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
   const auto same = std::ranges::find(presets, now, renamed);
   w.row_label("Preset", w.px(label_column));
   if (!w.begin_combo("Material preset", same == presets.end() ? "Custom" : same->name.c_str(),
-                     "Takes all values from one of the shipped materials."))
+                     "Sets all values below to those of a known material."))
     return;
   for (const softbody::Material& preset : presets)
     if (w.combo_item(preset.name.c_str(), renamed(preset) == now, nullptr)) chosen = renamed(preset);
@@ -97,7 +101,7 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
 
 void draw_material(Widgets& w, Session& session, UiState& ui) {
   const std::vector<softbody::Material>& all = session.world().scene().materials;
-  ui.material = choose(w, "Material", "Whose values stand below.", ui.material, all.size(), [&](std::size_t i) {
+  ui.material = choose(w, "Material", "The material to edit.", ui.material, all.size(), [&](std::size_t i) {
     return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name;
   });
   draw_preset(w, session, ui.material);
@@ -116,14 +120,14 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
 constexpr float max_coordinate = 20, min_size = 0.02f, max_size = 10;  // m
 
 bool drag_position(Widgets& w, glm::dvec3& position) {
-  w.row_label("Place", w.px(label_column));
-  return w.drag("Solid place", position, -max_coordinate, max_coordinate, "x, y and z in metres.");
+  w.row_label("Position", w.px(label_column));
+  return w.drag("Solid position", position, -max_coordinate, max_coordinate, "x, y and z in metres.");
 }
 
 bool slide_radius(Widgets& w, double& radius) {
   auto shown = static_cast<float>(radius);
   w.row_label("Radius", w.px(label_column));
-  if (!w.slider("Solid radius", shown, min_size, max_size, "%.2f m", "Of the solid.", true)) return false;
+  if (!w.slider("Solid radius", shown, min_size, max_size, "%.2f m", "Radius of the solid.", true)) return false;
   if (!std::isfinite(shown)) return false;
   radius = static_cast<double>(shown);
   return true;
@@ -133,7 +137,7 @@ bool slide_radius(Widgets& w, double& radius) {
 bool draw_shape(Widgets& w, softbody::Ground& ground) {
   auto height = static_cast<float>(ground.height);
   w.row_label("Height", w.px(label_column));
-  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Of the ground.", false) || !std::isfinite(height))
+  if (!w.slider("Ground height", height, -3, 3, "%.2f m", "Height of the ground.", false) || !std::isfinite(height))
     return false;
   ground.height = static_cast<double>(height);
   return true;
@@ -147,7 +151,8 @@ bool draw_shape(Widgets& w, softbody::SolidBox& b) {
   glm::dvec3 size = 2.0 * b.half_size;
   const bool moved = drag_position(w, b.centre);
   w.row_label("Size", w.px(label_column));
-  const bool resized = w.drag("Solid size", size, min_size, max_coordinate, "Along its own axes, in metres.");
+  const bool resized =
+      w.drag("Solid size", size, min_size, max_coordinate, "Size along the axes of the box, in metres.");
   if (resized) b.half_size = 0.5 * size;
   return moved || resized;
 }
@@ -169,9 +174,9 @@ bool draw_solid(Widgets& w, Solid& solid) {
     value = static_cast<double>(shown);
     changed = true;
   };
-  slide("Friction", "Solid friction", solid.friction, 2, "Coulomb's coefficient.");
+  slide("Friction", "Solid friction", solid.friction, 2, "Coefficient of friction.");
   slide("Restitution", "Solid restitution", solid.restitution, 1,
-        "The part of its speed with which what hits the solid leaves it.");
+        "Share of its speed that a body keeps when it bounces off the solid.");
   return changed;
 }
 
@@ -181,10 +186,10 @@ void draw_solids(Widgets& w, Session& session, UiState& ui) {
     return;
   }
   session::SolidList list = session.settings.solids();
-  ui.solid = choose(w, "Solid", "Whose values stand below.", ui.solid, list.size(),
+  ui.solid = choose(w, "Solid", "The solid to edit.", ui.solid, list.size(),
                     [&](std::size_t i) { return session::solid_name(list, i); });
   session::SolidEntry& entry = list[ui.solid];
-  bool changed = w.checkbox("Solid is there", entry.on, "Off: bodies pass where it was.");
+  bool changed = w.checkbox("Enabled###Solid enabled", entry.on, "Bodies pass through a solid that is not enabled.");
   ImGui::BeginDisabled(!entry.on);
   changed |= std::visit([&](auto& solid) { return draw_solid(w, solid); }, entry.solid);
   ImGui::EndDisabled();
@@ -199,7 +204,7 @@ void draw_world(Widgets& w, Session& session, UiState& ui) {
   draw_material(w, session, ui);
   ImGui::Separator();
   draw_solids(w, session, ui);
-  if (w.button("Scene's world", "Gravity, materials and solids as the scene has them.",
+  if (w.button("Restore world", "Restores gravity, materials and solids of the scene file.",
                ImGui::GetContentRegionAvail().x))
     session.settings.restore_world();
 }

@@ -26,10 +26,9 @@ void draw_group(Widgets& w, Session& session, const compare::BucketContents& buc
       bodies_text(group, bucket, session.inspector.shown_geometry(), session.world().vertex_body());
   const std::string text =
       fmt::format("{}  {}, {}###Cell {}", cell, count_text(group.items.size(), bucket), bodies, cell);
-  const std::string tooltip = fmt::format(
-      "Cell {}: {} of {}. Click: what shares this cell turns blue; all else is in this bucket only because the modulo "
-      "gave both cells one number (§2.2).",
-      cell, count_text(group.items.size(), bucket), bodies);
+  const std::string tooltip =
+      fmt::format("Cell {}: {} of {}. Click to show its entries in blue, and those of other cells in orange (§2.2).",
+                  cell, count_text(group.items.size(), bucket), bodies);
   const bool clicked = ImGui::Selectable(text.c_str(), chosen);
   w.register_item(text.c_str(), tooltip.c_str());
   if (clicked) session.inspector.select_cell(group.cell);
@@ -65,22 +64,23 @@ void draw_bucket(Widgets& w, Session& session) {
   const compare::BucketContents* bucket = session.inspector.bucket();
   assert(bucket);
   const std::string title = fmt::format("Bucket {}###Bucket", grouped(bucket->bucket));
-  const bool close = w.closable_heading(title.c_str(), "Releases the bucket (Esc).");
+  const bool close = w.closable_heading(title.c_str(), "Deselects the bucket (Esc).");
   std::uint32_t number = bucket->bucket;
   w.row_label("Number", w.px(70));
   const bool another = w.number_field("Bucket number", number, 0, session.world().collision().buckets - 1,
-                                      "Type the number of another bucket: from 0, below the number of buckets (§2.2).");
+                                      "Type the number of another bucket. The first is 0.");
   const std::size_t cells = bucket->groups.size();
   w.figure(count_text(bucket->items, *bucket).c_str(), fmt::format("{}{}", cells, cells == 1 ? " cell" : " cells"),
-           "What is in the bucket, and the different cells that it comes from (§2.2).");
+           "The entries of the bucket, and the number of cells that they belong to (§2.2).");
   ImGui::BeginChild("Cells", {0, static_cast<float>(list_lines) * ImGui::GetTextLineHeightWithSpacing()});
   const compare::CellGroup* chosen = bucket->group(session.inspector.selected_cell());
   for (const compare::CellGroup& group : bucket->groups) draw_group(w, session, *bucket, group, &group == chosen);
   ImGui::EndChild();
   w.figure("Same cell / aliased", sharing_text(bucket->sharing),
-           "Pairs that meet in this bucket: in one cell, as neighbours should, and of different cells, which the "
-           "modulo put together. Aliased pairs cost tests and find nothing that is near (§2.2).");
-  w.figure("Whole table", sharing_text(session.inspector.table().sharing()), "The same, summed over all buckets.");
+           "Pairs of entries in this bucket: of the same cell, and of different cells with the same hash (aliasing, "
+           "§2.2). Aliased pairs cost tests and are not near.");
+  w.figure("All buckets", sharing_text(session.inspector.table().sharing()),
+           "The same pairs, summed over all buckets.");
   if (close)
     session.inspector.select_bucket(std::nullopt);
   else if (another)

@@ -25,22 +25,16 @@ struct Column {
 constexpr std::array<Column, column_count> columns{{
     {"", 26, false, nullptr},
     {"Method", 194, false,
-     "Click a name, and the method drives the bodies. The driver's row is shaded; it is scored by what it really "
-     "found."},
-    {"Time", 112, true,
-     "Median of the last 15 measurements of the detector, in ms: positions to finished contacts, on one core, each "
-     "method with its own detector, in shuffled order. The bar compares it with the slowest (§3)."},
-    {"Pair tests", 96, true, "Distances evaluated between vertices (§2.3)."},
-    {"Hashes", 80, true, "Evaluations of the hash function; eight corners a box for the literal method (§2.2)."},
-    {"Contacts", 72, true,
-     "Pairs of vertices found closer than the tolerance, between and inside bodies (§2.3, §2.4)."},
+     "Click a name to let that method drive the bodies. The row of the driving method is shaded."},
+    {"Time", 112, true, "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3)."},
+    {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
+    {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
+    {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Recall", 96, true,
-     "Found true contacts over all true contacts. Green: exact, misses nothing. Amber: literal, every box fits a cell. "
-     "Red: literal, a box exceeds a cell, so its corners skip cells (§2.2)."},
-    {"Precision", 78, true,
-     "Found true contacts over all contacts found: 1 unless a method reports what is none (§2.3)."},
-    {"Latest times", 0, false, "The last measurements, oldest at the left, all on one axis."},
-    {"Misses", 56, true, "Whose missed contacts the overlay shows (key 6); the driver's at first."},
+     "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
+    {"Precision", 78, true, "Share of the found contacts that are true. 1: no false contact (§2.3)."},
+    {"Latest times", 0, false, "The last measurements of the time. All methods have the same axis."},
+    {"Misses", 56, true, "Choose the method whose missed contacts the scene shows (key 6)."},
 }};
 // All in design pixels.
 constexpr float min_plot_width = 70, column_gap = 10;
@@ -123,13 +117,13 @@ void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& 
   if (row.method.key != collide::reference_method) {
     ImGui::SetCursorScreenPos({grid.left(run), grid.top()});
     bool on = row.chosen;
-    if (w.checkbox(row.label("Run").c_str(), on, "Whether the method runs beside the driver.")) {
+    if (w.checkbox(row.label("Run").c_str(), on, "Measures this method.")) {
       session.comparison.choice.methods[row.index] = on;
     }
   }
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
   const bool shown = session.comparison.choice.misses_of == row.index;
-  if (w.radio(row.label("Misses of").c_str(), shown, "Shows what this method misses, in the scene.")) {
+  if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene.")) {
     session.comparison.choice.misses_of = row.index;
     show_misses = true;
   }
@@ -185,15 +179,13 @@ void draw_score(Widgets& w, const Grid& grid, const Row& row) {
     if (misses_some) ImGui::PopStyleColor();
     grid.text(precision, fmt::format("{:.4f}", rounded_down(found.precision)));
   }
-  const std::string tip = std::string(light.name) + ": " + light.sentence +
-                          " Missed now: " + grouped(found.missed.size()) +
-                          (found.missed.size() == 1 ? " contact." : " contacts.");
+  const std::string tip = std::string(light.sentence) + " Missed: " + grouped(found.missed.size()) + ".";
   grid.cell(w, recall, row.label("Recall of").c_str(), tip.c_str());
 }
 
 /// Draws why the row has no score, beside its time if there is one.
 void draw_reason(const Session& session, const Grid& grid, const Row& row) {
-  std::string reason = row.chosen ? "measuring" : "not chosen";
+  std::string reason = row.chosen ? "measuring" : "off";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
   const bool timed = session.comparison.method_ms()[row.index].size() > 0;
   ImGui::GetWindowDrawList()->AddText({grid.left(timed ? tests : time), grid.text_top()},
@@ -277,8 +269,8 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
   w.text_line(footer(session));
   w.register_item(
       "Compare footing",
-      "What counts as the true contacts. All methods see one frozen frame, on one core, in shuffled order. §3 "
-      "holds hashes against N, one a vertex, and pair tests against all pairs, O(N^2).");
+      "The method that finds the true contacts, and the size of the frame. §3 compares hashes with the number of "
+      "vertices N, and pair tests with all pairs.");
   ImGui::PopStyleVar(2);
   end_dock();
 }

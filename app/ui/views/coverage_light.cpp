@@ -1,51 +1,94 @@
 #include "app/ui/views/coverage_light.h"
 
+#include <algorithm>
+#include <numbers>
+
 #include <fmt/core.h>
 #include <glm/common.hpp>
+
+#include "app/render/palette.h"
+#include "softbody/prototype.h"
 
 namespace app::ui {
 namespace {
 
 std::string metres(const glm::vec3& size) { return fmt::format("{:.3f} x {:.3f} x {:.3f} m", size.x, size.y, size.z); }
 
+/// Returns what the method finds on this frame, in one short line.
+std::string promise(const softbody::World& world) {
+  switch (world.detection().coverage) {
+    case collide::Coverage::exact:
+      return fmt::format("Exact: finds all vertex pairs closer than {:.3g} m", world.collision().tolerance);
+    case collide::Coverage::covered:
+      return "Paper's method: can miss pairs across a cell face";
+    default:
+      return "Paper's method: can miss pairs, boxes exceed cells";
+  }
+}
+
 /// Draws the meaning of a colour with its dot; `active`: not in grey.
 void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
   const StatusLight light = status_light(coverage);
   w.dot(light.colour);
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(active ? ImGuiCol_Text : ImGuiCol_TextDisabled));
-  const bool exact = coverage == collide::Coverage::exact;
-  ImGui::TextWrapped("%s: %s%s", light.name, exact ? "" : "the paper's method, and ", light.sentence);
+  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
   ImGui::PopStyleColor();
 }
 
 }  // namespace
 
+double safe_vertex_tolerance(const softbody::World& world) {
+  double widest = 0;
+  for (softbody::BodyId body = 0; body < world.bodies().count(); ++body)
+    widest = std::max(widest, world.prototype(body).mean_edge);
+  return widest / std::numbers::sqrt3;
+}
+
+SurfaceRemark surface_remark(const Session& session) {
+  if (session.surfaces.on) {
+    const compare::SurfaceReport& report = session.surfaces.report();
+    if (!report.failure.empty()) return {"Surfaces are not checked"};
+    if (report.id == 0) return {"Checking surfaces"};
+    const std::size_t inside = report.figures.penetrating_vertices;
+    if (inside == 0) return {"No vertex is inside another body"};
+    if (inside == 1) return {"But 1 vertex is inside another body", true};
+    return {fmt::format("But {} vertices are inside other bodies", grouped(inside)), true};
+  }
+  const double safe = safe_vertex_tolerance(session.world());
+  const bool by_vertices = session.world().scene().contact_surface == softbody::ContactSurface::vertices;
+  if (!by_vertices || double{session.world().collision().tolerance} >= safe) return {};
+  return {fmt::format("Tolerance below {:.2g} m: vertices can slip through faces", safe)};
+}
+
 std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec3& cell) {
-  if (paper.boxes.empty()) return "No boxes are known for this picture: pause to see them.";
+  if (paper.boxes.empty()) return "The boxes of this frame are not known: pause to see them.";
   glm::vec3 largest(0.0f);
   for (const auto& [lo, hi, body] : paper.boxes) largest = glm::max(largest, hi - lo);
-  std::string text = fmt::format("Largest box in this frame: {}; cell: {}. ", metres(largest), metres(cell));
+  std::string text = fmt::format("Largest box: {}\nCell: {}\n", metres(largest), metres(cell));
   std::string beyond;
   for (int axis = 0; axis < 3; ++axis) {
     if (largest[axis] <= cell[axis]) continue;
     beyond.append(beyond.empty() ? "" : ", ").append(1, "xyz"[axis]);
   }
-  if (beyond.empty()) return text + "Every box fits: its corners reach every cell that it overlaps.";
-  return text.append("Along ").append(beyond).append(" a box is larger: cells between its corners are skipped.");
+  if (beyond.empty()) return text + "Every box fits into a cell.";
+  return text.append("Along ").append(beyond).append(" a box is larger, so cells between its corners are skipped.");
 }
 
 void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
   const collide::Coverage now = session.world().detection().coverage;
   const StatusLight light = status_light(now);
+  const SurfaceRemark remark = surface_remark(session);
   const std::string fit = box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size);
   ImGui::BeginGroup();
-  w.dot(light.colour);
-  ImGui::TextWrapped("%s: %s", light.name, light.sentence);
+  w.dot(remark.penetrates && now == collide::Coverage::exact ? render::status_amber : light.colour);
+  ImGui::BeginGroup();
+  ImGui::TextWrapped("%s", promise(session.world()).c_str());
+  if (!remark.text.empty()) ImGui::TextWrapped("%s", remark.text.c_str());
+  ImGui::EndGroup();
   ImGui::EndGroup();
   const bool clicked = ImGui::IsItemClicked();
-  w.register_item("Coverage", fmt::format("What the method and its settings promise on this frame (§2.2). {}{}", fit,
-                                          explained ? " Click: less." : " Click: what the colours mean.")
-                                  .c_str());
+  w.register_item("Coverage", explained ? "Click to hide the meaning of the colours."
+                                        : "Click to see what the colours mean (§2.2).");
   if (clicked) explained = !explained;
   if (!explained) return;
   ImGui::Separator();

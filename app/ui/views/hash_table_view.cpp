@@ -12,7 +12,7 @@ namespace {
 
 constexpr float grid_height = 160, min_square = 4;  // design pixels
 
-constexpr const char* click_tooltip = "Click: show its boxes in the scene. Click again or Esc: release.";
+constexpr const char* click_tooltip = "Click to show its boxes in the scene, or to deselect it.";
 
 }  // namespace
 
@@ -91,7 +91,7 @@ void HashTableView::draw_legend(Widgets& w) const {
   ImGui::Dummy({bar, height});
   ImGui::SameLine();
   w.text_line(grouped(max_load_));
-  w.register_item("Load scale", "Entries in a bucket, on a logarithmic scale; grey squares are empty (§2.2).");
+  w.register_item("Load scale", "Number of entries in a bucket. Grey squares are empty (§2.2).");
 }
 
 void HashTableView::draw_summary(const Session& session) const {
@@ -99,7 +99,7 @@ void HashTableView::draw_summary(const Session& session) const {
   if (std::ranges::all_of(squares_, [](const Square& square) { return square.load == 0; }))
     text += ", none used at this cell size";
   else if (grid_.per_square > 1)
-    text += ", a square: the fullest of " + grouped(grid_.per_square);
+    text += ", " + grouped(grid_.per_square) + " per square (the fullest shows)";
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();
@@ -111,7 +111,7 @@ void HashTableView::draw(Widgets& w, Session& session, bool& open) {
   const float width = ImGui::GetContentRegionAvail().x, height = w.px(grid_height);
   if (session.inspector.shown_geometry().buckets == 0) {
     ImGui::Dummy({width, 0.4f * height});
-    ImGui::TextWrapped("%s would take too long here to show its table beside the driving method.",
+    ImGui::TextWrapped("The scene is too large to show the table of %s while it moves. Pause to see it.",
                        std::string(session.inspector.shown_method().name).c_str());
     ImGui::Dummy({width, 0.4f * height});
   } else {

@@ -34,8 +34,7 @@ void draw_import_report(Widgets& w, session::Import& import, const ScreenRect& a
     ImGui::TextWrapped("%s", import.progress().c_str());
     w.register_item("Import progress", nullptr);
   }
-  if (!import.report().empty() && w.button("Close###Close import report",
-                                           "It stands here until it is closed, or the next file is named.", w.px(80)))
+  if (!import.report().empty() && w.button("Close###Close import report", "Closes this report.", w.px(80)))
     import.dismiss_report();
   ImGui::End();
 }

@@ -24,36 +24,39 @@ std::string integrator_text(const softbody::World& world) {
 
 constexpr double hint_seconds = 20, fade_seconds = 2;
 
-std::string recall_sentence(const Session& session) {
+std::string missed_text(const Session& session) {
   const compare::CompareReport& report = session.comparison.report();
-  if (report.id != 0 && !report.reference) return "Recall not measured: " + report.reference_note;
+  if (report.id != 0 && !report.reference) return "Missed: not measured, " + report.reference_note;
   const compare::CompareRow* row = session.comparison.driver_row();
-  if (!row) return "Recall: measuring";
-  std::string text = fmt::format("Recall {:.4f}   ", rounded_down(row->recall));
-  text += report.true_contacts == 0 ? "no contacts in the frame last measured"
-                                    : fmt::format("{} of {} contacts missed when last measured",
-                                                  grouped(row->missed.size()), grouped(report.true_contacts));
-  if (!report.reference_note.empty()) text += " (see Compare: V)";
-  return text;
+  if (!row) return "Missed: measuring";
+  return fmt::format("Missed: {} of {} contacts  (recall {:.4f})", grouped(row->missed.size()),
+                     grouped(report.true_contacts), rounded_down(row->recall));
 }
 
 }  // namespace
 
+StatusLight status_light(const collide::Method& method) {
+  return status_light(method.exact ? collide::Coverage::exact : collide::Coverage::covered);
+}
+
 StatusLight status_light(collide::Coverage coverage) {
   switch (coverage) {
     case collide::Coverage::exact:
-      return {render::status_green, "Green", "this method is exact and misses no contact."};
+      return {render::status_green, "Green", "exact", "The method is exact. It finds every contact."};
     case collide::Coverage::covered:
-      return {render::status_amber, "Amber", "every box fits a cell; only contacts across cell faces can be missed."};
+      return {render::status_amber, "Amber", "can miss",
+              "The paper's method, and every box fits into a cell. It can miss contacts across cell faces."};
     default:
-      return {render::status_red, "Red", "a box is larger than a cell, so its corners skip cells."};
+      return {render::status_red, "Red", "can miss",
+              "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
+              "corners."};
   }
 }
 
 std::string shown_method_text(const Session& session) {
   const collide::Method& shown = session.inspector.shown_method();
-  if (shown.key == session.world().method().key) return "of the driving method";
-  return "of " + std::string(shown.name) + ", for comparison";
+  const bool drives = shown.key == session.world().method().key;
+  return std::string(shown.name) + (drives ? ", driving" : ", for comparison");
 }
 
 double rounded_down(double share) { return std::floor(share * 1e4) / 1e4; }
@@ -74,13 +77,12 @@ float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRe
   ImGui::SetCursorScreenPos(top);
   ImGui::PushTextWrapPos(ImGui::GetContentRegionMax().x - side);
   draw_coverage_light(w, session, explained);
-  w.text_line(recall_sentence(session));
+  w.text_line(missed_text(session));
   const std::string against = reference_sentence(session.comparison.report());
-  w.register_item("Live recall",
-                  ("Found true contacts over all true contacts, of the driving method on a frame of a moment ago, "
-                   "counted beside the simulation. " +
-                   against)
-                      .c_str());
+  w.register_item(
+      "Live recall",
+      ("Contacts of a recent frame that the driving method missed. Recall is the share that it found. " + against + ".")
+          .c_str());
   draw_step_light(w, session);
   ImGui::PopTextWrapPos();
   const ScreenRect covered = box.end();
@@ -121,7 +123,7 @@ void draw_ghost_legend(Widgets& w, const Session& session) {
   w.register_item("Legend", nullptr);
   w.swatch(render::ghost_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  ImGui::Text("ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
+  ImGui::Text("Ghost: %s", integrator_text(session.ghost().get()->world()).c_str());
   w.register_item("Legend", nullptr);
   ImGui::Text("RMS distance: %s", ghost_distance_text(session).c_str());
 }
@@ -147,17 +149,17 @@ void draw_strain_scale(const Widgets& w) {
 
 void draw_surface_contacts_legend(Widgets& w, const Session& session) {
   if (session.world().scene().contact_surface != softbody::ContactSurface::surfaces) {
-    ImGui::TextDisabled("no surface contacts: F switches them on");
+    ImGui::TextDisabled("No surface contacts (F: next contact)");
     return;
   }
-  draw_legend_line(w, render::contact_between_colour, "surface contact between bodies, and its normal");
+  draw_legend_line(w, render::contact_between_colour, "surface contact between bodies, with normal");
   draw_legend_line(w, render::contact_inside_colour, "surface contact inside one body");
 }
 
 void draw_table_legend(Widgets& w, const Session& session, const render::Overlays& shown, bool names_method) {
   const collide::DebugGeometry& debug = session.inspector.shown_geometry();
   if (shown.boxes) {
-    ImGui::TextUnformatted(debug.boxes.empty() ? "This method builds no boxes" : "Boxes: one colour, one bucket");
+    ImGui::TextUnformatted(debug.boxes.empty() ? "This method has no boxes" : "Boxes of one colour share a bucket");
   }
   if (shown.cells) draw_legend_line(w, render::cell_colour, "occupied cell");
   if (names_method) ImGui::TextDisabled("%s", shown_method_text(session).c_str());
@@ -165,8 +167,8 @@ void draw_table_legend(Widgets& w, const Session& session, const render::Overlay
 
 void draw_bucket_legend(Widgets& w, const Session& session) {
   ImGui::Text("Bucket %s", grouped(*session.inspector.selected_bucket()).c_str());
-  draw_legend_line(w, render::same_cell_colour, "of the chosen cell");
-  draw_legend_line(w, render::aliased_colour, "of another cell: aliasing");
+  draw_legend_line(w, render::same_cell_colour, "entry of the chosen cell");
+  draw_legend_line(w, render::aliased_colour, "entry of another cell (aliasing)");
 }
 
 }  // namespace
@@ -193,7 +195,7 @@ void draw_legend(Widgets& w, const Session& session, const render::Overlays& sho
                          std::string(collide::method_table()[session.comparison.choice.misses_of].name));
   if (shown.areas) draw_legend_line(w, render::area_colour, "area that the exact method searches");
   if (shown.springs) {
-    ImGui::TextUnformatted("Springs: shorter, longer than at rest");
+    ImGui::TextUnformatted("Strain of the springs");
     draw_strain_scale(w);
   }
 }
@@ -241,9 +243,10 @@ float draw_caption(Widgets& w, const Session& session, const ScreenRect& area, d
     hint = std::min(hint, draw_scene_text(w, session.simulation.caption().c_str(), bottom, area, 1.0f) - w.px(10));
   const float alpha = static_cast<float>(std::clamp((hint_seconds - seconds) / fade_seconds, 0.0, 1.0));
   if (alpha <= 0) return hint;
-  return draw_scene_text(
-      w, "Drag a body to pull it, drag beside it to turn, B throws a body, G explains the method, F1 for help", hint,
-      area, alpha);
+  return draw_scene_text(w,
+                         "Drag a body to pull it. Drag the background to orbit. B throws a body. "
+                         "G:\u00a0tour. F1:\u00a0help.",
+                         hint, area, alpha);
 }
 
 }  // namespace app::ui

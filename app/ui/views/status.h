@@ -16,18 +16,21 @@ inline constexpr ImGuiWindowFlags frameless_window = ImGuiWindowFlags_NoDecorati
 struct StatusLight {
   glm::vec3 colour;
   const char* name;      // the colour in words
+  const char* label;     // what the colour means, in one to three words
   const char* sentence;  // what the colour means
 };
+/// Returns the light of a method that can or cannot miss contacts, before any frame is known.
+StatusLight status_light(const collide::Method& method);
 StatusLight status_light(collide::Coverage coverage);
 /// Returns green if the step keeps within the stability bound and its reserve, amber if it is within the bound, red if
 /// it is beyond the bound.
 StatusLight status_light(const session::StepMargin& margin);
-/// Draws the status light of the step with its numbers. Below it stand the alarm, if there is one, and the button that
-/// rewinds.
+/// Draws the status light of the step with its numbers. Below it stand the blow-up, if there is one, and the button
+/// that rewinds.
 void draw_step_light(Widgets& widgets, Session& session);
 
-/// Returns "of the driving method", or names the method whose boxes and buckets are shown because the driving method
-/// has no table.
+/// Names the method whose boxes and buckets are shown: "Grid Hash, driving", or "Multi-Level SB, for comparison" if the
+/// driving method has no table.
 std::string shown_method_text(const Session& session);
 
 /// Rounds down to four digits, so that one missed contact of a million is not shown as a recall of 1.

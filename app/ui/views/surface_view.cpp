@@ -19,38 +19,33 @@ void draw_state(Widgets& w, const Session& session) {
   const compare::SurfaceReport& report = session.surfaces.report();
   std::string text = "True surfaces: ";
   if (!report.failure.empty())
-    text.append("not judged, ").append(report.failure);
+    text.append("not checked, ").append(report.failure);
   else if (report.id == 0)
-    text += "judging";
+    text += "checking";
   else
-    text += report.id == session.simulation.revision() ? "as shown" : "frame " + std::to_string(report.frame);
+    text += report.id == session.simulation.revision() ? "this frame" : "frame " + std::to_string(report.frame);
   w.text_line(text);
-  w.register_item(
-      "Judged frame",
-      "The state that these figures are of, judged exactly on a copy beside the simulation: that of an earlier "
-      "frame while bodies move. Solids are not judged.");
+  w.register_item("Checked frame",
+                  "The frame that was checked. While bodies move, it is an earlier one. Solids are not checked.");
 }
 
 void draw_overlaps(Widgets& w, const collide::oracle::SurfaceFigures& figures) {
   w.figure("Penetrating vertices", grouped(figures.penetrating_vertices), "Vertices inside another closed body.");
   w.figure("Overlapping pairs", grouped(figures.overlapping_pairs),
-           "Pairs of bodies of which one has a vertex in the other, or an edge through a face of it.");
-  w.figure("Through themselves", grouped(figures.self_intersecting_bodies),
-           "Bodies with an edge through a face of their own.");
-  w.figure("Deepest", millimetres(figures.deepest), "Largest distance of a penetrating vertex to the surface.");
-  w.figure("Mean depth", millimetres(figures.mean_depth), "Over all penetrating vertices.");
+           "Pairs of bodies with a vertex of one inside the other, or an edge of one through a face of the other.");
+  w.figure("Self-penetrating bodies", grouped(figures.self_intersecting_bodies),
+           "Bodies with an edge through one of their own faces.");
+  w.figure("Largest depth", millimetres(figures.deepest), "Largest distance of a penetrating vertex to the surface.");
+  w.figure("Mean depth", millimetres(figures.mean_depth), "Mean distance of all penetrating vertices to the surface.");
 }
 
 void draw_crossings(Widgets& w, const collide::oracle::SurfaceFigures& figures, const session::CrossingSums& sums) {
   w.figure("Passed in this step", vertices_and_edges(figures.crossed_vertices, figures.edge_crossings),
-           "Vertices that passed through a face in the step to this frame, either way, and pairs of edges that passed "
-           "through each other: on straight lines from the frame before.");
-  w.figure("Passed in judged steps", vertices_and_edges(sums.vertices, sums.edge_pairs),
-           "The same, summed over all steps judged since this was switched on or the scene reset.");
-  w.figure(
-      "Judged steps", grouped(static_cast<std::uint64_t>(sums.steps)),
-      "How many these are. Where bodies are many or the machine is slow, steps in between are not judged: pause and "
-      "step (N) to see each.");
+           "Vertices that passed through a face in the last step, and pairs of edges that passed through each other.");
+  w.figure("Passed in all checked steps", vertices_and_edges(sums.vertices, sums.edge_pairs),
+           "The same, summed over all checked steps.");
+  w.figure("Checked steps", grouped(static_cast<std::uint64_t>(sums.steps)),
+           "Number of checked steps. In large scenes some steps are left out: step by hand (N) to check each.");
 }
 
 void draw_missed(Widgets& w, const Session& session) {
@@ -58,19 +53,14 @@ void draw_missed(Widgets& w, const Session& session) {
   w.swatch(render::contact_missed_colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
   w.text_line("Missed surface contacts");
-  w.register_item(
-      "Missed surface contacts",
-      "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
-      "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
-  w.figure(
-      "  vertices", share(report.missed_penetrations, report.penetrations),
-      "Penetrating vertices without a contact with any vertex of the body they are in. One inside two bodies counts "
-      "twice.");
+  w.register_item("Missed surface contacts",
+                  "Overlaps of surfaces without a contact between vertices (§2.3). The scene shows them.");
+  w.figure("  vertices", share(report.missed_penetrations, report.penetrations),
+           "Penetrating vertices without a contact with the body that they are in.");
   w.figure("  edges", share(report.missed_piercings, report.figures.piercings),
-           "Edges through a face without a contact between an end of the one and a corner of the other.");
+           "Edges through a face without a contact between their vertices.");
   const std::size_t pairs = report.figures.overlapping_pairs + report.figures.self_intersecting_bodies;
-  w.figure("  pairs", share(report.missed_pairs, pairs),
-           "Overlapping bodies, also with themselves, without any contact at all.");
+  w.figure("  pairs", share(report.missed_pairs, pairs), "Overlapping pairs of bodies without any contact.");
 }
 
 }  // namespace

@@ -104,10 +104,10 @@ void SweepPlot::draw_axes(const Widgets& w) const {
   draw_time_axis(w, top);
   draw_error_axis(w);
   draw_grey_text({time_.end - w.px(6), bottom_ - ImGui::GetTextLineHeight() - w.px(2)}, 1,
-                 "none missed; a lane a method");
+                 "none missed (one row per method)");
   draw->AddRect({time_.start, top}, {time_.end, bottom_}, ImGui::GetColorU32(ImGuiCol_Border));
   draw_grey_text({time_.start, top - ImGui::GetTextLineHeight() - w.px(3)}, 0,
-                 "1 - recall: missed share of the true contacts");
+                 "Missed share of the true contacts (1 - recall)");
 }
 
 void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
@@ -121,7 +121,7 @@ void SweepPlot::draw_time_axis(const Widgets& w, float top) const {
     draw_grey_text({time_.decade(e), bottom_ + w.px(3)}, 0.5f, power_of_ten(e).c_str());
   }
   draw_grey_text({time_.end, bottom_ + ImGui::GetTextLineHeight() + w.px(4)}, 1,
-                 "ms a frame, from scratch, on one core");
+                 "Time per frame in ms, from scratch on one core");
 }
 
 void SweepPlot::draw_error_axis(const Widgets& w) const {

@@ -29,15 +29,14 @@ std::string point_tooltip(const compare::SweepRow& row) {
     text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
     text += fmt::format(", {:g} of the automatic size", row.configuration.cell);
   }
-  text +=
-      fmt::format("\n{:.4g} ms: median of {}, least {:.4g}", row.times.median(), row.times.ms.size(), row.times.min());
+  text += fmt::format("\n{:.4g} ms: median of {}, smallest {:.4g}", row.times.median(), row.times.ms.size(),
+                      row.times.min());
   text += fmt::format("\nRecall {:.4f}, precision {:.4f}; ", rounded_down(row.recall), rounded_down(row.precision));
   text += fmt::format("{}{}", grouped(row.missed), row.missed == 1 ? " contact missed" : " contacts missed");
   text += fmt::format("\n{} pair tests, {} hashes", grouped(row.counters.pair_tests), grouped(row.counters.hashes));
   text += fmt::format("\nAbout {} KiB of memory", grouped(row.memory / 1024));
-  const StatusLight light = status_light(row.coverage);
-  text += fmt::format("\n{}: {}", light.name, light.sentence);
-  return text + "\nClick: the bodies go on with this.";
+  text.append("\n").append(status_light(row.coverage).sentence);
+  return text + "\nClick to use these settings.";
 }
 
 /// Lists what was not run and why, at most max_reasons of them.
@@ -93,13 +92,13 @@ std::string count_text(const session::SweepState& state) {
 }
 
 std::string footer(const session::SweepState& state) {
-  if (state.scene.empty()) return "Nothing swept yet.";
+  if (state.scene.empty()) return "No sweep yet.";
   std::string text = fmt::format("{}, frame {}. ", state.scene, state.frame);
   const compare::SweepReport& report = state.report;
   if (report.reference) {
     text += fmt::format("{} true contacts by {}{}", grouped(report.true_contacts),
                         collide::method_table()[report.reference->method].name,
-                        report.reference_note.empty() ? "." : ", which stands in for brute force.");
+                        report.reference_note.empty() ? "." : " in place of brute force.");
   } else if (!report.reference_note.empty()) {
     text += fmt::format("No true contacts: {}.", report.reference_note);
   }
@@ -130,8 +129,7 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
   ImGui::PopStyleColor();
   w.register_item("Sweep progress",
                   state.stop_reason.empty()
-                      ? "First each setting is checked against the true contacts, then all are timed, up to "
-                        "five times, in shuffled order."
+                      ? "Checks the contacts of each setting first, then times all settings up to five times."
                       : state.stop_reason.c_str());
 }
 
@@ -139,9 +137,8 @@ void draw_progress(Widgets& w, const session::SweepState& state, float width) {
 
 void SweepView::draw_button(Widgets& w, const Session& session) {
   constexpr const char* sweep_tooltip =
-      "Runs every method with all its levels, four bucket counts and five cell sizes on a copy of the present frame, "
-      "on "
-      "one core beside the demo. Pause (Space) for the steadiest times.";
+      "Runs every method with all its levels, four bucket counts and five cell sizes on a copy of this frame. Pause "
+      "(Space) for the steadiest times.";
   const float width = w.px(130);
   if (!state_.running) {
     if (w.button("Sweep this frame###Sweep", sweep_tooltip, width)) worker_.start(session.world());
@@ -149,8 +146,8 @@ void SweepView::draw_button(Widgets& w, const Session& session) {
   }
   const bool cancelling = worker_.cancelling();
   ImGui::BeginDisabled(cancelling);
-  if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep",
-               "Ends the sweep after the run under way; what it knows by now stays.", width)) {
+  if (w.button(cancelling ? "Cancelling###Sweep" : "Cancel###Sweep", "Ends the sweep and keeps its results so far.",
+               width)) {
     worker_.cancel();
   }
   ImGui::EndDisabled();
@@ -170,13 +167,13 @@ void SweepView::draw_legend(Widgets& w) {
   hovered_method_.reset();
   for (std::size_t m = 0; m < collide::method_table().size(); ++m) {
     const collide::Method& method = collide::method_table()[m];
-    draw_legend_entry(w, std::string(method.name), "Its points alone.", m == 0,
+    draw_legend_entry(w, std::string(method.name), "Highlights the points of this method.", m == 0,
                       [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(5), 0, to_imgui(method.colour)); });
     if (ImGui::IsItemHovered()) hovered_method_ = m;
   }
   for (std::size_t level = 0; level < compare::sweep_levels.size(); ++level) {
     draw_legend_entry(
-        w, fmt::format("level {}", compare::sweep_levels[level]), "Of the methods that cut boxes (§2.1).", false,
+        w, fmt::format("level {}", compare::sweep_levels[level]), "Points of this subdivision level (§2.1).", false,
         [&](ImVec2 at) { SweepPlot::draw_mark(at, w.px(4), level, ImGui::GetColorU32(ImGuiCol_TextDisabled)); });
   }
   draw_legend_entry(w, "Pareto front", "No other point is both faster and better.", false, [&](ImVec2 at) {
@@ -184,7 +181,8 @@ void SweepView::draw_legend(Widgets& w) {
     ImGui::GetWindowDrawList()->AddLine({at.x - half, at.y}, {at.x + half, at.y}, ImGui::GetColorU32(ImGuiCol_Text),
                                         w.px(1.5f));
   });
-  draw_legend_entry(w, "in use", "What drives the bodies now.", false, [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
+  draw_legend_entry(w, "in use", "The method and settings that drive the bodies now.", false,
+                    [&](ImVec2 at) { SweepPlot::draw_ring(w, at); });
 }
 
 void SweepView::draw_plot(Widgets& w, Session& session, float height) {
@@ -208,8 +206,7 @@ void SweepView::draw_plot(Widgets& w, Session& session, float height) {
 void SweepView::draw_footer(Widgets& w) const {
   w.text_line(footer(state_));
   const std::string& why = state_.report.reference_note;
-  w.register_item("Sweep footing",
-                  why.empty() ? "The frame that is swept, whatever the demo shows by now." : why.c_str());
+  w.register_item("Sweep footing", why.empty() ? "The frame of the sweep." : why.c_str());
 }
 
 void SweepView::update() {
