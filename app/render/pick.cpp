@@ -88,4 +88,12 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
   return nearest;
 }
 
+std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::World& world,
+                                       const compare::DrawnPositions& positions) {
+  constexpr float horizon = 1e3f;  // m
+  if (const auto body = pick(ray, world, positions)) return body->distance;
+  const float solid = clear_of_solids(ray, world.scene(), horizon);
+  return solid < horizon ? std::optional(solid) : std::nullopt;
+}
+
 }  // namespace app::render

@@ -23,6 +23,10 @@ struct Pick {
 std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
                          const compare::DrawnPositions& positions);
 
+/// Returns the distance (m) at which the ray meets the first body or solid; nothing if there is none.
+std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::World& world,
+                                       const compare::DrawnPositions& positions);
+
 struct BoundingSphere {
   glm::vec3 centre;
   float radius;

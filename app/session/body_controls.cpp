@@ -27,12 +27,27 @@ void BodyControls::drop(int count) {
   });
 }
 
-void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& direction) {
-  assert(std::abs(glm::length(direction) - 1) < 1e-3);
+namespace {
+
+/// Returns the velocity that carries a body over `way` under gravity: of the two with this speed the one that arrives
+/// first, or the one with the least speed if none is fast enough. `way` = v t + g t^2 / 2 is solved for t^2.
+glm::dvec3 velocity_over(const glm::dvec3& way, double speed, const glm::dvec3& gravity) {
+  const double way2 = glm::dot(way, way), gravity2 = glm::dot(gravity, gravity);
+  const double b = speed * speed + glm::dot(way, gravity), discriminant = b * b - gravity2 * way2;
+  const bool reaches = discriminant >= 0 && b > 0;
+  const double time2 = reaches ? 2 * way2 / (b + std::sqrt(discriminant)) : 2 * std::sqrt(way2 / gravity2);
+  const double time = std::sqrt(time2);
+  return way / time - 0.5 * time * gravity;
+}
+
+}  // namespace
+
+void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& target) {
+  assert(eye != target);
   if (!can_drop()) return;
   std::optional<BodyId> body;
   simulation_.change_bodies([&](World& world) {
-    body = world.throw_body(eye, throw_speed * direction);
+    body = world.throw_body(eye, velocity_over(target - eye, throw_speed, world.scene().gravity));
     if (body) select(body);
     return body.has_value();
   });

@@ -292,7 +292,10 @@ class Demo {
   void handle_requests(const engine::Viewport& viewport) {
     if (std::exchange(ui_.throw_body, false)) {
       const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-      session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.direction));
+      const float distance =
+          render::distance_to_scene(ray, session_.world(), session_.simulation.drawn_positions())
+              .value_or(camera_.orbit().distance);
+      session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
     }
     if (std::exchange(ui_.focus_body, false) && session_.bodies.selected())
       focus_on(*session_.bodies.selected(), session_, camera_, viewport.size);

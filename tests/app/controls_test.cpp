@@ -13,12 +13,30 @@
 namespace app {
 namespace {
 
+TEST(BodyControls, ThrowABodyToWhereTheyAimAgainstGravity) {
+  softbody::Scene scene = without_solids();
+  scene.gravity = {0, -9.81, 0};
+  const glm::dvec3 eye(0, 8, 0), target(9, 6, 3);
+  for (const double speed : {2.0, 12.0, 25.0}) {  // the first is too slow to get there
+    session::Simulation simulation(scene, 1);
+    session::BodyControls bodies(simulation);
+    bodies.throw_speed = speed;
+    bodies.throw_body(eye, target);
+    double closest = 1e9;
+    for (int i = 0; i < 120; ++i) {
+      simulation.advance(tick);
+      closest = std::min(closest, glm::distance(centre(simulation.world(), 2), target));
+    }
+    EXPECT_LT(closest, 0.4) << speed;
+  }
+}
+
 TEST(BodyControls, ThrowABodyAsFastAsAsked) {
   session::Simulation simulation(without_solids(), 1);
   session::BodyControls bodies(simulation);
   bodies.throw_speed = 12;
   const glm::dvec3 direction = glm::normalize(glm::dvec3(1, 0.5, 0));
-  bodies.throw_body({0, 8, 0}, direction);
+  bodies.throw_body({0, 8, 0}, glm::dvec3(0, 8, 0) + 3.0 * direction);
   ASSERT_EQ(simulation.world().bodies().count(), 3u);
   EXPECT_EQ(bodies.selected(), 2u);
   const glm::dvec3 from = centre(simulation.world(), 2);
@@ -31,7 +49,7 @@ TEST(BodyControls, RefuseAThrowWithoutRoom) {
   scene.spheres.push_back({.centre = {0, 50, 0}, .radius = 30});
   session::Simulation simulation(scene, 1);
   session::BodyControls bodies(simulation);
-  bodies.throw_body({0, 50, 0}, {0, 0, 1});
+  bodies.throw_body({0, 50, 0}, {0, 50, 1});
   EXPECT_EQ(simulation.world().bodies().count(), 2u);
   EXPECT_NE(simulation.notice.text().find("room"), std::string::npos);
   EXPECT_FALSE(simulation.clock.paused);

@@ -142,7 +142,7 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   const auto begin = session.world().scene().bodies.size();
   session.bodies.drop(2);
   go_on(session, 40);
-  session.bodies.throw_body({6, 2, 0}, {-1, 0, 0});
+  session.bodies.throw_body({6, 2, 0}, {0, 2, 0});
   session.bodies.drop();
   go_on(session, 30);
   ASSERT_EQ(session.world().added().size(), 4u);

@@ -186,7 +186,7 @@ TEST(SimulationUndo, RevertsADropAndAThrowToTheBit) {
   bodies.grab({.body = 0, .target = {0, 4, 0}});
   bodies.drop(20);
   EXPECT_TRUE(simulation.world().grabbed()) << "a drop does not make the hand let go";
-  bodies.throw_body({0, 3, 9}, {0, 0, -1});
+  bodies.throw_body({0, 3, 9}, {0, 3, 0});
   ASSERT_EQ(simulation.world().bodies().count(), 23u);
   simulation.advance(tick);
   simulation.undo();
