@@ -79,8 +79,8 @@ class World {
   BodyId drop(int count = 1);
   /// Adds a body now, and free, whatever frames the source says. Throws SceneError as the constructor does.
   BodyId add(const BodySource& source);
-  /// Throws a body of the kind that drop() adds, from the first clear place a little way along `velocity` (m/s, not 0).
-  /// Returns nothing if there is no clear place.
+  /// Throws a body of the kind that drop() adds. It appears at the first clear place of the flight that begins at `from`
+  /// (m) with `velocity` (m/s, not 0). Returns nothing if there is no clear place.
   std::optional<BodyId> throw_body(const glm::dvec3& from, const glm::dvec3& velocity);
   /// Returns the bodies of drop(), add() and throw_body() that were not removed, in the order in which they came.
   const std::vector<AddedBody>& added() const;

@@ -98,9 +98,11 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
   const double pace = std::min(p.radius, 0.5);  // m
   constexpr int most_paces = 20;
   assert(velocity != glm::dvec3(0.0));
-  source.velocity = velocity;
+  const glm::dvec3 gravity = s.scene.gravity;
   for (int i = 2; i < most_paces; ++i) {
-    source.position = from + i * pace * glm::normalize(velocity);
+    const double time = i * pace / glm::length(velocity);
+    source.position = from + time * velocity + 0.5 * time * time * gravity;
+    source.velocity = velocity + time * gravity;
     if (s.is_clear(p, source.position)) return add(source);
   }
   return std::nullopt;
