@@ -252,6 +252,7 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, const ScreenR
   ImGui::SetNextWindowContentSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
   begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
+  w.keep_tooltips_off();
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});

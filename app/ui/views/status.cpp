@@ -75,6 +75,7 @@ float draw_status(Widgets& w, Session& session, const std::string& no_room_messa
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({width, 0});
   ImGui::Begin("Status", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize);
+  w.keep_tooltips_off();
   draw_coverage_light(w, session, explained);
   w.text_line(missed_text(session));
   const std::string against = reference_sentence(session.comparison.report());

@@ -227,6 +227,7 @@ void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool&
   if (ImGui::Begin("Error against run time###Sweep view", &open,
                    ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                        ImGuiWindowFlags_NoScrollbar | ImGuiWindowFlags_NoFocusOnAppearing)) {
+    w.keep_tooltips_off();
     draw_controls(w, session);
     ImGui::Spacing();
     draw_legend(w);
