@@ -28,7 +28,6 @@ std::string point_tooltip(const compare::SweepRow& row) {
   const glm::vec3& cell = row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
     text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
-    text += fmt::format(", {:g} of the automatic size", row.configuration.cell);
   }
   text += fmt::format("\n{:.4g} ms: median of {}, smallest {:.4g}", row.times.median(), row.times.ms.size(),
                       row.times.min());

@@ -113,7 +113,7 @@ ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const st
 
 void Widgets::show_tooltip(const char* text) const {
   if (mouse_.clicked) return;
-  const float wrap = px(260);
+  const float wrap = px(250);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
   const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
   const ImVec2 at = tooltip_position(size, px(6), px(80), mouse_.last_results);
