@@ -37,15 +37,18 @@ void draw_picture_rate(Widgets& w, const Session& session, const UiState& ui) {
   }
   const float ms = times.median(rate_median);
   w.curve("Pictures", ms > 0 ? fmt::format("{:.0f}/s, {:.1f} ms", 1e3f / ms, ms) : "-", times,
-          {0, axis_end(times.max(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
+          {0, axis_end(times.max(), 20.0f)}, glm::vec3(0.45f),
+          {"Pictures per second, and the time from one to the next.", "ms"});
 }
 
 void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
   const session::StepHistory& history = session.simulation.history();
   const softbody::StepReport& report = session.world().last_step();
   const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
-  w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
+  w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour,
+          {"Time to find the contacts of a frame.", "ms"});
+  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
+          {"Time to move the bodies by a frame.", "ms"});
   draw_picture_rate(w, session, ui);
   w.figure("  resolution", fmt::format("{:.0f} %", 100 * double(ui.render_scale)),
            "Share of the pixels along each side of the scene's picture. It is below 100 % only while the scene moves "
@@ -58,9 +61,11 @@ void draw_contacts(Widgets& w, const Session& session) {
   const session::StepHistory& history = session.simulation.history();
   const compare::CompareRow* driver = session.comparison.driver_row();
   const std::string value = driver ? fmt::format("{:.4f}", rounded_down(driver->recall)) : "-";
-  w.curve("Recall", value, session.comparison.recall(), {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
+  w.curve("Recall", value, session.comparison.recall(), {0, 1}, glm::vec3(0.45f),
+          {"Share of the true contacts that the method found.", ""});
   w.curve("Contacts found", grouped(found.contacts.size()), history.contacts,
-          {0, axis_end(history.contacts.max(), 10.0f)}, glm::vec3(0.45f), "contacts");
+          {0, axis_end(history.contacts.max(), 10.0f)}, glm::vec3(0.45f),
+          {"Pairs of vertices closer than the tolerance that the method found (§2.3).", "contacts"});
   w.figure("  between bodies", grouped(found.contacts.size() - found.self_contacts),
            "Contacts between vertices of two bodies (§2.3).");
   w.figure("  inside one body", grouped(found.self_contacts), "Contacts between vertices of one body (§2.4).");

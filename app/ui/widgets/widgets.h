@@ -116,12 +116,16 @@ class Widgets {
   void swatch(const glm::vec3& colour, float line_height);
   /// Draws a coloured dot at the start of a line.
   void dot(const glm::vec3& colour);
+  /// What the values of a curve are: `meaning`, a sentence for the tooltip, and their unit.
+  struct Quantity {
+    const char *meaning, *unit;
+  };
   /// Draws the last values as a curve without axes. Width 0: the rest of the line.
   void sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
-                 const char* unit, float width = 0);
+                 const Quantity& quantity, float width = 0);
   /// Draws a line with a grey label, a value and its sparkline.
   void curve(const char* label, const std::string& value, const TimeSeries& series, const Axis& axis,
-             const glm::vec3& colour, const char* unit);
+             const glm::vec3& colour, const Quantity& quantity);
 
   /// Records the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void register_item(const char* label, const char* tooltip);
