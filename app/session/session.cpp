@@ -13,7 +13,8 @@ Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folde
   comparison.restart(world(), simulation.revision());
 }
 
-void Session::advance(double elapsed) {
+void Session::advance(double elapsed, bool waited) {
+  if (!waited) simulation.add_picture(elapsed);
   simulation.advance(elapsed, stands_still());
   exchange();
 }
@@ -33,6 +34,7 @@ bool Session::awaits_answer() const {
 }
 
 void Session::advance_one(double elapsed, bool allowed) {
+  simulation.add_picture(elapsed);
   simulation.advance_one(elapsed, allowed);
   exchange();
 }

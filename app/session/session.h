@@ -33,7 +33,8 @@ class Session : private SimulationObserver {
   const softbody::World& world() const { return simulation.world(); }
 
   /// Takes the steps that are due, now that `elapsed` seconds of real time have passed, and follows with all else.
-  void advance(double elapsed);
+  /// `waited`: the picture waited on purpose, so `elapsed` is no measure of the machine.
+  void advance(double elapsed, bool waited = false);
   /// The same for recordings: one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
 

@@ -25,18 +25,17 @@ std::unique_ptr<World> Simulation::make_world(const softbody::Scene& scene,
       scene, World::Options{.threads = threads_, .integrator = integrator, .max_work = softbody::work_of_a_window});
 }
 
-void Simulation::begin_advance(double elapsed) {
-  notice.age(elapsed);
-  history_.frame_ms.push(world_->frame(), static_cast<float>(elapsed * 1e3));
+void Simulation::add_picture(double seconds) {
+  history_.frame_ms.push(world_->frame(), static_cast<float>(seconds * 1e3));
 }
 
 void Simulation::advance(double elapsed, bool stands_still) {
-  begin_advance(elapsed);
+  let_pass(elapsed);
   if (!stands_still) clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
-  begin_advance(elapsed);
+  let_pass(elapsed);
   if (allowed) clock.advance_one([this] { return step(); });
 }
 

@@ -32,7 +32,7 @@ class SimulationObserver {
 
 /// Frame by frame, against the frame of the world.
 struct StepHistory {
-  TimeSeries frame_ms;  // real time from one advance() to the next
+  TimeSeries frame_ms;  // real time from picture to picture, without those that waited on purpose
   TimeSeries detect_ms, solve_ms, contacts;
 };
 
@@ -62,6 +62,8 @@ class Simulation {
   void let_pass(double elapsed) { notice.age(elapsed); }
   /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
+  /// Records that a picture came `seconds` after the one before it.
+  void add_picture(double seconds);
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
   const compare::Positions& before_last_step() const { return before_last_step_; }
@@ -118,7 +120,6 @@ class Simulation {
   void restore(const softbody::Snapshot& snapshot);
   void keep_settings(const softbody::Scene& in_use);
   void after_going_back();
-  void begin_advance(double elapsed);
   SimulationClock::Step step();
 
   SimulationObserver none_;

@@ -11,7 +11,7 @@
 namespace app::ui {
 namespace {
 
-constexpr float key_width = 78, between_columns = 24;  // design pixels
+constexpr float key_width = 86, between_columns = 24;  // design pixels
 
 struct Entry {
   std::string_view key, text;

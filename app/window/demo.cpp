@@ -73,6 +73,7 @@ class Demo {
       if (hidden_) continue;  // poll() has slept; the world waits until the window is shown
       if (was_hidden) schedule_.input(now());
       const bool interrupted = was_hidden || wait > FrameSchedule::max_running_wait;
+      waited_ = interrupted || wait > 0;
       frame_or_wait(elapsed, interrupted);
     }
     store_preferences(true);
@@ -158,7 +159,9 @@ class Demo {
     drawing += timed([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, drawing);
     store_preferences();
-    schedule_.drawn(now(), activity());
+    const Activity next = activity();
+    ui_.picture_interval = seconds_to_next_frame(next);
+    schedule_.drawn(now(), next);
     timer_.limit_rate();
   }
 
@@ -186,7 +189,7 @@ class Demo {
       if (ui_.exporter.recording())
         session_.advance_one(elapsed, ui_.exporter.may_step());
       else
-        session_.advance(elapsed);
+        session_.advance(elapsed, waited_);
     };
     if (session_.simulation.step_ms() < long_step_ms) return advance();
     present(scene_viewport());
@@ -360,6 +363,7 @@ class Demo {
   InterfaceKey shown_;       // by the last frame
   bool still_ = false;       // the picture of the last frame is that of the frame before
   bool hidden_ = false;
+  bool waited_ = false;  // for events, on purpose, before the present frame
   FrameTimer timer_;
   FrameSchedule schedule_{now()};
   double seconds_ = 0;  // since the window opened; see key_hint_seconds

@@ -15,6 +15,22 @@ std::uint32_t fullest_bucket(const Session& session) {
   return std::ranges::max_element(session.inspector.shown_geometry().loads, {}, &collide::BucketLoad::load)->bucket;
 }
 
+TEST(TableFigures, AreThoseOfTheDrivingMethodIfItHashes) {
+  Session session(touching_pair(), {}, 1);
+  for (const collide::Method& method : collide::method_table()) {
+    session.settings.set_method(method.key);
+    session.simulation.clock.single_step();
+    session.advance(tick);
+    const ui::TableFigures figures = ui::table_figures(session.inspector.shown_geometry());
+    EXPECT_GT(figures.buckets_used, 0u) << method.key << ": else those of the paper's method";
+    if (!method.uses_hash) continue;
+    const collide::Counters& counters = session.world().detection().counters;
+    EXPECT_EQ(figures.buckets_used, counters.buckets_used) << method.key;
+    EXPECT_EQ(figures.longest, counters.longest_bucket) << method.key;
+    EXPECT_EQ(figures.boxes, method.uses_levels ? counters.boxes : 0) << method.key;
+  }
+}
+
 TEST(BucketView, GroupsEntriesByCellsAndSelectsACell) {
   PanelRig rig;
   collide::Settings settings = rig.session.world().collision();

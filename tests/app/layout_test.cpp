@@ -34,6 +34,49 @@ TEST(Tooltip, StandsAboveTheComparison) {
   EXPECT_LE(rig.widget("Tooltip").max.y, head.min.y);
 }
 
+TEST(Tooltip, KeepsOffTheLightsAndTheComparison) {
+  for (const ImVec2 size : {ImVec2{1280, 720}, ImVec2{800, 500}}) {
+    PanelRig rig;
+    rig.session.comparison.choice.on = true;
+    rig.resize(static_cast<int>(size.x), static_cast<int>(size.y));
+    for (const ui::WidgetRecorder::Widget& widget : std::vector(rig.recorder.widgets)) {
+      const bool of_panel = widget.max.x < ui::panel_width && widget.max.y < size.y;
+      if (!of_panel) continue;
+      rig.move(0.5f * (widget.min.x + widget.max.x), 0.5f * (widget.min.y + widget.max.y));
+      rig.frames(30);
+      if (!rig.recorder.find("Tooltip")) continue;
+      const ui::WidgetRecorder::Widget tip = rig.widget("Tooltip");
+      for (const char* result :
+           {"Coverage", "Live recall", "Step light", "Column Method", "Drive Multi-Level SB, exact"}) {
+        const ui::WidgetRecorder::Widget* shown = rig.recorder.find(result);
+        if (!shown) continue;
+        const bool apart = tip.max.x <= shown->min.x || tip.min.x >= shown->max.x || tip.max.y <= shown->min.y ||
+                           tip.min.y >= shown->max.y;
+        EXPECT_TRUE(apart) << widget.label << " covers " << result;
+      }
+    }
+  }
+}
+
+TEST(Tooltip, WaitsForTheMouseAfterAClick) {
+  PanelRig rig;
+  const auto [name, min, max, enabled] = rig.widget("Tolerance");
+  const ImVec2 middle{0.5f * (min.x + max.x), 0.5f * (min.y + max.y)};
+  rig.move(middle.x, middle.y);
+  rig.frames(40);
+  EXPECT_TRUE(rig.recorder.find("Tooltip"));
+  rig.press();
+  rig.move(middle.x + 20, middle.y);
+  rig.frames(40);
+  EXPECT_FALSE(rig.recorder.find("Tooltip")) << "while the button is down";
+  rig.release();
+  rig.frames(40);
+  EXPECT_FALSE(rig.recorder.find("Tooltip")) << "until the mouse moves";
+  rig.move(middle.x, middle.y);
+  rig.frames(40);
+  EXPECT_TRUE(rig.recorder.find("Tooltip"));
+}
+
 TEST(Layout, NamesThePartsThatHaveNoRoom) {
   PanelRig rig;
   rig.frames(2);

@@ -28,7 +28,7 @@ TEST(DetectionPanel, ChoosesEveryContactSurface) {
     rig.click(std::ranges::find(all, surface, &softbody::ContactSurfaceInfo::value)->name);
     EXPECT_EQ(rig.session.world().scene().contact_surface, surface);
     rig.frames(3);
-    const bool counted = rig.recorder.find("surfaces, between bodies") != nullptr;
+    const bool counted = rig.recorder.find("  surfaces of two bodies") != nullptr;
     EXPECT_EQ(counted, surface == softbody::ContactSurface::surfaces);
   }
 }

@@ -57,8 +57,8 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
   rig.drag("Weld distance", 2000);
   EXPECT_EQ(rig.ui.import.weld, session::Import::max_weld);
   rig.double_click("Weld distance");
-  rig.type("2");
-  EXPECT_EQ(rig.ui.import.weld, 0.02) << "exactly the typed percentage";
+  rig.type("20");
+  EXPECT_EQ(rig.ui.import.weld, 0.02 / double{rig.ui.import.size}) << "exactly the typed millimetres";
   EXPECT_TRUE(import_is_closed());
 }
 

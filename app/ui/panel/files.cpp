@@ -40,14 +40,12 @@ void draw_import(Widgets& w, Session& session, session::Import& import) {
   ImGui::SameLine();
   w.checkbox("Z is up", import.z_is_up, "In the file; else y is. It holds for the next mesh.");
   w.row_label("Weld", w.px(narrow_column));
-  auto percent = static_cast<float>(100 * import.weld);
-  if (w.slider(
-          "Weld distance", percent, static_cast<float>(100 * session::Import::min_weld),
-          static_cast<float>(100 * session::Import::max_weld), "%.5f %% of the size",
-          "Vertices of the next mesh that are no further apart become one, so that seams close. Raise it if a mesh "
-          "that should be closed is open; lower it if what should be apart is joined.",
-          true))
-    import.weld = std::round(1e5 * double{percent}) / 1e7;  // rounded to the digits shown
+  const double mm = 1e3 * double{import.size};  // of the mesh's size
+  auto weld = static_cast<float>(mm * import.weld);
+  if (w.slider("Weld distance", weld, static_cast<float>(mm * session::Import::min_weld),
+               static_cast<float>(mm * session::Import::max_weld), "%.4f mm",
+               "Vertices of the next mesh that are no further apart become one. Raise it if seams stay open.", true))
+    import.weld = std::clamp(double{weld} / mm, session::Import::min_weld, session::Import::max_weld);
 }
 
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {

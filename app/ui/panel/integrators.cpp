@@ -45,7 +45,7 @@ void draw_ghost(Widgets& w, Session& session) {
   if (!session.ghost().get()) return;
   w.curve("Ghost distance", ghost_distance_text(session), session.ghost().distances(),
           {0, axis_end(session.ghost().distances().max(), 0.01f)}, render::ghost_colour,
-          "radii (root mean square distance between the vertices of the two worlds)");
+          {"Root mean square distance between the vertices of the two worlds, over the radius of the body.", "radii"});
 }
 
 }  // namespace app::ui

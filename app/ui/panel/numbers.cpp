@@ -8,6 +8,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
+#include "app/ui/views/hash_table_view.h"
 #include "app/ui/views/status.h"
 #include "softbody/measures.h"
 
@@ -15,31 +16,61 @@ namespace app::ui {
 namespace {
 
 constexpr std::array<const char*, collide::skip_kinds.size()> skip_tooltips{
-    "Pairs of bodies whose boxes are out of reach of each other (§2.1).",
-    "Pairs of bodies with near boxes that a plane across the line of centres, or the spheres around them, keeps apart.",
-    "Bodies that no other body is near: there is no pair to look at.",
-    "Bodies that are so little deformed that they cannot touch themselves (§2.4): no self pass.",
-    "Pairs of near bodies that have not moved since the last frame: their contacts are kept, not found again."};
+    "Pairs of bodies with boxes that are far apart (§2.1).",
+    "Pairs of bodies with near boxes, but with a plane or two spheres between them.",
+    "Bodies without another body near them.", "Bodies that are too little deformed to touch themselves (§2.4).",
+    "Pairs of bodies that have not moved since the last frame. Their contacts are kept."};
+// A value above this waits for a change: the scene's picture is drawn only then.
+constexpr double longest_pace = 0.1;     // s
+constexpr std::size_t rate_median = 15;  // pictures
+
 constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 0.447f, 0.698f};
 
-void draw_curves(Widgets& w, const Session& session, float render_scale) {
+/// Draws how many pictures come per second, or why none do.
+void draw_picture_rate(Widgets& w, const Session& session, const UiState& ui) {
+  const TimeSeries& times = session.simulation.history().frame_ms;
+  if (ui.picture_interval > 0) {
+    const std::string text = ui.picture_interval > longest_pace
+                                 ? "still: drawn when something changes"
+                                 : fmt::format("still: {:.0f} per second", 1 / ui.picture_interval);
+    return w.figure("Pictures", text, "The program saves power: it draws fewer pictures while nothing moves.");
+  }
+  const float ms = times.median(rate_median);
+  w.curve("Pictures", ms > 0 ? fmt::format("{:.0f}/s, {:.1f} ms", 1e3f / ms, ms) : "-", times,
+          {0, axis_end(times.max(), 20.0f)}, glm::vec3(0.45f),
+          {"Pictures per second, and the time from one to the next.", "ms"});
+}
+
+void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
   const session::StepHistory& history = session.simulation.history();
   const softbody::StepReport& report = session.world().last_step();
   const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
-  w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour, "ms");
-  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour, "ms");
-  w.curve("Picture", fmt::format("{:.1f} ms", history.frame_ms.latest()), history.frame_ms,
-          {0, axis_end(history.frame_ms.max(), 20.0f)}, glm::vec3(0.45f), "ms from picture to picture");
-  w.figure(
-      "drawn at", fmt::format("{:.0f} %", 100 * double(render_scale)),
-      "Of the pixels along each side, the scene's picture has so many. Less than 100 % only while it moves, "
-      "where no graphics card draws and fewer than 30 pictures a second would come; what stands still, and what is "
-      "taken away, has them all.");
-  w.curve("Contacts found", grouped(session.world().detection().contacts.size()), history.contacts,
-          {0, axis_end(history.contacts.max(), 10.0f)}, glm::vec3(0.45f), "contacts");
+  w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour,
+          {"Time to find the contacts of a frame.", "ms"});
+  w.curve("Solve", fmt::format("{:.2f} ms", report.solve_ms), history.solve_ms, {0, ms}, solve_colour,
+          {"Time to move the bodies by a frame.", "ms"});
+  draw_picture_rate(w, session, ui);
+  w.figure("  resolution", fmt::format("{:.0f} %", 100 * double(ui.render_scale)),
+           "Share of the pixels along each side of the scene's picture. It is below 100 % only while the scene moves "
+           "and the machine is too slow for 30 pictures per second.");
+}
+
+/// Draws the recall, then the contacts with their parts.
+void draw_contacts(Widgets& w, const Session& session) {
+  const collide::Result& found = session.world().detection();
+  const session::StepHistory& history = session.simulation.history();
   const compare::CompareRow* driver = session.comparison.driver_row();
   const std::string value = driver ? fmt::format("{:.4f}", rounded_down(driver->recall)) : "-";
-  w.curve("Recall", value, session.comparison.recall(), {0, 1}, glm::vec3(0.45f), "(the share of true contacts found)");
+  w.curve("Recall", value, session.comparison.recall(), {0, 1}, glm::vec3(0.45f),
+          {"Share of the true contacts that the method found.", ""});
+  w.curve("Contacts found", grouped(found.contacts.size()), history.contacts,
+          {0, axis_end(history.contacts.max(), 10.0f)}, glm::vec3(0.45f),
+          {"Pairs of vertices closer than the tolerance that the method found (§2.3).", "contacts"});
+  w.figure("  between bodies", grouped(found.contacts.size() - found.self_contacts),
+           "Contacts between vertices of two bodies (§2.3).");
+  w.figure("  inside one body", grouped(found.self_contacts), "Contacts between vertices of one body (§2.4).");
+  w.figure("Contacts with solids", grouped(softbody::solid_contacts(session.world()).size()),
+           "Vertices that touch a solid or the ground. The method does not search for these.");
 }
 
 void draw_surface_contacts(Widgets& w, const Session& session) {
@@ -47,19 +78,18 @@ void draw_surface_contacts(Widgets& w, const Session& session) {
   const auto& contacts = session.inspector.surface_contacts();
   const auto inside = static_cast<std::size_t>(std::ranges::count_if(
       contacts, [](const softbody::SurfaceContactPoint& contact) { return contact.a == contact.b; }));
-  w.figure("surfaces, between bodies", grouped(contacts.size() - inside),
-           "Vertices on faces and edges on edges of another body that pressed on each other in the last substep. "
-           "Bodies that sleep are not looked at.");
-  w.figure("surfaces, inside one body", grouped(inside), "The same within one body.");
+  w.figure("Surface contacts", grouped(contacts.size()),
+           "Contacts of vertices with faces and of edges with edges in the last substep, without bodies that sleep.");
+  w.figure("  surfaces of two bodies", grouped(contacts.size() - inside), "Surface contacts between two bodies.");
+  w.figure("  surface of one body", grouped(inside), "Surface contacts inside one body.");
 }
 
 /// Draws the work that the exact method has skipped, a line for each kind even if there is none, so that nothing moves.
 void draw_skipped(Widgets& w, const Session& session) {
   const collide::Method& method = session.world().method();
   if (method.key != collide::default_method) return;
-  ImGui::TextDisabled("Skipped in this frame");
-  w.register_item("Skipped",
-                  "Work that this frame did not need. Each kind is left out on a proof: the contacts are the same.");
+  ImGui::TextDisabled("Work skipped");
+  w.register_item("Skipped", "Work that this frame did not need. A proof shows that no contact is lost.");
   for (std::size_t kind = 0; kind < collide::skip_kinds.size(); ++kind) {
     const std::string label = "  " + std::string(collide::skip_kinds[kind].text);
     w.figure(label.c_str(), grouped(session.world().detection().skipped[kind]), skip_tooltips[kind]);
@@ -73,45 +103,51 @@ void draw_pair_tests(Widgets& w, const Session& session) {
   const std::uint64_t all =
       compare::all_pair_tests(session.world().bodies(), session.world().collision().self_collision);
   w.figure("Pair tests", grouped(counters.pair_tests),
-           "Distances evaluated in this frame; brute force evaluates all (§2.3).");
-  w.figure("  a vertex; of all pairs",
-           fmt::format("{}; {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
-           fmt::format("Pair tests of this frame over its {} vertices, and over all {} pairs. §3 claims O(1) at best: "
-                       "as many a vertex, however many bodies there are; and O(N^2) at worst: all pairs.",
-                       grouped(vertices), grouped(all))
-               .c_str());
+           "Distances between vertices that were evaluated in this frame (§2.3).");
+  w.figure(
+      "  per vertex, share of all pairs",
+      fmt::format("{}, {} %", ratio(counters.pair_tests, vertices), ratio(100 * counters.pair_tests, all)),
+      fmt::format("Pair tests per vertex ({} vertices) and as a share of all {} pairs. §3 claims a constant number "
+                  "per vertex at best, and all pairs at worst.",
+                  grouped(vertices), grouped(all))
+          .c_str());
 }
 
 void draw_hashes(Widgets& w, const Session& session) {
   const std::uint64_t vertices = session.world().bodies().vertex_count();
-  const std::uint64_t corners = 8 * session.inspector.paper_geometry().boxes.size();
+  const collide::DebugGeometry& paper = session.inspector.paper_geometry();
+  const bool known = paper.buckets > 0;
+  const std::uint64_t corners = 8 * paper.boxes.size();
   w.figure("Hash evaluations", grouped(session.world().detection().counters.hashes),
-           "Evaluations of the hash function in this frame: 8 corners a box for the literal method (§2.2).");
-  w.figure("  corners / vertices", fmt::format("{} / {}", grouped(corners), grouped(vertices)),
-           fmt::format("What the paper's method hashes, eight corners a box, against what a vertex hash does: {} a "
-                       "vertex. §3 claims that boxes save hashes: true while a box holds more than eight vertices. "
-                       "Both grow with the number of bodies.",
-                       ratio(corners, vertices))
-               .c_str());
+           "Evaluations of the hash function by the driving method in this frame (§2.2).");
+  w.figure("  box corners, vertices",
+           known ? fmt::format("{}, {}", grouped(corners), grouped(vertices)) : fmt::format("-, {}", grouped(vertices)),
+           "The paper's method hashes eight corners per box; Grid Hash hashes each vertex. §3 claims that boxes save "
+           "hashes: true if a box holds more than eight vertices.");
+}
+
+/// Draws the figures of the table that the hash table's view shows.
+void draw_table(Widgets& w, const Session& session) {
+  const collide::DebugGeometry& geometry = session.inspector.shown_geometry();
+  const TableFigures figures = table_figures(geometry);
+  const auto text = [&](std::size_t count, bool known) { return known ? grouped(count) : std::string("-"); };
+  const bool known = geometry.buckets > 0;
+  ImGui::TextDisabled("Table of %s", shown_method_text(session).c_str());
+  w.register_item("Table", "The hash table of this method (§2.2). The view of the hash table (T) shows the same one.");
+  w.figure("  boxes", text(figures.boxes, known && figures.boxes > 0), "Boxes with at least one vertex (§2.1).");
+  w.figure("  buckets used", text(figures.buckets_used, known), "Buckets with at least one entry (§2.2).");
+  w.figure("  longest bucket", text(figures.longest, known), "Entries of the fullest bucket (§2.2).");
 }
 
 }  // namespace
 
-void draw_numbers(Widgets& w, const Session& session, float render_scale) {
-  draw_curves(w, session, render_scale);
-  const collide::Result& found = session.world().detection();
-  const collide::Counters& counters = found.counters;
-  w.figure("between bodies", grouped(found.contacts.size() - found.self_contacts),
-           "Contacts whose two vertices belong to two bodies (§2.3).");
-  w.figure("inside one body", grouped(found.self_contacts), "Self-collisions (§2.4).");
-  w.figure("with solids", grouped(softbody::solid_contacts(session.world()).size()),
-           "Vertices that touch a solid sphere or the ground. Found by distance, not by the method.");
+void draw_numbers(Widgets& w, const Session& session, const UiState& ui) {
+  draw_curves(w, session, ui);
+  draw_contacts(w, session);
   draw_surface_contacts(w, session);
   draw_pair_tests(w, session);
   draw_hashes(w, session);
-  w.figure("Boxes", grouped(counters.boxes), "Boxes that hold a vertex (§2.1).");
-  w.figure("Buckets used", grouped(counters.buckets_used), "Buckets with at least one entry (§2.2).");
-  w.figure("Longest bucket", grouped(counters.longest_bucket), "Entries of the fullest bucket (§2.2).");
+  draw_table(w, session);
   draw_skipped(w, session);
 }
 

@@ -121,7 +121,7 @@ void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& are
     draw_detection(w, session, ui.hash_table || ui.tour.open() || ui.overlays.boxes || ui.overlays.cells);
   if (w.section("Show", true)) draw_overlays(w, ui);
   if (w.section("World", false)) draw_world(w, session, ui);
-  if (w.section("Numbers", true)) draw_numbers(w, session, ui.render_scale);
+  if (w.section("Numbers", true)) draw_numbers(w, session, ui);
   if (w.section("Stability", false)) draw_stability(w, session);
   if (w.section("Files", false)) draw_files(w, session, ui);
   if (w.section("Export", false)) draw_take_away(w, session, ui);

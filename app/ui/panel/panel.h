@@ -23,7 +23,7 @@ void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRec
 void draw_detection(Widgets& widgets, Session& session, bool structure_shown);
 void draw_bodies(Widgets& widgets, Session& session, UiState& ui);
 void draw_world(Widgets& widgets, Session& session, UiState& ui);
-void draw_numbers(Widgets& widgets, const Session& session, float render_scale);
+void draw_numbers(Widgets& widgets, const Session& session, const UiState& ui);
 void draw_stability(Widgets& widgets, Session& session);
 void draw_files(Widgets& widgets, Session& session, UiState& ui);      // import, save, command line
 void draw_take_away(Widgets& widgets, Session& session, UiState& ui);  // pictures, recordings, curves

@@ -44,26 +44,26 @@ struct StabilityCurve {
   TimeSeries session::StabilityHistory::*series;
   fmt::format_string<float> format;
   float least;  // the axis is at least so long
-  const char* unit;
+  const char *meaning, *unit;
   glm::vec3 colour;
 };
 constexpr glm::vec3 energy_colour{0.000f, 0.447f, 0.698f}, shape_colour{0.000f, 0.620f, 0.451f}, plain{0.45f};
 constexpr std::array<StabilityCurve, 9> curves{{
-    {"Kinetic", &session::StabilityHistory::kinetic, "{:.3g} J", 1, "J of motion", energy_colour},
+    {"Kinetic", &session::StabilityHistory::kinetic, "{:.3g} J", 1, "Energy of motion.", "J", energy_colour},
     {"Elastic", &session::StabilityHistory::elastic, "{:.3g} J", 1,
-     "J in springs and kept shapes, compared with the start", energy_colour},
-    {"Gas", &session::StabilityHistory::gas, "{:.3g} J", 1, "J in the gas and the air outside, compared with the start",
+     "Energy in springs and kept shapes, compared with the start.", "J", energy_colour},
+    {"Gas", &session::StabilityHistory::gas, "{:.3g} J", 1,
+     "Energy in the gas and the air outside, compared with the start.", "J", energy_colour},
+    {"Gravity", &session::StabilityHistory::gravity, "{:.4g} J", 1,
+     "Potential energy, compared with the origin of the world.", "J", energy_colour},
+    {"Total", &session::StabilityHistory::total, "{:.4g} J", 1, "Sum of these energies, without that of contacts.", "J",
      energy_colour},
-    {"Gravity", &session::StabilityHistory::gravity, "{:.4g} J", 1, "J above or below the world's origin",
-     energy_colour},
-    {"Total", &session::StabilityHistory::total, "{:.4g} J", 1, "J, without the energy that contacts store",
-     energy_colour},
-    {"Smallest volume", &session::StabilityHistory::min_volume, "{:.3f}", 0.1f, "of the volume at the start",
-     shape_colour},
-    {"Largest volume", &session::StabilityHistory::max_volume, "{:.3f}", 0.1f, "of the volume at the start",
-     shape_colour},
-    {"Strain", &session::StabilityHistory::strain, "{:.3f}", 0.1f, "(the largest strain of a spring)", shape_colour},
-    {"Speed", &session::StabilityHistory::speed, "{:.2f} m/s", 1, "m/s of the fastest particle", plain},
+    {"Smallest volume", &session::StabilityHistory::min_volume, "{:.3f}", 0.1f,
+     "Smallest volume of a body over its volume at the start.", "", shape_colour},
+    {"Largest volume", &session::StabilityHistory::max_volume, "{:.3f}", 0.1f,
+     "Largest volume of a body over its volume at the start.", "", shape_colour},
+    {"Strain", &session::StabilityHistory::strain, "{:.3f}", 0.1f, "Largest strain of a spring.", "", shape_colour},
+    {"Speed", &session::StabilityHistory::speed, "{:.2f} m/s", 1, "Speed of the fastest particle.", "m/s", plain},
 }};
 
 }  // namespace
@@ -115,7 +115,8 @@ void draw_stability(Widgets& w, Session& session) {
   const session::StabilityHistory& history = session.simulation.stability().history();
   for (const StabilityCurve& c : curves) {
     const TimeSeries& series = history.*c.series;
-    w.curve(c.label, fmt::format(c.format, series.latest()), series, axis_around(series, c.least), c.colour, c.unit);
+    w.curve(c.label, fmt::format(c.format, series.latest()), series, axis_around(series, c.least), c.colour,
+            {c.meaning, c.unit});
   }
 }
 

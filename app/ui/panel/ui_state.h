@@ -34,7 +34,8 @@ struct UiState {
   bool focus_body = false;  // moves the camera to the selected body
   bool throw_body = false;
 
-  float render_scale = 1;                // of the scene's picture, see Canvas
+  float render_scale = 1;       // of the scene's picture, see Canvas
+  double picture_interval = 0;  // s from picture to picture, on purpose; infinity: drawn when something changes
   std::map<std::string, bool> sections;  // of the panel: whether they are open, by label
   softbody::View view;                   // the camera, as a scene file describes it
   session::Exporter exporter;

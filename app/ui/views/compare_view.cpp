@@ -208,8 +208,8 @@ void draw_row(Widgets& w, Session& session, bool& show_misses, Grid& grid, const
   const TimeSeries& times = session.comparison.method_ms()[row.index];
   if (times.size() > 0) {
     ImGui::SetCursorScreenPos({grid.left(plot), grid.text_top()});
-    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, row.method.colour, "ms",
-                grid.right(plot) - grid.left(plot));
+    w.sparkline(row.label("Times of").c_str(), times, {0, scale.axis_end}, row.method.colour,
+                {"Time of the method on a frame.", "ms"}, grid.right(plot) - grid.left(plot));
   }
   draw_switches(w, session, show_misses, grid, row);
   ImGui::SetCursorScreenPos({grid.left(run), grid.top() + grid.height() + w.px(row_gap)});
@@ -252,6 +252,7 @@ void draw_compare(Widgets& w, Session& session, bool& show_misses, bool& open, c
   ImGui::SetNextWindowContentSize({width, 0});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {style.WindowPadding.x, w.px(window_padding)});
   begin_dock("Compare methods###Compare", area, false, ImGuiWindowFlags_HorizontalScrollbar);
+  w.keep_tooltips_off();
   ImGui::PopStyleVar();
   ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {w.px(2), w.px(frame_padding)});
   ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {w.px(6), w.px(2)});

@@ -16,6 +16,12 @@ constexpr const char* click_tooltip = "Click to show its boxes in the scene, or 
 
 }  // namespace
 
+TableFigures table_figures(const collide::DebugGeometry& geometry) {
+  TableFigures figures{.boxes = geometry.boxes.size(), .buckets_used = geometry.loads.size()};
+  for (const auto& [bucket, load] : geometry.loads) figures.longest = std::max(figures.longest, load);
+  return figures;
+}
+
 void HashTableView::refresh(const Session& session, float width, float height, float min_side) {
   const collide::DebugGeometry& debug = session.inspector.shown_geometry();
   const BucketGrid grid = BucketGrid::fit(debug.buckets, width, height, min_side);
@@ -26,13 +32,12 @@ void HashTableView::refresh(const Session& session, float width, float height, f
   revision_ = session.simulation.revision();
   squares_.resize(grid_.squares());
   for (std::uint32_t s = 0; s < grid_.squares(); ++s) squares_[s] = {0, grid_.first_bucket(s)};
-  std::uint32_t max_load = 0;
   for (const auto& [bucket, load] : debug.loads) {
     Square& square = squares_[bucket / grid_.per_square];
     if (load > square.load || (load == square.load && bucket < square.fullest)) square = {load, bucket};
-    max_load = std::max(max_load, load);
   }
-  max_load_ = std::max(8u, std::bit_ceil(max_load));
+  figures_ = table_figures(debug);
+  max_load_ = std::max(8u, std::bit_ceil(figures_.longest));
 }
 
 glm::vec3 HashTableView::colour(std::uint32_t load) const {
@@ -95,11 +100,9 @@ void HashTableView::draw_legend(Widgets& w) const {
 }
 
 void HashTableView::draw_summary(const Session& session) const {
-  std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket" : " buckets");
-  if (std::ranges::all_of(squares_, [](const Square& square) { return square.load == 0; }))
-    text += ", none used at this cell size";
-  else if (grid_.per_square > 1)
-    text += ", " + grouped(grid_.per_square) + " per square (the fullest shows)";
+  std::string text = grouped(grid_.buckets) + (grid_.buckets == 1 ? " bucket, " : " buckets, ");
+  text += figures_.buckets_used == 0 ? "none used" : grouped(figures_.buckets_used) + " used";
+  if (grid_.per_square > 1) text += ", " + grouped(grid_.per_square) + " per square (the fullest shows)";
   ImGui::PushStyleColor(ImGuiCol_Text, ImGui::GetStyleColorVec4(ImGuiCol_TextDisabled));
   ImGui::TextWrapped("%s", text.c_str());
   ImGui::PopStyleColor();

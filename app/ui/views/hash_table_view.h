@@ -8,6 +8,13 @@
 
 namespace app::ui {
 
+/// The size and the use of a hash table.
+struct TableFigures {
+  std::size_t boxes = 0, buckets_used = 0;
+  std::uint32_t longest = 0;  // entries of the fullest bucket
+};
+TableFigures table_figures(const collide::DebugGeometry& geometry);
+
 class HashTableView {
  public:
   /// Draws the view into the current window. Its close button sets `open` to false.
@@ -31,6 +38,7 @@ class HashTableView {
   BucketGrid grid_;
   ImVec2 origin_{0, 0};
   std::vector<Square> squares_;
+  TableFigures figures_;
   std::uint64_t revision_ = 0;  // of the session when squares_ was filled
   std::uint32_t max_load_ = 8;  // end of the colour scale: a power of two, so that it rarely changes
 };

@@ -27,7 +27,6 @@ std::string point_tooltip(const compare::SweepRow& row) {
   const glm::vec3& cell = row.configuration.settings.cell_size;
   if (collide::method_table()[row.configuration.method].uses_hash) {
     text += fmt::format("\nCells of {:.3g} x {:.3g} x {:.3g} m", cell.x, cell.y, cell.z);
-    text += fmt::format(", {:g} of the automatic size", row.configuration.cell);
   }
   text += fmt::format("\n{:.4g} ms: median of {}, smallest {:.4g}", row.times.median(), row.times.ms.size(),
                       row.times.min());
@@ -219,6 +218,7 @@ void SweepView::update() {
 void SweepView::draw(Widgets& w, Session& session, const ScreenRect& area, bool& open) {
   // Opaque: the scene's colours would make the points hard to tell apart.
   begin_dock("Error against run time###Sweep view", area, true, ImGuiWindowFlags_NoScrollbar);
+  w.keep_tooltips_off();
   if (w.button("x###Close sweep", "Closes the plot (E). A sweep continues.", ImGui::GetFrameHeight())) open = false;
   ImGui::SameLine();
   draw_controls(w, session);

@@ -5,11 +5,6 @@
 
 namespace app::ui {
 
-/// A part of the display, in ImGui units.
-struct ScreenRect {
-  ImVec2 min, max;
-};
-
 /// Begins a docked window over the whole of `area`; end_dock() must follow. Unless `opaque`, it draws no background:
 /// the frame has been cleared to dock_colour(), which is much faster with software drivers.
 void begin_dock(const char* name, const ScreenRect& area, bool opaque, ImGuiWindowFlags flags = 0);

@@ -10,7 +10,7 @@ constexpr float margin = 12;  // to the ends of the area, design pixels
 
 }  // namespace
 
-void FloatingBox::begin(const Widgets& w, const char* name, const ScreenRect& area, float width, bool at_right,
+void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, float width, bool at_right,
                         bool at_bottom) {
   const auto place = [&](float min, float max, float length, bool at_end, std::optional<float> moved_to) {
     const float first = min + w.px(margin), last = std::max(first, max - w.px(margin) - length);
@@ -25,6 +25,7 @@ void FloatingBox::begin(const Widgets& w, const char* name, const ScreenRect& ar
   ImGui::Begin(name, nullptr,
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
+  w.keep_tooltips_off();
   const ImVec2 at = ImGui::GetWindowPos();
   if (at.x != wanted.x || at.y != wanted.y) moved_to_ = ImVec2(at.x - area.min.x, at.y - area.min.y);
 }

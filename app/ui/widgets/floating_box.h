@@ -13,8 +13,7 @@ class FloatingBox {
  public:
   /// `at_right`: where the box stands until the user moves it, at the right or at the left end of the area.
   /// `at_bottom`: at the lower or at the upper end.
-  void begin(const Widgets& widgets, const char* name, const ScreenRect& area, float width, bool at_right,
-             bool at_bottom);
+  void begin(Widgets& widgets, const char* name, const ScreenRect& area, float width, bool at_right, bool at_bottom);
   /// Must follow begin(). Returns the rectangle that the box covers.
   ScreenRect end();
   /// False once the user has moved the box.

@@ -26,14 +26,15 @@ Axis axis_around(const TimeSeries& series, float min_length) {
 
 namespace {
 
-std::string range_text(const Axis& axis, const char* unit) {
-  return fmt::format("The last {} values, from {:g} to {:g} {}.", TimeSeries::capacity, axis.bottom, axis.top, unit);
+std::string curve_tooltip(const Widgets::Quantity& quantity, const Axis& axis) {
+  return fmt::format("{} The curve shows the last {} values, from {:g} to {:g}{}{}.", quantity.meaning,
+                     TimeSeries::capacity, axis.bottom, axis.top, *quantity.unit ? " " : "", quantity.unit);
 }
 
 }  // namespace
 
 void Widgets::curve(const char* label, const std::string& text, const TimeSeries& series, const Axis& axis,
-                    const glm::vec3& colour, const char* unit) {
+                    const glm::vec3& colour, const Quantity& quantity) {
   constexpr float value_end = 170;  // design pixels: right end of the numbers
   const float end = px(value_end), start = ImGui::GetCursorPosX();
   ImGui::BeginGroup();
@@ -41,17 +42,17 @@ void Widgets::curve(const char* label, const std::string& text, const TimeSeries
   ImGui::SameLine(end - ImGui::CalcTextSize(text.c_str()).x);
   ImGui::TextUnformatted(text.c_str());
   ImGui::EndGroup();
-  tooltip_if_hovered(label, range_text(axis, unit).c_str());
+  tooltip_if_hovered(label, curve_tooltip(quantity, axis).c_str());
   ImGui::SameLine(start + end + px(10));
-  sparkline(label, series, axis, colour, unit);
+  sparkline(label, series, axis, colour, quantity);
 }
 
 void Widgets::sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
-                        const char* unit, float width) {
+                        const Quantity& quantity, float width) {
   const ImVec2 at = ImGui::GetCursorScreenPos();
   const ImVec2 size{width > 0 ? width : ImGui::GetContentRegionAvail().x, ImGui::GetTextLineHeight()};
   ImGui::InvisibleButton(fmt::format("##{}", label).c_str(), size);
-  register_item(label, range_text(axis, unit).c_str());
+  register_item(label, curve_tooltip(quantity, axis).c_str());
 
   ImDrawList* draw = ImGui::GetWindowDrawList();
   draw->AddLine({at.x, at.y + size.y}, {at.x + size.x, at.y + size.y}, ImGui::GetColorU32(ImGuiCol_Border));

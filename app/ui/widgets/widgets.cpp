@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstring>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -39,6 +40,17 @@ void draw_colour_scale(ImVec2 min, float width, float bottom, int steps, glm::ve
   }
 }
 
+void MouseState::update(float min_move) {
+  last_results = std::exchange(results, {});
+  const ImVec2 at = ImGui::GetIO().MousePos;
+  if (ImGui::IsAnyMouseDown()) {
+    clicked = true;
+    clicked_at = at;
+  } else if (std::max(std::abs(at.x - clicked_at.x), std::abs(at.y - clicked_at.y)) > min_move) {
+    clicked = false;
+  }
+}
+
 void Widgets::register_item(const char* label, const char* tooltip) {
   if (recorder_) {
     const bool enabled = ImGui::GetStyle().Alpha >= usual_alpha_;  // ImGui::BeginDisabled() lowers it
@@ -52,7 +64,7 @@ void Widgets::register_item(const char* label, const char* tooltip) {
 
 void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
   if (!tooltip || !ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled)) return;
-  if (mouse_.hovered != label || ImGui::IsMouseDown(ImGuiMouseButton_Left)) {
+  if (mouse_.hovered != label || mouse_.clicked) {
     mouse_.hovered = label;
     mouse_.seconds = 0;
   } else {  // the first frame may follow a long wait
@@ -61,33 +73,50 @@ void Widgets::tooltip_if_hovered(const char* label, const char* tooltip) {
   if (mouse_.seconds >= MouseState::tooltip_delay) show_tooltip(tooltip);
 }
 
+void Widgets::keep_tooltips_off() {
+  const ImVec2 min = ImGui::GetWindowPos(), size = ImGui::GetWindowSize();
+  mouse_.results.push_back({min, {min.x + size.x, min.y + size.y}});
+}
+
 namespace {
 
-/// Returns a place beside the last item's window, or above or below it if it is wide, so that the tooltip covers none
-/// of the item's neighbours.
-ImVec2 tooltip_position(const ImVec2& size, float gap) {
-  const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin();
+/// Returns a place beside the last item's window, or else below or above the item, that covers no results.
+ImVec2 tooltip_position(const ImVec2& size, float gap, float max_shift, const std::vector<ScreenRect>& results) {
+  const ImVec2 display = ImGui::GetIO().DisplaySize, item = ImGui::GetItemRectMin(), end = ImGui::GetItemRectMax();
   const ImVec2 window = ImGui::GetWindowPos(), extent = ImGui::GetWindowSize();
-  const float right = window.x + extent.x + gap, left = window.x - gap - size.x;
-  const bool wide = extent.x > 0.5f * display.x;
   const auto inside = [](float at, float length, float whole) {
     return std::clamp(at, 0.0f, std::max(0.0f, whole - length));
   };
-  if (!wide && right + size.x <= display.x) return {right, inside(item.y, size.y, display.y)};
-  if (!wide && left >= 0) return {left, inside(item.y, size.y, display.y)};
-  const bool above = window.y + 0.5f * extent.y > 0.5f * display.y;
-  const float y = above ? window.y - gap - size.y : window.y + extent.y + gap;
-  const float beside_item = above ? item.y - gap - size.y : ImGui::GetItemRectMax().y + gap;
-  const bool outside = y >= 0 && y + size.y <= display.y;
-  return {inside(item.x, size.x, display.x), inside(outside ? y : beside_item, size.y, display.y)};
+  const float x = std::max(0.0f, std::min(item.x, std::min(window.x + extent.x, display.x) - size.x));
+  const float y = inside(item.y, size.y, display.y);
+  const float right = window.x + extent.x + gap;
+  std::vector<ImVec2> places{{right, y}};
+  for (const ScreenRect& result : results)
+    for (const float beyond : {result.max.y + gap, result.min.y - gap - size.y})
+      if (std::abs(beyond - y) <= max_shift) places.push_back({right, beyond});
+  places.insert(places.end(), {{x, window.y + extent.y + gap},
+                               {x, window.y - gap - size.y},
+                               {window.x - gap - size.x, y},
+                               {x, end.y + gap},
+                               {x, item.y - gap - size.y}});
+  const auto is_free = [&](const ImVec2& at) {
+    const bool shown = at.x >= 0 && at.y >= 0 && at.x + size.x <= display.x && at.y + size.y <= display.y;
+    return shown && std::ranges::none_of(results, [&](const ScreenRect& r) {
+             return at.x < r.max.x && at.x + size.x > r.min.x && at.y < r.max.y && at.y + size.y > r.min.y;
+           });
+  };
+  const auto found = std::ranges::find_if(places, is_free);
+  return found != places.end() ? *found : ImVec2{x, inside(end.y + gap, size.y, display.y)};
 }
 
 }  // namespace
 
 void Widgets::show_tooltip(const char* text) const {
-  const float wrap = px(320);
+  if (mouse_.clicked) return;
+  const float wrap = px(250);
   const ImVec2 pad = ImGui::GetStyle().WindowPadding, lines = ImGui::CalcTextSize(text, nullptr, false, wrap);
-  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y}, at = tooltip_position(size, px(6));
+  const ImVec2 size{lines.x + 2 * pad.x, lines.y + 2 * pad.y};
+  const ImVec2 at = tooltip_position(size, px(6), px(80), mouse_.last_results);
   if (recorder_) recorder_->widgets.push_back({"Tooltip", at, {at.x + size.x, at.y + size.y}, true});
   ImGui::SetNextWindowPos(at);
   ImGui::PushStyleVar(ImGuiStyleVar_Alpha, usual_alpha_);  // the tooltip of a disabled widget is not faint

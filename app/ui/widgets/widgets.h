@@ -28,9 +28,20 @@ struct WidgetRecorder {
   const Widget* find(std::string_view label) const;
 };
 
-/// What the mouse does, from frame to frame.
+/// A part of the display, in ImGui units.
+struct ScreenRect {
+  ImVec2 min, max;
+};
+
+/// What the mouse does, and where tooltips may stand, from frame to frame.
 struct MouseState {
   static constexpr float tooltip_delay = 0.4f;  // s
+  /// Begins a frame.
+  void update(float min_move);
+
+  bool clicked = false;                           // a button is down, or the mouse has not moved since one was
+  ImVec2 clicked_at{};                            // where the mouse was then
+  std::vector<ScreenRect> results, last_results;  // what tooltips keep off: in this frame, and in the one before
   // The widget under the mouse, and how long the mouse has rested on it.
   std::string hovered;
   float seconds = 0;
@@ -63,7 +74,9 @@ class Widgets {
  public:
   /// `sections` stores which sections are open, from frame to frame.
   Widgets(float scale, MouseState& mouse, std::map<std::string, bool>& sections, WidgetRecorder* recorder = nullptr)
-      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), mouse_(mouse), sections_(sections), recorder_(recorder) {}
+      : scale_(scale), usual_alpha_(ImGui::GetStyle().Alpha), mouse_(mouse), sections_(sections), recorder_(recorder) {
+    mouse_.update(px(3));
+  }
 
   /// Converts design pixels to ImGui units.
   float px(float design) const { return design * scale_; }
@@ -103,18 +116,25 @@ class Widgets {
   void swatch(const glm::vec3& colour, float line_height);
   /// Draws a coloured dot at the start of a line.
   void dot(const glm::vec3& colour);
+  /// What the values of a curve are: `meaning`, a sentence for the tooltip, and their unit.
+  struct Quantity {
+    const char *meaning, *unit;
+  };
   /// Draws the last values as a curve without axes. Width 0: the rest of the line.
   void sparkline(const char* label, const TimeSeries& series, const Axis& axis, const glm::vec3& colour,
-                 const char* unit, float width = 0);
+                 const Quantity& quantity, float width = 0);
   /// Draws a line with a grey label, a value and its sparkline.
   void curve(const char* label, const std::string& value, const TimeSeries& series, const Axis& axis,
-             const glm::vec3& colour, const char* unit);
+             const glm::vec3& colour, const Quantity& quantity);
 
   /// Records the last ImGui item as the widget `label`, and shows the tooltip, if any, while the mouse rests on it.
   void register_item(const char* label, const char* tooltip);
   /// Only the tooltip of register_item().
   void tooltip_if_hovered(const char* label, const char* tooltip);
+  /// Shows the tooltip beside the window of the last item, unless the mouse has just clicked.
   void show_tooltip(const char* text) const;
+  /// Makes tooltips of other windows keep off the current window, which shows results.
+  void keep_tooltips_off();
 
  private:
   /// As register_item(); the tooltip also says how to change a number by dragging or typing.
