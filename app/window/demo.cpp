@@ -260,8 +260,9 @@ class Demo {
     }
     refit(viewport.size);
     mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, camera_, viewport.size);
+    if (const auto solid = mouse_.take_pressed_solid()) ui_.solid = *solid;
     frame_tour(viewport);
-    if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
   }
 

@@ -1,5 +1,6 @@
 #include "app/ui/panel/panel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -43,7 +44,7 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
 
 void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - 3 * gap) / 4;
+  const float width = (ImGui::GetContentRegionAvail().x - 4 * gap) / 5;
   const char* pause = session.simulation.clock.paused ? "Go on###Pause" : "Pause###Pause";
   if (w.button(pause, "Stops the world; the panel and the overlays stay alive (Space).", width)) {
     session.simulation.clock.paused = !session.simulation.clock.paused;
@@ -56,11 +57,14 @@ void draw_time_controls(Widgets& w, Session& session) {
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
   if (w.button("Undo",
-               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import or "
-               "deletion "
-               "(Ctrl+Z).",
+               "Brings the world back that was there before the last reset, choice of scene, drop, throw, import, "
+               "deletion, or drag of a body or solid (Ctrl+Z).",
                width))
     session.simulation.undo();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!session.simulation.can_redo());
+  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width)) session.simulation.redo();
   ImGui::EndDisabled();
 
   w.checkbox("Slow motion", session.simulation.clock.slow_motion, "The world runs slower than real time (S).");
@@ -81,22 +85,24 @@ void draw_progress(Widgets& w, const Session& session) {
   ImGui::TextDisabled("Frame %d", world.frame());
   ImGui::SameLine(w.px(label_column));
   ImGui::TextDisabled("%.2f s", world.last_step().time);
-  ImGui::SameLine(w.px(label_column + 76));
+  ImGui::SameLine(w.px(label_column + 64));
   std::string right = std::to_string(world.bodies().count()) + (world.bodies().count() == 1 ? " body" : " bodies");
+  const bool slow = session.simulation.clock.pace() < 0.95;
+  const std::size_t to_come = bodies_to_come(world);
   if (session.simulation.clock.paused) {
     right = "paused";
-  } else if (session.simulation.clock.pace() < 0.95) {
+  } else if (slow) {
     right = "slowed to " + std::to_string(static_cast<int>(session.simulation.clock.pace() * 100)) + " %";
   } else if (world.all_at_rest()) {
     right += ", all at rest";
   }
+  if (to_come > 0 && (!slow || session.simulation.clock.paused)) right += ", " + std::to_string(to_come) + " to come";
   w.right_text(right);
   w.register_item(
       "Progress",
-      session.simulation.clock.pace() < 0.95
-          ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
-            "asked for, and no time is made up for."
-          : "Simulated frames and time; bodies in the world.");
+      slow ? "The machine does not keep up, or frames take more substeps than there may be: the world runs slower than "
+             "asked for, and no time is made up for."
+           : "Simulated frames and time; bodies in the world, and those that the scene brings later.");
 }
 
 void draw_overlays(Widgets& w, Session& session, UiState& ui) {
@@ -132,6 +138,12 @@ void draw_plan(Widgets& w, const softbody::World& world) {
 }
 
 }  // namespace
+
+std::size_t bodies_to_come(const softbody::World& world) {
+  // A step brings the bodies of the frame before it; the first ones are there at once.
+  const auto comes = [&](const softbody::BodySource& body) { return body.appear >= std::max(world.frame(), 1); };
+  return static_cast<std::size_t>(std::ranges::count_if(world.scene().bodies, comes));
+}
 
 void draw_panel(Widgets& w, Session& session, UiState& ui, const ScreenRect& area, bool opaque) {
   // The contents keep their width when a scrollbar appears, so that folding a section moves nothing sideways.

@@ -14,6 +14,9 @@ inline constexpr float panel_width = 330;  // design pixels
 inline constexpr float min_tolerance = 0.005f, max_tolerance = 0.5f;  // m
 inline constexpr float min_cell = 0.02f, max_cell = 5.0f;             // m
 
+/// Returns the number of the scene's bodies that have not appeared yet.
+std::size_t bodies_to_come(const softbody::World& world);
+
 /// Draws the panel over `area`, which is `panel_width` wide. `opaque`: as in begin_dock(). Call it between
 /// begin_frame() and end_frame() of the Gui.
 void draw_panel(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area, bool opaque);

@@ -85,10 +85,11 @@ float draw_status(Widgets& w, Session& session, const std::string& no_room_messa
     ImGui::TextWrapped("%s", no_room_message.c_str());
     w.register_item("No room", nullptr);
   }
-  if (!session.simulation.notice.text().empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
-    ImGui::TextWrapped("%s", session.simulation.notice.text().c_str());
-    ImGui::PopStyleColor();
+  const session::Notice& notice = session.simulation.notice;
+  if (!notice.text().empty()) {
+    if (notice.is_error()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+    ImGui::TextWrapped("%s", notice.text().c_str());
+    if (notice.is_error()) ImGui::PopStyleColor();
     w.register_item("Notice", nullptr);
   }
   const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
