@@ -65,15 +65,25 @@ softbody::Scene SceneControls::with_added_bodies() const {
   return scene;
 }
 
-void SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {
+std::string SceneControls::question_before_save(const std::filesystem::path& file) const {
+  std::error_code ignored;
+  if (file.extension() != SceneFile::ending || !std::filesystem::is_regular_file(file, ignored)) return {};
+  const std::string name = file.filename().string();
+  const SceneFile& own = simulation_.loaded.file;
+  if (!own.is_at(file)) return name + " exists. Replace it?";
+  return own.changed_on_disk() ? name + " was changed by another program. Replace it?" : "";
+}
+
+std::string SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {
   softbody::Scene scene = with_added_bodies();
   scene.view = view;
-  simulation_.notice.clear();
   try {
     simulation_.loaded.file = SceneFile::save(std::move(scene), file);
   } catch (const std::exception& error) {
-    simulation_.notice.set(error.what());
+    return error.what();
   }
+  simulation_.notice.tell("Scene saved: " + simulation_.loaded.file.name());
+  return {};
 }
 
 }  // namespace app::session
