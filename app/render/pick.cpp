@@ -7,7 +7,6 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/prototype.h"
-#include "softbody/solids.h"
 
 namespace app::render {
 namespace {
@@ -34,22 +33,10 @@ bool passes(const engine::Ray& ray, const BoundingSphere& sphere) {
   return glm::length(glm::cross(sphere.centre - ray.origin, ray.direction)) <= sphere.radius;
 }
 
-/// Returns the distance at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
-/// through a solid in which the ray starts, as the drawing does.
+/// Returns the distance at which the ray enters the first solid, at most `max_distance`.
 float clear_of_solids(const engine::Ray& ray, const softbody::Scene& scene, float max_distance) {
-  constexpr double hit_distance = 1e-3;  // m
-  constexpr int max_steps = 300;
   double nearest = static_cast<double>(max_distance);
-  softbody::for_each_solid(scene, [&](const auto& solid) {
-    double along = 0;
-    for (int i = 0; i < max_steps && along < nearest; ++i) {
-      const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
-      const double away = softbody::surface_at(solid, at).distance;
-      if (i == 0 && away <= 0) return;
-      if (away < hit_distance) nearest = along;
-      along += away;
-    }
-  });
+  softbody::for_each_solid(scene, [&](const auto& solid) { nearest = entry_distance(ray, solid, nearest); });
   return static_cast<float>(nearest);
 }
 

@@ -5,6 +5,7 @@
 
 #include "app/compare/drawn_positions.h"
 #include "engine/camera.h"
+#include "softbody/solids.h"
 #include "softbody/world.h"
 
 namespace app::render {
@@ -26,6 +27,23 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
 /// Returns the distance (m) at which the ray meets the first body or solid; nothing if there is none.
 std::optional<float> distance_to_scene(const engine::Ray& ray, const softbody::World& world,
                                        const compare::DrawnPositions& positions);
+
+/// Returns the distance (m) at which the ray enters a solid, at most `max_distance`, by sphere tracing. It looks
+/// through a solid in which the ray starts, as the drawing does.
+template <class Solid>
+double entry_distance(const engine::Ray& ray, const Solid& solid, double max_distance) {
+  constexpr double hit_distance = 1e-3;  // m
+  constexpr int max_steps = 300;
+  double along = 0;
+  for (int i = 0; i < max_steps && along < max_distance; ++i) {
+    const glm::dvec3 at = glm::dvec3(ray.origin) + along * glm::dvec3(ray.direction);
+    const double away = softbody::surface_at(solid, at).distance;
+    if (i == 0 && away <= 0) return max_distance;
+    if (away < hit_distance) return along;
+    along += away;
+  }
+  return max_distance;
+}
 
 struct BoundingSphere {
   glm::vec3 centre;

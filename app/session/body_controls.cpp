@@ -21,7 +21,8 @@ bool BodyControls::can_drop() const {
 
 void BodyControls::drop(int count) {
   if (!can_drop()) return;
-  simulation_.change_bodies([count](World& world) {
+  const std::string bodies = count == 1 ? "a body" : std::to_string(count) + " bodies";
+  simulation_.change_bodies("drop of " + bodies, [count](World& world) {
     world.drop(count);
     return true;
   });
@@ -46,12 +47,12 @@ void BodyControls::throw_body(const glm::dvec3& eye, const glm::dvec3& target) {
   assert(eye != target);
   if (!can_drop()) return;
   std::optional<BodyId> body;
-  simulation_.change_bodies([&](World& world) {
+  simulation_.change_bodies("throw of a body", [&](World& world) {
     body = world.throw_body(eye, velocity_over(target - eye, throw_speed, world.scene().gravity));
     if (body) select(body);
     return body.has_value();
   });
-  if (!body && simulation_.notice.text().empty())
+  if (!body && !simulation_.notice.is_error())
     simulation_.notice.set("there is no room for a body before the camera: turn or move it");
 }
 
@@ -80,7 +81,7 @@ void BodyControls::add(softbody::BodySource body, Material material) {
   } catch (const std::exception& error) {
     return simulation_.notice.set(error.what());
   }
-  simulation_.change_bodies([&](World& world) {
+  simulation_.change_bodies("import of a body", [&](World& world) {
     std::vector<Material>& materials = simulation_.loaded.scene.materials;
     const std::size_t known = find_material(materials, material);
     body.material = static_cast<int>(known);
@@ -102,7 +103,7 @@ void BodyControls::select(std::optional<BodyId> body) {
 
 void BodyControls::remove_selected() {
   if (!selected_) return simulation_.notice.set("click a body first, then delete it");
-  simulation_.change_bodies([body = *selected_](World& world) {
+  simulation_.change_bodies("deletion of a body", [body = *selected_](World& world) {
     world.grab({});
     world.remove(body);
     return true;
@@ -112,6 +113,7 @@ void BodyControls::remove_selected() {
 
 void BodyControls::grab(const softbody::Grab& grab) {
   simulation_.leave_script();
+  simulation_.begin_drag({Change::Of::bodies, "pull of a body"});
   simulation_.change([&](World& world) { world.grab(grab); });
 }
 

@@ -29,7 +29,7 @@ class BodyControls {
 
   void grab(const softbody::Grab& grab);
   void pull_to(const glm::dvec3& target) { simulation_.pull_to(target); }  // m
-  void release() { simulation_.release(); }
+  void release() { simulation_.release(); }  // undo() then goes back to the grab, if the body was pulled
 
   /// To be called by the simulation's observer.
   void replaced(bool new_scene);

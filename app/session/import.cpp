@@ -113,14 +113,16 @@ void Import::add(FileReport file_report) {
   if (oldest != newest) report_.erase(oldest);
 }
 
-void Import::refuse(Session& session, const std::string& why) {
-  add({.lines = {why}, .refused = true});
-  session.simulation.notice.set("");  // the report says it already
+void Import::refuse(const std::string& why) {
+  if (is_dropped_) return add({.lines = {why}, .refused = true});
+  problem_.set(path, why);
 }
 
 void Import::load(Session& session) {
   if (path.empty() || reading_) return;
   report_.clear();
+  problem_.clear();
+  is_dropped_ = false;
   open(session);
 }
 
@@ -130,7 +132,7 @@ void Import::open(Session& session) {
     return read(FileReader::SceneToRead{file, session.simulation.threads(), session.scenes.presets_file()});
   std::string ending = file.extension().string();
   std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (ending != ".obj") return refuse(session, path + ": neither a mesh (.obj) nor a scene (.toml)");
+  if (ending != ".obj") return refuse(path + ": neither a mesh (.obj) nor a scene (.toml)");
   softbody::MeshFile mesh{.path = std::filesystem::absolute(file), .size = double{size}, .weld = weld};
   if (z_is_up) mesh.up = {0, 0, 1};
   read(std::move(mesh));
@@ -155,11 +157,13 @@ void Import::update(Session& session) {
   if (reading_ || dropped_.empty()) return;
   path = dropped_.front();
   dropped_.erase(dropped_.begin());
+  is_dropped_ = true;
+  problem_.clear();
   open(session);
 }
 
 void Import::take(Session& session, FileReader::Answer answer) {
-  if (const auto* why = std::get_if<std::string>(&answer)) return refuse(session, *why);
+  if (const auto* why = std::get_if<std::string>(&answer)) return refuse(*why);
   if (auto* mesh = std::get_if<FileReader::Mesh>(&answer)) return join(session, std::move(*mesh));
   enter(session, std::move(std::get<FileReader::World>(answer)));
 }
@@ -169,7 +173,7 @@ void Import::enter(Session& session, FileReader::World answer) {
     session.scenes.enter(std::move(answer.world), std::move(answer.scene), answer.path.string());
     add({.lines = {"scene " + answer.path.filename().string()}});
   } catch (const std::exception& error) {
-    refuse(session, error.what());
+    refuse(error.what());
   }
 }
 
@@ -178,7 +182,11 @@ void Import::join(Session& session, FileReader::Mesh read) {
   std::vector<std::string> lines = lines_about(read, session.world());
   softbody::Material material = imported_material(read.mesh.imported->findings.extent);
   session.bodies.add(place_above(session.world(), std::move(read.mesh)), std::move(material));
-  if (!session.simulation.notice.text().empty()) return refuse(session, name + ": " + session.simulation.notice.text());
+  Notice& notice = session.simulation.notice;
+  if (notice.is_error()) {
+    refuse(name + ": " + notice.text());
+    return notice.clear();  // once is enough
+  }
   add({.lines = std::move(lines)});
 }
 

@@ -59,9 +59,10 @@ class Import {
   double weld = softbody::MeshFile{}.weld;  // times the size, see softbody::MeshFile
   bool z_is_up = false;                     // in the file; else y is up
 
-  /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it.
+  /// Begins to read the file of `path`. A scene then replaces the present one; a mesh is added to it. problem() says
+  /// why a file is refused.
   void load(Session& session);
-  /// Does the same with files that were dropped on the window, one after another.
+  /// Does the same with files that were dropped on the window, one after another. report() says why one is refused.
   void drop(const std::vector<std::string>& files, Session& session);
   /// Takes what has been read. Call it once a frame.
   void update(Session& session);
@@ -69,6 +70,8 @@ class Import {
   bool busy() const { return reading_ || !dropped_.empty(); }
   /// Returns what is being read, and for how long; empty unless busy().
   std::string progress() const;
+  /// Returns why the file of `path` was refused; empty if it was not, or if `path` has changed since.
+  std::string problem() const { return problem_.about(path); }
   /// Returns the reports since the last load(), in order: all refusals, and the last few of the others.
   const std::vector<FileReport>& report() const { return report_; }
   void dismiss_report() { report_.clear(); }
@@ -78,12 +81,14 @@ class Import {
 
   void open(Session& session);
   void add(FileReport file_report);
-  void refuse(Session& session, const std::string& why);
+  void refuse(const std::string& why);
   void read(FileReader::Question question);
   void take(Session& session, FileReader::Answer answer);
   void enter(Session& session, FileReader::World answer);
   void join(Session& session, FileReader::Mesh read);
 
+  FieldNotice problem_;
+  bool is_dropped_ = false;  // the file that is read; else load() was called
   std::vector<FileReport> report_;
   std::vector<std::string> dropped_;  // not yet loaded
   bool reading_ = false;

@@ -18,11 +18,14 @@ std::vector<SceneChoice> list_scenes(const std::filesystem::path& folder) {
   return list;
 }
 
-/// Returns none if the file is missing or damaged: a scene that names one says why.
-std::vector<softbody::Material> list_presets(const std::filesystem::path& file) {
+/// Returns none if the file is missing, or, with a notice, if it is damaged.
+std::vector<softbody::Material> list_presets(const std::filesystem::path& file, Notice& notice) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(file, ignored)) return {};
   try {
     return softbody::load_presets(file);
-  } catch (const softbody::SceneError&) {
+  } catch (const softbody::SceneError& error) {
+    notice.set("No presets of materials: " + std::string(error.what()));
     return {};
   }
 }
@@ -33,7 +36,7 @@ SceneControls::SceneControls(Simulation& simulation, std::filesystem::path folde
     : simulation_(simulation),
       folder_(std::move(folder)),
       choices_(list_scenes(folder_)),
-      presets_(list_presets(presets_file())) {
+      presets_(list_presets(presets_file(), simulation.notice)) {
   files::protect_inputs(simulation_.loaded.scene);
   files::protect_input(presets_file());
 }
@@ -53,7 +56,7 @@ void SceneControls::enter(std::unique_ptr<softbody::World> world, softbody::Scen
   files::protect_inputs(scene);
   SceneFile file(key_or_path, scene);
   SolidList solids = list_solids(scene);
-  simulation_.enter(std::move(world), {std::move(scene), std::move(file), std::move(solids)});
+  simulation_.enter(std::move(world), {std::move(scene), std::move(file), std::move(solids)}, "choice of scene");
 }
 
 softbody::Scene SceneControls::with_added_bodies() const {
@@ -62,15 +65,25 @@ softbody::Scene SceneControls::with_added_bodies() const {
   return scene;
 }
 
-void SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {
+std::string SceneControls::question_before_save(const std::filesystem::path& file) const {
+  std::error_code ignored;
+  if (file.extension() != SceneFile::ending || !std::filesystem::is_regular_file(file, ignored)) return {};
+  const std::string name = file.filename().string();
+  const SceneFile& own = simulation_.loaded.file;
+  if (!own.is_at(file)) return name + " exists. Replace it?";
+  return own.changed_on_disk() ? name + " was changed by another program. Replace it?" : "";
+}
+
+std::string SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {
   softbody::Scene scene = with_added_bodies();
   scene.view = view;
-  simulation_.notice.clear();
   try {
     simulation_.loaded.file = SceneFile::save(std::move(scene), file);
   } catch (const std::exception& error) {
-    simulation_.notice.set(error.what());
+    return error.what();
   }
+  simulation_.notice.tell("Scene saved: " + simulation_.loaded.file.name());
+  return {};
 }
 
 }  // namespace app::session

@@ -28,9 +28,12 @@ class SceneControls {
   void enter(std::unique_ptr<softbody::World> world, softbody::Scene scene, const std::string& key_or_path);
   /// The scene as it is now: the settings in use, and added bodies, each in the frame in which it came.
   softbody::Scene with_added_bodies() const;
-  /// Writes with_added_bodies(), seen from `view`, to a file, which is the scene's file from then on. On an error
-  /// nothing is written, and the notice says why.
-  void save(const std::filesystem::path& file, const softbody::View& view);
+  /// Returns a question for the user if save() would replace a file that is not the scene's own, or that has changed
+  /// since the scene was loaded or saved; else an empty text.
+  std::string question_before_save(const std::filesystem::path& file) const;
+  /// Writes with_added_bodies(), seen from `view`, to a file, which is the scene's file from then on. Returns what is
+  /// wrong, and then has written nothing; else an empty text, and the notice names the file.
+  std::string save(const std::filesystem::path& file, const softbody::View& view);
 
  private:
   Simulation& simulation_;

@@ -37,13 +37,24 @@ std::string view_text(const softbody::View& v) {
 }  // namespace
 
 SceneFile::SceneFile(const std::string& key_or_path, softbody::Scene content)
-    : name_(key_or_path.ends_with(".toml") ? fs::absolute(key_or_path).string() : key_or_path),
-      content_(without_options(std::move(content))) {}
+    : name_(key_or_path.ends_with(ending) ? fs::absolute(key_or_path).string() : key_or_path),
+      content_(without_options(std::move(content))),
+      known_time_(time_on_disk()) {}
 
 SceneFile SceneFile::save(softbody::Scene scene, const fs::path& file) {
-  if (file.extension() != ".toml") throw softbody::SceneError("a scene's file must end in .toml, e.g. scene.toml");
+  if (file.extension() != ending) throw softbody::SceneError("a scene's file must end in .toml, e.g. scene.toml");
   files::write_file(file, softbody::scene_toml(scene, file.parent_path()));
   return {file.string(), std::move(scene)};
+}
+
+bool SceneFile::is_at(const fs::path& file) const {
+  std::error_code missing;
+  return fs::equivalent(file, name_, missing);
+}
+
+fs::file_time_type SceneFile::time_on_disk() const {
+  std::error_code missing;
+  return fs::last_write_time(name_, missing);
 }
 
 bool SceneFile::reproduces(const softbody::Scene& used) const { return without_options(used) == content_; }

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 
 #include "softbody/integrators.h"
 #include "softbody/scene.h"
@@ -11,6 +12,8 @@ namespace app::session {
 
 class SceneFile {
  public:
+  static constexpr std::string_view ending = ".toml";
+
   SceneFile() = default;
   /// key_or_path: in the form of --scene; content: the scene of that name.
   SceneFile(const std::string& key_or_path, softbody::Scene content);
@@ -20,12 +23,19 @@ class SceneFile {
 
   /// Returns the name by which --scene finds it from any folder: a key, or an absolute path.
   const std::string& name() const { return name_; }
+  /// Returns true if the scene's file is this one, under any path or link.
+  bool is_at(const std::filesystem::path& file) const;
+  /// Returns true if the scene's file is not the one any more that was read or written.
+  bool changed_on_disk() const { return time_on_disk() != known_time_; }
   /// Returns true if the scene of this name and command-line options reproduce the scene `used`.
   bool reproduces(const softbody::Scene& used) const;
 
  private:
+  std::filesystem::file_time_type time_on_disk() const;
+
   std::string name_;
   softbody::Scene content_;
+  std::filesystem::file_time_type known_time_{};
 };
 
 /// Returns `text` as one word of a POSIX shell, quoted only if needed.

@@ -24,7 +24,9 @@ void SettingControls::set_material(std::size_t index, const softbody::Material& 
 void SettingControls::set_solids(const SolidList& solids) {
   softbody::Scene scene = simulation_.world().scene();
   put_solids(solids, scene);
-  if (simulation_.change([&](World& world) { world.set_solids(scene); })) simulation_.loaded.solids = solids;
+  if (!simulation_.change([&](World& world) { world.set_solids(scene); })) return;
+  simulation_.loaded.solids = solids;
+  simulation_.keep_drag();
 }
 
 void SettingControls::restore_world() {
@@ -37,7 +39,12 @@ void SettingControls::restore_world() {
   });
 }
 
+void SettingControls::begin_drag(std::size_t solid) {
+  simulation_.begin_drag({Change::Of::solids, "move of " + solid_name(solids(), solid)});
+}
+
 void SettingControls::set_integrator(const softbody::IntegratorChoice& choice) {
+  if (choice == simulation_.world().integrator_choice()) return;
   simulation_.change([&](World& world) { world.set_integrator(choice); });
 }
 

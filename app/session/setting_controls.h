@@ -15,6 +15,8 @@ class SettingControls {
   void set_material(std::size_t index, const softbody::Material& material);
   const SolidList& solids() const { return simulation_.loaded.solids; }
   void set_solids(const SolidList& solids);
+  /// From here to Simulation::end_drag(), undo() takes all that set_solids() does as one change: `solid` is moved.
+  void begin_drag(std::size_t solid);
   /// Gravity, materials and solids as the scene has them.
   void restore_world();
 

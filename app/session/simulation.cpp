@@ -120,13 +120,13 @@ bool Simulation::change(const std::function<void(World&)>& change) {
   return done;
 }
 
-bool Simulation::change_bodies(const std::function<bool(World&)>& change) {
+bool Simulation::change_bodies(std::string name, const std::function<bool(World&)>& change) {
   leave_script();
-  PastWorld before = present();
+  KeptWorld before = present({Change::Of::bodies, std::move(name)});
   bool changed = false;
   const std::size_t bodies = world_->bodies().count();
   this->change([&](World& world) { changed = change(world); });
-  if (changed) past_.push(std::move(before));
+  if (changed) kept_.push(std::move(before));
   if (world_->bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
@@ -136,22 +136,33 @@ void Simulation::pull_to(const glm::dvec3& target) {
   if (!grab) return;
   grab->target = target;
   world_->grab(grab);
+  keep_drag();
+}
+
+void Simulation::release() {
+  world_->grab({});
+  end_drag();
+}
+
+void Simulation::keep_drag() {
+  if (before_drag_) kept_.push(*std::exchange(before_drag_, std::nullopt));
 }
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
   before_last_step_.copy(world_->positions());
   clock.restart();
+  end_drag();
   ++revision_;
   ++world_number_;
   observer_.replaced(new_scene);
 }
 
 /// Without the hand that may hold a body: after an undo nobody would let go.
-PastWorld Simulation::present() const {
+KeptWorld Simulation::present(Change change) const {
   softbody::Snapshot now = world_->snapshot();
   now.grab.reset();
-  return {std::move(now), loaded};
+  return {std::move(now), loaded, std::move(change)};
 }
 
 void Simulation::leave_for(std::unique_ptr<World> world) {
@@ -165,10 +176,8 @@ void Simulation::leave_for(std::unique_ptr<World> world) {
   replace(true);
 }
 
-void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene) {
-  PastWorld before = present();
-  before.left = true;
-  past_.push(std::move(before));
+void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene, std::string name) {
+  kept_.push(present({Change::Of::scene, std::move(name)}));
   loaded = std::move(scene);
   leave_for(std::move(world));
 }
@@ -188,32 +197,36 @@ softbody::Scene Simulation::scene_in_use() const {
 
 void Simulation::reset() {
   try {
-    enter(make_world(scene_in_use(), world_->integrator_choice()), loaded);
+    enter(make_world(scene_in_use(), world_->integrator_choice()), loaded, "reset");
   } catch (const std::exception& error) {
     notice.set(error.what());
   }
 }
 
-void Simulation::undo() {
-  if (past_.empty()) return;
-  PastWorld& last = past_.last();
-  if (last.left) {
+void Simulation::go(Way way) {
+  if (kept_.empty(way)) return notice.tell(way == Way::back ? "Nothing to undo" : "Nothing to redo");
+  KeptWorld there = kept_.next(way);
+  KeptWorld here = present(there.change);
+  const auto arrive = [&] {
+    kept_.turn(way, std::move(here));
+    loaded = std::move(there.loaded);
+  };
+  if (there.change.of == Change::Of::scene) {
     attempt([&] {
       auto world = make_world({}, {});
-      world->restore(last.snapshot);
-      loaded = std::move(last.loaded);
-      past_.pop();
+      world->restore(there.snapshot);
+      arrive();
       leave_for(std::move(world));
     });
-    return;
+  } else {
+    // The worlds in between are gone again, so this one is the snapshot's.
+    const bool of_solids = there.change.of == Change::Of::solids;
+    if (!of_solids) there.loaded.solids = std::move(loaded.solids);  // those in use stay
+    arrive();
+    restore(there.snapshot, of_solids);
+    after_going_back();
   }
-  PastWorld past = std::move(last);
-  past_.pop();
-  // Later worlds are gone again, so this one is the snapshot's. The solids in use stay.
-  past.loaded.solids = std::move(loaded.solids);
-  loaded = std::move(past.loaded);
-  restore(past.snapshot);
-  after_going_back();
+  if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change.name);
 }
 
 void Simulation::rewind_to(int frame) {
@@ -225,8 +238,8 @@ void Simulation::rewind_to(int frame) {
   after_going_back();
 }
 
-/// The bodies as they were, with the settings in use.
-void Simulation::restore(const softbody::Snapshot& snapshot) {
+/// The bodies as they were, with the settings in use; `with_its_solids`: with the solids as they were, too.
+void Simulation::restore(const softbody::Snapshot& snapshot, bool with_its_solids) {
   const std::string method(world_->method().key);
   const softbody::ContactSurface surface = world_->scene().contact_surface;
   const collide::Settings settings = world_->collision();
@@ -238,18 +251,18 @@ void Simulation::restore(const softbody::Snapshot& snapshot) {
     world_->restore(snapshot);
     if (integrator != world_->integrator_choice()) world_->set_integrator(integrator);
     if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
-    keep_settings(in_use);
+    keep_settings(in_use, !with_its_solids);
     if (method != world_->method().key) world_->set_method(method);
     if (settings != world_->collision() || default_cell_size != world_->scene().default_cell_size)
       world_->set_collision(settings, default_cell_size);
   });
 }
 
-/// Where the world has other gravity, solids or materials than those in use, it gets these.
-void Simulation::keep_settings(const softbody::Scene& in_use) {
+/// Where the world has other gravity or materials than those in use, it gets these; so too the solids, if asked for.
+void Simulation::keep_settings(const softbody::Scene& in_use, bool with_solids) {
   const softbody::Scene& now = world_->scene();
   if (now.gravity != in_use.gravity) world_->set_gravity(in_use.gravity);
-  if (list_solids(now) != list_solids(in_use)) world_->set_solids(in_use);
+  if (with_solids && list_solids(now) != list_solids(in_use)) world_->set_solids(in_use);
   for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
     if (!(now.materials[i] == in_use.materials[i])) world_->set_material(i, in_use.materials[i]);
 }

@@ -86,27 +86,35 @@ class Simulation {
   // Changes by the user. They clear notice(); what fails sets it, and errors that no input explains pause.
   /// Changes settings of the world. Returns false if `change` throws. The world is then as `change` left it.
   bool change(const std::function<void(softbody::World&)>& change);
-  /// Changes bodies, which can be undone. `change` returns whether it changed anything.
-  bool change_bodies(const std::function<bool(softbody::World&)>& change);
+  /// Changes bodies, which can be undone under this name. `change` returns whether it changed anything.
+  bool change_bodies(std::string name, const std::function<bool(softbody::World&)>& change);
+  /// A drag of the mouse makes many changes, which are undone as one: it begins with begin_drag(), and whatever changes
+  /// something in it calls keep_drag(). A drag that changes nothing cannot be undone.
+  void begin_drag(Change change) { before_drag_ = present(std::move(change)); }
+  void keep_drag();
+  void end_drag() { before_drag_.reset(); }
   /// The user touched a body: the scene's captions no longer apply. change_bodies() includes it.
   void leave_script() { as_scripted_ = false; }
   /// Move or release the body that the hand holds; each step counts a held body as a change.
   void pull_to(const glm::dvec3& target);  // m
-  void release() { world_->grab({}); }
+  void release();
   /// A world with threads() and the work limits of a window. Throws SceneError.
   std::unique_ptr<softbody::World> make_world(const softbody::Scene& scene,
                                               const softbody::IntegratorChoice& integrator) const;
-  /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo().
-  void enter(std::unique_ptr<softbody::World> world, LoadedScene scene);
+  /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo(), under this name.
+  void enter(std::unique_ptr<softbody::World> world, LoadedScene scene, std::string name);
   /// The loaded scene with the settings in use.
   softbody::Scene scene_in_use() const;
   /// Restarts with scene_in_use(), without added bodies. On an error the present world goes on.
   void reset();
 
-  /// The last few worlds before a reset, a choice of scene or a change of bodies, to the bit.
-  bool can_undo() const { return !past_.empty(); }
-  /// Stays where it is, with a notice, if there is too little memory for the world of then.
-  void undo();
+  /// Return true if there is a world to go to, to the bit: one before a reset, a choice of scene, a change of bodies or
+  /// a drag; or one that was left by undo(), until the next such change.
+  bool can_undo() const { return !kept_.empty(Way::back); }
+  bool can_redo() const { return !kept_.empty(Way::forward); }
+  /// Go there; the notice says what was undone. They stay where they are, with an error, if there is too little memory.
+  void undo() { go(Way::back); }
+  void redo() { go(Way::forward); }
   const StabilityMonitor& stability() const { return stability_; }
   /// Goes back to the last snapshot of stability().past() that is not after `frame`, and pauses. Settings stay.
   void rewind_to(int frame);
@@ -115,10 +123,11 @@ class Simulation {
   bool attempt(const std::function<void()>& action);
   void intervened();
   void replace(bool new_scene);
-  PastWorld present() const;
+  KeptWorld present(Change change) const;
   void leave_for(std::unique_ptr<softbody::World> world);
-  void restore(const softbody::Snapshot& snapshot);
-  void keep_settings(const softbody::Scene& in_use);
+  void go(Way way);
+  void restore(const softbody::Snapshot& snapshot, bool with_its_solids = false);
+  void keep_settings(const softbody::Scene& in_use, bool with_solids);
   void after_going_back();
   SimulationClock::Step step();
 
@@ -126,7 +135,8 @@ class Simulation {
   SimulationObserver& observer_;
   int threads_;
   std::unique_ptr<softbody::World> world_;
-  UndoHistory past_;
+  UndoHistory kept_;
+  std::optional<KeptWorld> before_drag_;  // until keep_drag()
   bool as_scripted_ = true;
   compare::Positions before_last_step_;
   double step_ms_ = 0;

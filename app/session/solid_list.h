@@ -1,6 +1,7 @@
 #pragma once
 // A list of a scene's solids, including those that are switched off.
 
+#include <optional>
 #include <string>
 #include <variant>
 
@@ -22,6 +23,10 @@ using SolidList = std::vector<SolidEntry>;
 SolidList list_solids(const softbody::Scene& scene);
 /// Replaces the scene's solids by the entries that are switched on.
 void put_solids(const SolidList& list, softbody::Scene& scene);
+/// How far from the origin a solid may be moved along each axis (m).
+inline constexpr double max_solid_coordinate = 20;
+/// Returns a sphere, box or capsule moved by `by` (m); nothing for planes and grounds, which have no end to hold.
+std::optional<AnySolid> moved(const AnySolid& solid, const glm::dvec3& by);
 /// Returns the unique name of an entry, e.g. "Ground" or "Sphere 2". Precondition: index < list.size().
 std::string solid_name(const SolidList& list, std::size_t index);
 

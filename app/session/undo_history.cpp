@@ -5,24 +5,35 @@
 
 namespace app::session {
 
-void UndoHistory::push(PastWorld past) {
-  past_.push_back(std::move(past));
-  while (past_.size() > max_count || (past_.size() > 1 && bytes() > limit_)) past_.erase(past_.begin());
+void UndoHistory::push(KeptWorld before) {
+  worlds(Way::forward).clear();
+  keep(Way::back, std::move(before));
 }
 
-PastWorld& UndoHistory::last() {
-  assert(!empty());
-  return past_.back();
+const KeptWorld& UndoHistory::next(Way way) const {
+  assert(!empty(way));
+  return worlds(way).back();
 }
 
-void UndoHistory::pop() {
-  assert(!empty());
-  past_.pop_back();
+void UndoHistory::turn(Way way, KeptWorld present) {
+  assert(!empty(way));
+  worlds(way).pop_back();
+  keep(opposite(way), std::move(present));
+}
+
+void UndoHistory::keep(Way way, KeptWorld world) {
+  auto &here = worlds(way), &there = worlds(opposite(way));
+  here.push_back(std::move(world));
+  while (count() > max_count || (count() > 1 && bytes() > limit_)) {
+    auto& longer = here.size() > there.size() ? here : there;
+    longer.erase(longer.begin());
+  }
 }
 
 std::size_t UndoHistory::bytes() const {
   std::size_t sum = 0;
-  for (const PastWorld& past : past_) sum += past.snapshot.bytes();
+  for (const auto& way : worlds_)
+    for (const KeptWorld& world : way) sum += world.snapshot.bytes();
   return sum;
 }
 

@@ -1,7 +1,9 @@
 #pragma once
-// The past of the demo that undo() returns to, within a bound of memory.
+// The worlds that undo and redo go to, within a bound of memory.
 
+#include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "app/session/scene_file.h"
@@ -17,32 +19,48 @@ struct LoadedScene {
   SolidList solids;  // in use, also those that are switched off
 };
 
-/// The world before a change, and its scene.
-struct PastWorld {
+/// A change that can be undone.
+struct Change {
+  enum class Of { bodies, solids, scene };  // scene: the world is left for another one
+  Of of;
+  std::string name;  // e.g. "drop of 20 bodies"
+};
+
+/// The world before or after a change, and its scene.
+struct KeptWorld {
   softbody::Snapshot snapshot;
   LoadedScene loaded;
-  bool left = false;  // for another world; else its bodies were changed
+  Change change;
 };
+
+enum class Way { back, forward };  // undo, redo
+inline Way opposite(Way way) { return way == Way::back ? Way::forward : Way::back; }
 
 class UndoHistory {
  public:
-  static constexpr std::size_t max_count = 8, max_bytes = std::size_t{64} << 20;
+  static constexpr std::size_t max_count = 8, max_bytes = std::size_t{64} << 20;  // both ways together
 
   explicit UndoHistory(std::size_t limit = max_bytes) : limit_(limit) {}
 
-  bool empty() const { return past_.empty(); }
-  std::size_t count() const { return past_.size(); }
-  /// Keeps a past; forgets the oldest beyond the bounds, but never the last one.
-  void push(PastWorld past);
-  /// Returns the latest. Precondition: not empty.
-  PastWorld& last();
-  void pop();
+  bool empty(Way way) const { return worlds(way).empty(); }
+  std::size_t count() const { return worlds(Way::back).size() + worlds(Way::forward).size(); }
+  /// Keeps the world before a new change; forgets those that could be redone. Beyond the bounds it forgets the oldest,
+  /// but never this one.
+  void push(KeptWorld before);
+  /// Returns the world to go to. Precondition: not empty(way).
+  const KeptWorld& next(Way way) const;
+  /// Takes next(way) out and keeps `present` to come back to; forgets as push() does.
+  void turn(Way way, KeptWorld present);
   /// Returns the memory of the snapshots in bytes.
   std::size_t bytes() const;
 
  private:
+  const std::vector<KeptWorld>& worlds(Way way) const { return worlds_[static_cast<std::size_t>(way)]; }
+  std::vector<KeptWorld>& worlds(Way way) { return worlds_[static_cast<std::size_t>(way)]; }
+  void keep(Way way, KeptWorld world);
+
   std::size_t limit_;
-  std::vector<PastWorld> past_;  // the latest last
+  std::array<std::vector<KeptWorld>, 2> worlds_;  // by Way; the next one last
 };
 
 }  // namespace app::session

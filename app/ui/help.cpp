@@ -20,7 +20,8 @@ using Entries = std::vector<Entry>;  // an entry without key and text is an empt
 
 Entries keyboard() {
   Entries entries;
-  for (const Shortcut& shortcut : shortcuts()) entries.push_back({shortcut.keys_text, shortcut.text});
+  for (const Shortcut& shortcut : shortcuts())
+    if (!shortcut.keys_text.empty()) entries.push_back({shortcut.keys_text, shortcut.text});
   return entries;
 }
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 namespace app::ui {
 namespace {
@@ -14,6 +15,24 @@ void change_levels(Session& session, int by) {
   session.settings.set_collision(settings, session.world().scene().default_cell_size);
 }
 
+/// Says what an action did, unless it failed.
+void tell(Session& session, std::string text) {
+  if (!session.simulation.notice.is_error()) session.simulation.notice.tell(std::move(text));
+}
+
+void next_method(Session& session) {
+  session.settings.next_method();
+  tell(session, "Method: " + std::string(session.world().method().name));
+}
+
+void next_contact_surface(Session& session) {
+  session.settings.next_contact_surface();
+  for (const softbody::ContactSurfaceInfo& info : softbody::contact_surfaces)
+    if (info.value == session.world().scene().contact_surface) tell(session, "Contact: " + std::string(info.name));
+}
+
+constexpr std::string_view redo_text = "Redo it (also Ctrl+Shift+Z)";
+
 constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_SPACE, 0, "Space", "Pause or resume",
              [](Session& s, UiState&) { s.simulation.clock.paused = !s.simulation.clock.paused; }},
@@ -22,17 +41,20 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_S, 0, "S", "Slow motion",
              [](Session& s, UiState&) { s.simulation.clock.slow_motion = !s.simulation.clock.slow_motion; }},
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
-    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a reset, drop, throw, import or deletion",
+    Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
+             GLFW_MOD_CONTROL | GLFW_MOD_SHIFT},
+    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a change of bodies, solids or scene",
              [](Session& s, UiState&) { s.simulation.undo(); }, false, GLFW_MOD_CONTROL},
+    Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
+             GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_D, 0, "Shift+D", "Drop twenty bodies",
              [](Session& s, UiState&) { s.bodies.drop(session::BodyControls::many_drops); }, false, GLFW_MOD_SHIFT},
     Shortcut{GLFW_KEY_D, 0, "D", "Drop a body", [](Session& s, UiState&) { s.bodies.drop(); }},
     Shortcut{GLFW_KEY_B, 0, "B", "Throw a body at the mouse", [](Session&, UiState& ui) { ui.throw_body = true; }},
     Shortcut{GLFW_KEY_DELETE, GLFW_KEY_BACKSPACE, "Del", "Delete the selected body",
              [](Session& s, UiState&) { s.bodies.remove_selected(); }},
-    Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { s.settings.next_method(); }},
-    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface",
-             [](Session& s, UiState&) { s.settings.next_contact_surface(); }},
+    Shortcut{GLFW_KEY_M, 0, "M", "Next method", [](Session& s, UiState&) { next_method(s); }},
+    Shortcut{GLFW_KEY_F, 0, "F", "Next contact surface", [](Session& s, UiState&) { next_contact_surface(s); }},
     Shortcut{GLFW_KEY_LEFT_BRACKET, 0, "[", "Fewer boxes per body", [](Session& s, UiState&) { change_levels(s, -1); },
              true},
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes per body", [](Session& s, UiState&) { change_levels(s, 1); },
@@ -70,6 +92,7 @@ constexpr std::array mouse_table{
     MouseAction{"On a body", "Drag: pull it"},
     MouseAction{"", "Click: select it"},
     MouseAction{"", "Double-click: look at it"},
+    MouseAction{"On a solid", "Drag: move it"},
     MouseAction{"Background", "Drag: orbit"},
     MouseAction{"Right drag", "Pan"},
     MouseAction{"Wheel", "Zoom"},

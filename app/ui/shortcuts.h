@@ -10,7 +10,7 @@ namespace app::ui {
 
 struct Shortcut {
   int key, other_key;          // GLFW_KEY_* or a character, as in engine::KeyPress; other_key 0: none
-  std::string_view keys_text;  // the keys, in the help
+  std::string_view keys_text;  // the keys, in the help; empty: another row mentions them
   std::string_view text;       // what they do, in the help
   void (*act)(Session& session, UiState& ui);
   bool repeats = false;  // also acts repeatedly while the key is held

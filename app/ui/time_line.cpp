@@ -1,5 +1,7 @@
 #include "app/ui/time_line.h"
 
+#include <algorithm>
+
 #include <fmt/core.h>
 
 namespace app::ui {
@@ -12,9 +14,10 @@ std::string state_text(const Session& session) {
   const session::SimulationClock& clock = session.simulation.clock;
   if (clock.paused) return "paused";
   if (clock.pace() < 0.95) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
-  const std::size_t count = world.bodies().count();
-  return fmt::format("{} {}{}", grouped(count), count == 1 ? "body" : "bodies",
-                     world.all_at_rest() ? ", all at rest" : "");
+  const std::size_t count = world.bodies().count(), more = bodies_to_come(world);
+  std::string text = fmt::format("{} {}", grouped(count), count == 1 ? "body" : "bodies");
+  if (more > 0) return text + fmt::format(", {} to come", grouped(more));
+  return text + (world.all_at_rest() ? ", all at rest" : "");
 }
 
 /// Draws the slider from the first snapshot to the newest.
@@ -47,6 +50,12 @@ void draw_state(Widgets& w, const Session& session) {
 }
 
 }  // namespace
+
+std::size_t bodies_to_come(const softbody::World& world) {
+  // A step brings the bodies of the frame before it; the first ones are there at once.
+  const auto comes = [&](const softbody::BodySource& body) { return body.appear >= std::max(world.frame(), 1); };
+  return static_cast<std::size_t>(std::ranges::count_if(world.scene().bodies, comes));
+}
 
 float time_line_height(float scale) { return ImGui::GetFrameHeight() + 2 * padding * scale; }
 

@@ -37,12 +37,7 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   ui.popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
 }
 
-double UserInterface::seconds_to_change(const UiState& ui, double seconds) const {
-  double next = seconds_to_hint_change(seconds);
-  for (const double copied : ui.copied)
-    if (const double left = copied + UiState::copied_seconds - ImGui::GetTime(); left >= 0) next = std::min(next, left);
-  return next;
-}
+double UserInterface::seconds_to_change(double seconds) const { return seconds_to_hint_change(seconds); }
 
 void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
   bool open = true;

@@ -153,8 +153,11 @@ class Demo {
       ui::draw_labels(highlight->labels, camera_, viewport.size, interface_.scene_area(), graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
-    shown_ = interface_key();
-    ui_.exporter.frame(session_, [this](bool with_panel) { return picture(with_panel); });
+    const InterfaceKey before = std::exchange(shown_, interface_key());
+    settling_ = before != shown_;
+    ui_.exporter.frame(session_, [this](bool with_panel, const std::optional<glm::uvec2>& size) {
+      return size ? picture_of(glm::ivec2(*size)) : picture(with_panel);
+    });
     if (!ui_.quit) advance(elapsed);  // while the driver draws
     drawing += timed([&] { present(viewport); });
     graphics_->canvas.add_timing(elapsed, drawing);
@@ -171,7 +174,7 @@ class Demo {
             .counting = !session_.stands_still() || interface_.shows_sweep(ui_),
             .reporting = ui_.import.busy() || ui_.exporter.finishing(),
             .typing = graphics_->gui.wants_keyboard(),
-            .next_change = interface_.seconds_to_change(ui_, seconds_)};
+            .next_change = settling_ ? 0 : interface_.seconds_to_change(seconds_)};
   }
 
   InterfaceKey interface_key() const {
@@ -234,6 +237,24 @@ class Demo {
     return engine::read_pixels(0, graphics_->window.framebuffer_size());
   }
 
+  /// Draws the scene in another size, with what the camera frames.
+  engine::Image picture_of(glm::ivec2 size) {
+    const engine::Viewport shown = scene_viewport(), whole{{0, 0}, size};
+    engine::Camera camera = camera_;
+    render::SceneView::refit(camera, glm::max(shown.size, 1), size);
+    const engine::Framebuffer target(size);
+    target.bind();
+    draw_world(camera, whole, shown.size.y > 0 ? pixel_scale(whole, shown) : pixel_scale());
+    engine::Image image = target.read();
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    return image;
+  }
+
+  void draw_world(const engine::Camera& camera, const engine::Viewport& whole, float scale) {
+    graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera, whole, scale,
+                         session_.simulation.drawn_positions(shows_present_state(session_, ui_.overlays)));
+  }
+
   /// Returns the size that the window would have on a screen of ordinary density.
   glm::ivec2 window_size() const {
     return glm::ivec2(glm::round(glm::vec2(graphics_->window.framebuffer_size()) / graphics_->window.content_scale()));
@@ -265,8 +286,9 @@ class Demo {
     }
     refit(viewport.size);
     mouse_.update(read_mouse(top_left(viewport), !graphics_->gui.wants_mouse()), session_, camera_, viewport.size);
+    if (const auto solid = mouse_.take_pressed_solid()) ui_.solid = *solid;
     frame_tour(viewport);
-    if (mouse_.on_body()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
+    if (mouse_.can_drag()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
     camera_.advance(elapsed);
   }
 
@@ -309,11 +331,9 @@ class Demo {
     if (viewport.size.x <= 0 || viewport.size.y <= 0) return;
     const PictureKey key = picture_key();
     still_ = (session_.simulation.clock.paused || session_.world().all_at_rest()) && key == drawn_;
-    const bool fine = still_ || ui_.exporter.wants_picture();
+    const bool fine = still_ || ui_.exporter.wants_shown_picture();
     graphics_->canvas.update(viewport.size, key != drawn_, fine, [&](const engine::Viewport& whole) {
-      graphics_->view.draw(session_.world(), overlay_request(session_, ui_), camera_, whole,
-                           pixel_scale(whole, viewport),
-                           session_.simulation.drawn_positions(shows_present_state(session_, ui_.overlays)));
+      draw_world(camera_, whole, pixel_scale(whole, viewport));
     });
     ui_.render_scale = graphics_->canvas.render_scale();
     drawn_ = key;
@@ -361,6 +381,7 @@ class Demo {
   std::string shown_scene_;  // that camera_ was set up for
   PictureKey drawn_;         // what the canvas shows
   InterfaceKey shown_;       // by the last frame
+  bool settling_ = false;    // shown_ is new: windows take another frame to fit their contents
   bool still_ = false;       // the picture of the last frame is that of the frame before
   bool hidden_ = false;
   bool waited_ = false;  // for events, on purpose, before the present frame

@@ -11,6 +11,29 @@ namespace {
 
 constexpr float max_click_length = 5;  // pixels: a longer way of the mouse is a drag
 
+softbody::SolidPlane traceable(const softbody::Ground& ground) { return softbody::as_plane(ground); }
+const auto& traceable(const auto& solid) { return solid; }
+
+struct SolidUnder {
+  std::size_t index;  // of SettingControls::solids()
+  double distance;    // m
+};
+
+/// Returns the first solid that the ray meets, if it can be dragged.
+std::optional<SolidUnder> pick_solid(const engine::Ray& ray, const session::SolidList& solids) {
+  constexpr double max_distance = 1000;  // m
+  SolidUnder nearest{solids.size(), max_distance};
+  for (std::size_t i = 0; i < solids.size(); ++i) {
+    if (!solids[i].on) continue;
+    const double distance =
+        std::visit([&](const auto& solid) { return render::entry_distance(ray, traceable(solid), nearest.distance); },
+                   solids[i].solid);
+    if (distance < nearest.distance) nearest = {i, distance};
+  }
+  if (nearest.index == solids.size() || !session::moved(solids[nearest.index].solid, {})) return std::nullopt;
+  return nearest;
+}
+
 /// Returns the point where the ray meets the plane through `point` that faces the camera.
 glm::dvec3 on_facing_plane(const engine::Ray& ray, const engine::Camera& camera, const glm::dvec3& point) {
   const glm::dvec3 ahead = glm::normalize(glm::dvec3(camera.orbit().target) - glm::dvec3(camera.eye()));
@@ -50,9 +73,13 @@ void SceneMouse::update(const MouseInput& in, Session& session, engine::Camera& 
   if (!in.down[0]) release(session);
   last_at_ = in.at;
   orbited_ = {};
-  on_body_ = drag_ == Drag::body ||
-             (in.over_scene && drag_ == Drag::none &&
-              render::pick(camera.pick_ray(in.at, size), session.world(), session.simulation.drawn_positions()));
+  const auto something_under = [&] {
+    const engine::Ray under = camera.pick_ray(in.at, size);
+    return render::pick(under, session.world(), session.simulation.drawn_positions()) ||
+           pick_solid(under, session.settings.solids());
+  };
+  can_drag_ =
+      drag_ == Drag::body || drag_ == Drag::solid || (drag_ == Drag::none && in.over_scene && something_under());
 }
 
 void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size) {
@@ -65,9 +92,20 @@ void SceneMouse::orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm:
 void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
   drag_length_ = 0;
   drag_ = Drag::orbit;
-  const auto under = render::pick(camera.pick_ray(in.at, size), session.world(), session.simulation.drawn_positions());
+  const engine::Ray ray = camera.pick_ray(in.at, size);
+  const auto under = render::pick(ray, session.world(), session.simulation.drawn_positions());
   pressed_on_body_ = under.has_value();
-  if (!under) return;
+  if (!under) {
+    if (const auto solid = pick_solid(ray, session.settings.solids())) {
+      drag_ = Drag::solid;
+      pressed_solid_ = solid->index;
+      held_solid_ = {solid->index, session.settings.solids()[solid->index].solid,
+                     glm::dvec3(ray.origin) + solid->distance * glm::dvec3(ray.direction),
+                     session.simulation.world_number()};
+      session.settings.begin_drag(solid->index);
+    }
+    return;
+  }
   session.bodies.select(under->body);
   if (in.double_click) {
     focus_on(under->body, session, camera, size);
@@ -84,18 +122,31 @@ void SceneMouse::press(const MouseInput& in, Session& session, engine::Camera& c
 // and the way to a release is one.
 void SceneMouse::drag(const MouseInput& in, Session& session, engine::Camera& camera, glm::ivec2 size) {
   drag_length_ += glm::length(in.moved);
-  const auto& held = session.world().grabbed();
-  if (drag_ == Drag::body && held)
-    session.bodies.pull_to(on_facing_plane(camera.pick_ray(in.at, size), camera, held->target));
+  if (drag_length_ >= max_click_length) {  // a click moves nothing
+    const engine::Ray ray = camera.pick_ray(in.at, size);
+    const auto& held = session.world().grabbed();
+    if (drag_ == Drag::body && held) session.bodies.pull_to(on_facing_plane(ray, camera, held->target));
+    if (drag_ == Drag::solid) drag_solid(ray, session, camera);
+  }
   if (drag_ == Drag::orbit) camera.rotate(in.moved - orbited_, size);
   if (!in.over_scene) return;
   if (down_[1] || down_[2]) camera.pan(in.moved, size);
   if (in.wheel != 0) camera.zoom(in.wheel);
 }
 
+void SceneMouse::drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera) {
+  if (session.simulation.world_number() != held_solid_->world_number) return;  // the solids may be others
+  session::SolidList solids = session.settings.solids();
+  const glm::dvec3 way = on_facing_plane(ray, camera, held_solid_->point) - held_solid_->point;
+  solids[held_solid_->index].solid = *session::moved(held_solid_->solid, way);
+  if (solids != session.settings.solids()) session.settings.set_solids(solids);
+}
+
 void SceneMouse::release(Session& session) {
   if (session.world().grabbed()) session.bodies.release();
-  if (drag_ == Drag::orbit && !pressed_on_body_ && drag_length_ < max_click_length) session.bodies.select(std::nullopt);
+  if (drag_ != Drag::none) session.simulation.end_drag();
+  const bool on_scenery = drag_ == Drag::solid || (drag_ == Drag::orbit && !pressed_on_body_);
+  if (on_scenery && drag_length_ < max_click_length) session.bodies.select(std::nullopt);
   drag_ = Drag::none;
 }
 

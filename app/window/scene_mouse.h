@@ -1,7 +1,9 @@
 #pragma once
-// The mouse over the scene: a drag on a body pulls the body, a drag on the background moves the camera.
+// The mouse over the scene: a drag on a body pulls the body, a drag on a solid moves the solid, a drag on the
+// background moves the camera.
 
 #include <array>
+#include <utility>
 
 #include "app/render/pick.h"
 #include "app/session/session.h"
@@ -33,21 +35,32 @@ class SceneMouse {
   /// Continues a drag that orbits the camera, to `at`, between two frames, when the session must not be used.
   void orbit_between_frames(glm::vec2 at, engine::Camera& camera, glm::ivec2 size);
 
-  /// True if a body is under the mouse or is pulled.
-  bool on_body() const { return on_body_; }
+  /// True if a body or a solid that can be dragged is under the mouse, or is dragged.
+  bool can_drag() const { return can_drag_; }
+  /// Returns the solid that was pressed since the last call, an index of SettingControls::solids().
+  std::optional<std::size_t> take_pressed_solid() { return std::exchange(pressed_solid_, std::nullopt); }
   /// Returns the ray from the eye through the mouse, or through the middle if the mouse is not over the scene.
   engine::Ray ray(const engine::Camera& camera, glm::ivec2 size) const;
 
  private:
-  enum class Drag { none, body, orbit };
+  enum class Drag { none, body, solid, orbit };
+  struct HeldSolid {
+    std::size_t index;           // of SettingControls::solids()
+    session::AnySolid solid;     // where it was at the press
+    glm::dvec3 point;            // m, where the mouse pressed it
+    std::uint64_t world_number;  // of the Simulation
+  };
 
   void press(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
   void drag(const MouseInput& input, Session& session, engine::Camera& camera, glm::ivec2 size);
+  void drag_solid(const engine::Ray& ray, Session& session, const engine::Camera& camera);
   void release(Session& session);
 
   Drag drag_ = Drag::none;
   std::array<bool, 3> down_{};  // as in the last frame
-  bool on_body_ = false, pressed_on_body_ = false;
+  bool can_drag_ = false, pressed_on_body_ = false;
+  std::optional<HeldSolid> held_solid_;
+  std::optional<std::size_t> pressed_solid_;
   float drag_length_ = 0;  // pixels, since the left button went down
   std::optional<glm::vec2> at_;
   glm::vec2 last_at_{0.0f}, orbited_{0.0f};  // pixels; the second is the way of orbit_between_frames() since update()

@@ -9,6 +9,7 @@
 #include "softbody/limits.h"
 #include "softbody/prototype.h"
 #include "tests/app/hands.h"
+#include "tests/temporary_folder.h"
 
 namespace app {
 namespace {
@@ -207,6 +208,48 @@ TEST(SceneControls, KeepTheSceneWhenAnotherCannotBeLoaded) {
   scenes.choose("no-such-scene.toml");
   EXPECT_NE(simulation.notice.text().find("no-such-scene"), std::string::npos);
   EXPECT_EQ(simulation.world().scene().key, "pair");
+}
+
+TEST(SceneControls, SayThatThePresetsAreDamaged) {
+  const tests::TemporaryFolder folder;
+  std::filesystem::create_directories(folder.path() / "scenes");
+  session::Simulation simulation(touching_pair(), 1);
+  const session::SceneControls without(simulation, folder.path() / "scenes");
+  EXPECT_EQ(simulation.notice.text(), "") << "only a scene that names a preset needs the file";
+  const auto file = folder.write("materials.toml", "[[material]\n");
+  ASSERT_EQ(without.presets_file(), file);
+  const session::SceneControls damaged(simulation, folder.path() / "scenes");
+  EXPECT_TRUE(damaged.presets().empty());
+  EXPECT_TRUE(simulation.notice.is_error());
+  EXPECT_NE(simulation.notice.text().find("materials.toml"), std::string::npos) << simulation.notice.text();
+  session::SettingControls(simulation).set_integrator(simulation.world().integrator_choice());
+  EXPECT_TRUE(simulation.notice.is_error()) << "a choice that changes nothing leaves the notice";
+}
+
+TEST(SolidList, MovesWhatHasAnEnd) {
+  softbody::Scene scene = touching_pair();
+  scene.boxes.resize(1);
+  scene.capsules.resize(1);
+  scene.planes.resize(1);
+  for (const session::SolidEntry& entry : session::list_solids(scene)) {
+    const auto there = session::moved(entry.solid, {1, 2, 3}), far = session::moved(entry.solid, {0, 1e3, 0});
+    const bool endless = std::holds_alternative<softbody::Ground>(entry.solid) ||
+                         std::holds_alternative<softbody::SolidPlane>(entry.solid);
+    ASSERT_EQ(there.has_value(), !endless);
+    if (endless) continue;
+    if (const auto* sphere = std::get_if<softbody::SolidSphere>(&*there)) {
+      EXPECT_EQ(sphere->centre, scene.spheres[0].centre + glm::dvec3(1, 2, 3));
+    }
+    if (const auto* box = std::get_if<softbody::SolidBox>(&*far)) {
+      EXPECT_EQ(box->centre.y, session::max_solid_coordinate);
+    }
+    if (const auto* capsule = std::get_if<softbody::SolidCapsule>(&*there)) {
+      EXPECT_EQ(capsule->from, scene.capsules[0].from + glm::dvec3(1, 2, 3));
+      EXPECT_EQ(capsule->to - capsule->from, scene.capsules[0].to - scene.capsules[0].from);
+    }
+  }
+  const auto beyond = session::moved(softbody::SolidSphere{.centre = {50, 0, 0}}, {-1, 0, 0});
+  EXPECT_EQ(std::get<softbody::SolidSphere>(*beyond).centre.x, 49) << "it may come back";
 }
 
 TEST(SolidList, NamesSolidsApartAndPutsThemBackAsTheyWere) {

@@ -46,9 +46,12 @@ class ExporterTest : public testing::Test {
   /// Runs a frame of the demo's loop. The picture's colour is the number of the world's frame.
   void frame() {
     exporter.recording() ? session.advance_one(0.02, exporter.may_step()) : session.advance(0.02);
-    exporter.frame(session, [&](bool with_panel) {
-      engine::Image image{width, 6, {}};
-      image.rgba.assign(static_cast<std::size_t>(width) * 6 * 4, static_cast<std::uint8_t>(session.world().frame()));
+    exporter.frame(session, [&](bool with_panel, const std::optional<glm::uvec2>& asked) {
+      const glm::ivec2 pixels = asked ? glm::ivec2(*asked) : glm::ivec2(width, 6);
+      if (pixels.x > largest) throw std::runtime_error("too large");
+      engine::Image image{pixels.x, pixels.y, {}};
+      image.rgba.assign(static_cast<std::size_t>(pixels.x * pixels.y) * 4,
+                        static_cast<std::uint8_t>(session.world().frame()));
       EXPECT_EQ(with_panel, exporter.with_panel);
       return image;
     });
@@ -86,7 +89,7 @@ class ExporterTest : public testing::Test {
   TemporaryFolder folder, tools;
   Session session{touching_pair(), {}, 1};
   session::Exporter exporter;
-  int width = 8;
+  int width = 8, largest = 4096;
 
  private:
   const std::string path_ = ::getenv("PATH");
@@ -105,6 +108,51 @@ TEST_F(ExporterTest, GivesPicturesTheNextFreeName) {
   EXPECT_EQ(read_file(folder.path() / "picture_0002.png"), "mine");
   EXPECT_EQ(engine::load_png(folder.path() / "picture_0001.png").at(0, 0).x, 1);
   EXPECT_NE(exporter.message().find("picture_0003.png"), std::string::npos);
+}
+
+TEST_F(ExporterTest, TakesPicturesOfTheChosenSize) {
+  const auto take = [&] {
+    exporter.picture_requested = true;
+    frame();
+    return exporter.message().substr(exporter.message().find(" ("));
+  };
+  EXPECT_EQ(take(), " (8 x 6)");
+  exporter.size = 1;
+  EXPECT_EQ(take(), " (1920 x 1080)");
+  exporter.size = session::Exporter::own;
+  exporter.own_size = {33, 21};
+  EXPECT_EQ(take(), " (33 x 21)");
+  EXPECT_EQ(engine::load_png(folder.path() / "picture_0003.png").width, 33);
+  EXPECT_EQ(session.simulation.notice.text(), exporter.message());
+  EXPECT_FALSE(session.simulation.notice.is_error());
+  exporter.with_panel = true;
+  EXPECT_EQ(take(), " (8 x 6)") << "that is the window";
+}
+
+TEST_F(ExporterTest, RecordsPicturesOfTheChosenSize) {
+  exporter.size = session::Exporter::own;
+  exporter.own_size = {34, 22};
+  record("pictures", 3);
+  EXPECT_EQ(engine::load_png(folder.path() / "pictures_0001" / "picture_00003.png").height, 22);
+  EXPECT_EQ(session.simulation.notice.text(), exporter.message()) << "what was written";
+  EXPECT_NE(exporter.message().find("3 frames"), std::string::npos) << exporter.message();
+}
+
+TEST_F(ExporterTest, ReportsASizeThatTheDriverRefuses) {
+  exporter.size = session::Exporter::own;
+  exporter.own_size = {5000, 16};
+  exporter.picture_requested = true;
+  frame();
+  EXPECT_TRUE(exporter.failed());
+  EXPECT_TRUE(session.simulation.notice.is_error());
+  EXPECT_EQ(session.simulation.notice.text(), "too large");
+  exporter.kind = index_of("pictures");
+  exporter.toggle_recording();
+  frame();
+  EXPECT_FALSE(exporter.recording());
+  stop();
+  EXPECT_EQ(exporter.message(), "too large");
+  EXPECT_TRUE(exporter.failed());
 }
 
 TEST_F(ExporterTest, RecordsEachFrameOnce) {

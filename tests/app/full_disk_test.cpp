@@ -34,9 +34,8 @@ class FullDisk : public testing::Test {
 TEST_F(FullDisk, LeavesASavedSceneUnchanged) {
   const auto file = folder.write("a.toml", "saved before");
   const tests::FullDisk full(too_little);
-  session.scenes.save(file, {});
-  EXPECT_NE(session.simulation.notice.text().find("a.toml: cannot be written: File too large"), std::string::npos)
-      << session.simulation.notice.text();
+  const std::string problem = session.scenes.save(file, {});
+  EXPECT_NE(problem.find("a.toml: cannot be written: File too large"), std::string::npos) << problem;
   EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
   expect_unchanged("a.toml", "saved before");
 }
@@ -61,7 +60,7 @@ TEST_F(FullDisk, IsReportedForPicturesAndCurves) {
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("curves_0002.csv: cannot be written"), std::string::npos) << exporter.message();
   exporter.picture_requested = true;
-  exporter.frame(session, [](bool) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
+  exporter.frame(session, [](bool, const auto&) { return engine::Image{4, 4, std::vector<std::uint8_t>(64, 255)}; });
   EXPECT_TRUE(exporter.failed());
   EXPECT_NE(exporter.message().find("picture_0001.png: cannot be written"), std::string::npos) << exporter.message();
   expect_unchanged("curves_0001.csv", "saved before");

@@ -153,8 +153,7 @@ TEST_F(ImportTest, SharesMaterialsAndRemovesMeshesAtAReset) {
 TEST_F(ImportTest, SavesTheMeshWithTheScene) {
   import.weld = 0.001;
   load(folder.write("ball.obj", obj_of({.bump = 0.1})));
-  session.scenes.save(folder.path() / "with mesh.toml", {});
-  ASSERT_EQ(session.simulation.notice.text(), "");
+  ASSERT_EQ(session.scenes.save(folder.path() / "with mesh.toml", {}), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "with mesh.toml");
   EXPECT_EQ(saved.bodies.back().mesh.file.weld, 0.001);
   Session again(saved, {}, 1);
@@ -240,16 +239,28 @@ TEST_F(ImportTest, ReportsWhyAFileIsRefused) {
                                 {folder.write("bad.obj", "v 0 zero 0\n"), "bad.obj:1"},
                                 {folder.write("bad.toml", "name = 1\n"), "bad.toml:1"},
                                 {folder.write("model.stl", "solid\n"), "neither a mesh"}};
-  for (const auto& [file, says] : cases) {
-    load(file);
-    EXPECT_TRUE(refused()) << file;
+  const auto expect_unchanged = [&] {
     EXPECT_EQ(session.simulation.notice.text(), "") << "it would be shown twice";
-    EXPECT_NE(report().find(says), std::string::npos) << report();
     EXPECT_EQ(session.world().bodies().count(), 2u);
     EXPECT_FALSE(session.simulation.clock.paused);
+  };
+  for (const auto& [file, says] : cases) {
+    load(file);
+    EXPECT_NE(import.problem().find(says), std::string::npos) << import.problem();
+    EXPECT_TRUE(import.report().empty()) << "it stands where the file was asked for: " << report();
+    expect_unchanged();
+    import.path += "x";
+    EXPECT_EQ(import.problem(), "") << "of another file";
+    drop({file.string()});
+    EXPECT_TRUE(refused()) << file;
+    EXPECT_NE(report().find(says), std::string::npos) << report();
+    EXPECT_EQ(import.problem(), "");
+    expect_unchanged();
   }
-  load(folder.write("ball.obj", obj_of({})));
-  EXPECT_EQ(session.simulation.notice.text(), "");
+  load(folder.path() / "none.obj");
+  EXPECT_NE(import.problem(), "");
+  load(folder.write("none.obj", obj_of({})));
+  EXPECT_EQ(import.problem(), "") << "mended";
   EXPECT_EQ(session.world().bodies().count(), 3u);
 }
 

@@ -3,6 +3,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/files/scene_folder.h"
+#include "app/ui/panel/panel.h"
+#include "app/ui/time_line.h"
 #include "softbody/measures.h"
 #include "tests/app/panel_rig.h"
 
@@ -26,10 +28,29 @@ TEST(BodiesPanel, DropsThrowsDeletesAndUndoes) {
   EXPECT_FALSE(rig.session.bodies.selected());
   rig.click("Reset");
   EXPECT_EQ(rig.session.world().bodies().count(), 2u);
+  EXPECT_FALSE(rig.widget("Redo").enabled);
+  rig.click("Undo");
+  EXPECT_EQ(rig.session.world().bodies().count(), 21u);
+  rig.click("Redo");
+  EXPECT_EQ(rig.session.world().bodies().count(), 2u);
   rig.click("Undo");
   EXPECT_EQ(rig.session.world().bodies().count(), 21u);
   rig.drag("Throw speed", 500);
   EXPECT_NEAR(rig.session.bodies.throw_speed, session::BodyControls::max_throw_speed, 1e-5);
+}
+
+TEST(BodiesPanel, CountsTheBodiesToCome) {
+  softbody::Scene scene = touching_pair();
+  for (const int frame : {20, 21, 40}) {
+    scene.bodies.push_back(scene.bodies[0]);
+    scene.bodies.back().appear = frame;
+    scene.bodies.back().position.y += 0.1 * frame;
+  }
+  PanelRig rig(1, scene);
+  for (; rig.session.world().frame() < 60; rig.frame()) {
+    const auto here = rig.session.world().bodies().count();
+    EXPECT_EQ(ui::bodies_to_come(rig.session.world()), 5 - here) << rig.session.world().frame();
+  }
 }
 
 TEST(BodiesPanel, KeepsEverythingInPlaceAtASelection) {

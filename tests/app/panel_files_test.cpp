@@ -31,10 +31,15 @@ TEST(FilesPanel, LoadsTheNamedFile) {
   EXPECT_EQ(rig.session.world().scene().name, "Lone");
   rig.type("File to open", "/none.obj");
   rig.click("Load");
-  for (int i = 0; i < 6000 && rig.ui.import.report().empty(); ++i) rig.frame();
-  ASSERT_FALSE(rig.ui.import.report().empty());
-  EXPECT_TRUE(rig.ui.import.report().front().refused);
-  EXPECT_NE(rig.ui.import.report().front().lines.front().find("/none.obj"), std::string::npos);
+  for (int i = 0; i < 6000 && rig.ui.import.busy(); ++i) rig.frame();
+  rig.frames(2);
+  EXPECT_NE(rig.ui.import.problem().find("/none.obj"), std::string::npos) << rig.ui.import.problem();
+  const auto problem = rig.widget("Load problem");
+  EXPECT_GE(problem.min.y, rig.widget("File to open").max.y) << "below its field";
+  EXPECT_LE(problem.max.y, rig.widget("Size of meshes").min.y);
+  rig.type("File to open", "/none.ob");
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Load problem")) << "another file";
 }
 
 TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
@@ -82,15 +87,46 @@ TEST(FilesPanel, SavesAndReplacesAScene) {
   rig.session.settings.set_method("grid-hash");
   rig.type("Scene file", file);
   rig.click("Save");
-  EXPECT_EQ(rig.session.simulation.notice.text(), "");
+  EXPECT_EQ(rig.session.simulation.notice.text(), "Scene saved: " + file);
   EXPECT_EQ(softbody::load_scene(file).method, "grid-hash");
   rig.session.settings.set_method("brute-force");
   rig.click("Save");
   EXPECT_EQ(softbody::load_scene(file).method, "brute-force");
   rig.type("Scene file", "/none/x.toml");
   rig.click("Save");
-  EXPECT_NE(rig.session.simulation.notice.text().find("/none/x.toml"), std::string::npos)
-      << rig.session.simulation.notice.text();
+  rig.frames(2);
+  EXPECT_FALSE(rig.session.simulation.notice.is_error()) << rig.session.simulation.notice.text();
+  EXPECT_GE(rig.widget("Save problem").min.y, rig.widget("Scene file").max.y) << "below its field";
+  rig.type("Scene file", file);
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Save problem")) << "another file";
+}
+
+TEST(FilesPanel, AsksBeforeItReplacesAFile) {
+  const TemporaryFolder folder;
+  const auto other = folder.write("other.toml", "# mine\n");
+  const auto text = [&] {
+    std::ifstream in(other);
+    return std::string(std::istreambuf_iterator<char>(in), {});
+  };
+  PanelRig rig;
+  open_only(rig, "Files");
+  rig.type("Scene file", other.string());
+  rig.click("Save");
+  rig.frames(2);
+  EXPECT_EQ(text(), "# mine\n");
+  EXPECT_TRUE(rig.recorder.find("Save question"));
+  rig.click("Cancel");
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Save question"));
+  EXPECT_EQ(text(), "# mine\n");
+  rig.click("Save");
+  rig.frames(2);
+  rig.click("Replace");
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Save question"));
+  EXPECT_NE(text(), "# mine\n");
+  EXPECT_EQ(rig.session.simulation.loaded.file.name(), other.string());
 }
 
 TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
@@ -101,6 +137,7 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   rig.click("Copy");
   const std::string demo = ImGui::GetClipboardText();
   EXPECT_NE(demo.find(" --scene pair --method grid-hash "), std::string::npos) << demo;
+  EXPECT_TRUE(rig.session.simulation.notice.text().starts_with("Copied")) << rig.session.simulation.notice.text();
   rig.click("Copy simulate");
   const std::string simulate = ImGui::GetClipboardText();
   const std::string end = " --frames " + std::to_string(rig.session.world().frame());
@@ -126,8 +163,20 @@ TEST(TakeAwayPanel, RequestsAPictureAndRecords) {
     rig.click(kind.name);
     EXPECT_EQ(session::recording_kinds[rig.ui.exporter.kind].key, kind.key);
   }
+  rig.click("Picture size");
+  rig.click("3840 x 2160");
+  EXPECT_EQ(rig.ui.exporter.size, 2u);
+  rig.click("Picture size");
+  rig.click("Own size");
+  rig.type("Picture width", "64");
+  rig.type("Picture height", "99999");
+  EXPECT_EQ(rig.ui.exporter.own_size, glm::uvec2(64, session::Exporter::max_side));
+  rig.click("With the panel");
+  EXPECT_FALSE(rig.widget("Picture size").enabled) << "that is the window";
+  rig.click("With the panel");
   rig.click("Record");
   EXPECT_TRUE(rig.ui.exporter.recording());
+  EXPECT_FALSE(rig.widget("Picture size").enabled);
   EXPECT_FALSE(rig.widget("Kind of recording").enabled);
   rig.click("Record");
   EXPECT_FALSE(rig.ui.exporter.recording());

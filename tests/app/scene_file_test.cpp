@@ -89,8 +89,7 @@ TEST(SceneCommands, ReproduceASavedScene) {
   const auto file = folder.path() / "it's saved.toml";
   const softbody::View view = changed({}).view;
   session.settings.set_method("multi-level-sb");
-  session.scenes.save(file, view);
-  ASSERT_EQ(session.simulation.notice.text(), "");
+  ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
   softbody::Scene used = session.simulation.scene_in_use();
   used.view = view;
@@ -121,8 +120,7 @@ TEST(SaveScene, WritesTheSettingsInUse) {
   collide::Settings settings = session.world().collision();
   settings = {.tolerance = 0.07f, .self_collision = false, .levels = 6, .buckets = 101, .cell_size = glm::vec3(0.4f)};
   session.settings.set_collision(settings, false);
-  session.scenes.save(folder.path() / "a.toml", {.distance = 3});
-  ASSERT_EQ(session.simulation.notice.text(), "");
+  ASSERT_EQ(session.scenes.save(folder.path() / "a.toml", {.distance = 3}), "");
   const softbody::Scene saved = softbody::load_scene(folder.path() / "a.toml");
   EXPECT_EQ(saved.method, "multi-level-sb");
   EXPECT_EQ(saved.contact_surface, softbody::ContactSurface::surfaces);
@@ -146,8 +144,7 @@ TEST(SaveScene, WritesAddedBodiesWithTheirFrames) {
   session.bodies.drop();
   go_on(session, 30);
   ASSERT_EQ(session.world().added().size(), 4u);
-  session.scenes.save(file, {});
-  ASSERT_EQ(session.simulation.notice.text(), "");
+  ASSERT_EQ(session.scenes.save(file, {}), "");
   EXPECT_TRUE(session.simulation.loaded.file.reproduces(session.scenes.with_added_bodies()));
   Session again(softbody::load_scene(file), {}, 1);
   EXPECT_EQ(again.world().scene().bodies.size(), begin + 4);
@@ -173,14 +170,31 @@ TEST(Session, KeepsTheIntegratorAtAReset) {
 TEST(SaveScene, ReportsErrorsAndWritesNothing) {
   const TemporaryFolder folder;
   Session session(touching_pair(), {}, 1);
-  session.scenes.save(folder.path() / "a.txt", {});
-  EXPECT_NE(session.simulation.notice.text().find(".toml"), std::string::npos) << session.simulation.notice.text();
-  session.scenes.save(folder.path() / "none" / "a.toml", {});
-  EXPECT_NE(session.simulation.notice.text().find("cannot be written"), std::string::npos)
-      << session.simulation.notice.text();
+  EXPECT_NE(session.scenes.save(folder.path() / "a.txt", {}).find(".toml"), std::string::npos);
+  const std::string problem = session.scenes.save(folder.path() / "none" / "a.toml", {});
+  EXPECT_NE(problem.find("cannot be written"), std::string::npos) << problem;
   EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
   EXPECT_EQ(session.simulation.loaded.file.name(), "pair");
   EXPECT_FALSE(session.simulation.clock.paused);
+}
+
+TEST(SaveScene, AsksBeforeItReplacesAFileThatIsNotTheScenesOwn) {
+  const TemporaryFolder folder;
+  const auto file = folder.write("a.toml", "[[body]]\n"), other = folder.write("b.toml", "[[body]]\n");
+  Session session(softbody::load_scene(file), {}, 1, file);
+  const auto question = [&](const std::filesystem::path& path) { return session.scenes.question_before_save(path); };
+  EXPECT_EQ(question(file), "");
+  EXPECT_EQ(question(folder.path() / "." / "a.toml"), "") << "under another path";
+  EXPECT_EQ(question(folder.path() / "new.toml"), "");
+  EXPECT_EQ(question(folder.write("notes.txt", "")), "") << "save() refuses it";
+  EXPECT_EQ(question(other), "b.toml exists. Replace it?");
+  ASSERT_EQ(session.scenes.save(other, {}), "");
+  EXPECT_EQ(question(other), "") << "it is the scene's file now";
+  EXPECT_EQ(question(file), "a.toml exists. Replace it?");
+  std::filesystem::last_write_time(other, std::filesystem::last_write_time(other) + std::chrono::seconds(1));
+  EXPECT_EQ(question(other), "b.toml was changed by another program. Replace it?");
+  ASSERT_EQ(session.scenes.save(other, {}), "");
+  EXPECT_EQ(question(other), "");
 }
 
 TEST(SaveScene, ReplacesASceneFileButNoMesh) {
@@ -195,13 +209,12 @@ TEST(SaveScene, ReplacesASceneFileButNoMesh) {
   for (const auto& each : {mesh, added}) {
     const auto link = each.string() + ".toml";
     std::filesystem::create_hard_link(each, link);
-    session.scenes.save(link, {});
-    EXPECT_NE(session.simulation.notice.text().find("is the input " + each.string()), std::string::npos)
-        << session.simulation.notice.text();
+    const std::string problem = session.scenes.save(link, {});
+    EXPECT_NE(problem.find("is the input " + each.string()), std::string::npos) << problem;
     EXPECT_TRUE(std::filesystem::equivalent(each, link));
   }
-  session.scenes.save(file, {.distance = 3});
-  EXPECT_EQ(session.simulation.notice.text(), "");
+  EXPECT_EQ(session.scenes.save(file, {.distance = 3}), "");
+  EXPECT_EQ(session.simulation.notice.text(), "Scene saved: " + file.string());
   EXPECT_EQ(softbody::load_scene(file).view.distance, 3);
 }
 

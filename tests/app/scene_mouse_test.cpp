@@ -159,9 +159,10 @@ TEST_F(SceneMouseTest, ContinuesToOrbitBetweenFrames) {
 
 TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   move(body_pixel(1));
-  EXPECT_TRUE(mouse.on_body());
+  EXPECT_TRUE(mouse.can_drag());
   EXPECT_FALSE(session.bodies.selected());
   button(0, true);
+  const std::uint64_t before = session.world().state_hash();
   ASSERT_TRUE(session.world().grabbed());
   EXPECT_EQ(session.world().grabbed()->body, 1u);
   EXPECT_EQ(session.bodies.selected(), 1u);
@@ -183,12 +184,142 @@ TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   frame(10);
   EXPECT_LT(body_pixel(1).x, at_release.x - 10);  // the body flies on
   EXPECT_EQ(session.bodies.selected(), 1u);
+  session.simulation.undo();
+  EXPECT_EQ(session.world().state_hash(), before);
+  EXPECT_FALSE(session.simulation.can_undo()) << "it was one change";
+}
+
+TEST_F(SceneMouseTest, ChangesNothingByAClickOnABody) {
+  session.bodies.drop();
+  session.simulation.undo();
+  ASSERT_TRUE(session.simulation.can_redo());
+  move(body_pixel(1));
+  button(0, true);
+  move(input.at + glm::vec2(2, 1));
+  button(0, false);
+  EXPECT_EQ(session.bodies.selected(), 1u);
+  EXPECT_FALSE(session.simulation.can_undo());
+  EXPECT_TRUE(session.simulation.can_redo());
+}
+
+/// The bodies of without_solids(), and below them a sphere, a box and a capsule over the ground.
+class SolidDrag : public SceneMouseTest {
+ protected:
+  SolidDrag() {
+    softbody::Scene scene;
+    scene.spheres.push_back({.centre = {-1.5, 1.5, 0}, .radius = 0.4});
+    scene.boxes.push_back({.centre = {0, 1.5, 0}, .half_size = glm::dvec3(0.3)});
+    scene.capsules.push_back({.from = {1.5, 1.4, 0}, .to = {1.5, 1.7, 0}, .radius = 0.2});
+    scene.ground = softbody::Ground{.height = 0};
+    session.settings.set_solids(session::list_solids(scene));
+  }
+  glm::dvec3 place(std::size_t index) const {
+    const softbody::Scene& scene = session.world().scene();
+    return index == 0 ? scene.spheres[0].centre : index == 1 ? scene.boxes[0].centre : scene.capsules[0].from;
+  }
+  const std::array<glm::vec3, 3> middles{glm::vec3(-1.5, 1.5, 0), {0, 1.5, 0}, {1.5, 1.55, 0}};
+};
+
+TEST_F(SolidDrag, MovesEachKindOfSolidInThePlaneThatFacesTheCamera) {
+  const glm::vec3 ahead = glm::normalize(camera.orbit().target - camera.eye());
+  for (const bool paused : {false, true}) {
+    session.simulation.clock.paused = paused;
+    for (std::size_t i = 0; i < middles.size(); ++i) {
+      const glm::dvec3 before = place(i);
+      const auto others = session.settings.solids();
+      move(pixel_of(camera, middles[i]));
+      EXPECT_TRUE(mouse.can_drag());
+      button(0, true);
+      EXPECT_EQ(mouse.take_pressed_solid(), i);
+      EXPECT_FALSE(mouse.take_pressed_solid());
+      const engine::Orbit orbit = camera.orbit();
+      const glm::vec2 way(30, -20);
+      for (int step = 0; step < 10; ++step) move(input.at + 0.1f * way);
+      const glm::dvec3 there = place(i);
+      EXPECT_GT(glm::distance(there, before), 0.1);
+      EXPECT_NEAR(glm::dot(there - before, glm::dvec3(ahead)), 0, 1e-5);
+      EXPECT_LT(
+          glm::distance(pixel_of(camera, middles[i] + glm::vec3(there - before)), pixel_of(camera, middles[i]) + way),
+          2);
+      frame(3);
+      EXPECT_EQ(place(i), there) << "the mouse rests";
+      button(0, false);
+      move(input.at + way);
+      EXPECT_EQ(place(i), there);
+      EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
+      for (std::size_t k = 0; k < others.size(); ++k) EXPECT_EQ(session.settings.solids()[k] == others[k], k != i) << k;
+      session.simulation.undo();
+      EXPECT_EQ(place(i), before);
+      EXPECT_FALSE(session.simulation.can_undo()) << "one step a drag";
+    }
+  }
+}
+
+TEST_F(SolidDrag, ChangesNothingByAClick) {
+  session.bodies.select(0);
+  move(pixel_of(camera, middles[0]));
+  button(0, true);
+  move(input.at + glm::vec2(2, 1));
+  button(0, false);
+  EXPECT_EQ(mouse.take_pressed_solid(), 0u);
+  EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
+  EXPECT_FALSE(session.simulation.can_undo());
+  EXPECT_FALSE(session.bodies.selected()) << "as a click beside the bodies";
+}
+
+TEST_F(SolidDrag, LeavesTheGroundAndSolidsThatAreSwitchedOff) {
+  const auto expect_orbit = [&](const glm::vec3& at) {
+    move(pixel_of(camera, at));
+    EXPECT_FALSE(mouse.can_drag());
+    const session::SolidList before = session.settings.solids();
+    const float azimuth = camera.orbit().azimuth;
+    button(0, true);
+    move(input.at + glm::vec2(60, 0));
+    button(0, false);
+    camera.finish_glide();
+    EXPECT_NE(camera.orbit().azimuth, azimuth);
+    EXPECT_TRUE(session.settings.solids() == before);
+    EXPECT_FALSE(session.simulation.can_undo());
+    camera = camera_at({0, 3, 0}, 8);
+  };
+  expect_orbit({0, 0, 1});
+  session::SolidList solids = session.settings.solids();
+  solids[0].on = false;
+  session.settings.set_solids(solids);
+  expect_orbit(middles[0]);
+}
+
+TEST_F(SolidDrag, TakesWhatIsInFront) {
+  move(body_pixel(1));
+  session::SolidList solids = session.settings.solids();
+  const glm::dvec3 eye(camera.eye()), body = centre(session.world(), 1);
+  const auto press_with_sphere_at = [&](double share) {
+    std::get<softbody::SolidSphere>(solids[0].solid) = {.centre = eye + share * (body - eye), .radius = 0.3};
+    session.settings.set_solids(solids);
+    button(0, true);
+    const bool solid = mouse.take_pressed_solid().has_value();
+    button(0, false);
+    return solid;
+  };
+  EXPECT_FALSE(press_with_sphere_at(1.3));
+  EXPECT_TRUE(press_with_sphere_at(0.7));
+}
+
+TEST_F(SolidDrag, EndsWhenAnotherWorldComes) {
+  move(pixel_of(camera, middles[0]));
+  button(0, true);
+  move(input.at + glm::vec2(40, 0));
+  session.simulation.undo();
+  move(input.at + glm::vec2(40, 0));
+  EXPECT_EQ(place(0), glm::dvec3(-1.5, 1.5, 0));
+  button(0, false);
+  EXPECT_FALSE(session.simulation.can_undo());
 }
 
 TEST_F(SceneMouseTest, OrbitsByADragOfTheBackgroundAndDeselectsByAClick) {
   session.bodies.select(0);
   move({5, 5});
-  EXPECT_FALSE(mouse.on_body());
+  EXPECT_FALSE(mouse.can_drag());
   const float azimuth = camera.orbit().azimuth;
   button(0, true);
   move({205, 5});

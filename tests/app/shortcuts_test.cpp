@@ -51,6 +51,26 @@ TEST(Shortcuts, ActAsTheHelpSays) {
   EXPECT_FALSE(tap('/')) << "only some keyboards have it on the key of ?";
 }
 
+TEST(Shortcuts, SayWhatTheyDid) {
+  Session session(touching_pair(), {}, 1);
+  ui::UiState ui;
+  const auto said = [&](int key) {
+    ui::handle_key(key, false, session, ui);
+    EXPECT_FALSE(session.simulation.notice.is_error());
+    return session.simulation.notice.text();
+  };
+  EXPECT_EQ(said('F'), "Contact: Surface");
+  EXPECT_EQ(said('F'), "Contact: Vertex-vertex");
+  const std::string method = said('M');
+  EXPECT_EQ(method, "Method: " + std::string(session.world().method().name));
+  softbody::Scene stiff = touching_pair();  // for surfaces, which have no implicit steps in reserve
+  stiff.materials[0].structural.stiffness = 1e9;
+  Session refusing(stiff, {}, 1);
+  ui::handle_key('F', false, refusing, ui);
+  EXPECT_TRUE(refusing.simulation.notice.is_error())
+      << "a refusal is not hidden: " << refusing.simulation.notice.text();
+}
+
 TEST(Shortcuts, IgnoreKeysWithAltOrSuper) {
   Session session(touching_pair(), {}, 1);
   ui::UiState ui;
@@ -85,6 +105,13 @@ TEST(Shortcuts, ActWithControlShiftAndDelete) {
   EXPECT_EQ(session.world().bodies().count(), 2u);
   EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
   EXPECT_EQ(session.world().bodies().count(), 21u);
+  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL | GLFW_MOD_SHIFT));
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "redone";
+  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_EQ(session.world().bodies().count(), 21u);
+  EXPECT_TRUE(ui::handle_key('Y', false, session, ui, GLFW_MOD_CONTROL));
+  EXPECT_EQ(session.world().bodies().count(), 2u) << "redone";
+  EXPECT_TRUE(ui::handle_key('Z', false, session, ui, GLFW_MOD_CONTROL));
   EXPECT_TRUE(ui::handle_key('B', false, session, ui));
   EXPECT_TRUE(ui.throw_body);
   session.bodies.select(0);

@@ -241,7 +241,7 @@ TEST(SimulationUndo, RestoresADeletedBodyToTheBit) {
   EXPECT_EQ(simulation.world().state_hash(), before);
   EXPECT_FALSE(simulation.can_undo());
   simulation.advance(tick);
-  EXPECT_TRUE(simulation.notice.text().empty());
+  EXPECT_FALSE(simulation.notice.is_error());
 }
 
 TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
@@ -261,7 +261,8 @@ TEST(SimulationUndo, RevertsSeveralResetsAndKeepsTheirSolids) {
     EXPECT_EQ(simulation.world().state_hash(), hashes[static_cast<std::size_t>(i)]);
     EXPECT_EQ(controls.solids()[0].on, i % 2);
   }
-  simulation.undo();  // nothing left to undo
+  simulation.undo();
+  EXPECT_EQ(simulation.notice.text(), "Nothing to undo");
   EXPECT_EQ(simulation.world().state_hash(), hashes[0]);
 }
 
@@ -276,7 +277,8 @@ TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
   }
   softbody::Scene other = touching_pair();
   other.bodies.resize(1);
-  simulation.enter(simulation.make_world(other, {}), {other, session::SceneFile("other", other), {}});
+  simulation.enter(simulation.make_world(other, {}), {other, session::SceneFile("other", other), {}},
+                   "choice of scene");
   run(simulation, 5);
   ASSERT_EQ(simulation.world().bodies().count(), 1u);
   simulation.undo();
@@ -319,6 +321,129 @@ TEST(SimulationObserver, IsToldOfStepsAndChanges) {
   EXPECT_EQ(witness.scenes, 2);
 }
 
+TEST(SimulationRedo, BringsBackWhatWasUndoneToTheBit) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  std::vector<std::uint64_t> hashes;  // before each change, and at the end
+  for (const int what : {0, 1, 2, 3}) {
+    run(simulation, 5);
+    hashes.push_back(simulation.world().state_hash());
+    if (what == 0) bodies.drop(3);
+    if (what == 1) bodies.throw_body({0, 3, 9}, {0, 0, -1});
+    if (what == 2) simulation.reset();
+    if (what == 3) bodies.select(1), bodies.remove_selected();
+  }
+  run(simulation, 5);
+  hashes.push_back(simulation.world().state_hash());
+  EXPECT_FALSE(simulation.can_redo());
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t i = hashes.size() - 1; i-- > 0;) {
+      simulation.undo();
+      EXPECT_EQ(simulation.world().state_hash(), hashes[i]) << i;
+    }
+    EXPECT_EQ(simulation.notice.text(), "Undone: drop of 3 bodies");
+    EXPECT_FALSE(simulation.can_undo());
+    for (std::size_t i = 1; i < hashes.size(); ++i) {
+      ASSERT_TRUE(simulation.can_redo());
+      simulation.redo();
+      EXPECT_EQ(simulation.world().state_hash(), hashes[i]) << i;
+    }
+    EXPECT_EQ(simulation.notice.text(), "Redone: deletion of a body");
+    EXPECT_FALSE(simulation.can_redo());
+  }
+  run(simulation, 20);
+  const std::uint64_t later = simulation.world().state_hash();
+  simulation.undo();
+  simulation.redo();
+  EXPECT_EQ(simulation.world().state_hash(), later) << "the world as it was left";
+}
+
+TEST(SimulationRedo, GoesOnAsIfNothingHadBeenUndone) {
+  session::Simulation simulation(touching_pair(), 1), undisturbed(touching_pair(), 1);
+  for (session::Simulation* s : {&simulation, &undisturbed}) {
+    session::BodyControls bodies(*s);
+    bodies.drop(2);
+    run(*s, 10);
+  }
+  simulation.undo();
+  run(simulation, 7);
+  simulation.redo();
+  for (session::Simulation* s : {&simulation, &undisturbed}) run(*s, 30);
+  EXPECT_EQ(simulation.world().state_hash(), undisturbed.world().state_hash());
+}
+
+TEST(SimulationRedo, EndsWithANewChange) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.drop();
+  simulation.undo();
+  ASSERT_TRUE(simulation.can_redo());
+  bodies.drop(2);
+  EXPECT_FALSE(simulation.can_redo());
+  simulation.redo();
+  EXPECT_EQ(simulation.notice.text(), "Nothing to redo");
+  EXPECT_EQ(simulation.world().bodies().count(), 4u);
+}
+
+TEST(SimulationUndo, TakesAPullAsOneChange) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  run(simulation, 5);
+  const std::uint64_t before = simulation.world().state_hash();
+  bodies.grab({.body = 1, .target = {0.5, 3, 0}});
+  run(simulation, 2);
+  EXPECT_FALSE(simulation.can_undo()) << "a click pulls nothing";
+  for (int i = 1; i <= 20; ++i) {
+    bodies.pull_to({0.5 + 0.1 * i, 3, 0});
+    run(simulation, 1);
+  }
+  bodies.release();
+  run(simulation, 10);
+  const std::uint64_t thrown = simulation.world().state_hash();
+  simulation.undo();
+  EXPECT_EQ(simulation.notice.text(), "Undone: pull of a body");
+  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_FALSE(simulation.can_undo());
+  simulation.redo();
+  EXPECT_EQ(simulation.world().state_hash(), thrown);
+}
+
+TEST(SimulationUndo, TakesADragOfASolidAsOneChangeAndRestoresIt) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::SettingControls controls(simulation);
+  session::BodyControls bodies(simulation);
+  run(simulation, 5);
+  const std::uint64_t before = simulation.world().state_hash();
+  const session::SolidList at_first = controls.solids();
+  session::SolidList solids = at_first;
+  controls.begin_drag(0);
+  EXPECT_FALSE(simulation.can_undo());
+  for (int i = 0; i < 5; ++i) {
+    solids[0].solid = *session::moved(solids[0].solid, {0.1, 0, 0});
+    controls.set_solids(solids);
+    run(simulation, 1);
+  }
+  simulation.end_drag();
+  controls.set_gravity(3);
+  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  simulation.undo();
+  EXPECT_EQ(simulation.notice.text(), "Undone: move of Sphere");
+  EXPECT_FALSE(simulation.can_undo());
+  EXPECT_EQ(simulation.world().state_hash(), before);
+  EXPECT_TRUE(controls.solids() == at_first);
+  EXPECT_EQ(simulation.world().scene().spheres[0].centre, glm::dvec3(0.0));
+  EXPECT_DOUBLE_EQ(glm::length(simulation.world().scene().gravity), 3) << "settings in use stay";
+  simulation.redo();
+  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12);
+  EXPECT_TRUE(controls.solids() == solids);
+  simulation.reset();
+  EXPECT_NEAR(simulation.world().scene().spheres[0].centre.x, 0.5, 1e-12) << "a reset keeps it";
+  controls.set_solids(at_first);
+  bodies.drop();
+  simulation.undo();
+  EXPECT_TRUE(controls.solids() == at_first) << "the undo of a drop moves no solid";
+}
+
 TEST(Notice, GoesWithTimeUnlessItIsRenewed) {
   session::Notice notice;
   for (const char* text : {"first", "second"}) {
@@ -329,6 +454,35 @@ TEST(Notice, GoesWithTimeUnlessItIsRenewed) {
   notice.set("second");  // the same words again
   for (int i = 0; i < 15; ++i) notice.age(0.5);
   EXPECT_TRUE(notice.text().empty());
+}
+
+TEST(Notice, ShowsAMessageForAShorterTime) {
+  session::Notice notice;
+  EXPECT_FALSE(notice.is_error());
+  notice.set("wrong");
+  EXPECT_TRUE(notice.is_error());
+  for (int i = 0; i < 30; ++i) notice.age(0.5);
+  for (int round = 0; round < 2; ++round) {
+    notice.tell("done");
+    EXPECT_FALSE(notice.is_error());
+    for (int i = 0; i < 8; ++i) notice.age(0.5);
+    EXPECT_EQ(notice.text(), "done") << "the second time as long as the first";
+  }
+  notice.age(0.5);
+  EXPECT_EQ(notice.text(), "");
+  notice.set("wrong");
+  notice.clear();
+  EXPECT_FALSE(notice.is_error());
+}
+
+TEST(FieldNotice, GoesWhenTheFieldIsChanged) {
+  session::FieldNotice notice;
+  EXPECT_EQ(notice.about(""), "");
+  notice.set("a.toml", "cannot be read");
+  EXPECT_EQ(notice.about("a.toml"), "cannot be read");
+  EXPECT_EQ(notice.about("b.toml"), "");
+  notice.clear();
+  EXPECT_EQ(notice.about("a.toml"), "");
 }
 
 }  // namespace

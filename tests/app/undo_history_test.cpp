@@ -8,37 +8,83 @@
 namespace app {
 namespace {
 
-session::PastWorld past(int frame) {
+using session::Way;
+
+session::KeptWorld kept(int frame) {
   const softbody::Scene scene = touching_pair();
   softbody::World world(scene, {});
   while (world.frame() < frame) world.step();
-  return {world.snapshot(), {scene, session::SceneFile("pair", scene), session::list_solids(scene)}};
+  return {world.snapshot(),
+          {scene, session::SceneFile("pair", scene), session::list_solids(scene)},
+          {session::Change::Of::bodies, "change"}};
 }
+
+int next_frame(const session::UndoHistory& history, Way way) { return history.next(way).snapshot.frame; }
 
 TEST(UndoHistory, KeepsTheLatestFew) {
   session::UndoHistory history;
-  for (int frame = 0; frame < 10; ++frame) history.push(past(frame));
+  for (int frame = 0; frame < 10; ++frame) history.push(kept(frame));
   EXPECT_EQ(history.count(), session::UndoHistory::max_count);
-  EXPECT_EQ(history.last().snapshot.frame, 9);
-  while (history.count() > 1) history.pop();
-  EXPECT_EQ(history.last().snapshot.frame, 2);
-  history.pop();
-  EXPECT_TRUE(history.empty());
-  EXPECT_EQ(history.bytes(), 0u);
+  EXPECT_EQ(next_frame(history, Way::back), 9);
+  EXPECT_TRUE(history.empty(Way::forward));
+  for (int frame = 9; frame > 1; --frame) {
+    EXPECT_EQ(next_frame(history, Way::back), frame);
+    history.turn(Way::back, kept(frame + 1));
+    EXPECT_EQ(next_frame(history, Way::forward), frame + 1);
+  }
+  EXPECT_TRUE(history.empty(Way::back));
+  EXPECT_EQ(history.count(), session::UndoHistory::max_count) << "both ways together";
+}
+
+TEST(UndoHistory, ForgetsWhatCouldBeRedoneAtANewChange) {
+  session::UndoHistory history;
+  for (int frame = 0; frame < 3; ++frame) history.push(kept(frame));
+  history.turn(Way::back, kept(3));
+  history.turn(Way::back, kept(2));
+  history.turn(Way::forward, kept(1));
+  EXPECT_EQ(next_frame(history, Way::back), 1);
+  EXPECT_EQ(next_frame(history, Way::forward), 3);
+  history.push(kept(2));
+  EXPECT_TRUE(history.empty(Way::forward));
+  EXPECT_EQ(next_frame(history, Way::back), 2);
+  EXPECT_EQ(history.count(), 3u);
 }
 
 TEST(UndoHistory, KeepsWithinABoundOfMemoryButNeverForgetsTheLast) {
-  const std::size_t one = past(0).snapshot.bytes();
+  const std::size_t one = kept(0).snapshot.bytes();
   session::UndoHistory three(7 * one / 2), none(one / 2);
   for (int frame = 0; frame < 6; ++frame) {
-    three.push(past(frame));
-    none.push(past(frame));
-    EXPECT_EQ(three.last().snapshot.frame, frame);
-    EXPECT_EQ(none.last().snapshot.frame, frame);
+    for (session::UndoHistory* history : {&three, &none}) {
+      history->push(kept(frame));
+      EXPECT_EQ(next_frame(*history, Way::back), frame);
+    }
   }
   EXPECT_EQ(three.count(), 3u);
   EXPECT_LE(three.bytes(), 7 * one / 2);
   EXPECT_EQ(none.count(), 1u);
+  for (session::UndoHistory* history : {&three, &none}) {
+    history->turn(Way::back, kept(6));
+    EXPECT_EQ(next_frame(*history, Way::forward), 6);
+  }
+  EXPECT_EQ(three.count(), 3u);
+  EXPECT_LE(three.bytes(), 7 * one / 2);
+  EXPECT_TRUE(none.empty(Way::back));
+}
+
+/// Worlds after a change may take more memory than those before it.
+TEST(UndoHistory, KeepsWithinTheBoundWhenItTurns) {
+  session::KeptWorld large = kept(0);
+  softbody::World world(touching_pair(), {});
+  world.drop(20);
+  large.snapshot = world.snapshot();
+  const std::size_t small = kept(0).snapshot.bytes();
+  ASSERT_GT(large.snapshot.bytes(), 3 * small);
+  session::UndoHistory history(large.snapshot.bytes() + small / 2);
+  history.push(kept(0));
+  history.push(kept(1));
+  history.turn(Way::back, large);
+  EXPECT_FALSE(history.empty(Way::forward));
+  EXPECT_TRUE(history.empty(Way::back)) << "the world just left is kept, the oldest is not";
 }
 
 }  // namespace

@@ -84,7 +84,7 @@ has_size() { [ "$(xdotool getwindowgeometry --shell "$window" | grep -E 'WIDTH|H
 
 start
 xdotool windowfocus "$window" 2>/dev/null
-for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b Delete r ctrl+z r; do press $key; done
+for key in d 1 2 3 4 5 6 m m m m m m space n s s space bracketleft bracketright t t v v e e F1 Escape h h c shift+d b Delete r ctrl+z ctrl+y r; do press $key; done
 click 30 369 1            # a checkbox of the panel
 click 700 400 1           # the scene
 sleep 1                   # now the first body is above the middle of the scene

@@ -126,6 +126,7 @@ void scene(DemoRig& demo, Dice& dice) {
 
 void reset(DemoRig& demo, Dice&) { demo.session.simulation.reset(); }
 void undo(DemoRig& demo, Dice&) { demo.session.simulation.undo(); }
+void redo(DemoRig& demo, Dice&) { demo.session.simulation.redo(); }
 void restore_settings(DemoRig& demo, Dice&) {
   demo.session.settings.restore_detection();
   demo.session.settings.restore_world();
@@ -183,6 +184,7 @@ constexpr std::array table{Action{"method", method},
                            Action{"scene", scene},
                            Action{"reset", reset},
                            Action{"undo", undo},
+                           Action{"redo", redo},
                            Action{"as the scene has it", restore_settings},
                            Action{"rewind", rewind},
                            Action{"save", save},

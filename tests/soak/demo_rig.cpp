@@ -27,14 +27,15 @@ void DemoRig::frame(bool draw) {
   mouse_.update(app::window::read_mouse({}, over_scene), session, camera_, input.display_size);
   camera_.advance(input.seconds);
   if (draw)
-    canvas_.update(input.display_size, true, ui.exporter.wants_picture(), [this](const engine::Viewport& whole) {
+    canvas_.update(input.display_size, true, ui.exporter.wants_shown_picture(), [this](const engine::Viewport& whole) {
       view_.draw(session.world(), app::window::overlay_request(session, ui), camera_, whole, 1,
                  session.simulation.drawn_positions(app::window::shows_present_state(session, ui.overlays)));
     });
   target_.bind();
   gui_.end_frame();
   gui_.draw();
-  ui.exporter.frame(session, [this](bool with_panel) { return with_panel ? target_.read() : canvas_.read(); });
+  ui.exporter.frame(session,
+                    [this](bool with_panel, const auto&) { return with_panel ? target_.read() : canvas_.read(); });
   session.advance_one(input.seconds, !ui.exporter.recording() || ui.exporter.may_step());
   glFinish();  // as a window does: else software drivers keep the memory of pictures that they have not drawn yet
 }

@@ -4,6 +4,8 @@
 #include <optional>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/base/table.h"
 #include "app/files/output_file.h"
 
@@ -77,21 +79,29 @@ void Exporter::attempt(const std::function<std::string()>& action) {
   }
 }
 
-void Exporter::write_curves(const Session& session) {
+std::optional<glm::uvec2> Exporter::picture_size() const {
+  const glm::uvec2 pixels = size == own ? own_size : sizes[size].pixels;
+  if (with_panel || pixels == glm::uvec2(0)) return std::nullopt;
+  return pixels;
+}
+
+void Exporter::write_curves(Session& session) {
   attempt([&] {
     files::prepare_folder(absolute_folder(folder), "");
     const fs::path file = files::next_free_path(absolute_folder(folder), "curves", ".csv");
     files::write_file(file, curves_csv(session));
-    return file.string();
+    return "Curves saved: " + file.string();
   });
+  show_message(session.simulation.notice);
 }
 
 void Exporter::write_picture(const Picture& picture) {
   attempt([&] {
     files::prepare_folder(absolute_folder(folder), "");
     const fs::path file = files::next_free_path(absolute_folder(folder), "picture", ".png");
-    files::write_file(file, engine::encode_png(picture(with_panel)));
-    return file.string();
+    const engine::Image image = picture(with_panel, picture_size());
+    files::write_file(file, engine::encode_png(image));
+    return fmt::format("Picture saved: {} ({} x {})", file.string(), image.width, image.height);
   });
 }
 
@@ -107,10 +117,13 @@ void Exporter::toggle_recording() {
   });
 }
 
-void Exporter::frame(const Session& session, const Picture& picture) {
-  if (std::exchange(picture_requested, false)) write_picture(picture);
+void Exporter::frame(Session& session, const Picture& picture) {
+  if (std::exchange(picture_requested, false)) {
+    write_picture(picture);
+    show_message(session.simulation.notice);
+  }
   if (recording()) record(session, picture);
-  follow_recording();
+  follow_recording(session.simulation.notice);
 }
 
 void Exporter::record(const Session& session, const Picture& picture) {
@@ -120,7 +133,11 @@ void Exporter::record(const Session& session, const Picture& picture) {
   RecordedFrame frame;
   frame.number = world.frame();
   if (recorded_->pictures) {
-    frame.picture = picture(with_panel);
+    try {
+      frame.picture = picture(with_panel, picture_size());
+    } catch (const std::runtime_error& refusal) {  // of the driver: the picture is too large
+      return recording_->stop(refusal.what());
+    }
   } else {
     if (!bodies_ || !bodies_->matches(world)) bodies_ = std::make_shared<const files::ObjWriter>(world);
     frame.bodies = bodies_;
@@ -129,13 +146,15 @@ void Exporter::record(const Session& session, const Picture& picture) {
   recording_->add(std::move(frame));
 }
 
-void Exporter::follow_recording() {
+void Exporter::follow_recording(Notice& notice) {
   if (!recording_) return;
   const FrameRecording::Progress progress = recording_->progress();
   failed_ = !progress.error.empty();
   message_ = failed_ ? progress.error : progress.name + ": " + std::to_string(progress.written) + " frames";
   if (!failed_ && !progress.ended && progress.stopping) message_ += ", finishing";
-  if (progress.ended) recording_.reset();
+  if (!progress.ended) return;
+  recording_.reset();
+  show_message(notice);
 }
 
 }  // namespace app::session

@@ -23,10 +23,11 @@ void FrameRecording::add(RecordedFrame frame) {
   wake_.notify_one();
 }
 
-void FrameRecording::stop() {
+void FrameRecording::stop(std::string error) {
   {
     const std::scoped_lock lock(mutex_);
     progress_.stopping = true;
+    if (!error.empty()) progress_.error = std::move(error);
   }
   wake_.notify_one();
 }
@@ -62,7 +63,7 @@ void FrameRecording::work() {
     error = failure.what();
   }
   const std::scoped_lock lock(mutex_);
-  progress_.error = error;
+  if (!error.empty()) progress_.error = error;
   progress_.ended = true;
   waiting_.clear();
 }

@@ -44,8 +44,8 @@ class FrameRecording {
   /// Returns true if a frame would be taken now. Otherwise the world must wait, so that no frame is lost.
   bool has_room() const;
   void add(RecordedFrame frame);
-  /// Ends the recording. Frames that wait are still written.
-  void stop();
+  /// Ends the recording. Frames that wait are still written. `error`: why there are no more; empty if all went well.
+  void stop(std::string error = "");
 
   struct Progress {
     int written = 0;

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
@@ -22,6 +21,15 @@ bool field_with_button(Widgets& w, const char* label, std::string& value, const 
   return w.button(button, button_tooltip, w.px(button_width)) || entered;
 }
 
+/// Draws what is wrong with the field above, if anything is.
+void draw_problem(Widgets& w, const char* label, const std::string& problem) {
+  if (problem.empty()) return;
+  ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+  ImGui::TextWrapped("%s", problem.c_str());
+  ImGui::PopStyleColor();
+  w.register_item(label, nullptr);
+}
+
 void draw_import(Widgets& w, Session& session, session::Import& import) {
   w.row_label("Open", w.px(narrow_column));
   ImGui::BeginDisabled(import.busy());
@@ -31,6 +39,7 @@ void draw_import(Widgets& w, Session& session, session::Import& import) {
                         "Load", "Reads the file."))
     import.load(session);
   ImGui::EndDisabled();
+  draw_problem(w, "Load problem", import.problem());
   w.row_label("Size", w.px(narrow_column));
   const float check = ImGui::GetFrameHeight() + ImGui::GetStyle().ItemInnerSpacing.x + ImGui::CalcTextSize("Z is up").x;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - check - ImGui::GetStyle().ItemSpacing.x);
@@ -48,32 +57,49 @@ void draw_import(Widgets& w, Session& session, session::Import& import) {
     import.weld = std::clamp(double{weld} / mm, session::Import::min_weld, session::Import::max_weld);
 }
 
+void save(Session& session, UiState& ui) {
+  ui.save_question.clear();
+  ui.save_problem.set(ui.save_as, session.scenes.save(ui.save_as, ui.view));
+}
+
+/// Draws the question whether to replace a file, below its field.
+void draw_save_question(Widgets& w, Session& session, UiState& ui) {
+  const std::string question = ui.save_question.about(ui.save_as);
+  if (question.empty()) return;
+  ImGui::TextWrapped("%s", question.c_str());
+  w.register_item("Save question", nullptr);
+  ImGui::SetCursorPosX(w.px(narrow_column));
+  if (w.button("Replace", "Writes the scene over the file.", w.px(button_width))) save(session, ui);
+  ImGui::SameLine();
+  if (w.button("Cancel", "The file stays as it is.", w.px(button_width))) ui.save_question.clear();
+}
+
 void draw_save(Widgets& w, Session& session, UiState& ui, bool saved) {
   w.row_label("Save as", w.px(narrow_column));
-  std::error_code ignored;
-  const bool exists = std::filesystem::exists(ui.save_as, ignored);
-  const bool as_named =
-      saved && exists && session.simulation.loaded.file.name() == std::filesystem::absolute(ui.save_as);
-  const char* button = as_named ? "Saved###Save" : exists ? "Replace###Save" : "Save###Save";
+  const session::SceneFile& own = session.simulation.loaded.file;
+  const bool as_named = saved && own.is_at(ui.save_as) && !own.changed_on_disk();
   if (field_with_button(
           w, "Scene file", ui.save_as, "scene.toml",
           "The scene with all settings in use but the integrator, and the camera as it is. Bodies that "
           "you dropped, threw or loaded are in it, each in the frame in which it came; what you pulled or "
           "deleted is as it was, so that their places need not be free then.",
-          button, as_named ? "The file holds the scene as it is." : "Writes the file."))
-    session.scenes.save(ui.save_as, ui.view);
+          as_named ? "Saved###Save" : "Save", as_named ? "The file holds the scene as it is." : "Writes the file.")) {
+    ui.save_question.set(ui.save_as, session.scenes.question_before_save(ui.save_as));
+    if (ui.save_question.about(ui.save_as).empty()) save(session, ui);
+  }
+  draw_problem(w, "Save problem", ui.save_problem.about(ui.save_as));
+  draw_save_question(w, session, ui);
 }
 
-/// Draws a button that copies `command` to the clipboard and then says so for a moment.
-void draw_copy_button(Widgets& w, const char* name, const std::string& command, double& copied, float width) {
-  const std::string label =
-      (ImGui::GetTime() < copied + UiState::copied_seconds ? "Copied###" : std::string(name) + "###") + name;
-  if (!w.button(label.c_str(), command.c_str(), width)) return;
+/// Draws a button that copies a command to the clipboard. `purpose`: what the command does.
+void draw_copy_button(Widgets& w, Session& session, const char* name, const std::string& command, const char* purpose,
+                      float width) {
+  if (!w.button(name, command.c_str(), width)) return;
   ImGui::SetClipboardText(command.c_str());
-  copied = ImGui::GetTime();
+  session.simulation.notice.tell(std::string("Copied: the command that ") + purpose);
 }
 
-void draw_command(Widgets& w, const Session& session, UiState& ui, const softbody::Scene& used, bool saved) {
+void draw_command(Widgets& w, Session& session, const softbody::Scene& used, bool saved) {
   const session::SceneFile& file = session.simulation.loaded.file;
   const int frame = session.world().frame();
   // A body added since the last step shows here at once; `simulate` shows it only after the next step.
@@ -86,9 +112,35 @@ void draw_command(Widgets& w, const Session& session, UiState& ui, const softbod
   std::string simulate =
       session::simulate_command(file.name(), used, session.world().integrator_choice(), frame + (just_added ? 1 : 0));
   if (!saved) demo = simulate = "The scene was changed: save it, so that a command can name it.";
-  draw_copy_button(w, "Copy", demo, ui.copied[0], width);
+  draw_copy_button(w, session, "Copy", demo, "opens this scene", width);
   ImGui::SameLine();
-  draw_copy_button(w, "Copy simulate", simulate, ui.copied[1], width);
+  draw_copy_button(w, session, "Copy simulate", simulate, "makes this picture", width);
+  ImGui::EndDisabled();
+}
+
+/// Draws the choice of the pictures' size.
+void draw_picture_size(Widgets& w, session::Exporter& exporter) {
+  using session::Exporter;
+  const auto name_of = [](std::size_t size) {
+    return std::string(size == Exporter::own ? "Own size" : Exporter::sizes[size].name);
+  };
+  w.row_label("Size", w.px(narrow_column));
+  ImGui::BeginDisabled(exporter.with_panel || exporter.recording() || exporter.finishing());
+  if (w.begin_combo("Picture size", exporter.with_panel ? "As the window" : name_of(exporter.size).c_str(),
+                    "Of pictures and videos of the scene without the panel. They show what the camera shows now.")) {
+    for (std::size_t size = 0; size <= Exporter::own; ++size)
+      if (w.combo_item(name_of(size).c_str(), size == exporter.size, nullptr)) exporter.size = size;
+    ImGui::EndCombo();
+  }
+  if (exporter.size == Exporter::own && !exporter.with_panel) {
+    w.row_label("", w.px(narrow_column));
+    const float gap = ImGui::GetStyle().ItemSpacing.x, width = 0.5f * (ImGui::GetContentRegionAvail().x - gap);
+    ImGui::SetNextItemWidth(width);
+    w.number_field("Picture width", exporter.own_size.x, Exporter::min_side, Exporter::max_side, "In pixels.");
+    ImGui::SameLine();
+    ImGui::SetNextItemWidth(width);
+    w.number_field("Picture height", exporter.own_size.y, Exporter::min_side, Exporter::max_side, "In pixels.");
+  }
   ImGui::EndDisabled();
 }
 
@@ -133,7 +185,7 @@ void draw_files(Widgets& w, Session& session, UiState& ui) {
   used.view = ui.view;
   const bool saved = session.simulation.loaded.file.reproduces(used);
   draw_save(w, session, ui, saved);
-  draw_command(w, session, ui, used, saved);
+  draw_command(w, session, used, saved);
 }
 
 void draw_take_away(Widgets& w, Session& session, UiState& ui) {
@@ -143,10 +195,12 @@ void draw_take_away(Widgets& w, Session& session, UiState& ui) {
                "Where all of this goes. Names end in the next free number; nothing is overwritten.");
   w.row_label("Take", w.px(narrow_column));
   const float width = 0.5f * (ImGui::GetContentRegionAvail().x - ImGui::GetStyle().ItemSpacing.x);
-  if (w.button("Picture", "A PNG file of the scene as it shows (P).", width)) exporter.picture_requested = true;
+  if (w.button("Picture", "A PNG file of the scene as it shows, in the size below (P).", width))
+    exporter.picture_requested = true;
   ImGui::SameLine();
   if (w.button("Curves", "The values of the panel's curves, as a CSV file.", width)) exporter.write_curves(session);
   draw_recording(w, exporter);
+  draw_picture_size(w, exporter);
   w.row_label("", w.px(narrow_column));
   w.checkbox("With the panel", exporter.with_panel, "Pictures and videos show the whole window, else the scene alone.");
   draw_message(w, exporter);

@@ -1,5 +1,6 @@
 #include "app/ui/panel/panel.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <string>
@@ -43,13 +44,17 @@ void draw_scene(Widgets& w, Session& session, UiState& ui) {
 
 void draw_time_controls(Widgets& w, Session& session) {
   const float gap = ImGui::GetStyle().ItemSpacing.x;
-  const float width = (ImGui::GetContentRegionAvail().x - gap) / 2;
+  const float width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   if (w.button("Reset", "Restarts the scene with the present settings and without added bodies (R).", width))
     session.simulation.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo", "Undoes the last reset, choice of scene, drop, throw, import or deletion (Ctrl+Z).", width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, or change of bodies or solids (Ctrl+Z).", width))
     session.simulation.undo();
+  ImGui::EndDisabled();
+  ImGui::SameLine();
+  ImGui::BeginDisabled(!session.simulation.can_redo());
+  if (w.button("Redo", "Brings back what the last undo took away (Ctrl+Y).", width)) session.simulation.redo();
   ImGui::EndDisabled();
 
   w.checkbox("Slow motion", session.simulation.clock.slow_motion, "Runs the simulation slower than real time (S).");

@@ -1,7 +1,6 @@
 #pragma once
 // What the user has opened and asked for in the window. The rest of the demo's state belongs to the Session.
 
-#include <array>
 #include <cstddef>
 #include <map>
 #include <string>
@@ -45,11 +44,10 @@ struct UiState {
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
   void set_story(bool on) { story = story_at_start = on; }
   session::Import import;
-  std::string save_as = "scene.toml";   // the file that the scene is saved to
+  std::string save_as = "scene.toml";   // the file that the scene is saved to ...
+  session::FieldNotice save_problem;    // ... why it was not written ...
+  session::FieldNotice save_question;   // ... and what the user must answer first
   std::size_t material = 0, solid = 0;  // whose values the panel shows
-  // When each command was copied, in ImGui's seconds. Its button says so for a moment.
-  static constexpr double copied_seconds = 1.5;
-  std::array<double, 2> copied{-10, -10};
 };
 
 }  // namespace app::ui

@@ -90,8 +90,8 @@ float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRe
 }
 
 float draw_notices(Widgets& w, const Session& session, const std::string& no_room_message, const ScreenRect& area) {
-  const std::string& notice = session.simulation.notice.text();
-  if (notice.empty() && no_room_message.empty()) return area.min.y;
+  const session::Notice& notice = session.simulation.notice;
+  if (notice.text().empty() && no_room_message.empty()) return area.min.y;
   const float margin = w.px(12);
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
   ImGui::SetNextWindowSize({std::min(w.px(box_width), area.max.x - area.min.x - 2 * margin), 0});
@@ -100,10 +100,10 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
     ImGui::TextWrapped("%s", no_room_message.c_str());
     w.register_item("No room", nullptr);
   }
-  if (!notice.empty()) {
-    ImGui::PushStyleColor(ImGuiCol_Text, ImVec4(0.75f, 0.1f, 0.1f, 1));
-    ImGui::TextWrapped("%s", notice.c_str());
-    ImGui::PopStyleColor();
+  if (!notice.text().empty()) {
+    if (notice.is_error()) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::status_red));
+    ImGui::TextWrapped("%s", notice.text().c_str());
+    if (notice.is_error()) ImGui::PopStyleColor();
     w.register_item("Notice", nullptr);
   }
   const float end = ImGui::GetWindowPos().y + ImGui::GetWindowHeight();
