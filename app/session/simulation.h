@@ -62,6 +62,13 @@ class Simulation {
   void let_pass(double elapsed) { notice.age(elapsed); }
   /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
+  /// Lets the world run, several frames a picture, to the first frame from this one on in which `reached` returns true,
+  /// and pauses it there. Gives up after `max_seconds` of simulated time, or when all bodies are at rest for good.
+  /// Whatever pauses the world ends the run, too.
+  void run_ahead(std::function<bool(const softbody::World&)> reached, double max_seconds);
+  bool runs_ahead() const { return ahead_ && !clock.paused; }
+  /// Ends the run, if there is one, and pauses.
+  void stop_running_ahead();
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
   const compare::Positions& before_last_step() const { return before_last_step_; }
@@ -110,6 +117,10 @@ class Simulation {
   void rewind_to(int frame);
 
  private:
+  struct RunAhead {
+    std::function<bool(const softbody::World&)> reached;
+    double end;  // s of simulated time
+  };
   bool attempt(const std::function<void()>& action);
   void intervened();
   void replace(bool new_scene);
@@ -120,6 +131,7 @@ class Simulation {
   void after_going_back();
   void begin_advance(double elapsed);
   SimulationClock::Step step();
+  void check_ahead();
 
   SimulationObserver none_;
   SimulationObserver& observer_;
@@ -134,6 +146,7 @@ class Simulation {
   std::uint64_t revision_ = 1, world_number_ = 0;
   std::uint64_t last_revision_ = 0;  // after the last step
   std::size_t rest_steps_ = 0;       // without another revision
+  std::optional<RunAhead> ahead_;
 };
 
 }  // namespace app::session
