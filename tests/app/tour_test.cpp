@@ -428,6 +428,28 @@ TEST(Tour, SaysThatNothingIsMissedAndRunsAheadToAMiss) {
   EXPECT_FALSE(misses_of(rig.session.world()).empty());
 }
 
+TEST(Tour, FitsEveryPageIntoSmallWindows) {
+  softbody::Scene scene = touching_pair();
+  scene.collision.cell_size = glm::vec3(0.13f);
+  scene.default_cell_size = false;
+  scene.collision.buckets = collide::max_buckets;
+  PanelRig rig(1, scene);
+  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    rig.ui.tour.start(rig.session, rig.ui.overlays);
+    for (std::size_t step = 0; step <= last_step; ++step, rig.ui.tour.next()) {
+      rig.frames(3);
+      const auto context = rig.ui.tour.context(rig.session);
+      ASSERT_TRUE(context && context->f.miss);
+      for (const ui::TourFigure& figure : ui::tour_steps()[step].figures(*context))
+        EXPECT_LE(rig.widget(figure.label).max.x, static_cast<float>(size.x)) << figure.label << " at " << size.x;
+      for (const char* label : {"Back", "Next", "Close tour"})
+        EXPECT_LE(rig.widget(label).max.y, static_cast<float>(size.y)) << label;
+    }
+    rig.ui.tour.close(rig.session, rig.ui.overlays);
+  }
+}
+
 TEST(Tour, SpeaksOfAliasingOnlyWhereItShowsIt) {
   for (const std::uint32_t buckets : {7u, 1'000'003u}) {
     softbody::Scene scene = touching_pair();

@@ -142,7 +142,7 @@ std::vector<TourFigure> figures_of_miss(const TourContext& v) {
   std::vector<TourFigure> figures;
   if (const auto& miss = v.f.miss) {
     for (std::size_t i = 0; i < 2; ++i)
-      figures.push_back({fmt::format("Body {}: a corner in cell {}", miss->bodies[i], cell_text(miss->corners[i].cell)),
+      figures.push_back({fmt::format("Body {}, cell {}", miss->bodies[i], cell_text(miss->corners[i].cell)),
                          fmt::format("bucket {}", grouped(miss->corners[i].bucket)),
                          "The box of one of the two vertices. Of its eight corners, this one's cell is the nearest to "
                          "the cells of the other box.",

@@ -11,14 +11,12 @@ namespace {
 
 constexpr TourGoal contact_goal{.lacking = "Nothing touches in this frame.",
                                 .running = "Nothing touches yet: running ahead to the first contact",
-                                .given_up = "Nothing touched in 20 seconds of simulated time.",
                                 .button = "Run ahead to a contact",
                                 .frame_has = &ExampleFinder::has_contact,
                                 .example_has = [](const TourExample& example) { return example.touching; }};
 
 constexpr TourGoal miss_goal{.lacking = "The paper's method misses nothing in this frame.",
                              .running = "The paper's method misses nothing yet: running ahead to the first miss",
-                             .given_up = "The paper's method missed nothing in 20 seconds of simulated time.",
                              .button = "Run ahead to a miss",
                              .frame_has = &ExampleFinder::has_miss,
                              .example_has = [](const TourExample& example) { return example.miss.has_value(); }};

@@ -27,9 +27,8 @@ struct TourFigure {
 
 /// What the example of a step should have. The tour runs the world ahead to a frame that has it.
 struct TourGoal {
-  std::string_view lacking;   // a sentence: the frame does not have it
-  std::string_view running;   // the beginning of a sentence that ends with the number of the frame
-  std::string_view given_up;  // a sentence: it did not come in time
+  std::string_view lacking;  // a sentence: the frame does not have it
+  std::string_view running;  // the beginning of a sentence that ends with the number of the frame
   std::string_view button;
   bool (ExampleFinder::*frame_has)(const softbody::World& world);
   bool (*example_has)(const TourExample& example);

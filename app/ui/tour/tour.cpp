@@ -67,7 +67,7 @@ void Tour::run_ahead(Session& session) {
   chosen_corner_.reset();
   example_.reset();
   example_revision_ = 0;
-  framing_requested_ = true;
+  framing_requested_ = overview_requested_ = true;
   session.simulation.run_ahead([finder = finder_, frame_has = goal_->frame_has](
                                    const softbody::World& world) { return (finder.get()->*frame_has)(world); },
                                max_seconds_ahead);
@@ -89,7 +89,7 @@ void Tour::find_example(const Session& session, const softbody::View* view) {
   example_revision_ = session.simulation.revision();
   example_selection_ = session.bodies.selected();
   highlight_valid_ = false;
-  problem_ = "There is no body in the world.";
+  problem_ = "There is no body in the world. The key D drops one.";
   try {
     example_ = finder_->find(session.world(), session.bodies.selected(),
                              view ? std::optional(eye_position(*view)) : std::nullopt);

@@ -45,6 +45,8 @@ class Tour {
   std::uint64_t highlight_revision() const { return highlight_revision_; }
   /// True once after each step: the camera should frame the highlight.
   bool take_framing_request() { return example_ && std::exchange(framing_requested_, false); }
+  /// True once at the start of each run ahead: the camera should show what it showed before the tour.
+  bool take_overview_request() { return std::exchange(overview_requested_, false); }
 
   /// The user's own overlays while the tour is open.
   const std::optional<render::Overlays>& saved_overlays() const { return saved_overlays_; }
@@ -66,7 +68,7 @@ class Tour {
   std::size_t step_ = 0;
   std::uint64_t example_revision_ = 0, highlight_revision_ = 0;  // the first is the session's
   std::optional<softbody::BodyId> example_selection_;            // the selected body when the example was found
-  bool highlight_valid_ = false, framing_requested_ = false;
+  bool highlight_valid_ = false, framing_requested_ = false, overview_requested_ = false;
   std::optional<render::Overlays> saved_overlays_;
   std::optional<std::uint32_t> saved_bucket_;
   bool was_paused_ = false;

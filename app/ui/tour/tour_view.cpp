@@ -62,9 +62,12 @@ void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
 void draw_lack(Widgets& w, Session& session, Tour& tour) {
   const TourGoal& goal = tour_steps()[tour.step()].goal;
   const bool at_rest = session.world().all_at_rest();
-  draw_wrapped(at_rest                      ? "All bodies are at rest, and none is still to come."
-               : tour.has_given_up(session) ? goal.given_up
-                                            : goal.lacking);
+  std::string text(goal.lacking);
+  if (at_rest)
+    text += " Nothing moves, and no body is still to come.";
+  else if (tour.has_given_up(session))
+    text += " This did not change in 20 seconds of simulated time.";
+  draw_wrapped(text);
   w.register_item("Tour lack", nullptr);
   ImGui::BeginDisabled(at_rest);
   if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
