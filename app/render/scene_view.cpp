@@ -80,7 +80,7 @@ void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnP
 /// Fades bodies that the highlight does not name, the more the more of them there are. Named bodies may be translucent.
 void SceneView::apply(const Highlight& highlight) {
   const float faded = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
-  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity},
+  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity, .writes_depth = highlight.bodies_hide},
       others{.meshes = {}, .opacity = faded, .writes_depth = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {

@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 
 namespace app::session {
@@ -30,13 +31,36 @@ void Simulation::add_picture(double seconds) {
 }
 
 void Simulation::advance(double elapsed, bool stands_still) {
+  if (clock.paused) stop_running_ahead();
   let_pass(elapsed);
   if (!stands_still) clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
+  if (clock.paused) stop_running_ahead();
   let_pass(elapsed);
   if (allowed) clock.advance_one([this] { return step(); });
+}
+
+void Simulation::run_ahead(std::function<bool(const World&)> reached, double max_seconds) {
+  ahead_ = {std::move(reached), world_->last_step().time + max_seconds};
+  clock.running_ahead = true;
+  clock.paused = false;
+  check_ahead();
+}
+
+void Simulation::stop_running_ahead() {
+  if (!std::exchange(ahead_, std::nullopt)) return;
+  clock.running_ahead = false;
+  clock.paused = true;
+}
+
+/// Ends the run in the frame that it looks for, and where this frame will not come.
+void Simulation::check_ahead() {
+  bool goes_on = false;
+  attempt(
+      [&] { goes_on = !world_->all_at_rest() && world_->last_step().time < ahead_->end && !ahead_->reached(*world_); });
+  if (!goes_on) stop_running_ahead();
 }
 
 SimulationClock::Step Simulation::step() {
@@ -53,6 +77,8 @@ SimulationClock::Step Simulation::step() {
   rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
   const softbody::StepReport& report = world_->last_step();
   step_ms_ = report.total_ms + observer_.stepped();
+  if (!stepped) stop_running_ahead();
+  if (ahead_) step_ms_ += time_ms([this] { check_ahead(); });
   history_.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
   history_.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
   history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
@@ -150,6 +176,7 @@ void Simulation::keep_drag() {
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
+  stop_running_ahead();
   before_last_step_.copy(world_->positions());
   clock.restart();
   end_drag();

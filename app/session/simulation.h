@@ -64,6 +64,13 @@ class Simulation {
   void advance_one(double elapsed, bool allowed);
   /// Records that a picture came `seconds` after the one before it.
   void add_picture(double seconds);
+  /// Lets the world run, several frames a picture, to the first frame from this one on in which `reached` returns true,
+  /// and pauses it there. Gives up after `max_seconds` of simulated time, or when all bodies are at rest for good.
+  /// Whatever pauses the world ends the run, too.
+  void run_ahead(std::function<bool(const softbody::World&)> reached, double max_seconds);
+  bool runs_ahead() const { return ahead_ && !clock.paused; }
+  /// Ends the run, if there is one, and pauses.
+  void stop_running_ahead();
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
   const compare::Positions& before_last_step() const { return before_last_step_; }
@@ -120,6 +127,10 @@ class Simulation {
   void rewind_to(int frame);
 
  private:
+  struct RunAhead {
+    std::function<bool(const softbody::World&)> reached;
+    double end;  // s of simulated time
+  };
   bool attempt(const std::function<void()>& action);
   void intervened();
   void replace(bool new_scene);
@@ -130,6 +141,7 @@ class Simulation {
   void keep_settings(const softbody::Scene& in_use, bool with_solids);
   void after_going_back();
   SimulationClock::Step step();
+  void check_ahead();
 
   SimulationObserver none_;
   SimulationObserver& observer_;
@@ -145,6 +157,7 @@ class Simulation {
   std::uint64_t revision_ = 1, world_number_ = 0;
   std::uint64_t last_revision_ = 0;  // after the last step
   std::size_t rest_steps_ = 0;       // without another revision
+  std::optional<RunAhead> ahead_;
 };
 
 }  // namespace app::session

@@ -16,7 +16,9 @@ bool SimulationClock::take_single_step(const Stepper& step) {
 void SimulationClock::advance(double elapsed, double frame_time, const Stepper& step) {
   assert(frame_time > 0);
   if (take_single_step(step) || paused) return;
-  const double requested = std::clamp(elapsed, 0.0, max_elapsed) * (slow_motion ? slow_factor : 1.0);
+  const bool ahead = running_ahead;
+  const double factor = ahead ? ahead_factor : slow_motion ? slow_factor : 1.0;
+  const double requested = std::clamp(elapsed, 0.0, max_elapsed) * factor;
   const double budget_ms = std::max(step_budget_ms, step_budget_share * 1e3 * elapsed);
   owed_ += requested;
   double spent_ms = 0, done = 0;
@@ -28,7 +30,7 @@ void SimulationClock::advance(double elapsed, double frame_time, const Stepper& 
   }
   // What is still owed is dropped: paying it back would make the next call longer, and the one after that (a spiral).
   if (owed_ >= frame_time) owed_ = std::fmod(owed_, frame_time);
-  measure_pace(requested, done, frame_time);
+  if (!ahead) measure_pace(requested, done, frame_time);
 }
 
 void SimulationClock::advance_one(const Stepper& step) {

@@ -13,6 +13,7 @@ class SimulationClock {
   // No further step begins in one advance() after this much time, or this share of the time between two pictures.
   static constexpr double step_budget_ms = 25, step_budget_share = 0.4;
   static constexpr double min_slow_factor = 0.02, max_slow_factor = 1.0;
+  static constexpr double ahead_factor = 5;  // of real time, while running ahead
 
   struct Step {
     double seconds;  // simulated
@@ -22,7 +23,8 @@ class SimulationClock {
 
   bool paused = false;  // `step` may set it
   bool slow_motion = false;
-  double slow_factor = 0.1;  // min_slow_factor .. max_slow_factor, of real time, in slow motion
+  double slow_factor = 0.1;    // min_slow_factor .. max_slow_factor, of real time, in slow motion
+  bool running_ahead = false;  // by ahead_factor, also in slow motion; `step` may reset it
 
   /// Calls `step` for each frame of `frame_time` seconds that is due, now that `elapsed` seconds of real time have
   /// passed.

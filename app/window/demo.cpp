@@ -303,6 +303,7 @@ class Demo {
   void frame_tour(const engine::Viewport& viewport) {
     if (ui_.tour.open() && !orbit_before_tour_) orbit_before_tour_ = camera_.orbit();
     if (!ui_.tour.open() && orbit_before_tour_) camera_.glide_to(*std::exchange(orbit_before_tour_, std::nullopt));
+    if (ui_.tour.take_overview_request() && orbit_before_tour_) camera_.glide_to(*orbit_before_tour_);
     if (!ui_.tour.take_framing_request()) return;
     const render::Highlight& highlight = *ui_.tour.highlight();
     camera_.glide_to(highlight.centre, tour_radius_factor * highlight.radius, viewport.size);

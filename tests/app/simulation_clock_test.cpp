@@ -93,6 +93,17 @@ TEST(SimulationClock, RunsSlowlyByTheFactor) {
   EXPECT_EQ(steps.count, 10);
 }
 
+TEST(SimulationClock, RunsAheadWithinTheBudget) {
+  Steps steps;
+  steps.clock.slow_motion = true;
+  steps.clock.running_ahead = true;
+  steps.advance(tick);
+  EXPECT_EQ(steps.count, session::SimulationClock::ahead_factor);
+  steps.clock.advance(tick, frame, [&] { return steps.take(session::SimulationClock::step_budget_ms); });
+  EXPECT_EQ(steps.count, session::SimulationClock::ahead_factor + 1);
+  EXPECT_EQ(steps.clock.pace(), 1) << "measured in real time only";
+}
+
 TEST(SimulationClock, TakesOneStepForEachPictureOfARecording) {
   Steps steps;
   const auto step = [&] { return steps.take(1000); };

@@ -55,6 +55,7 @@ TEST(StoryCard, OpensTheTourByOneClick) {
   rig.frames(3);
   rig.click("Explain story");
   EXPECT_TRUE(rig.ui.tour.open());
+  EXPECT_EQ(rig.ui.tour.step(), ui::miss_step);
 }
 
 TEST(FloatingBox, IsMovedByTheMouseWithinTheScene) {

@@ -1,10 +1,15 @@
 #include "app/ui/tour/tour.h"
 
+#include <algorithm>
+
 #include <glm/geometric.hpp>
+
+#include "app/compare/score.h"
 
 #include "app/ui/shortcuts.h"
 #include "app/ui/tour/body_subset.h"
 #include "app/ui/tour/figures.h"
+#include "app/ui/tour/paper_boxes.h"
 #include "app/window/preferences.h"
 #include "engine/resources.h"
 #include "tests/app/hands.h"
@@ -16,6 +21,39 @@ namespace app {
 namespace {
 
 const std::size_t last_step = ui::tour_steps().size() - 1;
+
+/// touching_pair() a little higher, so that it touches nothing at first and hits the sphere later.
+softbody::Scene falling_pair() {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].position = {0, 2.9, 0};
+  scene.bodies[1].position = {0.1, 4.5, 0};
+  scene.collision.tolerance = 0.05f;
+  return scene;
+}
+
+softbody::Scene shipped_scene(const std::string& key) {
+  return softbody::find_scene(key, engine::find_folder("assets") / "scenes");
+}
+
+/// Advances until the run ahead of the tour is over.
+void finish_run(Session& session, ui::Tour& tour) {
+  while (session.simulation.runs_ahead()) {
+    tour.update(session);
+    session.advance(tick);
+  }
+  tour.update(session);
+}
+
+/// What the paper's method misses in the world, by the detectors themselves.
+std::vector<collide::Contact> misses_of(const softbody::World& world) {
+  std::array<collide::Result, 2> results;
+  collide::Workers workers(1);
+  for (const bool paper : {false, true})
+    collide::find_method(paper ? collide::paper_method : collide::reference_method)
+        ->make()
+        ->detect(world.positions(), world.collision(), workers, results[paper]);
+  return compare::score(results[1].contacts, results[0].contacts).missed;
+}
 
 bool all_shown(const PanelRig& rig, const std::vector<ui::TourFigure>& figures) {
   return std::ranges::all_of(figures,
@@ -100,8 +138,8 @@ TEST(Tour, HashesTheChosenCornerAsTheMethodDoes) {
   for (std::size_t corner = 0; corner < 8; ++corner) {
     rig.click("Corner " + std::to_string(corner + 1));
     const auto context = rig.ui.tour.context(rig.session);
-    ASSERT_EQ(context->corner, corner);
-    const ui::HashedCorner& chosen = context->chosen();
+    ASSERT_EQ(context->chosen, corner);
+    const ui::HashedCorner& chosen = context->hashed_corner();
     EXPECT_EQ(chosen.bucket, hash.bucket(hash.cell(chosen.at.x, chosen.at.y, chosen.at.z)));
     const std::string result = ui::tour_steps()[2].figures(*context).back().value;
     EXPECT_TRUE(result.ends_with("->  " + grouped(chosen.bucket))) << result;
@@ -120,9 +158,9 @@ TEST(Tour, WritesOutTheHashOfItsBucket) {
     const auto context = tour.context(session);
     std::int64_t sum = 0;
     const auto& settings = session.world().collision();
-    for (std::size_t axis = 0; axis < 3; ++axis) sum += context->chosen().cell[axis] * settings.primes[axis];
+    for (std::size_t axis = 0; axis < 3; ++axis) sum += context->hashed_corner().cell[axis] * settings.primes[axis];
     const std::int64_t n = settings.buckets;
-    EXPECT_EQ(((sum % n) + n) % n, context->chosen().bucket);
+    EXPECT_EQ(((sum % n) + n) % n, context->hashed_corner().bucket);
   }
 }
 
@@ -160,10 +198,9 @@ TEST(ExampleFinder, FindsWhatSmallCellsMiss) {
   settings.buckets = 1'000'003;
   session.settings.set_collision(settings, false);
   const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
-  ASSERT_TRUE(found->missed);
-  EXPECT_FALSE(found->missed->empty());
+  EXPECT_FALSE(found->missed.empty());
   session.settings.set_method("multi-level-sb");
-  EXPECT_EQ(found->contacts.size() - found->missed->size(), session.world().detection().contacts.size());
+  EXPECT_EQ(found->contacts.size() - found->missed.size(), session.world().detection().contacts.size());
 }
 
 TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
@@ -180,9 +217,10 @@ TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
   PanelRig rig(1, without_solids());
   rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  for (std::size_t i = 0; i < last_step; ++i) rig.ui.tour.next();
+  for (int i = 0; i < 4; ++i) rig.ui.tour.next();
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
   rig.frames(3);
-  EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none yet", and what to wait for
+  EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none"
 }
 
 TEST(ExampleFinder, PrefersTheSelectedBodyIfItTouches) {
@@ -214,6 +252,7 @@ TEST(Tour, WorksInEveryScene) {
     ui::Tour tour;
     render::Overlays shown;
     tour.start(session, shown);
+    session.simulation.stop_running_ahead();  // a contact may be far
     for (std::size_t step = 0; step <= last_step; ++step, tour.next()) {
       tour.update(session);
       const auto context = tour.context(session);
@@ -224,6 +263,244 @@ TEST(Tour, WorksInEveryScene) {
       EXPECT_FALSE(tour.highlight()->bodies.empty()) << key;
     }
   }
+}
+
+TEST(Tour, RunsAheadToAContact) {
+  Session session(shipped_scene("drop"), {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown);
+  ASSERT_TRUE(tour.running_to(session));
+  session.advance(tick);
+  EXPECT_GT(session.world().frame(), 1) << "several frames a picture";
+  tour.update(session);
+  EXPECT_FALSE(tour.context(session));
+  EXPECT_EQ(tour.highlight(), nullptr);
+  int before = 0;
+  for (; session.simulation.runs_ahead(); session.advance(tick)) before = session.world().frame();
+  tour.update(session);
+  ASSERT_TRUE(tour.context(session));
+  EXPECT_TRUE(tour.context(session)->f.touching);
+  EXPECT_TRUE(session.simulation.clock.paused);
+  EXPECT_LE(session.world().frame(), before + session::SimulationClock::max_steps);
+  tour.close(session, shown);
+  EXPECT_FALSE(session.simulation.clock.paused) << "the world goes on from there";
+}
+
+TEST(Tour, StaysInAFrameWithAContact) {
+  Session session(touching_pair(), {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown);
+  EXPECT_FALSE(tour.running_to(session));
+  EXPECT_TRUE(session.simulation.clock.paused);
+  EXPECT_EQ(session.world().frame(), 0);
+}
+
+TEST(Tour, RunsAheadInAnEmptyWorld) {
+  softbody::Scene scene = falling_pair();
+  for (softbody::BodySource& body : scene.bodies) body.appear = 20;
+  Session session(scene, {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown);
+  finish_run(session, tour);
+  ASSERT_TRUE(tour.context(session));
+  EXPECT_TRUE(tour.context(session)->f.touching);
+}
+
+TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
+  for (const bool paused : {false, true}) {
+    PanelRig rig(1, falling_pair());
+    rig.session.simulation.clock.paused = paused;
+    rig.ui.tour.start(rig.session, rig.ui.overlays);
+    rig.frame();
+    ASSERT_TRUE(rig.recorder.find("Tour runs ahead"));
+    const ui::WidgetRecorder::Widget close = rig.widget("Close tour");
+    rig.ui.tour.close(rig.session, rig.ui.overlays);
+    EXPECT_TRUE(close.enabled);
+    EXPECT_FALSE(rig.session.simulation.runs_ahead());
+    EXPECT_EQ(rig.session.simulation.clock.paused, paused);
+  }
+}
+
+TEST(Tour, GivesUpWhereNothingWillTouch) {
+  softbody::Scene scene = falling_pair();
+  scene.bodies.pop_back();  // alone: comes to rest
+  PanelRig rig(1, scene);
+  rig.ui.tour.start(rig.session, rig.ui.overlays);
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  rig.frames(2);
+  EXPECT_TRUE(rig.session.simulation.clock.paused);
+  ASSERT_TRUE(rig.ui.tour.context(rig.session)) << "explains with the body";
+  EXPECT_FALSE(rig.ui.tour.context(rig.session)->f.touching);
+  EXPECT_TRUE(rig.recorder.find("Tour lack"));
+  EXPECT_EQ(rig.widget("Run ahead").enabled, !rig.session.world().all_at_rest());
+}
+
+TEST(Tour, GivesUpAfterAWhile) {
+  softbody::Scene scene = without_solids();
+  scene.bodies[0].velocity.x = -1;  // away from each other, for ever
+  Session session(scene, {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown);
+  finish_run(session, tour);
+  EXPECT_NEAR(session.world().last_step().time, 20, 0.1);
+  EXPECT_TRUE(tour.has_given_up(session));
+  EXPECT_TRUE(tour.context(session));
+  session.simulation.clock.single_step();
+  session.advance(tick);
+  EXPECT_FALSE(tour.has_given_up(session)) << "another frame";
+}
+
+TEST(Tour, ExplainsAMissOfThePapersMethod) {
+  softbody::Scene scene = shipped_scene("drop");
+  scene.collision.levels = 4;
+  Session session(scene, {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown, ui::miss_step);
+  finish_run(session, tour);
+  ASSERT_EQ(tour.step(), ui::miss_step);
+  ASSERT_TRUE(tour.context(session));
+  const ui::TourExample& example = tour.context(session)->f;
+  ASSERT_TRUE(example.miss);
+  const ui::Miss& miss = *example.miss;
+  const std::vector<collide::Contact> misses = misses_of(session.world());
+  EXPECT_EQ(example.all_missed, misses.size());
+  EXPECT_TRUE(std::ranges::count(misses, miss.contact));
+  EXPECT_NE(miss.corners[0].bucket, miss.corners[1].bucket);
+  ASSERT_TRUE(miss.face);
+  const int axis = miss.face->axis;
+  const float at = static_cast<float>(miss.face->index) * session.world().collision().cell_size[axis];
+  std::array boxes{example.structure.boxes[miss.boxes[0]], example.structure.boxes[miss.boxes[1]]};
+  if (boxes[0].lo[axis] > boxes[1].lo[axis]) std::swap(boxes[0], boxes[1]);
+  EXPECT_LT(boxes[0].hi[axis], at);
+  EXPECT_GE(boxes[1].lo[axis], at);
+  const std::string text = ui::tour_steps()[ui::miss_step].text(*tour.context(session));
+  EXPECT_NE(text.find("a cell face (red) lies between"), std::string::npos) << text;
+}
+
+TEST(Tour, ShowsTheCellThatALargeBoxSkips) {
+  softbody::Scene scene = touching_pair();
+  scene.collision.levels = 0;
+  scene.collision.cell_size = glm::vec3(0.3f);
+  scene.collision.buckets = 1'000'003;
+  scene.default_cell_size = false;
+  scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(0.57);  // the boxes overlap
+  Session session(scene, {}, 1);
+  const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+  ASSERT_TRUE(found && found->miss);
+  const ui::Miss& miss = *found->miss;
+  ASSERT_TRUE(miss.skipped && !miss.face);
+  const collide::methods::CellHash hash(session.world().collision());
+  int without_corner = 0;
+  for (const collide::Index box : miss.boxes) {
+    const auto& [lo, hi, body] = found->structure.boxes[box];
+    const compare::Cell low = hash.cell(lo.x, lo.y, lo.z), high = hash.cell(hi.x, hi.y, hi.z);
+    bool has_corner = true;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::int64_t index = (*miss.skipped)[axis];
+      EXPECT_TRUE(low[axis] <= index && index <= high[axis]);
+      has_corner = has_corner && (index == low[axis] || index == high[axis]);
+    }
+    without_corner += !has_corner;
+  }
+  EXPECT_GT(without_corner, 0);
+}
+
+TEST(Tour, SaysThatNothingIsMissedAndRunsAheadToAMiss) {
+  softbody::Scene scene = shipped_scene("drop");
+  scene.collision.levels = 4;
+  PanelRig rig(1, scene);
+  rig.ui.tour.start(rig.session, rig.ui.overlays);
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  for (std::size_t i = 0; i < ui::miss_step; ++i) rig.ui.tour.next();
+  rig.frames(3);
+  ASSERT_TRUE(misses_of(rig.session.world()).empty());
+  EXPECT_TRUE(rig.recorder.find("Tour lack"));
+  rig.click("Run ahead");
+  EXPECT_TRUE(rig.recorder.find("Tour runs ahead"));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  rig.frames(2);
+  EXPECT_FALSE(rig.recorder.find("Tour lack"));
+  EXPECT_FALSE(misses_of(rig.session.world()).empty());
+}
+
+TEST(Tour, FitsEveryPageIntoSmallWindows) {
+  softbody::Scene scene = touching_pair();
+  scene.collision.cell_size = glm::vec3(0.13f);
+  scene.default_cell_size = false;
+  scene.collision.buckets = collide::max_buckets;
+  PanelRig rig(1, scene);
+  for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720)}) {
+    rig.resize(size.x, size.y);
+    rig.ui.tour.start(rig.session, rig.ui.overlays);
+    for (std::size_t step = 0; step <= last_step; ++step, rig.ui.tour.next()) {
+      rig.frames(3);
+      const auto context = rig.ui.tour.context(rig.session);
+      ASSERT_TRUE(context && context->f.miss);
+      for (const ui::TourFigure& figure : ui::tour_steps()[step].figures(*context))
+        EXPECT_LE(rig.widget(figure.label).max.x, static_cast<float>(size.x)) << figure.label << " at " << size.x;
+      for (const char* label : {"Back", "Next", "Close tour"})
+        EXPECT_LE(rig.widget(label).max.y, static_cast<float>(size.y)) << label;
+    }
+    rig.ui.tour.close(rig.session, rig.ui.overlays);
+  }
+}
+
+TEST(Tour, SpeaksOfAliasingOnlyWhereItShowsIt) {
+  for (const std::uint32_t buckets : {7u, 1'000'003u}) {
+    softbody::Scene scene = touching_pair();
+    scene.collision.buckets = buckets;
+    Session session(scene, {}, 1);
+    ui::Tour tour;
+    render::Overlays shown;
+    tour.start(session, shown);
+    tour.update(session);
+    const auto context = tour.context(session);
+    const bool aliased = context->f.table.bucket(context->bucket_corner().bucket).groups.size() > 1;
+    EXPECT_EQ(aliased, buckets == 7);
+    const std::string text = ui::tour_steps()[3].text(*context);
+    EXPECT_EQ(text.find("orange") != std::string::npos, aliased) << text;
+  }
+}
+
+TEST(Tour, FindsAliasingInAnotherBox) {
+  softbody::Scene scene = touching_pair();
+  scene.bodies[0].position.x -= 0.2;
+  for (std::uint32_t buckets = 30; buckets < 400; ++buckets) {
+    scene.collision.buckets = buckets;
+    Session session(scene, {}, 1);
+    const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+    if (!found->aliased_corner) continue;
+    EXPECT_GT(found->table.bucket(found->aliased_corner->bucket).groups.size(), 1u);
+    for (const ui::HashedCorner& corner : found->corners)
+      EXPECT_EQ(found->table.bucket(corner.bucket).groups.size(), 1u);
+    return;
+  }
+  FAIL() << "every table has an aliased bucket at the nearest box, or none at all";
+}
+
+TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
+  std::size_t missed = 0;
+  for (const int levels : {0, 3, 5, 8}) {
+    for (const float cell : {0.07f, 0.3f, 0.7f}) {
+      softbody::Scene scene = touching_pair();
+      scene.collision.levels = levels;
+      scene.collision.cell_size = glm::vec3(cell, 1.1f * cell, 0.9f * cell);
+      scene.default_cell_size = false;
+      Session session(scene, {}, 1);
+      for (int i = 0; i < 10; ++i) session.advance(tick);
+      const std::vector<collide::Contact> expected = misses_of(session.world());
+      const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+      EXPECT_EQ(found->all_missed, expected.size()) << levels << ' ' << cell;
+      EXPECT_EQ(ui::ExampleFinder().has_miss(session.world()), !expected.empty());
+      missed += expected.size();
+    }
+  }
+  EXPECT_GT(missed, 0u);
 }
 
 TEST(BodySubset, HasTheWorldsPositionsAndIndices) {

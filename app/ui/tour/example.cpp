@@ -11,10 +11,10 @@
 
 #include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
-#include "app/compare/score.h"
 #include "app/ui/tour/body_subset.h"
+#include "app/ui/tour/paper_boxes.h"
 #include "collide/core/body_boxes.h"
-#include "collide/methods/detectors.h"
+#include "collide/methods.h"
 #include "softbody/measures.h"
 
 namespace app::ui {
@@ -58,7 +58,7 @@ bool is_occluded(const softbody::World& world, const collide::BodyBoxes& boxes, 
 }
 
 /// Returns the best example of a pair in contact. In this order it prefers a pair with the preferred body, in sight, of
-/// two bodies, with both found and missed contacts, with more contacts.
+/// two bodies, with both found and missed contacts, with missed contacts, with more contacts.
 std::optional<Pair> best_pair(const softbody::World& world, const collide::BodyBoxes& boxes,
                               const std::vector<Contact>& contacts, const std::vector<Contact>& missed,
                               std::optional<BodyId> preferred, std::optional<glm::dvec3> eye) {
@@ -70,7 +70,7 @@ std::optional<Pair> best_pair(const softbody::World& world, const collide::BodyB
     const auto [missed_count, all] = count;
     return std::tuple(preferred && (pair.a == *preferred || pair.b == *preferred),
                       !eye || !is_occluded(world, boxes, pair, *eye), pair.a != pair.b,
-                      std::min(missed_count, all - missed_count), all);
+                      std::min(missed_count, all - missed_count), missed_count, all);
   };
   using Rank = decltype(rank(*counts.begin()));
   std::optional<std::pair<Rank, Pair>> best;  // each pair is ranked once, as the test for occlusion is slow
@@ -99,13 +99,19 @@ std::optional<Pair> nearest_pair(const collide::BodyBoxes& boxes, std::optional<
   return Pair{std::min(body, other), std::max(body, other)};
 }
 
-std::vector<Contact> detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
-                            collide::Workers& workers, collide::Counters* counters = nullptr) {
+collide::Result detect(collide::Detector& detector, const collide::Frame& frame, const collide::Settings& settings,
+                       collide::Workers& workers) {
   collide::Result result;
   detector.forget();
   detector.detect(frame, settings, workers, result);
-  if (counters) *counters = result.counters;
-  return std::move(result.contacts);
+  return result;
+}
+
+std::vector<Contact> of_pair(const softbody::World& world, const std::vector<Contact>& contacts, const Pair& pair) {
+  std::vector<Contact> of_pair;
+  std::ranges::copy_if(contacts, std::back_inserter(of_pair),
+                       [&](const Contact& contact) { return pair_of(world, contact) == pair; });
+  return of_pair;
 }
 
 std::optional<Contact> closest_of(const softbody::World& world, const std::vector<Contact>& contacts) {
@@ -122,7 +128,7 @@ std::optional<Contact> closest_between(const softbody::World& world, const Pair&
   settings.self_collision = false;
   constexpr int max_doublings = 20;
   for (int i = 0; i < max_doublings; ++i) {
-    std::vector<Contact> near = detect(exact, subset.frame(), settings, workers);
+    std::vector<Contact> near = detect(exact, subset.frame(), settings, workers).contacts;
     for (Contact& contact : near) contact = subset.to_world(contact);
     if (!near.empty()) return closest_of(world, near);
     settings.tolerance *= 2;
@@ -130,66 +136,79 @@ std::optional<Contact> closest_between(const softbody::World& world, const Pair&
   return std::nullopt;
 }
 
-/// Returns the box of the body that holds one of its vertices: the upper box if the vertex is on a cut (§2.1).
-Index box_of(const TourExample& example, const glm::vec3& at) {
-  Index box = example.boxes.front();
-  glm::vec3 lower(-std::numeric_limits<float>::infinity());
-  for (const Index i : example.boxes) {
-    const auto& [lo, hi, body] = example.structure.boxes[i];
-    const bool holds = glm::max(lo, at) == at && glm::min(hi, at) == at;
-    if (!holds || glm::max(lo, lower) != lo) continue;
-    lower = lo;
-    box = i;
-  }
-  return box;
-}
-
 std::array<HashedCorner, 8> hash_corners(const collide::DebugGeometry::Box& box,
                                          const collide::methods::CellHash& hash) {
   std::array<HashedCorner, 8> corners{};
-  const auto points = compare::corners_of(box);
-  for (std::size_t i = 0; i < corners.size(); ++i) {
-    const compare::Cell cell = hash.cell(points[i].x, points[i].y, points[i].z);
-    corners[i] = {points[i], cell, hash.bucket(cell)};
-  }
+  std::ranges::transform(compare::corners_of(box), corners.begin(),
+                         [&](const glm::vec3& at) { return hash_corner(at, hash); });
   return corners;
 }
 
-/// Returns the best corner for the tour. It prefers a cell with a box of another body, then a bucket of several cells.
-std::size_t best_corner(const TourExample& example) {
-  std::size_t best = 0;
-  int best_score = -1;
-  for (std::size_t i = 0; i < example.corners.size(); ++i) {
-    const compare::BucketContents bucket = example.table.bucket(example.corners[i].bucket);
-    const compare::CellGroup* group = bucket.group(example.corners[i].cell);
-    const auto of_other = [&](Index box) { return example.structure.boxes[box].body != example.body; };
-    const int shares_cell = group && std::ranges::any_of(group->items, of_other) ? 2 : 0;
-    const int score = shares_cell + (bucket.groups.size() > 1 ? 1 : 0);
-    if (score <= best_score) continue;
-    best_score = score;
-    best = i;
+/// Returns how far (m) the other cells of a corner's bucket are from its own cell at most; infinity if there are none.
+float reach_of_aliases(const TourExample& example, const HashedCorner& corner, const glm::vec3& cell_size) {
+  float reach = 0;
+  for (const compare::CellGroup& group : example.table.bucket(corner.bucket).groups) {
+    glm::vec3 offset;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      offset[axis] = static_cast<float>(group.cell[a] - corner.cell[a]) * cell_size[axis];
+    }
+    reach = std::max(reach, glm::length(offset));
   }
+  return reach > 0 ? reach : std::numeric_limits<float>::infinity();
+}
+
+/// Returns the best corner for the tour. It prefers a bucket of several cells, then a cell with a box of another body.
+std::size_t best_corner(const TourExample& example, const glm::vec3& cell_size) {
+  const auto rank = [&](const HashedCorner& corner) {
+    const compare::BucketContents bucket = example.table.bucket(corner.bucket);
+    const bool shared = std::ranges::any_of(
+        bucket.group(corner.cell)->items, [&](Index box) { return example.structure.boxes[box].body != example.body; });
+    return std::pair(reach_of_aliases(example, corner, cell_size), !shared);
+  };
+  return static_cast<std::size_t>(std::ranges::min_element(example.corners, {}, rank) - example.corners.begin());
+}
+
+/// Returns the corner with the nearest aliases: of the boxes of the pair, or else of any box.
+std::optional<HashedCorner> find_aliased_corner(const TourExample& example, const collide::Settings& settings) {
+  const collide::methods::CellHash hash(settings);
+  const collide::Range of_other = boxes_of(example.structure, example.other);
+  const collide::Range all{0, static_cast<Index>(example.structure.boxes.size())};
+  std::optional<HashedCorner> best;
+  float best_reach = std::numeric_limits<float>::infinity();
+  const auto search = [&](const collide::Range& boxes) {
+    for (Index box = boxes.begin; box < boxes.end; ++box)
+      for (const HashedCorner& corner : hash_corners(example.structure.boxes[box], hash)) {
+        const float reach = reach_of_aliases(example, corner, settings.cell_size);
+        if (reach >= best_reach) continue;
+        best_reach = reach;
+        best = corner;
+      }
+  };
+  search(example.boxes);
+  search(of_other);
+  if (!best) search(all);
   return best;
 }
 
 /// Fills in the body's boxes and the corners of the box that is nearest to the other body.
 void add_boxes(const softbody::World& world, TourExample& example) {
-  const collide::methods::CellHash hash(world.collision());
-  for (Index i = 0; i < example.structure.boxes.size(); ++i)
-    if (example.structure.boxes[i].body == example.body) example.boxes.push_back(i);
-  example.box =
-      box_of(example, vertex(world, example.closest ? example.closest->a : world.bodies().first[example.body]));
+  const collide::Settings& settings = world.collision();
+  const collide::methods::CellHash hash(settings);
+  example.boxes = boxes_of(example.structure, example.body);
+  const Index nearest = example.closest ? example.closest->a : world.bodies().first[example.body];
+  example.box = box_of(example.structure, example.body, vertex(world, nearest));
   example.corners = hash_corners(example.structure.boxes[example.box], hash);
-  example.corner = best_corner(example);
+  example.corner = best_corner(example, settings.cell_size);
+  if (std::isinf(reach_of_aliases(example, example.corners[example.corner], settings.cell_size)))
+    example.aliased_corner = find_aliased_corner(example, settings);
 }
 
-std::uint64_t estimate_pair_tests(const softbody::World& world, std::size_t method) {
+std::uint64_t estimate_pair_tests(const softbody::World& world) {
   compare::CostModel cost_model;
   cost_model.begin(world.positions(), world.collision(), 0);
-  return cost_model.of(method).pair_tests;
+  return cost_model.of(compare::method_index(collide::paper_method)).pair_tests;
 }
-
-std::size_t paper_index() { return compare::method_index(collide::paper_method); }
 
 }  // namespace
 
@@ -197,15 +216,17 @@ ExampleFinder::ExampleFinder()
     : exact_(collide::find_method(collide::default_method)->make()),
       paper_(collide::find_method(collide::paper_method)->make()) {}
 
-/// The paper's method finds the same contacts of two bodies whether there are other bodies or not.
-std::optional<std::vector<Contact>> ExampleFinder::missed_of_pair(const softbody::World& world,
-                                                                  const TourExample& example) {
-  const BodySubset subset(world, example.body, example.other);
-  if (compare::all_pair_tests(*subset.frame().bodies, world.collision().self_collision) > max_pair_tests)
-    return std::nullopt;
-  std::vector<Contact> found = detect(*paper_, subset.frame(), world.collision(), one_worker_);
-  for (Contact& contact : found) contact = subset.to_world(contact);
-  return compare::score(found, example.contacts).missed;
+std::vector<Contact> ExampleFinder::true_contacts(const softbody::World& world) {
+  return detect(*exact_, world.positions(), world.collision(), one_worker_).contacts;
+}
+
+bool ExampleFinder::has_contact(const softbody::World& world) { return !true_contacts(world).empty(); }
+
+bool ExampleFinder::has_miss(const softbody::World& world) {
+  const std::vector<Contact> contacts = true_contacts(world);
+  const collide::Frame frame = world.positions();
+  return !contacts.empty() &&
+         !missed_contacts(paper_structure_(frame, world.collision(), one_worker_), frame, contacts).empty();
 }
 
 std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std::optional<BodyId> preferred,
@@ -217,40 +238,45 @@ std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std
   boxes.build(frame, unused);
 
   TourExample example;
-  const std::vector<Contact> true_contacts = detect(*exact_, frame, settings, one_worker_);
-  std::vector<Contact> missed;
-  const std::uint64_t tests = estimate_pair_tests(world, paper_index());
-  example.pair_tests_estimated = tests > max_pair_tests;
-  if (example.pair_tests_estimated) {
-    example.structure = collide::methods::make_paper_structure()(frame, settings, one_worker_);
-    example.work = {
-        .hashes = 8 * example.structure.boxes.size(), .boxes = example.structure.boxes.size(), .pair_tests = tests};
-  } else {
-    missed = compare::score(detect(*paper_, frame, settings, one_worker_, &example.work), true_contacts).missed;
-    example.structure = paper_->debug();
-  }
-  const auto in_contact = best_pair(world, boxes, true_contacts, missed, preferred, eye);
+  example.structure = paper_structure_(frame, settings, one_worker_);
+  const std::vector<Contact> contacts = true_contacts(world);
+  const std::vector<Contact> missed = missed_contacts(example.structure, frame, contacts);
+  example.all_contacts = contacts.size();
+  example.all_missed = missed.size();
+  const auto in_contact = best_pair(world, boxes, contacts, missed, preferred, eye);
   const auto pair = in_contact ? in_contact : nearest_pair(boxes, preferred);
   if (!pair) return std::nullopt;
   example.body = pair->a;
   example.other = pair->b;
   example.touching = in_contact.has_value();
   example.bounds = {boxes.box[example.body], boxes.box[example.other]};
-  const auto is_of_pair = [&](const Contact& contact) { return pair_of(world, contact) == *pair; };
-  std::ranges::copy_if(true_contacts, std::back_inserter(example.contacts), is_of_pair);
-  if (!example.pair_tests_estimated) {
-    example.missed.emplace();
-    std::ranges::copy_if(missed, std::back_inserter(*example.missed), is_of_pair);
-  } else if (example.touching) {
-    example.missed = missed_of_pair(world, example);
-  }
+  example.contacts = of_pair(world, contacts, *pair);
+  example.missed = of_pair(world, missed, *pair);
   example.closest = example.touching                ? closest_of(world, example.contacts)
                     : example.body != example.other ? closest_between(world, *pair, *exact_, one_worker_)
                                                     : std::nullopt;
   if (example.closest) example.distance = distance_of(world, *example.closest);
+  if (!missed.empty()) {
+    const Pair of_miss = example.missed.empty() ? *best_pair(world, boxes, missed, missed, preferred, eye) : *pair;
+    example.miss = explain_miss(*closest_of(world, of_pair(world, missed, of_miss)), example.structure, frame,
+                                collide::methods::CellHash(settings));
+  }
   example.table = compare::TableContents(example.structure, frame, settings);
   add_boxes(world, example);
+  count_work(world, example);
   return example;
+}
+
+/// Adds up the work of the paper's method on the frame.
+void ExampleFinder::count_work(const softbody::World& world, TourExample& example) {
+  const std::uint64_t estimate = estimate_pair_tests(world);
+  example.pair_tests_estimated = estimate > max_pair_tests;
+  example.work.boxes = example.structure.boxes.size();
+  example.work.hashes = 8 * example.work.boxes;
+  example.work.pair_tests =
+      example.pair_tests_estimated
+          ? estimate
+          : detect(*paper_, world.positions(), world.collision(), one_worker_).counters.pair_tests;
 }
 
 }  // namespace app::ui

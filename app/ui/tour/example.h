@@ -5,18 +5,12 @@
 #include <memory>
 #include <optional>
 
-#include "app/compare/table_contents.h"
+#include "app/ui/tour/miss.h"
+#include "app/ui/tour/paper_boxes.h"
 #include "collide/core/aabb.h"
-#include "collide/methods.h"
 #include "softbody/world.h"
 
 namespace app::ui {
-
-struct HashedCorner {
-  glm::vec3 at;  // m
-  compare::Cell cell;
-  std::uint32_t bucket;
-};
 
 /// The paper's method on one frame, whichever method drives.
 struct TourExample {
@@ -28,33 +22,42 @@ struct TourExample {
 
   collide::DebugGeometry structure;
   compare::TableContents table;
-  std::vector<collide::Index> boxes;        // of the body
-  collide::Index box = 0;                   // the one of these whose corners are hashed
-  std::array<HashedCorner, 8> corners{};    // of this box
-  std::size_t corner = 0;                   // the one of these that the tour shows first
+  collide::Range boxes{};                 // of the body
+  collide::Index box = 0;                 // the one of these whose corners are hashed
+  std::array<HashedCorner, 8> corners{};  // of this box
+  std::size_t corner = 0;                 // the one of these that the tour shows first
+  /// If these corners share no bucket with another cell: a corner that does, of the pair's boxes or else of any.
+  std::optional<HashedCorner> aliased_corner;
   std::optional<collide::Contact> closest;  // vertices of the pair, `a` is the body's; nothing if the body is alone
   float distance = 0;                       // m, between these vertices
   std::vector<collide::Contact> contacts;   // all contacts of the pair
-  /// Those of `contacts` that the paper's method misses; nothing if it would take too long to find out.
-  std::optional<std::vector<collide::Contact>> missed;
+  std::vector<collide::Contact> missed;     // those of `contacts` that the paper's method misses
 
-  collide::Counters work;             // of the whole frame
+  // Of the whole frame.
+  std::size_t all_contacts = 0, all_missed = 0;
+  std::optional<Miss> miss;           // one of the pair if there is one, else one of another pair
+  collide::Counters work;             // boxes, hashes and pair tests
   bool pair_tests_estimated = false;  // the frame is too large to count its pair tests
 };
 
-/// Finds examples with detectors of its own, without using what the driving method has found.
+/// Finds examples with detectors of its own, without using what the driving method has found. All functions may throw
+/// what detectors throw.
 class ExampleFinder {
  public:
   ExampleFinder();
   /// Returns nothing if no body of the world is finite. Prefers a pair with the body `preferred`, and one that is
-  /// visible from `eye`. May throw what detectors throw.
+  /// visible from `eye`.
   std::optional<TourExample> find(const softbody::World& world, std::optional<softbody::BodyId> preferred,
                                   std::optional<glm::dvec3> eye = std::nullopt);
+  bool has_contact(const softbody::World& world);
+  bool has_miss(const softbody::World& world);
 
  private:
-  std::optional<std::vector<collide::Contact>> missed_of_pair(const softbody::World& world, const TourExample& example);
+  std::vector<collide::Contact> true_contacts(const softbody::World& world);
+  void count_work(const softbody::World& world, TourExample& example);
 
   std::unique_ptr<collide::Detector> exact_, paper_;
+  collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();
   collide::Workers one_worker_{1};
 };
 

@@ -31,18 +31,17 @@ TourFigure body_figure(const char* label, const softbody::World& world, softbody
 std::vector<TourFigure> hash_terms(const TourContext& v) {
   constexpr std::array axes{"x", "y", "z"};
   const collide::Settings& settings = v.world.collision();
-  const HashedCorner& corner = v.chosen();
+  const HashedCorner& corner = v.hashed_corner();
   std::vector<TourFigure> figures;
   std::int64_t sum = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const auto a = static_cast<std::size_t>(axis);
     const std::int64_t index = corner.cell[a];
     sum += index * settings.primes[a];
-    figures.push_back(
-        {fmt::format("floor({:.3f} / {:.3f}) * {}", corner.at[axis], settings.cell_size[axis], settings.primes[a]),
-         fmt::format("{} * {}", index, settings.primes[a]),
-         fmt::format("Along {}: the corner over the cell's side, rounded down, times {}prime (§2.2).", axes[a],
-                     axes[a])});
+    figures.push_back({fmt::format("{}: floor({:.3f} / {:.3f})", axes[a], corner.at[axis], settings.cell_size[axis]),
+                       fmt::format("{} * {}", index, settings.primes[a]),
+                       fmt::format("Along {}: the corner over the cell's side, rounded down, times {}prime (§2.2).",
+                                   axes[a], axes[a])});
   }
   figures.push_back({fmt::format("The sum % {}", grouped(settings.buckets)),
                      fmt::format("{}  ->  {}", with_sign(sum), grouped(corner.bucket)),
@@ -63,13 +62,13 @@ std::vector<TourFigure> figures_of_body(const TourContext& v) {
   const collide::Bodies& bodies = v.world.bodies();
   return {body_figure("Body", v.world, v.f.body),
           {"Its vertices", grouped(bodies.size(v.f.body)), "Each is looked at once, to find the box."},
-          {"Minimum point", place(lo), "In metres: the least x, y and z of its vertices."},
-          {"Maximum point", place(hi), "In metres: the greatest x, y and z of its vertices."},
+          {"Minimum point", place(lo), "In metres: the smallest x, y and z of its vertices."},
+          {"Maximum point", place(hi), "In metres: the largest x, y and z of its vertices."},
           {"Sides", sides(hi - lo), "Of the box."}};
 }
 
 std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
-  const auto& [lo, hi, body] = v.f.structure.boxes[v.f.boxes.front()];
+  const auto& [lo, hi, body] = v.f.structure.boxes[v.f.boxes.begin];
   const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
   const int levels = v.world.collision().levels;
@@ -85,8 +84,9 @@ std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
 }
 
 std::vector<TourFigure> figures_of_corner(const TourContext& v) {
-  const HashedCorner& corner = v.chosen();
-  std::vector<TourFigure> figures{{fmt::format("Corner {}", v.corner + 1), fmt::format("{} m", place(corner.at)),
+  const HashedCorner& corner = v.hashed_corner();
+  std::vector<TourFigure> figures{{fmt::format("Corner {}", v.chosen.value_or(v.f.corner) + 1),
+                                   fmt::format("{} m", place(corner.at)),
                                    "Of the box that is nearest to the other body. Choose another corner above."}};
   if (!can_be_written_out(corner)) {
     figures.push_back({"Bucket", grouped(corner.bucket), "The corner is too far away to write its numbers out."});
@@ -98,13 +98,14 @@ std::vector<TourFigure> figures_of_corner(const TourContext& v) {
 
 std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
   constexpr std::size_t max_groups = 3;
-  const compare::BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
+  const HashedCorner& corner = v.bucket_corner();
+  const compare::BucketContents bucket = v.f.table.bucket(corner.bucket);
   std::vector<TourFigure> figures{
       {fmt::format("Bucket {}", grouped(bucket.bucket)),
        fmt::format("{}{}{}{}", grouped(bucket.items), bucket.items == 1 ? " box, " : " boxes, ",
                    grouped(bucket.groups.size()), bucket.groups.size() == 1 ? " cell" : " cells"),
-       "What shares the bucket of the chosen corner."}};
-  const compare::CellGroup* own = bucket.group(v.chosen().cell);
+       "What shares the bucket with the corner."}};
+  const compare::CellGroup* own = bucket.group(corner.cell);
   for (std::size_t i = 0; i < std::min(max_groups, bucket.groups.size()); ++i) {
     const compare::CellGroup& group = bucket.groups[i];
     figures.push_back({fmt::format("Cell {}", cell_text(group.cell)), bodies_text(group, bucket, v.f.structure, {}),
@@ -125,15 +126,44 @@ std::vector<TourFigure> figures_of_contact(const TourContext& v) {
   figures.push_back({"Closest vertices", v.f.closest ? metres(v.f.distance) : "-", "Their distance d."});
   figures.push_back({"Tolerance", metres(tolerance), "d below it is a contact (§2.3)."});
   if (!v.f.touching) {
-    figures.push_back({"Contacts", "none yet", "Wait until two bodies meet, and take the tour again."});
+    figures.push_back({"Contacts", "none", "Of these bodies, in this frame."});
     return figures;
   }
-  figures.push_back({"Contacts of the two", grouped(v.f.contacts.size()),
+  figures.push_back({self ? "Its contacts with itself" : "Contacts of the two", grouped(v.f.contacts.size()),
                      "All that there are, found by an exact method.",
                      self ? render::contact_inside_colour : render::contact_between_colour});
-  figures.push_back({"Missed", v.f.missed ? grouped(v.f.missed->size()) : "not counted",
+  figures.push_back({"Missed", grouped(v.f.missed.size()),
                      "Those that the paper's method does not find: no box of the one shares a bucket with the other's.",
                      render::contact_missed_colour});
+  return figures;
+}
+
+std::vector<TourFigure> figures_of_miss(const TourContext& v) {
+  std::vector<TourFigure> figures;
+  if (const auto& miss = v.f.miss) {
+    for (std::size_t i = 0; i < 2; ++i)
+      figures.push_back({fmt::format("Body {}, cell {}", miss->bodies[i], cell_text(miss->corners[i].cell)),
+                         fmt::format("bucket {}", grouped(miss->corners[i].bucket)),
+                         "The box of one of the two vertices. Of its eight corners, this one's cell is the nearest to "
+                         "the cells of the other box.",
+                         render::body_colour(v.world.body(miss->bodies[i]).number)});
+    if (miss->face)
+      figures.push_back(
+          {"Cell face between the boxes",
+           fmt::format("{} = {}", "xyz"[miss->face->axis],
+                       metres(static_cast<float>(miss->face->index) * v.world.collision().cell_size[miss->face->axis])),
+           "The corners of one box are in cells below it, those of the other in cells above it.",
+           render::cell_face_colour});
+    else
+      figures.push_back({"Skipped cell", cell_text(*miss->skipped),
+                         "Both boxes reach over this cell, but at least one of them has no corner in it.",
+                         render::cell_face_colour});
+    figures.push_back({"Tolerance", metres(v.world.collision().tolerance), "Closer vertices are a contact (§2.3)."});
+  }
+  figures.push_back(
+      {"Contacts of the frame", grouped(v.f.all_contacts), "All that there are, found by an exact method."});
+  figures.push_back({"Missed by the paper's method", grouped(v.f.all_missed),
+                     "With the levels, cells and buckets in use.", render::contact_missed_colour});
   return figures;
 }
 

@@ -10,6 +10,7 @@ std::vector<TourFigure> figures_of_boxes(const TourContext& context);
 std::vector<TourFigure> figures_of_corner(const TourContext& context);  // the hash function with the corner's numbers
 std::vector<TourFigure> figures_of_bucket(const TourContext& context);
 std::vector<TourFigure> figures_of_contact(const TourContext& context);
+std::vector<TourFigure> figures_of_miss(const TourContext& context);
 
 /// Hashes, boxes and pair tests of the paper's method on this frame, beside the claims of §3.
 std::vector<TourFigure> figures_of_frame(const TourContext& context);

@@ -9,6 +9,7 @@
 #include "app/base/text.h"
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
+#include "app/ui/views/bucket_view.h"
 
 namespace app::ui {
 namespace {
@@ -53,6 +54,28 @@ void add_contacts(const TourContext& v, const std::vector<collide::Contact>& con
   highlight.points.push_back(std::move(points));
 }
 
+glm::vec3 centre_of_cell(const TourContext& v, const compare::Cell& cell) {
+  const engine::Box box = render::cell_box(cell, v.world.collision().cell_size, glm::vec4(0.0f));
+  return 0.5f * (box.lo + box.hi);
+}
+
+/// Adds the face between the cells of the two corners, or the skipped cell.
+void add_barrier(const TourContext& v, const Miss& miss, render::Highlight& highlight) {
+  const glm::vec3& size = v.world.collision().cell_size;
+  const glm::vec4 colour(render::cell_face_colour, 1.0f);
+  engine::BoxSet set = outlines(2.5f, 0.3f);
+  if (miss.face) {
+    const engine::Box one = render::cell_box(miss.corners[0].cell, size, colour);
+    const engine::Box other = render::cell_box(miss.corners[1].cell, size, colour);
+    engine::Box face{glm::min(one.lo, other.lo), glm::max(one.hi, other.hi), colour};
+    face.lo[miss.face->axis] = face.hi[miss.face->axis] = static_cast<float>(miss.face->index) * size[miss.face->axis];
+    set.boxes.push_back(face);
+  } else {
+    set.boxes.push_back(render::cell_box(*miss.skipped, size, colour));
+  }
+  highlight.boxes.push_back(std::move(set));
+}
+
 }  // namespace
 
 void highlight_body(const TourContext& v, render::Highlight& highlight) {
@@ -72,7 +95,7 @@ void highlight_boxes(const TourContext& v, render::Highlight& highlight) {
   highlight.bodies = {v.f.body};
   highlight.opacity = 0.45f;
   engine::BoxSet boxes = outlines(2, 0.12f);
-  for (const collide::Index i : v.f.boxes) {
+  for (collide::Index i = v.f.boxes.begin; i < v.f.boxes.end; ++i) {
     const auto& [lo, hi, body] = v.f.structure.boxes[i];
     const std::uint32_t bucket = v.f.structure.box_bucket[v.f.structure.box_first[i]];
     boxes.boxes.push_back({lo, hi, glm::vec4(render::bucket_colour(bucket), 1.0f)});
@@ -88,11 +111,11 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
   engine::BoxSet box = outlines(2.5f, 0.15f);
   box.boxes.push_back({lo, hi, glm::vec4(outline_colour, 1.0f)});
   highlight.boxes = {std::move(box)};
-  add_cell(v, v.chosen().cell, render::same_cell_colour, highlight);
+  add_cell(v, v.hashed_corner().cell, render::same_cell_colour, highlight);
   engine::PointSet points{.points = {}, .diameter = 9, .occluded_alpha = 0.9f};
   for (std::size_t i = 0; i < v.f.corners.size(); ++i) {
     const HashedCorner& corner = v.f.corners[i];
-    const bool chosen = i == v.corner;
+    const bool chosen = &corner == &v.hashed_corner();
     points.points.push_back({corner.at, glm::vec4(chosen ? render::same_cell_colour : outline_colour, 1.0f)});
     std::string text = std::to_string(i + 1);
     if (chosen) text.append(": bucket ").append(grouped(corner.bucket));
@@ -104,13 +127,15 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
 
 void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
   highlight.opacity = 0.35f;
-  const compare::BucketContents bucket = v.f.table.bucket(v.chosen().bucket);
-  const compare::CellGroup* own = bucket.group(v.chosen().cell);
+  const HashedCorner& corner = v.bucket_corner();
+  const compare::BucketContents bucket = v.f.table.bucket(corner.bucket);
+  const compare::CellGroup* own = bucket.group(corner.cell);
   engine::BoxSet boxes = outlines(2.5f, 0.2f);
-  glm::vec3 low = v.f.bounds[0].lo, high = v.f.bounds[0].hi;
+  glm::vec3 low = corner.at, high = corner.at;
   for (const compare::CellGroup& group : bucket.groups) {
     const glm::vec3 colour = &group == own ? render::same_cell_colour : render::aliased_colour;
     add_cell(v, group.cell, colour * 0.7f, highlight);
+    highlight.labels.push_back({centre_of_cell(v, group.cell), "cell " + cell_text(group.cell)});
     for (const collide::Index item : group.items) {
       const auto& [lo, hi, body] = v.f.structure.boxes[item];
       boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
@@ -131,13 +156,42 @@ void highlight_contact(const TourContext& v, render::Highlight& highlight) {
   highlight.opacity = 0.35f;
   const glm::vec3 colour = v.f.other == v.f.body ? render::contact_inside_colour : render::contact_between_colour;
   add_contacts(v, v.f.contacts, colour, 2, highlight);
-  if (v.f.missed) add_contacts(v, *v.f.missed, render::contact_missed_colour, 3, highlight);
+  add_contacts(v, v.f.missed, render::contact_missed_colour, 3, highlight);
   if (v.f.closest) {
     add_contacts(v, {*v.f.closest}, render::hand_colour, 3.5f, highlight);
     highlight.labels = {
         {0.5f * (vertex(v, v.f.closest->a) + vertex(v, v.f.closest->b)), fmt::format("d = {:.3f} m", v.f.distance)}};
   }
   frame_camera_on_pair(v, highlight);
+}
+
+void highlight_miss(const TourContext& v, render::Highlight& highlight) {
+  if (!v.f.miss) return highlight_contact(v, highlight);
+  const Miss& miss = *v.f.miss;
+  highlight.bodies = {miss.bodies[0]};
+  if (miss.bodies[1] != miss.bodies[0]) highlight.bodies.push_back(miss.bodies[1]);
+  highlight.opacity = 0.35f;
+  highlight.bodies_hide = false;
+  engine::BoxSet boxes = outlines(2.5f, 0.2f);
+  glm::vec3 low = miss.at[0], high = low;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const glm::vec3 colour = render::body_colour(v.world.body(miss.bodies[i]).number) * 0.72f;
+    const auto& [lo, hi, body] = v.f.structure.boxes[miss.boxes[i]];
+    boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
+    low = glm::min(low, lo);
+    high = glm::max(high, hi);
+    add_cell(v, miss.corners[i].cell, colour, highlight);
+    highlight.points.push_back(
+        {.points = {{miss.corners[i].at, glm::vec4(colour, 1.0f)}}, .diameter = 9, .occluded_alpha = 0.9f});
+    highlight.labels.push_back(
+        {centre_of_cell(v, miss.corners[i].cell), fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
+  }
+  highlight.boxes.push_back(std::move(boxes));
+  add_barrier(v, miss, highlight);
+  add_contacts(v, {miss.contact}, render::contact_missed_colour, 3.5f, highlight);
+  highlight.labels.push_back(
+      {0.5f * (miss.at[0] + miss.at[1]), fmt::format("{:.3f} m", glm::distance(miss.at[0], miss.at[1]))});
+  frame_camera(highlight, low, high);
 }
 
 }  // namespace app::ui

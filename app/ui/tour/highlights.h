@@ -10,5 +10,6 @@ void highlight_boxes(const TourContext& context, render::Highlight& highlight);
 void highlight_corners(const TourContext& context, render::Highlight& highlight);
 void highlight_bucket(const TourContext& context, render::Highlight& highlight);
 void highlight_contact(const TourContext& context, render::Highlight& highlight);
+void highlight_miss(const TourContext& context, render::Highlight& highlight);
 
 }  // namespace app::ui

@@ -1,38 +1,90 @@
 #include "app/ui/tour/steps.h"
 
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
 #include "app/ui/tour/figures.h"
 #include "app/ui/tour/highlights.h"
 
 namespace app::ui {
 namespace {
 
+constexpr TourGoal contact_goal{.lacking = "Nothing touches in this frame.",
+                                .running = "Nothing touches yet: running ahead to the first contact",
+                                .button = "Run ahead to a contact",
+                                .frame_has = &ExampleFinder::has_contact,
+                                .example_has = [](const TourExample& example) { return example.touching; }};
+
+constexpr TourGoal miss_goal{.lacking = "The paper's method misses nothing in this frame.",
+                             .running = "The paper's method misses nothing yet: running ahead to the first miss",
+                             .button = "Run ahead to a miss",
+                             .frame_has = &ExampleFinder::has_miss,
+                             .example_has = [](const TourExample& example) { return example.miss.has_value(); }};
+
+std::string text_of_body(const TourContext&) {
+  return "Every frame begins with the bounding box of each body: the smallest and the largest x, y and z of its "
+         "vertices. From here on, six numbers stand for all vertices.";
+}
+
+std::string text_of_boxes(const TourContext&) {
+  return "The box is cut in the middle along x, y and z in turn, n times. Each vertex is in one of the parts. Empty "
+         "parts are dropped. The keys [ and ] change n.";
+}
+
+std::string text_of_corner(const TourContext&) {
+  return "A grid fills space. Three primes and a modulo turn the cell of a corner point into the number of a bucket. "
+         "The box joins the list of this bucket. All eight corners are hashed, however many vertices the box holds.";
+}
+
+std::string text_of_bucket(const TourContext& v) {
+  std::string text =
+      "Boxes in one bucket may touch, so their vertices are compared. Boxes of the same cell (blue) are real "
+      "neighbours. ";
+  if (v.f.table.bucket(v.bucket_corner().bucket).groups.size() == 1)
+    return text +
+           "No other cell has this bucket's number in this frame. It could happen: there are more cells than buckets, "
+           "so the modulo gives some cells the same number.";
+  text +=
+      "Boxes of another cell (orange) are here only because the modulo gave both cells the same number. They cost "
+      "pair tests and are not near.";
+  if (v.f.aliased_corner && !v.chosen)
+    text += " The box of the page before shares no bucket with another cell, so this is the bucket of another box.";
+  return text;
+}
+
+std::string text_of_contact(const TourContext&) {
+  return "Vertices of boxes that share a bucket are compared. Two that are closer than the tolerance collide, between "
+         "bodies and within one: the tolerance is a shield round the surface. Boxes that share no bucket are never "
+         "compared, so a contact between them is missed.";
+}
+
+std::string text_of_miss(const TourContext& v) {
+  if (!v.f.miss)
+    return "A contact is missed if the boxes of its two vertices share no bucket. This happens where a cell face lies "
+           "between two boxes, or where the corners of a large box skip a cell. Smaller cells and more boxes (the key "
+           "]) make it more likely.";
+  const Miss& miss = *v.f.miss;
+  return fmt::format(
+      "The vertices are {:.3f} m apart, but {}: no corner of one box is in a cell of the other, the two boxes share no "
+      "bucket, and the pair is never compared.\n\n"
+      "The complete methods find this contact. Grid Hash looks into all cells within the tolerance. The exact method "
+      "uses no hash: boxes that are closer than the tolerance count as near.",
+      glm::distance(miss.at[0], miss.at[1]),
+      miss.face ? "a cell face (red) lies between their boxes"
+                : "a box is larger than a cell, and its corners skip the cell between them (red)");
+}
+
 constexpr std::array step_table{
-    TourStep{"A box round each body (§2.1)",
-             "Every frame begins with a body's axis-aligned bounding box: the least and the greatest x, y and z of its "
-             "vertices. From here on a few numbers stand for all of them.",
-             figures_of_body, highlight_body},
-    TourStep{
-        "Cut into 2^n boxes (§2.1)",
-        "The box is cut in the middle along x, y and z in turn, n times. Each vertex is in one of the parts; empty "
-        "parts are dropped. The keys [ and ] change n.",
-        figures_of_boxes, highlight_boxes},
-    TourStep{"Corners into buckets (§2.2)",
-             "A grid fills space. The cell that a corner point lies in becomes a number by three primes, modulo the "
-             "number of buckets: the box joins this bucket's list. So do all eight corners, however many vertices the "
-             "box holds.",
-             figures_of_corner, highlight_corners, true},
-    TourStep{"One bucket (§2.2)",
-             "Boxes in one bucket may touch. Those in the same cell really are neighbours (blue). Boxes of another "
-             "cell are here only because the modulo gave both cells one number (orange): that costs tests and "
-             "finds nothing near.",
-             figures_of_bucket, highlight_bucket, true},
-    TourStep{
-        "The contact surface (§2.3, §2.4)",
-        "Vertices of boxes that share a bucket are compared. Two that are closer than the tolerance collide: it is "
-        "a shield round the surface, between bodies and within one. What shares no bucket is never compared, and "
-        "missed.",
-        figures_of_contact, highlight_contact},
+    TourStep{"A box round each body (§2.1)", text_of_body, figures_of_body, highlight_body, contact_goal},
+    TourStep{"Cut into 2^n boxes (§2.1)", text_of_boxes, figures_of_boxes, highlight_boxes, contact_goal},
+    TourStep{"Corners into buckets (§2.2)", text_of_corner, figures_of_corner, highlight_corners, contact_goal,
+             &TourContext::hashed_corner},
+    TourStep{"One bucket (§2.2)", text_of_bucket, figures_of_bucket, highlight_bucket, contact_goal,
+             &TourContext::bucket_corner},
+    TourStep{"The contact surface (§2.3, §2.4)", text_of_contact, figures_of_contact, highlight_contact, contact_goal},
+    TourStep{"A miss (§2.2)", text_of_miss, figures_of_miss, highlight_miss, miss_goal},
 };
+static_assert(step_table.size() == miss_step + 1);
 
 }  // namespace
 

@@ -6,13 +6,18 @@
 
 namespace app::ui {
 
-/// What the figures and highlights of a step are made from.
+/// What the texts, figures and highlights of a step are made from.
 struct TourContext {
   const softbody::World& world;
   const TourExample& f;
-  std::size_t corner;  // of f.corners
+  std::optional<std::size_t> chosen;  // by the user, of f.corners
 
-  const HashedCorner& chosen() const { return f.corners[corner]; }
+  /// The corner whose hash is shown.
+  const HashedCorner& hashed_corner() const { return f.corners[chosen.value_or(f.corner)]; }
+  /// The corner whose bucket is shown.
+  const HashedCorner& bucket_corner() const {
+    return f.aliased_corner && !chosen ? *f.aliased_corner : hashed_corner();
+  }
 };
 
 struct TourFigure {
@@ -20,14 +25,28 @@ struct TourFigure {
   std::optional<glm::vec3> colour{};  // in the scene
 };
 
+/// What the example of a step should have. The tour runs the world ahead to a frame that has it.
+struct TourGoal {
+  std::string_view lacking;  // a sentence: the frame does not have it
+  std::string_view running;  // the beginning of a sentence that ends with the number of the frame
+  std::string_view button;
+  bool (ExampleFinder::*frame_has)(const softbody::World& world);
+  bool (*example_has)(const TourExample& example);
+};
+
 struct TourStep {
   std::string_view title;  // with its section of the paper
-  std::string_view text;
+  std::string (*text)(const TourContext& context);
   std::vector<TourFigure> (*figures)(const TourContext& context);
   void (*highlight)(const TourContext& context, render::Highlight& highlight);
-  bool corners = false;  // the user can choose a corner of the box
+  const TourGoal& goal;
+  /// The corner that the step shows, where the user can choose one.
+  const HashedCorner& (TourContext::*corner)() const = nullptr;
 };
 
 std::span<const TourStep> tour_steps();
+
+/// The step that explains a missed contact.
+inline constexpr std::size_t miss_step = 5;
 
 }  // namespace app::ui

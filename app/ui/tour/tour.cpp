@@ -16,23 +16,24 @@ glm::dvec3 eye_position(const softbody::View& view) {
 
 }  // namespace
 
-void Tour::start(Session& session, render::Overlays& shown) {
-  assert(!open());
-  finder_ = std::make_unique<ExampleFinder>();
+void Tour::start(Session& session, render::Overlays& shown, std::size_t step) {
+  assert(!open() && step < tour_steps().size());
+  finder_ = std::make_shared<ExampleFinder>();
   was_paused_ = session.simulation.clock.paused;
   session.simulation.clock.paused = true;
   saved_overlays_ = std::exchange(shown, {});
   saved_bucket_ = session.inspector.selected_bucket();
   session.inspector.select_bucket(std::nullopt);
-  example_revision_ = 0;
-  chosen_corner_.reset();
-  go_to(0);
+  go_to(step);
+  run_ahead(session);
 }
 
 void Tour::close(Session& session, render::Overlays& shown) {
   if (!open()) return;
+  session.simulation.stop_running_ahead();
   finder_.reset();
   example_.reset();
+  goal_ = nullptr;
   if (session.simulation.clock.paused) session.simulation.clock.paused = was_paused_;
   shown = *std::exchange(saved_overlays_, std::nullopt);
   session.inspector.select_bucket(saved_bucket_);
@@ -59,8 +60,26 @@ void Tour::choose_corner(std::size_t corner) {
   go_to(step_);
 }
 
+void Tour::run_ahead(Session& session) {
+  assert(open());
+  goal_ = &tour_steps()[step_].goal;
+  run_end_ = session.world().last_step().time + max_seconds_ahead;
+  chosen_corner_.reset();
+  example_.reset();
+  example_revision_ = 0;
+  framing_requested_ = overview_requested_ = true;
+  session.simulation.run_ahead([finder = finder_, frame_has = goal_->frame_has](
+                                   const softbody::World& world) { return (finder.get()->*frame_has)(world); },
+                               max_seconds_ahead);
+}
+
+bool Tour::has_given_up(const Session& session) const {
+  const double late = session.world().last_step().time - run_end_;
+  return goal_ && late >= 0 && late < session.world().frame_time();
+}
+
 void Tour::update(const Session& session, const softbody::View* view) {
-  if (!open()) return;
+  if (!open() || running_to(session)) return;
   if (example_revision_ != session.simulation.revision() || example_selection_ != session.bodies.selected())
     find_example(session, view);
   if (!highlight_valid_) rebuild_highlight(session);
@@ -70,7 +89,7 @@ void Tour::find_example(const Session& session, const softbody::View* view) {
   example_revision_ = session.simulation.revision();
   example_selection_ = session.bodies.selected();
   highlight_valid_ = false;
-  problem_ = "There is no body in the world yet: close the tour and wait until one comes.";
+  problem_ = "There is no body in the world. The key D drops one.";
   try {
     example_ = finder_->find(session.world(), session.bodies.selected(),
                              view ? std::optional(eye_position(*view)) : std::nullopt);
@@ -89,7 +108,7 @@ void Tour::rebuild_highlight(const Session& session) {
 
 std::optional<TourContext> Tour::context(const Session& session) const {
   if (!example_) return std::nullopt;
-  return TourContext{session.world(), *example_, chosen_corner_.value_or(example_->corner)};
+  return TourContext{session.world(), *example_, chosen_corner_};
 }
 
 }  // namespace app::ui

@@ -21,14 +21,21 @@ void draw_figure(Widgets& w, const TourFigure& figure) {
   w.figure(figure.label.c_str(), figure.value, figure.tooltip.c_str());
 }
 
-void draw_corners(Widgets& w, Tour& tour, const TourContext& context) {
+void draw_wrapped(std::string_view text) {
+  ImGui::PushTextWrapPos(0);
+  ImGui::TextUnformatted(text.data(), text.data() + text.size());
+  ImGui::PopTextWrapPos();
+}
+
+/// Draws the eight corners to choose from; `shown` is one of context.f.corners, or a corner of another box.
+void draw_corners(Widgets& w, Tour& tour, const TourContext& context, const HashedCorner& shown) {
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Corner");
   const float gap = w.px(3), left = w.px(58);
   const float width = (ImGui::GetContentRegionMax().x - left - 7 * gap) / 8;
   for (std::size_t i = 0; i < context.f.corners.size(); ++i) {
     ImGui::SameLine(left + static_cast<float>(i) * (width + gap));
-    const bool chosen = i == context.corner;
+    const bool chosen = &context.f.corners[i] == &shown;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_ButtonActive));
     const std::string number = std::to_string(i + 1);
     if (w.button(fmt::format("{}###Corner {}", number, number).c_str(),
@@ -40,11 +47,9 @@ void draw_corners(Widgets& w, Tour& tour, const TourContext& context) {
 
 void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
   const TourStep& step = tour_steps()[tour.step()];
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(step.text.data(), step.text.data() + step.text.size());
-  ImGui::PopTextWrapPos();
+  draw_wrapped(step.text(context));
   ImGui::Spacing();
-  if (step.corners) draw_corners(w, tour, context);
+  if (step.corner) draw_corners(w, tour, context, (context.*step.corner)());
   for (const TourFigure& figure : step.figures(context)) draw_figure(w, figure);
   ImGui::Spacing();
   ImGui::TextDisabled("The paper's method on the whole frame (§3)");
@@ -53,18 +58,55 @@ void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
   for (const TourFigure& figure : figures_of_frame(context)) draw_figure(w, figure);
 }
 
+/// Says that the frame lacks the goal of the step, and offers to run ahead to it.
+void draw_lack(Widgets& w, Session& session, Tour& tour) {
+  const TourGoal& goal = tour_steps()[tour.step()].goal;
+  const bool at_rest = session.world().all_at_rest();
+  std::string text(goal.lacking);
+  if (at_rest)
+    text += " Nothing moves, and no body is still to come.";
+  else if (tour.has_given_up(session))
+    text += " This did not change in 20 seconds of simulated time.";
+  draw_wrapped(text);
+  w.register_item("Tour lack", nullptr);
+  ImGui::BeginDisabled(at_rest);
+  if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
+               "Lets the world run, several frames a picture, and pauses it there. It gives up after 20 seconds of "
+               "simulated time."))
+    tour.run_ahead(session);
+  ImGui::EndDisabled();
+  ImGui::Spacing();
+}
+
+/// Draws all that is between the title and the buttons.
+void draw_content(Widgets& w, Session& session, Tour& tour) {
+  const auto context = tour.context(session);
+  if (const TourGoal* goal = tour.running_to(session)) {
+    draw_wrapped(fmt::format("{} (frame {}).", goal->running, grouped(session.world().frame())));
+    w.register_item("Tour runs ahead", nullptr);
+    return;
+  }
+  if (!context) {
+    draw_wrapped(tour.problem());
+    w.register_item("Tour problem", nullptr);
+  }
+  if (!context || !tour_steps()[tour.step()].goal.example_has(context->f)) draw_lack(w, session, tour);
+  if (context) draw_step(w, tour, *context);
+}
+
 void draw_buttons(Widgets& w, Session& session, Tour& tour, render::Overlays& shown) {
   const float gap = ImGui::GetStyle().ItemSpacing.x, width = (ImGui::GetContentRegionAvail().x - 2 * gap) / 3;
   const bool first = tour.step() == 0, last = tour.step() + 1 == tour_steps().size();
   ImGui::BeginDisabled(first);
-  if (w.button("Back", "The step before (left arrow).", width)) tour.back();
+  if (w.button("Back", "The page before (left arrow).", width)) tour.back();
   ImGui::EndDisabled();
   ImGui::SameLine();
   ImGui::BeginDisabled(last);
-  if (w.button("Next", "The next step (right arrow).", width)) tour.next();
+  if (w.button("Next", "The next page (right arrow).", width)) tour.next();
   ImGui::EndDisabled();
   ImGui::SameLine();
-  if (w.button("Close###Close tour", "Ends the tour; the world goes on as before (Esc).", width))
+  if (w.button("Close###Close tour",
+               "Ends the tour (Esc). The world goes on from this frame, unless it was paused before the tour.", width))
     tour.close(session, shown);
 }
 
@@ -80,18 +122,11 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, render::Overlays& shown
   ImGui::PopStyleVar(2);
   const TourStep& step = tour_steps()[tour.step()];
   ImGui::TextDisabled("Tour %zu of %zu", tour.step() + 1, tour_steps().size());
-  ImGui::PushTextWrapPos(0);
-  ImGui::TextUnformatted(step.title.data(), step.title.data() + step.title.size());
-  ImGui::PopTextWrapPos();
+  draw_wrapped(step.title);
   ImGui::Separator();
   const float buttons = ImGui::GetFrameHeightWithSpacing() + ImGui::GetStyle().ItemSpacing.y;
-  ImGui::BeginChild("Step", {0, -buttons});
-  if (const auto context = tour.context(session)) {
-    draw_step(w, tour, *context);
-  } else {
-    ImGui::TextWrapped("%s", tour.problem().c_str());
-    w.register_item("Tour problem", nullptr);
-  }
+  ImGui::BeginChild(fmt::format("Step {}", tour.step()).c_str(), {0, -buttons});  // each scrolls on its own
+  draw_content(w, session, tour);
   if (!session.simulation.notice.text().empty()) ImGui::TextWrapped("%s", session.simulation.notice.text().c_str());
   ImGui::EndChild();
   ImGui::Spacing();
