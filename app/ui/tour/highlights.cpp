@@ -34,10 +34,12 @@ engine::BoxSet outlines(float width, float fill) {
   return {.boxes = {}, .width = width, .occluded_alpha = 0.7f, .face_alpha = fill};
 }
 
-void add_cell(const TourContext& v, const compare::Cell& cell, const glm::vec3& colour, render::Highlight& highlight) {
+engine::Box add_cell(const TourContext& v, const compare::Cell& cell, const glm::vec3& colour,
+                     render::Highlight& highlight) {
   engine::BoxSet set = outlines(1.25f, 0.06f);
   set.boxes.push_back(render::cell_box(cell, v.world.collision().cell_size, glm::vec4(colour, 0.8f)));
-  highlight.boxes.push_back(std::move(set));
+  highlight.boxes.push_back(set);
+  return set.boxes.front();
 }
 
 void add_contacts(const TourContext& v, const std::vector<collide::Contact>& contacts, const glm::vec3& colour,
@@ -52,11 +54,6 @@ void add_contacts(const TourContext& v, const std::vector<collide::Contact>& con
   }
   highlight.lines.push_back(std::move(lines));
   highlight.points.push_back(std::move(points));
-}
-
-glm::vec3 centre_of_cell(const TourContext& v, const compare::Cell& cell) {
-  const engine::Box box = render::cell_box(cell, v.world.collision().cell_size, glm::vec4(0.0f));
-  return 0.5f * (box.lo + box.hi);
 }
 
 /// Adds the face between the cells of the two corners, or the skipped cell.
@@ -134,8 +131,8 @@ void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
   glm::vec3 low = corner.at, high = corner.at;
   for (const compare::CellGroup& group : bucket.groups) {
     const glm::vec3 colour = &group == own ? render::same_cell_colour : render::aliased_colour;
-    add_cell(v, group.cell, colour * 0.7f, highlight);
-    highlight.labels.push_back({centre_of_cell(v, group.cell), "cell " + cell_text(group.cell)});
+    const engine::Box cell = add_cell(v, group.cell, colour * 0.7f, highlight);
+    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + cell_text(group.cell)});
     for (const collide::Index item : group.items) {
       const auto& [lo, hi, body] = v.f.structure.boxes[item];
       boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
@@ -178,13 +175,12 @@ void highlight_miss(const TourContext& v, render::Highlight& highlight) {
     const glm::vec3 colour = render::body_colour(v.world.body(miss.bodies[i]).number) * 0.72f;
     const auto& [lo, hi, body] = v.f.structure.boxes[miss.boxes[i]];
     boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
-    low = glm::min(low, lo);
-    high = glm::max(high, hi);
-    add_cell(v, miss.corners[i].cell, colour, highlight);
+    const engine::Box cell = add_cell(v, miss.corners[i].cell, colour, highlight);
+    low = glm::min(low, glm::min(lo, cell.lo));
+    high = glm::max(high, glm::max(hi, cell.hi));
     highlight.points.push_back(
         {.points = {{miss.corners[i].at, glm::vec4(colour, 1.0f)}}, .diameter = 9, .occluded_alpha = 0.9f});
-    highlight.labels.push_back(
-        {centre_of_cell(v, miss.corners[i].cell), fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
+    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
   }
   highlight.boxes.push_back(std::move(boxes));
   add_barrier(v, miss, highlight);
