@@ -66,7 +66,7 @@ void UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, 
     case StoryCard::Action::close:
       return ui.set_story(false);
     case StoryCard::Action::explain:
-      return ui.tour.start(session, ui.overlays);
+      return ui.tour.start(session, ui.overlays, miss_step);
     case StoryCard::Action::none:
       return;
   }
