@@ -96,6 +96,10 @@ struct BoxSet {
 struct FrameData {
   // Bodies. `positions` and `normals` (of length 1) have equal sizes and must live until draw() returns.
   std::span<const glm::vec3> positions, normals;
+  // Marks regions on solid bodies: a region is where the value, interpolated between the vertices, is above one half.
+  // One value for each position, or empty.
+  std::vector<float> marks;
+  glm::vec3 mark_colour{0.0f};
   std::vector<MeshDraw> meshes;
   std::vector<TranslucentSet> translucent;  // drawn in this order, after all solids
 

@@ -1,6 +1,7 @@
 #pragma once
 // Highlights a part of the scene and fades the rest, for a step of the guided tour.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,8 @@ struct Highlight {
   // A sphere that the camera should frame.
   glm::vec3 centre{0.0f};
   float radius = 1;  // m
+
+  bool fades(softbody::BodyId body) const { return std::ranges::count(bodies, body) == 0; }
 };
 
 }  // namespace app::render

@@ -85,9 +85,9 @@ void SceneView::apply(const Highlight& highlight) {
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
-    const bool is_named = std::ranges::count(highlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
-    if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
-    (!is_named ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+    const bool fades = highlight.fades(static_cast<softbody::BodyId>(b));
+    if (fades) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
+    (fades ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
   }
   frame_.meshes = std::move(solid);
   frame_.translucent.push_back(std::move(named));

@@ -138,7 +138,7 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   glClear(GL_DEPTH_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
   shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
-  bodies.draw();
+  bodies.draw(frame);
   spheres.draw();
   boxes.draw();
   environment.draw(frame.floor_height.has_value());

@@ -49,7 +49,7 @@ TEST_F(SceneViewTest, DrawsEachOverlay) {
   request.missed = &missed;
   const std::vector<softbody::SurfaceContactPoint> touches{
       {0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
-  const std::vector<compare::SurfaceMark> marks{{0, {0, 0.3f, 0}, false}, {200, {0, 0.1f, 0}, true}};
+  const std::vector<compare::SurfaceMark> marks{{0, {0, 0.3f, 0}, false, 1}, {200, {0, 0.1f, 0}, true, 0}};
   request.surface_contacts = touches;
   request.marks = marks;
   const auto plain = picture(request);
