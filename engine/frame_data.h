@@ -24,12 +24,12 @@ struct MeshDraw {
   glm::vec3 colour{0.8f};
 };
 
-/// Translucent bodies of one opacity. They cast no shadow.
+/// Translucent bodies of one opacity. They cast no shadow. Each pixel shows only the nearest surface of a set.
 struct TranslucentSet {
   std::vector<MeshDraw> meshes;
   float opacity = 0.4f;
-  bool writes_depth = true;  // they hide what is behind them: each other, later sets and overlays
-  float depth_bias = 0;      // the depth test treats them as this much farther from the eye, in radii of the body
+  bool hides = true;  // later sets and overlays that are behind them; false: a veil that is drawn after the overlays
+  bool behind_bodies = false;  // solid bodies, though not other solids, hide them even where these are farther away
 };
 
 struct Sphere {

@@ -155,17 +155,19 @@ void BodyPass::draw(const FrameData& frame) {
   draw_batches(batches_, false);
 }
 
-void BodyPass::draw_translucent() {
+void BodyPass::draw_translucent(bool hiding) {
   if (translucent_.empty()) return;
   program_.use();
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glStencilFunc(GL_EQUAL, 0, 0xff);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   for (const auto& [set, batches] : translucent_) {
-    program_.set("depth_bias", set->depth_bias);
-    if (set->writes_depth) {  // a depth pre-pass, so that only the nearest surface is visible
-      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      draw_batches(batches, false);
-      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
+    if (set->hides != hiding) continue;
+    if (set->behind_bodies) glEnable(GL_STENCIL_TEST);
+    // The depth comes first, so that only the nearest surface gets a colour.
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_batches(batches, false);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_BLEND);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
@@ -174,9 +176,9 @@ void BodyPass::draw_translucent() {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
+    glDisable(GL_STENCIL_TEST);
   }
   program_.set("opacity", 1.0f);
-  program_.set("depth_bias", 0.0f);
 }
 
 void BodyPass::draw_batches(const Batches& batches, bool coarsest) {

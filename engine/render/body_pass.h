@@ -38,8 +38,9 @@ class BodyPass {
               float pixels_at_one_metre);
   void draw_shadows(const glm::mat4& light_clip_from_world);
   void draw(const FrameData& frame);
-  /// Draws after all solids.
-  void draw_translucent();
+  /// Draws the translucent sets that hide what is behind them, or the others, after all solids. Sets that stand behind
+  /// the bodies require a stencil of 0 wherever no body is seen.
+  void draw_translucent(bool hiding);
 
  private:
   void check(const MeshDraw& draw, const FrameData& frame) const;
