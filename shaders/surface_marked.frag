@@ -10,8 +10,8 @@ out vec4 fragment;
 void main() {
   float inside = (mark - 0.5) / max(fwidth(mark), 1e-6);  // pixels from the border
   float region = clamp(inside + 0.5, 0.0, 1.0);
-  float border = 1.0 - clamp(inside - 2.0 * frame.eye.w, 0.0, 1.0);
+  float border = 1.0 - clamp(inside - 1.25 * frame.eye.w, 0.0, 1.0);
   float stripe = abs(fract((gl_FragCoord.x + gl_FragCoord.y) / (7.0 * frame.eye.w)) - 0.5) * 7.0 * frame.eye.w;
-  float hatching = mix(0.1, 0.75, clamp(1.25 * frame.eye.w + 0.5 - stripe, 0.0, 1.0));
+  float hatching = mix(0.1, 0.65, clamp(frame.eye.w + 0.5 - stripe, 0.0, 1.0));
   fragment = vec4(mix(surface_colour(), mark_colour, region * max(0.85 * border, hatching)), 1.0);
 }

@@ -22,8 +22,8 @@ using Points = std::span<const glm::vec3>;
 
 // Share of its opacity that an overlay keeps where a surface is in front of it. The eye must tell the front from what
 // is behind, and yet find what lies only behind.
-constexpr float hidden = 0.0f;  // for what covers whole bodies
-constexpr float faint = 0.12f;  // for what fills the scene
+constexpr float hidden = 0.0f;         // for lines all over a body
+constexpr float faint = 0.12f;         // for what fills the scene
 constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind a surface: where bodies press together
 constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
 
@@ -151,7 +151,8 @@ void add_surface_contacts(const softbody::World& world, std::span<const softbody
   frame.points.push_back(std::move(points));
 }
 
-/// Widens the regions of marked vertices (value 1, others 0) by about an edge of the mesh, with a smooth border.
+/// Widens the regions of marked vertices (value 1, others 0) by about an edge of the mesh, with a smooth border: it
+/// lies where a mean of the values falls to a fifth.
 void widen(const collide::surface::Surface& surface, std::span<float> marks) {
   const std::vector<float> marked(marks.begin(), marks.end());
   std::vector<float> sum(marks.size()), count(marks.size());
@@ -189,8 +190,8 @@ void add_marks(const softbody::World& world, std::span<const compare::SurfaceMar
   for (const softbody::BodyId body : marked)
     widen(*world.prototype(body).surface,
           std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
-  engine::PointSet points{.points = {}, .diameter = 6.0f, .occluded_alpha = half_hidden};
+  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = half_hidden};
+  engine::PointSet points{.points = {}, .diameter = 4.5f, .occluded_alpha = half_hidden};
   const glm::vec4 colour(contact_missed_colour, 1.0f);
   for (const auto& [pair, mark] : deepest) {
     const glm::vec3 vertex = positions[mark->vertex];
@@ -201,7 +202,7 @@ void add_marks(const softbody::World& world, std::span<const compare::SurfaceMar
   frame.points.push_back(std::move(points));
 }
 
-bool is_open(const softbody::Prototype& prototype) { return prototype.start_volume == 0; }
+bool is_open(const softbody::Prototype& prototype) { return !(prototype.start_volume > 0); }
 
 /// Returns for each vertex of a body whether one of its faces is turned to the eye; always true for an open body, which
 /// shows both sides.
@@ -300,7 +301,8 @@ void add_grab(const softbody::World& world, const softbody::Grab& grab, Points p
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
   frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = seen_through});
-  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = seen_through});
+  frame.points.push_back(
+      {.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = seen_through});
 }
 
 }  // namespace

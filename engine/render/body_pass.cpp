@@ -159,7 +159,7 @@ void BodyPass::draw_translucent(bool hiding) {
   if (translucent_.empty()) return;
   program_.use();
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glStencilFunc(GL_EQUAL, 0, 0xff);
+  glStencilFunc(GL_EQUAL, 0, stencil_bodies);
   glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   for (const auto& [set, batches] : translucent_) {
     if (set->hides != hiding) continue;

@@ -24,6 +24,9 @@ struct FrameUniforms {
 /// The texture units of the samplers, the same in every program.
 enum TextureUnit : int { unit_positions, unit_normals, unit_marks, unit_occluders, unit_floor_map, unit_shadow_map };
 
+/// Bits of the stencil buffer: pixels that show solid bodies; the last set of overlays drawn behind a surface.
+enum StencilBits : GLuint { stencil_bodies = 0x80, stencil_overlays = 0x7f };
+
 /// Builds a program and assigns its samplers to their texture units. Throws ShaderError.
 inline Program scene_program(const std::filesystem::path& shaders, const char* vertex_file, const char* fragment_file) {
   Program program(shaders, vertex_file, fragment_file);

@@ -140,9 +140,9 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
   if (std::ranges::any_of(frame.translucent, &TranslucentSet::behind_bodies)) glEnable(GL_STENCIL_TEST);
   glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
-  glStencilFunc(GL_ALWAYS, 1, 0xff);  // where a body is seen
+  glStencilFunc(GL_ALWAYS, stencil_bodies, stencil_bodies);
   bodies.draw(frame);
-  glStencilFunc(GL_ALWAYS, 0, 0xff);
+  glStencilFunc(GL_ALWAYS, 0, stencil_bodies);
   spheres.draw();
   boxes.draw();
   glDisable(GL_STENCIL_TEST);

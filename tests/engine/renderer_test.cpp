@@ -198,6 +198,17 @@ TEST_F(RendererTest, LinesAndPointsAreFaintBehindASphere) {
   }
 }
 
+TEST_F(RendererTest, ManyPointsInOnePlaceAreAsFaintAsOneBehindASphere) {
+  frame.spheres = {red_sphere};
+  const Point point{middle, glm::vec4(0, 0, 1, 1)};
+  const auto with = [&](std::vector<Point> points) {
+    frame.points = {{std::move(points), 12.0f, 0.3f}};
+    return colour(picture(), middle);
+  };
+  EXPECT_NE(with({point}), with({}));
+  EXPECT_EQ(with({point, point, point}), with({point}));
+}
+
 TEST_F(RendererTest, LineThroughTheEyeIsClipped) {
   frame.floor_height.reset();
   const glm::vec3 eye = camera.eye();
