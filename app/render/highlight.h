@@ -2,6 +2,7 @@
 // Highlights a part of the scene and fades the rest, for a step of the guided tour.
 
 #include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,7 @@ namespace app::render {
 struct SceneLabel {
   glm::vec3 at;  // m
   std::string text;
+  std::optional<glm::vec3> ring{};  // the colour of a ring round the point; its size on the screen is fixed
 };
 
 struct Highlight {

@@ -47,7 +47,8 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
      "along edges: come closer to see all.",
      &Overlays::springs},
     {"missed", "Missed contacts", '6',
-     "Contacts that brute force finds and the driving method does not. Only the literal method can miss any.",
+     "Contacts that brute force finds and the driving method does not. A ring shows where, and how many. Only the "
+     "literal method can miss any.",
      &Overlays::missed},
     {"areas", "Areas searched", '7',
      "Where two bodies can touch, and how these areas are cut: the exact method looks nowhere else (§2.1, §5).",

@@ -60,8 +60,9 @@ void draw_missed(Widgets& w, const Session& session) {
   w.text_line("Missed surface contacts");
   w.register_item(
       "Missed surface contacts",
-      "Overlaps that the method's contacts between vertices (§2.3) do not show. They are drawn: penetrating "
-      "vertices joined to the nearest point of the surface, and the points where edges pierce faces.");
+      "Overlaps that the method's contacts between vertices (§2.3) do not show. The scene hatches the surface round "
+      "penetrating vertices and piercing edges. A line joins the deepest vertex of two bodies to the nearest point of "
+      "the surface that it passed.");
   w.figure(
       "  vertices", share(report.missed_penetrations, report.penetrations),
       "Penetrating vertices without a contact with any vertex of the body they are in. One inside two bodies counts "
