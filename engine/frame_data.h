@@ -24,12 +24,12 @@ struct MeshDraw {
   glm::vec3 colour{0.8f};
 };
 
-/// Translucent bodies of one opacity. They cast no shadow.
+/// Translucent bodies of one opacity. They cast no shadow. Each pixel shows only the nearest surface of a set.
 struct TranslucentSet {
   std::vector<MeshDraw> meshes;
   float opacity = 0.4f;
-  bool writes_depth = true;  // they hide what is behind them: each other, later sets and overlays
-  float depth_bias = 0;      // the depth test treats them as this much farther from the eye, in radii of the body
+  bool hides = true;  // later sets and overlays that are behind them; false: a veil that is drawn after the overlays
+  bool behind_bodies = false;  // solid bodies, though not other solids, hide them even where these are farther away
 };
 
 struct Sphere {
@@ -96,6 +96,10 @@ struct BoxSet {
 struct FrameData {
   // Bodies. `positions` and `normals` (of length 1) have equal sizes and must live until draw() returns.
   std::span<const glm::vec3> positions, normals;
+  // Marks regions on solid bodies: a region is where the value, interpolated between the vertices, is above one half.
+  // One value for each position, or empty.
+  std::vector<float> marks;
+  glm::vec3 mark_colour{0.0f};
   std::vector<MeshDraw> meshes;
   std::vector<TranslucentSet> translucent;  // drawn in this order, after all solids
 

@@ -91,7 +91,7 @@ void Framebuffer::attach(GLuint framebuffer, GLuint colour, GLuint depth, int sa
   };
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer);
   add(colour, GL_RGBA8, GL_COLOR_ATTACHMENT0);
-  if (depth != 0) add(depth, GL_DEPTH_COMPONENT24, GL_DEPTH_ATTACHMENT);
+  if (depth != 0) add(depth, GL_DEPTH24_STENCIL8, GL_DEPTH_STENCIL_ATTACHMENT);
   if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE) {
     throw std::runtime_error("the graphics driver refuses a picture of " + std::to_string(size_.x) + "x" +
                              std::to_string(size_.y) + " pixels: try a smaller one");

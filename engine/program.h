@@ -29,6 +29,7 @@ class Program {
   // The program must be in use. Setting a uniform that the shaders do not use has no effect.
   void set(const char* name, int value) const { glUniform1i(location(name), value); }
   void set(const char* name, float value) const { glUniform1f(location(name), value); }
+  void set(const char* name, const glm::vec3& value) const { glUniform3fv(location(name), 1, &value.x); }
   void set(const char* name, const glm::mat4& value) const { glUniformMatrix4fv(location(name), 1, 0, &value[0].x); }
 
  private:

@@ -10,6 +10,13 @@ vec3 fetch(samplerBuffer buffer, uint vertex) {
   return vec3(texelFetch(buffer, at).r, texelFetch(buffer, at + 1).r, texelFetch(buffer, at + 2).r);
 }
 
+// A value of each vertex, interpolated linearly.
+float body_value(samplerBuffer buffer) {
+  vec3 values;
+  for (int i = 0; i < 3; ++i) values[i] = texelFetch(buffer, int(first_vertex + corners[i])).r;
+  return dot(values, vec3(weights, 1.0 - weights.x - weights.y));
+}
+
 // Phong tessellation (Boubekeur and Alexa 2008). The factor 1/2 puts the middle of an edge of a sphere onto the sphere.
 void body_vertex(out vec3 position, out vec3 normal) {
   vec3 p0 = fetch(positions, corners.x), n0 = fetch(normals, corners.x);

@@ -6,22 +6,19 @@
 layout(location = 3) in float radius;
 layout(location = 4) in uvec2 occluder_range;
 layout(location = 5) in vec3 colour;
-uniform float depth_bias;  // in radii: the depth written is that of a point this much farther from the eye
+uniform samplerBuffer marks;
 out vec3 world_position;
 out vec3 world_normal;
 out vec3 bounce;
 out float sky_visibility;
+out float mark;
 flat out vec3 albedo;
 
 void main() {
   body_vertex(world_position, world_normal);
   sky_visibility = visible_sky(world_position, world_normal, occluder_range.x, occluder_range.y);
   bounce = floor_bounce(world_position, radius);
+  mark = body_value(marks);
   albedo = colour;
   gl_Position = frame.clip_from_world * vec4(world_position, 1.0);
-  if (depth_bias > 0.0) {
-    vec3 away = normalize(world_position - frame.eye.xyz);
-    vec4 deeper = frame.clip_from_world * vec4(world_position + depth_bias * radius * away, 1.0);
-    gl_Position.z = deeper.z / deeper.w * gl_Position.w;
-  }
 }

@@ -14,11 +14,11 @@ std::vector<SurfaceMark> marks_of(const Positions& at, const collide::oracle::Ov
   std::vector<SurfaceMark> marks;
   for (const std::size_t i : missed.penetrations) {
     const collide::oracle::Penetration& in = overlaps.penetrations[i];
-    marks.push_back({in.vertex, from_vertex(at, in.vertex, in.point), false});
+    marks.push_back({in.vertex, from_vertex(at, in.vertex, in.point), false, in.body});
   }
   for (const std::size_t i : missed.piercings) {
     const collide::oracle::Piercing& through = overlaps.piercings[i];
-    marks.push_back({through.edge[0], from_vertex(at, through.edge[0], through.point), true});
+    marks.push_back({through.edge[0], from_vertex(at, through.edge[0], through.point), true, through.triangle_body});
   }
   return marks;
 }

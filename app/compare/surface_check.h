@@ -26,6 +26,7 @@ struct SurfaceMark {
   collide::Index vertex;  // the penetrating one, or an end of the piercing edge
   glm::vec3 offset;       // m, from the vertex to the nearest point of the other surface, or to the pierced point
   bool piercing;
+  collide::Index body;  // the other one: around the vertex, or of the pierced face
 };
 
 struct SurfaceReport {

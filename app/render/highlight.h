@@ -1,6 +1,8 @@
 #pragma once
 // Highlights a part of the scene and fades the rest, for a step of the guided tour.
 
+#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -12,6 +14,7 @@ namespace app::render {
 struct SceneLabel {
   glm::vec3 at;  // m
   std::string text;
+  std::optional<glm::vec3> ring{};  // the colour of a ring round the point; its size on the screen is fixed
 };
 
 struct Highlight {
@@ -25,6 +28,8 @@ struct Highlight {
   // A sphere that the camera should frame.
   glm::vec3 centre{0.0f};
   float radius = 1;  // m
+
+  bool fades(softbody::BodyId body) const { return std::ranges::count(bodies, body) == 0; }
 };
 
 }  // namespace app::render

@@ -4,6 +4,9 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <map>
+#include <set>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -17,10 +20,16 @@ namespace {
 
 using Points = std::span<const glm::vec3>;
 
+// Share of its opacity that an overlay keeps where a surface is in front of it. The eye must tell the front from what
+// is behind, and yet find what lies only behind.
+constexpr float hidden = 0.0f;         // for lines all over a body
+constexpr float faint = 0.12f;         // for what fills the scene
+constexpr float half_hidden = 0.3f;    // for contacts, most of which lie behind a surface: where bodies press together
+constexpr float seen_through = 0.45f;  // for the few that must be found: chosen with the mouse, or missed
+
 /// tinted: fill the faces, too; false where other boxes already tint the same place.
 void add_body_boxes(const softbody::World& world, Points positions, bool tinted, engine::FrameData& frame) {
-  engine::BoxSet set;
-  set.width = 1.5f;
+  engine::BoxSet set{.boxes = {}, .width = 1.5f, .occluded_alpha = faint};
   if (!tinted) set.face_alpha = 0;
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
@@ -41,8 +50,7 @@ glm::vec3 box_colour(const collide::DebugGeometry& debug, std::size_t box) {
 
 void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
   const collide::DebugGeometry& debug = *request.debug;
-  engine::BoxSet set;
-  set.face_alpha = request.bucket ? 0.0f : 0.05f;
+  engine::BoxSet set{.boxes = {}, .occluded_alpha = faint, .face_alpha = request.bucket ? 0.0f : 0.05f};
   const float alpha = request.bucket ? 0.15f : 0.85f;
   for (std::size_t i = 0; i < std::min(debug.boxes.size(), SceneView::max_boxes); ++i) {
     const auto& [lo, hi, body] = debug.boxes[i];
@@ -54,9 +62,9 @@ void add_boxes(const OverlayRequest& request, engine::FrameData& frame) {
 /// Adds the content of a bucket and its cells: one cell in one colour; what shares only the bucket in another.
 void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Points positions, engine::FrameData& frame) {
   const compare::CellGroup* reference = request.bucket->group(request.bucket_cell);
-  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = 0.6f, .face_alpha = 0.22f};
-  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = 0.5f, .face_alpha = 0.08f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.6f};
+  engine::BoxSet boxes{.boxes = {}, .width = 2.5f, .occluded_alpha = seen_through, .face_alpha = 0.22f};
+  engine::BoxSet cells{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.08f};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through};
   for (const compare::CellGroup& group : request.bucket->groups) {
     const glm::vec3 colour = &group == reference ? same_cell_colour : aliased_colour;
     cells.boxes.push_back(cell_box(group.cell, cell_size, glm::vec4(colour * 0.6f, 0.9f)));
@@ -75,10 +83,7 @@ void add_bucket(const OverlayRequest& request, const glm::vec3& cell_size, Point
 }
 
 void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::FrameData& frame) {
-  engine::BoxSet set;
-  set.width = 1.5f;
-  set.occluded_alpha = 0.6f;
-  set.face_alpha = 0.12f;
+  engine::BoxSet set{.boxes = {}, .width = 1.5f, .occluded_alpha = half_hidden, .face_alpha = 0.12f};
   for (const auto& [lo, hi, body] : areas) {
     if (set.boxes.size() < SceneView::max_boxes) set.boxes.push_back({lo, hi, glm::vec4(area_colour, 0.9f)});
   }
@@ -86,7 +91,7 @@ void add_areas(const std::vector<collide::DebugGeometry::Box>& areas, engine::Fr
 }
 
 void add_cells(const OverlayRequest& request, const glm::vec3& size, engine::FrameData& frame) {
-  engine::BoxSet set{.boxes = {}, .width = 1.0f, .occluded_alpha = 0.12f, .face_alpha = 0};
+  engine::BoxSet set{.boxes = {}, .width = 1.0f, .occluded_alpha = faint, .face_alpha = 0};
   for (const collide::DebugGeometry::Cell& cell : request.debug->cells) {
     if (set.boxes.size() == SceneView::max_boxes) break;
     set.boxes.push_back(cell_box(cell.index, size, glm::vec4(cell_colour, 0.6f)));
@@ -102,12 +107,9 @@ void add_contact(Points positions, const collide::Contact& contact, const glm::v
   points.points.push_back({b, glm::vec4(colour, 1.0f)});
 }
 
-// Contacts lie where bodies press together, mostly behind a surface, so they must show through.
-constexpr float contacts_hidden = 0.55f;
-
 void add_contacts(const softbody::World& world, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   const auto body = world.vertex_body();
   for (const collide::Contact& contact : world.detection().contacts) {
     const bool inside = body[contact.a] == body[contact.b];
@@ -121,8 +123,8 @@ void add_contacts(const softbody::World& world, Points positions, engine::FrameD
 }
 
 void add_missed(const std::vector<collide::Contact>& missed, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.8f};
-  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = 0.8f};
+  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
+  engine::PointSet points{.points = {}, .diameter = 7.0f, .occluded_alpha = seen_through};
   for (const collide::Contact& contact : missed) {
     add_contact(positions, contact, contact_missed_colour, lines, points);
   }
@@ -133,8 +135,8 @@ void add_missed(const std::vector<collide::Contact>& missed, Points positions, e
 /// Adds both closest points, and the normal at the second one, half a mean edge long.
 void add_surface_contacts(const softbody::World& world, std::span<const softbody::SurfaceContactPoint> contacts,
                           Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = contacts_hidden};
+  engine::LineSet lines{.lines = {}, .width = 2.0f, .occluded_alpha = half_hidden};
+  engine::PointSet points{.points = {}, .diameter = 5.0f, .occluded_alpha = half_hidden};
   for (const softbody::SurfaceContactPoint& contact : contacts) {
     glm::vec3 first(0.0f), second(0.0f);
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
@@ -149,26 +151,64 @@ void add_surface_contacts(const softbody::World& world, std::span<const softbody
   frame.points.push_back(std::move(points));
 }
 
-/// Adds lines from penetrating vertices to the surface that they passed, and the points where edges pierce faces.
-void add_marks(std::span<const compare::SurfaceMark> marks, Points positions, engine::FrameData& frame) {
-  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = contacts_hidden};
-  engine::PointSet points{.points = {}, .diameter = 4.0f, .occluded_alpha = contacts_hidden};
-  const glm::vec4 colour(contact_missed_colour, 1.0f);
+/// Widens the regions of marked vertices (value 1, others 0) by about an edge of the mesh, with a smooth border: it
+/// lies where a mean of the values falls to a fifth.
+void widen(const collide::surface::Surface& surface, std::span<float> marks) {
+  const std::vector<float> marked(marks.begin(), marks.end());
+  std::vector<float> sum(marks.size()), count(marks.size());
+  for (int round = 0; round < 2; ++round) {  // in each, a vertex takes the mean of itself and its neighbours
+    std::ranges::copy(marks, sum.begin());
+    std::ranges::fill(count, 1.0f);
+    for (const auto& [a, b] : surface.edges()) {
+      sum[a] += marks[b];
+      sum[b] += marks[a];
+      ++count[a];
+      ++count[b];
+    }
+    for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = sum[v] / count[v];
+  }
+  for (std::size_t v = 0; v < marks.size(); ++v) marks[v] = std::max(marked[v], 2.5f * marks[v]);
+}
+
+/// Marks the regions of the surfaces that are inside other bodies or pierce them, with a margin that is outside and so
+/// in sight. Adds the deepest vertex of each pair of bodies, joined to the surface that it passed.
+void add_marks(const softbody::World& world, std::span<const compare::SurfaceMark> marks, Points positions,
+               engine::FrameData& frame) {
+  frame.mark_colour = contact_missed_colour;
+  frame.marks.assign(frame.positions.size(), 0.0f);
+  const auto body_of = world.vertex_body();
+  std::map<std::pair<softbody::BodyId, softbody::BodyId>, const compare::SurfaceMark*> deepest;
+  std::set<softbody::BodyId> marked;
   for (const compare::SurfaceMark& mark : marks) {
-    const glm::vec3 vertex = positions[mark.vertex], point = vertex + mark.offset;
-    points.points.push_back({mark.piercing ? point : vertex, colour});
-    if (!mark.piercing) lines.lines.push_back({vertex, point, colour});
+    const softbody::BodyId body = body_of[mark.vertex];
+    frame.marks[mark.vertex] = 1.0f;
+    marked.insert(body);
+    if (mark.piercing) continue;
+    const compare::SurfaceMark*& deepest_here = deepest[std::minmax(body, softbody::BodyId{mark.body})];
+    if (!deepest_here || glm::length(deepest_here->offset) < glm::length(mark.offset)) deepest_here = &mark;
+  }
+  for (const softbody::BodyId body : marked)
+    widen(*world.prototype(body).surface,
+          std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
+  engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = half_hidden};
+  engine::PointSet points{.points = {}, .diameter = 4.5f, .occluded_alpha = half_hidden};
+  const glm::vec4 colour(contact_missed_colour, 1.0f);
+  for (const auto& [pair, mark] : deepest) {
+    const glm::vec3 vertex = positions[mark->vertex];
+    lines.lines.push_back({vertex, vertex + mark->offset, colour});
+    points.points.push_back({vertex, colour});
   }
   frame.lines.push_back(std::move(lines));
   frame.points.push_back(std::move(points));
 }
 
+bool is_open(const softbody::Prototype& prototype) { return !(prototype.start_volume > 0); }
+
 /// Returns for each vertex of a body whether one of its faces is turned to the eye; always true for an open body, which
 /// shows both sides.
 std::vector<char> vertices_in_sight(const softbody::Prototype& prototype, Points body, const glm::vec3& eye) {
-  const bool closed = prototype.start_volume > 0;
-  std::vector<char> in_sight(body.size(), !closed);
-  if (!closed) return in_sight;
+  std::vector<char> in_sight(body.size(), is_open(prototype));
+  if (is_open(prototype)) return in_sight;
   for (const auto& [a, b, c] : prototype.mesh.triangles) {
     if (glm::dot(glm::cross(body[b] - body[a], body[c] - body[a]), eye - body[a]) <= 0) continue;
     in_sight[a] = in_sight[b] = in_sight[c] = true;
@@ -194,8 +234,8 @@ bool is_near(const softbody::Prototype& prototype, Points body, const Viewpoint&
 }
 
 void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Points positions, engine::FrameData& frame) {
-  engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = 0};  // too many to draw twice
-  engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = 0};
+  engine::LineSet structural{.lines = {}, .width = 1.75f, .occluded_alpha = hidden};
+  engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = hidden};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
     const softbody::Prototype& prototype = world.prototype(b);
@@ -213,9 +253,8 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
 /// Adds the borders, and the edges between a face that is turned to the eye and one that is not. They lie a little
 /// outside, because the body is drawn rounder than its mesh.
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
-                 engine::FrameData& frame) {
+                 const glm::vec3& colour, engine::LineSet& lines) {
   constexpr float outside = 0.08f;  // of the length of an edge
-  engine::LineSet lines{.lines = {}, .width = 3.0f, .occluded_alpha = 0.5f};
   const collide::surface::Surface& surface = *world.prototype(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
@@ -234,9 +273,23 @@ void add_outline(const softbody::World& world, softbody::BodyId id, const glm::v
     const float length2 = glm::dot(normal, normal);
     const glm::vec3 out =
         length2 > 0 ? normal * (outside * glm::distance(body[a], body[b]) / std::sqrt(length2)) : glm::vec3(0);
-    lines.lines.push_back({body[a] + out, body[b] + out, glm::vec4(hand_colour, 1.0f)});
+    lines.lines.push_back({body[a] + out, body[b] + out, glm::vec4(colour, 1.0f)});
   }
-  frame.lines.push_back(std::move(lines));
+}
+
+/// Adds fine outlines to open bodies, which show little shade, and a bold one to the selected body.
+void add_outlines(const softbody::World& world, const OverlayRequest& request, const glm::vec3& eye, Points positions,
+                  engine::FrameData& frame) {
+  engine::LineSet fine{.lines = {}, .width = 1.25f, .occluded_alpha = hidden};
+  engine::LineSet bold{.lines = {}, .width = 3.0f, .occluded_alpha = seen_through};
+  for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
+    if (body == request.selected_body)
+      add_outline(world, body, eye, positions, hand_colour, bold);
+    else if (is_open(world.prototype(body)) && !(request.highlight && request.highlight->fades(body)))
+      add_outline(world, body, eye, positions, 0.5f * body_colour(world.body(body).number), fine);
+  }
+  frame.lines.push_back(std::move(fine));
+  frame.lines.push_back(std::move(bold));
 }
 
 /// Adds the spring of the mouse: from the point that it holds to its target.
@@ -247,8 +300,9 @@ void add_grab(const softbody::World& world, const softbody::Grab& grab, Points p
             positions[world.bodies().first[grab.body] + grab.corners[static_cast<std::size_t>(i)]];
   const glm::vec4 colour(hand_colour, 1.0f);
   const glm::vec3 target(grab.target);
-  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = 0.7f});
-  frame.points.push_back({.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = 0.7f});
+  frame.lines.push_back({.lines = {{held, target, colour}}, .width = 2.5f, .occluded_alpha = seen_through});
+  frame.points.push_back(
+      {.points = {{held, colour}, {target, colour}}, .diameter = 9.0f, .occluded_alpha = seen_through});
 }
 
 }  // namespace
@@ -271,8 +325,8 @@ void add_overlays(const softbody::World& world, const OverlayRequest& request, c
   if (shown.contacts) add_contacts(world, positions, frame);
   if (shown.missed && request.missed) add_missed(*request.missed, positions, frame);
   if (shown.surface_contacts) add_surface_contacts(world, request.surface_contacts, positions, frame);
-  if (shown.true_surfaces) add_marks(request.marks, positions, frame);
-  if (request.selected_body) add_outline(world, *request.selected_body, viewpoint.eye, positions, frame);
+  if (shown.true_surfaces) add_marks(world, request.marks, positions, frame);
+  add_outlines(world, request, viewpoint.eye, positions, frame);
   if (const auto& grab = world.grabbed()) add_grab(world, *grab, positions, frame);
 }
 

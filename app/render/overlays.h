@@ -45,7 +45,8 @@ inline constexpr std::array<OverlayRow, 9> overlay_table{{
      "All springs, coloured by their strain. From far away only the springs along edges are drawn.",
      &Overlays::springs},
     {"missed", "Missed contacts", '6',
-     "True contacts that the paper's method misses, or the method that you choose in the comparison (V).",
+     "True contacts that the paper's method misses, or the method that you choose in the comparison (V). A ring shows "
+     "where, and how many.",
      &Overlays::missed},
     {"areas", "Areas searched", '7', "Where the exact method searches for contacts between two bodies (§2.1, §5).",
      &Overlays::areas},

@@ -1,6 +1,7 @@
 #include "app/render/scene_view.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 
 #include <glm/common.hpp>
@@ -9,6 +10,7 @@
 
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
+#include "engine/render/ambient_occlusion.h"
 #include "softbody/prototype.h"
 
 namespace app::render {
@@ -69,25 +71,36 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
 }
 
 void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnPositions& positions) {
+  assert(positions.size() == positions_.size());
   const auto first = static_cast<std::uint32_t>(positions_.size());
   gather_positions(positions);
-  // Where the two worlds hardly differ, neither surface should show through the other in patches.
-  engine::TranslucentSet set{.meshes = gather_bodies(ghost, first), .opacity = 0.45f, .depth_bias = 0.05f};
-  for (engine::MeshDraw& draw : set.meshes) draw.colour = ghost_colour;
-  frame_.translucent.push_back(std::move(set));
+  // A ghost that overlaps its own body stands behind it. Otherwise either surface would show through the other in
+  // patches.
+  engine::TranslucentSet near{.meshes = {}, .opacity = 0.45f, .behind_bodies = true},
+      far{.meshes = {}, .opacity = 0.45f};
+  for (engine::MeshDraw& draw : gather_bodies(ghost, first)) {
+    const auto sphere_from = [&](std::uint32_t vertex) {
+      return engine::render::mean_sphere(std::span(positions_).subspan(vertex, draw.vertex_count));
+    };
+    const glm::vec4 own = sphere_from(draw.first_vertex - first), ghostly = sphere_from(draw.first_vertex);
+    const bool overlaps = glm::distance(glm::vec3(own), glm::vec3(ghostly)) < own.w + ghostly.w;
+    draw.colour = ghost_colour;
+    (overlaps ? near : far).meshes.push_back(draw);
+  }
+  frame_.translucent.push_back(std::move(near));
+  frame_.translucent.push_back(std::move(far));
 }
 
-/// Fades bodies that the highlight does not name, the more the more of them there are. Named bodies may be translucent.
+/// Fades bodies that the highlight does not name. Named bodies may be translucent.
 void SceneView::apply(const Highlight& highlight) {
-  const float faded = std::clamp(6.0f / static_cast<float>(frame_.meshes.size() + 1), 0.01f, 0.12f);
-  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity, .writes_depth = highlight.bodies_hide},
-      others{.meshes = {}, .opacity = faded, .writes_depth = false};
+  engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity, .hides = highlight.bodies_hide},
+      others{.meshes = {}, .opacity = 0.15f, .hides = false};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];
-    const bool is_named = std::ranges::count(highlight.bodies, static_cast<softbody::BodyId>(b)) > 0;
-    if (!is_named) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
-    (!is_named ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
+    const bool fades = highlight.fades(static_cast<softbody::BodyId>(b));
+    if (fades) draw.colour = glm::mix(draw.colour, glm::vec3(0.75f), 0.7f);
+    (fades ? others.meshes : highlight.opacity < 1 ? named.meshes : solid).push_back(draw);
   }
   frame_.meshes = std::move(solid);
   frame_.translucent.push_back(std::move(named));

@@ -12,8 +12,8 @@
 #include <utility>
 
 #include "app/ui/shortcuts.h"
-#include "app/ui/tour/tour_view.h"
 #include "app/ui/user_interface.h"
+#include "app/ui/views/scene_labels.h"
 #include "app/window/frame_schedule.h"
 #include "app/window/frame_timer.h"
 #include "app/window/graphics.h"
@@ -149,8 +149,8 @@ class Demo {
     }
     const engine::Viewport viewport = scene_viewport();
     double drawing = timed([&] { draw_scene(viewport); });
-    if (const render::Highlight* highlight = ui_.tour.highlight())
-      ui::draw_labels(highlight->labels, camera_, viewport.size, interface_.scene_area(), graphics_->gui.scale());
+    ui::draw_labels(scene_labels(session_, ui_), camera_, viewport.size, interface_.scene_area(),
+                    graphics_->gui.scale());
     ui_.view = render::SceneView::view(camera_, viewport.size);
     graphics_->gui.end_frame();
     const InterfaceKey before = std::exchange(shown_, interface_key());

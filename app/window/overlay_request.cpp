@@ -1,5 +1,10 @@
 #include "app/window/overlay_request.h"
 
+#include <algorithm>
+#include <iterator>
+
+#include "app/render/miss_marks.h"
+
 namespace app::window {
 
 bool shows_present_state(const Session& session, const render::Overlays& shown) {
@@ -27,6 +32,16 @@ render::OverlayRequest overlay_request(const Session& session, const ui::UiState
         ghost->drawn_positions(shows_present_state(session, ui.overlays) ? 1.0f : session.simulation.between());
   }
   return request;
+}
+
+std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::UiState& ui) {
+  std::vector<render::SceneLabel> labels;
+  if (const render::Highlight* highlight = ui.tour.highlight()) labels = highlight->labels;
+  if (const auto* missed = ui.shows_misses() ? session.comparison.missed() : nullptr)
+    std::ranges::copy(render::miss_marks(session.world(), *missed,
+                                         session.simulation.drawn_positions(shows_present_state(session, ui.overlays))),
+                      std::back_inserter(labels));
+  return labels;
 }
 
 }  // namespace app::window

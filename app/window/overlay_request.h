@@ -14,4 +14,7 @@ bool shows_present_state(const Session& session, const render::Overlays& shown);
 /// Returns the request for what is switched on and selected now. It is valid until the next step.
 render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui);
 
+/// Returns the labels in the scene: those of the tour, and the marks of the missed contacts if these are shown.
+std::vector<render::SceneLabel> scene_labels(const Session& session, const ui::UiState& ui);
+
 }  // namespace app::window

@@ -35,6 +35,7 @@ void attach_buffer(const Texture& texture, const Buffer& buffer, int unit, GLenu
 
 BodyPass::BodyPass(const std::filesystem::path& shaders)
     : program_(scene_program(shaders, "body.vert", "surface.frag")),
+      marked_program_(scene_program(shaders, "body.vert", "surface_marked.frag")),
       shadow_program_(scene_program(shaders, "body_shadow.vert", "depth.frag")) {}
 
 MeshHandle BodyPass::add_mesh(std::span<const std::uint32_t> triangles, std::uint32_t vertex_count) {
@@ -77,6 +78,10 @@ void BodyPass::check(const FrameData& frame) const {
     throw std::invalid_argument("a frame has " + std::to_string(frame.positions.size()) + " positions but " +
                                 std::to_string(frame.normals.size()) + " normals");
   }
+  if (!frame.marks.empty() && frame.marks.size() != frame.positions.size()) {
+    throw std::invalid_argument("a frame has " + std::to_string(frame.positions.size()) + " positions but " +
+                                std::to_string(frame.marks.size()) + " marks");
+  }
   for (const MeshDraw& draw : frame.meshes) check(draw, frame);
   for (const TranslucentSet& set : frame.translucent)
     for (const MeshDraw& draw : set.meshes) check(draw, frame);
@@ -102,6 +107,9 @@ void BodyPass::update(const FrameData& frame, const AmbientOcclusion& occlusion,
   attach_buffer(positions_, position_buffer_, unit_positions, GL_R32F);
   normal_buffer_.stream(GL_TEXTURE_BUFFER, frame.normals);
   attach_buffer(normals_, normal_buffer_, unit_normals, GL_R32F);
+  if (frame.marks.empty()) return;
+  mark_buffer_.stream(GL_TEXTURE_BUFFER, std::span(frame.marks));
+  attach_buffer(marks_, mark_buffer_, unit_marks, GL_R32F);
 }
 
 // Sorts from front to back, so that hidden pixels are not shaded.
@@ -140,22 +148,26 @@ void BodyPass::draw_shadows(const glm::mat4& light_clip_from_world) {
   draw_batches(batches_, true);
 }
 
-void BodyPass::draw() {
-  program_.use();
+void BodyPass::draw(const FrameData& frame) {
+  const Program& program = frame.marks.empty() ? program_ : marked_program_;
+  program.use();
+  if (!frame.marks.empty()) program.set("mark_colour", frame.mark_colour);
   draw_batches(batches_, false);
 }
 
-void BodyPass::draw_translucent() {
+void BodyPass::draw_translucent(bool hiding) {
   if (translucent_.empty()) return;
   program_.use();
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+  glStencilFunc(GL_EQUAL, 0, stencil_bodies);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
   for (const auto& [set, batches] : translucent_) {
-    program_.set("depth_bias", set->depth_bias);
-    if (set->writes_depth) {  // a depth pre-pass, so that only the nearest surface is visible
-      glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
-      draw_batches(batches, false);
-      glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
-    }
+    if (set->hides != hiding) continue;
+    if (set->behind_bodies) glEnable(GL_STENCIL_TEST);
+    // The depth comes first, so that only the nearest surface gets a colour.
+    glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
+    draw_batches(batches, false);
+    glColorMask(GL_TRUE, GL_TRUE, GL_TRUE, GL_TRUE);
     glEnable(GL_BLEND);
     glDepthFunc(GL_LEQUAL);
     glDepthMask(GL_FALSE);
@@ -164,9 +176,9 @@ void BodyPass::draw_translucent() {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
+    glDisable(GL_STENCIL_TEST);
   }
   program_.set("opacity", 1.0f);
-  program_.set("depth_bias", 0.0f);
 }
 
 void BodyPass::draw_batches(const Batches& batches, bool coarsest) {

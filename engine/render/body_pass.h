@@ -37,9 +37,10 @@ class BodyPass {
   void update(const FrameData& frame, const AmbientOcclusion& occlusion, const glm::vec3& eye,
               float pixels_at_one_metre);
   void draw_shadows(const glm::mat4& light_clip_from_world);
-  void draw();
-  /// Draws after all solids.
-  void draw_translucent();
+  void draw(const FrameData& frame);
+  /// Draws the translucent sets that hide what is behind them, or the others, after all solids. Sets that stand behind
+  /// the bodies require stencil_bodies where a body is seen.
+  void draw_translucent(bool hiding);
 
  private:
   void check(const MeshDraw& draw, const FrameData& frame) const;
@@ -71,13 +72,13 @@ class BodyPass {
   const Level& level_of_detail(Mesh& mesh, int level) const;
   void set_instance_attributes() const;
 
-  Program program_, shadow_program_;
+  Program program_, marked_program_, shadow_program_;
   std::vector<Mesh> meshes_;
   Batches batches_;
   std::vector<std::pair<const TranslucentSet*, Batches>> translucent_;  // sets of the current frame
   std::vector<std::pair<float, std::uint32_t>> distances_;              // from the eye, with the index of the body
-  Buffer position_buffer_, normal_buffer_, occluder_buffer_, instances_;
-  Texture positions_, normals_, occluders_;
+  Buffer position_buffer_, normal_buffer_, mark_buffer_, occluder_buffer_, instances_;
+  Texture positions_, normals_, marks_, occluders_;
 };
 
 }  // namespace engine::render

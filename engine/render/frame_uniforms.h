@@ -22,7 +22,10 @@ struct FrameUniforms {
 };
 
 /// The texture units of the samplers, the same in every program.
-enum TextureUnit : int { unit_positions, unit_normals, unit_occluders, unit_floor_map, unit_shadow_map };
+enum TextureUnit : int { unit_positions, unit_normals, unit_marks, unit_occluders, unit_floor_map, unit_shadow_map };
+
+/// Bits of the stencil buffer: pixels that show solid bodies; the last set of overlays drawn behind a surface.
+enum StencilBits : GLuint { stencil_bodies = 0x80, stencil_overlays = 0x7f };
 
 /// Builds a program and assigns its samplers to their texture units. Throws ShaderError.
 inline Program scene_program(const std::filesystem::path& shaders, const char* vertex_file, const char* fragment_file) {
@@ -30,6 +33,7 @@ inline Program scene_program(const std::filesystem::path& shaders, const char* v
   program.use();
   program.set("positions", unit_positions);
   program.set("normals", unit_normals);
+  program.set("marks", unit_marks);
   program.set("occluders", unit_occluders);
   program.set("floor_map", unit_floor_map);
   program.set("shadow_map", unit_shadow_map);

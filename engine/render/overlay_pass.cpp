@@ -7,6 +7,7 @@
 #include <tuple>
 
 #include "engine/context.h"
+#include "engine/render/frame_uniforms.h"
 
 namespace engine::render {
 namespace {
@@ -92,6 +93,7 @@ void OverlayPass::draw(const FrameData& frame) {
   glEnable(GL_BLEND);
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   glDepthMask(GL_FALSE);
+  faint_set_ = 0;
   for (const BoxSet& set : frame.boxes) {
     if (set.boxes.empty()) continue;
     draw_faces(set);
@@ -136,7 +138,8 @@ void OverlayPass::draw_points(const PointSet& set, float scale) {
                             [&] { glDrawArraysInstanced(GL_TRIANGLE_STRIP, 0, 4, count); });
 }
 
-/// Draws faintly where a solid is in front, then in full where none is.
+/// Draws faintly where a solid is in front, then in full where none is. By the stencil, each pixel is drawn faintly at
+/// most once: else many points in one place would look as if they were in front.
 template <class Draw>
 void OverlayPass::draw_occluded_and_visible(const Program& program, float occluded_alpha, const Draw& draw) {
   const auto draw_where = [&](GLenum depth_test, float opacity) {
@@ -144,7 +147,16 @@ void OverlayPass::draw_occluded_and_visible(const Program& program, float occlud
     program.set("opacity", opacity);
     draw();
   };
-  if (occluded_alpha > 0.0f) draw_where(GL_GREATER, occluded_alpha);
+  if (occluded_alpha > 0.0f) {
+    faint_set_ = faint_set_ % int{stencil_overlays} + 1;
+    glEnable(GL_STENCIL_TEST);
+    glStencilMask(stencil_overlays);
+    glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+    glStencilFunc(GL_NOTEQUAL, faint_set_, stencil_overlays);
+    draw_where(GL_GREATER, occluded_alpha);
+    glStencilMask(0xff);
+    glDisable(GL_STENCIL_TEST);
+  }
   draw_where(GL_LEQUAL, 1.0f);
 }
 

@@ -18,7 +18,7 @@ class OverlayPass {
 
  private:
   template <class Draw>
-  static void draw_occluded_and_visible(const Program& program, float occluded_alpha, const Draw& draw);
+  void draw_occluded_and_visible(const Program& program, float occluded_alpha, const Draw& draw);
   void draw_lines(std::span<const Line> lines, float width, float occluded_alpha);
   void draw_points(const PointSet& set, float scale);
   void draw_faces(const BoxSet& set);
@@ -30,6 +30,7 @@ class OverlayPass {
   Program line_program_, point_program_, box_program_;
   VertexArray line_array_, point_array_, box_array_;
   Buffer line_buffer_, point_buffer_, box_buffer_;
+  int faint_set_ = 0;  // the last set that was drawn faintly, as in the stencil; 0: none
 };
 
 }  // namespace engine::render

@@ -135,16 +135,22 @@ void Renderer::Passes::draw_scene(const Viewport& viewport, const FrameData& fra
   glViewport(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
   glScissor(viewport.origin.x, viewport.origin.y, viewport.size.x, viewport.size.y);
   glEnable(GL_SCISSOR_TEST);
-  glClear(GL_DEPTH_BUFFER_BIT);
+  glClear(GL_DEPTH_BUFFER_BIT | GL_STENCIL_BUFFER_BIT);
   glDisable(GL_SCISSOR_TEST);
   shadow_map.texture().bind(unit_shadow_map, GL_TEXTURE_2D);
-  bodies.draw();
+  if (std::ranges::any_of(frame.translucent, &TranslucentSet::behind_bodies)) glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
+  glStencilFunc(GL_ALWAYS, stencil_bodies, stencil_bodies);
+  bodies.draw(frame);
+  glStencilFunc(GL_ALWAYS, 0, stencil_bodies);
   spheres.draw();
   boxes.draw();
+  glDisable(GL_STENCIL_TEST);
   environment.draw(frame.floor_height.has_value());
   if (software_renderer) glFlush();  // so that the driver's threads draw while this one prepares the overlays
-  bodies.draw_translucent();
+  bodies.draw_translucent(true);
   overlays.draw(frame);
+  bodies.draw_translucent(false);
 }
 
 Renderer::Renderer(const std::filesystem::path& shaders) : passes_(std::make_unique<Passes>(shaders)) {}
@@ -163,6 +169,7 @@ void Renderer::draw(const Camera& camera, const Viewport& viewport, const FrameD
   glDepthMask(GL_TRUE);
   glDisable(GL_BLEND);
   glDisable(GL_SCISSOR_TEST);
+  glDisable(GL_STENCIL_TEST);
   passes_->update(camera, viewport, frame);
   passes_->draw_shadows();
   if (frame.floor_height) passes_->floor_map.draw(frame, passes_->occlusion);

@@ -24,8 +24,9 @@ class Renderer {
   /// last triangle is incomplete.
   MeshHandle add_mesh(std::span<const std::uint32_t> triangles, std::uint32_t vertex_count);
 
-  /// Draws into the bound framebuffer and covers the whole viewport, background included. Does nothing if the viewport
-  /// is empty. Throws std::invalid_argument if a draw exceeds the vertices of the frame or does not fit its mesh.
+  /// Draws into the bound framebuffer, which has depth and stencil, and covers the whole viewport, background included.
+  /// Does nothing if the viewport is empty. Throws std::invalid_argument if a draw exceeds the vertices of the frame or
+  /// does not fit its mesh.
   void draw(const Camera& camera, const Viewport& viewport, const FrameData& frame);
 
  private:

@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/capture.h"
+#include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
 #include "app/render/scene_view.h"
 #include "app/session/session.h"
@@ -49,7 +50,7 @@ TEST_F(SceneViewTest, DrawsEachOverlay) {
   request.missed = &missed;
   const std::vector<softbody::SurfaceContactPoint> touches{
       {0, 1, {0, 162, 163, 164}, {1, -0.5f, -0.25f, -0.25f}, {0, 1, 0}}};
-  const std::vector<compare::SurfaceMark> marks{{0, {0, 0.3f, 0}, false}, {200, {0, 0.1f, 0}, true}};
+  const std::vector<compare::SurfaceMark> marks{{0, {0, 0.3f, 0}, false, 1}, {200, {0, 0.1f, 0}, true, 0}};
   request.surface_contacts = touches;
   request.marks = marks;
   const auto plain = picture(request);
@@ -95,6 +96,96 @@ TEST_F(SceneViewTest, DrawsAGhostThatHardlyDiffersBehind) {
   EXPECT_LT(differ, plain.size() / 4 / 100) << "except outlines";
   for (float& x : nearly.x) x += 0.5f;
   EXPECT_NE(picture(request), with_ghost);
+}
+
+/// Else the two would show through each other in patches.
+TEST_F(SceneViewTest, DrawsAGhostThatOverlapsItsBodyBehindItAndOneThatLeftItInPlace) {
+  const engine::Camera camera = view_.camera(session_.world().scene(), size);
+  const glm::vec3 body(-0.51f, 3, 0.03f), to_eye = glm::normalize(camera.eye() - body);
+  const auto pixel = camera.project(body, size);
+  const auto at_body = [&](const std::vector<std::uint8_t>& rgba) {
+    const std::size_t i =
+        4 * static_cast<std::size_t>(static_cast<int>(pixel->y) * size.x + static_cast<int>(pixel->x));
+    return std::vector(&rgba[i], &rgba[i] + 3);
+  };
+  render::OverlayRequest request;
+  const auto plain = at_body(picture(request));
+  request.ghost = &session_.world();
+  for (const float nearer : {0.4f, 1.5f}) {
+    compare::Positions moved;
+    moved.copy(session_.world().positions());
+    for (std::size_t i = 0; i < moved.x.size(); ++i) {
+      moved.x[i] += nearer * to_eye.x;
+      moved.y[i] += nearer * to_eye.y;
+      moved.z[i] += nearer * to_eye.z;
+    }
+    request.ghost_positions = {session_.world().positions(), moved.x, moved.y, moved.z, 0.0f};
+    EXPECT_EQ(at_body(picture(request)) == plain, nearer < 1) << nearer;
+  }
+}
+
+TEST_F(SceneViewTest, OutlinesOpenBodies) {
+  const softbody::World world(softbody::find_scene("cloth", engine::find_folder("assets") / "scenes"), {});
+  const engine::Camera camera = view_.camera(world.scene(), size);
+  target_.bind();
+  view_.draw(world, {}, camera, {{0, 0}, size}, 1.0f);
+  const engine::Image image = target_.read();
+  const auto darkest_red = [&](const glm::vec3& point) {  // of the pixels near it
+    const glm::ivec2 pixel(*camera.project(point, size));
+    int least = 255;
+    for (int y = -2; y <= 2; ++y)
+      for (int x = -2; x <= 2; ++x) least = std::min<int>(least, image.at(pixel.x + x, pixel.y + y).r);
+    return least;
+  };
+  const glm::vec3 centre(world.scene().bodies[0].position);
+  EXPECT_LT(darkest_red(centre + glm::vec3(0, 0, 2.2f)), darkest_red(centre + glm::vec3(0, 0, 1.8f)) - 40);
+}
+
+class AddOverlaysTest : public testing::Test {
+ protected:
+  AddOverlaysTest() {
+    for (std::size_t i = 0; i < world_.bodies().vertex_count(); ++i)
+      positions_.push_back(compare::DrawnPositions{.now = world_.positions()}[i]);
+    request_.shown.true_surfaces = true;
+    frame_.positions = frame_.normals = positions_;
+  }
+  void add(const std::vector<compare::SurfaceMark>& marks) {
+    request_.marks = marks;
+    render::add_overlays(world_, request_, {glm::vec3(0, 3, 9), 500}, positions_, frame_);
+  }
+
+  softbody::World world_{touching_pair(), {}};
+  std::vector<glm::vec3> positions_;
+  render::OverlayRequest request_;
+  engine::FrameData frame_;
+};
+
+TEST_F(AddOverlaysTest, MarkWhatIsInsideAnotherBodyWithAMargin) {
+  add({{7, {0.1f, 0, 0}, false, 1}});
+  ASSERT_EQ(frame_.marks.size(), positions_.size());
+  EXPECT_EQ(frame_.marks[7], 1.0f);
+  int neighbours = 0, others = 0;
+  for (std::size_t v = 0; v < positions_.size(); ++v) {
+    const float distance = glm::distance(positions_[v], positions_[7]);
+    if (v != 7 && frame_.marks[v] > 0) ++(distance < 0.25f ? neighbours : others);
+    if (distance > 0.5f) {
+      EXPECT_EQ(frame_.marks[v], 0.0f);
+    }
+  }
+  EXPECT_GE(neighbours, 5);
+  EXPECT_LT(others, 16);
+}
+
+TEST_F(AddOverlaysTest, MarkOnlyTheDeepestVertexOfAPairByALine) {
+  add({{7, {0.1f, 0, 0}, false, 1},
+       {8, {0.2f, 0, 0}, false, 1},
+       {170, {-0.1f, 0, 0}, false, 0},
+       {9, {0.3f, 0, 0}, true, 1}});
+  std::vector<engine::Line> lines;
+  for (const engine::LineSet& set : frame_.lines) lines.insert(lines.end(), set.lines.begin(), set.lines.end());
+  ASSERT_EQ(lines.size(), 1u);
+  EXPECT_EQ(lines[0].a, positions_[8]);
+  EXPECT_EQ(lines[0].b, positions_[8] + glm::vec3(0.2f, 0, 0));
 }
 
 TEST(Capture, DrawsAPictureOfTheRequestedSize) {

@@ -198,6 +198,17 @@ TEST_F(RendererTest, LinesAndPointsAreFaintBehindASphere) {
   }
 }
 
+TEST_F(RendererTest, ManyPointsInOnePlaceAreAsFaintAsOneBehindASphere) {
+  frame.spheres = {red_sphere};
+  const Point point{middle, glm::vec4(0, 0, 1, 1)};
+  const auto with = [&](std::vector<Point> points) {
+    frame.points = {{std::move(points), 12.0f, 0.3f}};
+    return colour(picture(), middle);
+  };
+  EXPECT_NE(with({point}), with({}));
+  EXPECT_EQ(with({point, point, point}), with({point}));
+}
+
 TEST_F(RendererTest, LineThroughTheEyeIsClipped) {
   frame.floor_height.reset();
   const glm::vec3 eye = camera.eye();
@@ -262,6 +273,9 @@ TEST_F(RendererTest, RefusesDrawsThatDoNotFit) {
   frame.meshes = {{{0}, 1, 12}};
   EXPECT_THROW(picture(), std::invalid_argument);  // beyond the last vertex
   frame.meshes.clear();
+  frame.marks = {1.0f};
+  EXPECT_THROW(picture(), std::invalid_argument);  // fewer marks than positions
+  frame.marks.clear();
   frame.normals = {};
   EXPECT_THROW(picture(), std::invalid_argument);
   EXPECT_THROW(renderer.add_mesh(mesh.triangles, 11), std::invalid_argument);
@@ -291,27 +305,84 @@ TEST_F(RendererTest, TranslucentBodiesShowWhatIsBehindThemAndCastNoShadow) {
   }
 }
 
-TEST_F(RendererTest, OnlyTranslucentBodiesThatWriteDepthHideOthers) {
-  const Mesh mesh = icosahedron();
-  const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
-  std::vector<glm::vec3> positions, normals;
-  camera.set_orbit({middle, 5.0f, 0.0f, 0.0f});
-  for (const float z : {0.5f, -0.5f}) {  // one behind the other
-    for (const glm::vec3& p : mesh.positions) {
-      positions.push_back(middle + 0.4f * p + glm::vec3(0, 0, z));
-      normals.push_back(p);
+/// Two bodies, one behind the other.
+class TranslucentTest : public RendererTest {
+ protected:
+  TranslucentTest() {
+    const Mesh mesh = icosahedron();
+    const MeshHandle handle = renderer.add_mesh(mesh.triangles, 12);
+    camera.set_orbit({middle, 5.0f, 0.0f, 0.0f});
+    for (const float z : {0.5f, -0.5f}) {
+      for (const glm::vec3& p : mesh.positions) {
+        positions_.push_back(middle + 0.4f * p + glm::vec3(0, 0, z));
+        normals_.push_back(p);
+      }
     }
+    frame.positions = positions_;
+    frame.normals = normals_;
+    front = {handle, 0, 12, red_sphere.colour};
+    back = {handle, 12, 12, glm::vec3(0.1f, 0.1f, 0.9f)};
   }
-  frame.positions = positions;
-  frame.normals = normals;
-  const MeshDraw front{handle, 0, 12, red_sphere.colour}, back{handle, 12, 12, glm::vec3(0.1f, 0.1f, 0.9f)};
-  const auto blue = [&](const std::vector<MeshDraw>& meshes, bool writes_depth) {
-    frame.translucent = {{meshes, 0.4f, writes_depth}};
-    const glm::ivec3 c = colour(picture(), middle + glm::vec3(0, 0, 0.5f));
+  glm::ivec3 centre() { return colour(picture(), middle + glm::vec3(0, 0, 0.5f)); }
+
+  MeshDraw front, back;
+
+ private:
+  std::vector<glm::vec3> positions_, normals_;
+};
+
+TEST_F(TranslucentTest, ShowsOnlyTheNearestSurfaceOfASet) {
+  for (const bool hides : {false, true}) {
+    frame.translucent = {{{front}, 0.4f, hides}};
+    const glm::ivec3 alone = centre();
+    frame.translucent = {{{back, front}, 0.4f, hides}};
+    EXPECT_EQ(centre(), alone);
+  }
+}
+
+TEST_F(TranslucentTest, HidesOrVeilsWhatIsBehind) {
+  const auto blue = [&](bool hides) {
+    frame.translucent = {{{front}, 0.4f, hides}};
+    const glm::ivec3 c = centre();
     return c.b - c.g;
   };
-  EXPECT_EQ(blue({front, back}, true), blue({front}, true));
-  EXPECT_GT(blue({front, back}, false), blue({front}, false) + 10);
+  const int hiding = blue(true), veiling = blue(false);
+  EXPECT_EQ(hiding, veiling);
+  frame.points = {{{{middle, glm::vec4(0, 0, 1, 1)}}, 12.0f, 0.0f}};
+  EXPECT_EQ(blue(true), hiding);
+  EXPECT_GT(blue(false), veiling + 60);
+}
+
+TEST_F(TranslucentTest, StandsBehindBodiesButNotBehindOtherSolids) {
+  frame.meshes = {back};
+  const glm::ivec3 without = centre();
+  frame.translucent = {{.meshes = {front}, .opacity = 0.4f, .behind_bodies = true}};
+  EXPECT_EQ(centre(), without);
+  frame.translucent[0].behind_bodies = false;
+  EXPECT_NE(centre(), without);
+  frame.spheres = {{middle, 0.3f, glm::vec3(0.6f)}};  // before the body, behind the other one
+  frame.translucent.clear();
+  const glm::ivec3 sphere = centre();
+  frame.translucent = {{.meshes = {front}, .opacity = 0.4f, .behind_bodies = true}};
+  EXPECT_GT(centre().r - centre().g, sphere.r - sphere.g + 20);
+}
+
+TEST_F(TranslucentTest, MarksRegionsOfSolidBodies) {
+  frame.meshes = {front};
+  const auto darkest = [&](const glm::vec3& around) {
+    const Image image = picture();
+    const auto pixel = camera.project(around, size);
+    int least = 255;
+    for (int x = -8; x <= 8; ++x)  // over a stripe
+      least =
+          std::min(least, brightness(glm::ivec3(image.at(static_cast<int>(pixel->x) + x, static_cast<int>(pixel->y)))));
+    return least;
+  };
+  const glm::vec3 left = middle + glm::vec3(-0.2f, 0, 0.5f), right = middle + glm::vec3(0.2f, 0, 0.5f);
+  const int plain_left = darkest(left), plain_right = darkest(right);
+  for (const glm::vec3& p : frame.positions) frame.marks.push_back(p.x < -0.1f ? 1.0f : 0.0f);
+  EXPECT_LT(darkest(left), plain_left - 40);
+  EXPECT_EQ(darkest(right), plain_right);
 }
 
 TEST_F(RendererTest, DrawsEdgesThatBoxesShareOnce) {

@@ -40,7 +40,8 @@ struct UiState {
   session::Exporter exporter;
   Tour tour;
 
-  bool shows_misses() const { return overlays.missed || story; }
+  /// True if the scene marks missed contacts.
+  bool shows_misses() const { return overlays.missed || (story && !clean && !tour.open()); }
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
   void set_story(bool on) { story = story_at_start = on; }
   session::Import import;

@@ -1,10 +1,5 @@
 #include "app/ui/tour/tour_view.h"
 
-#include <algorithm>
-#include <cmath>
-#include <utility>
-#include <vector>
-
 #include <fmt/core.h>
 
 #include "app/render/palette.h"
@@ -132,52 +127,6 @@ void draw_tour(Widgets& w, Session& session, Tour& tour, render::Overlays& shown
   ImGui::Spacing();
   draw_buttons(w, session, tour, shown);
   ImGui::End();
-}
-
-namespace {
-
-bool overlap(const ScreenRect& a, const ScreenRect& b) {
-  return a.min.x < b.max.x && b.min.x < a.max.x && a.min.y < b.max.y && b.min.y < a.max.y;
-}
-
-/// Returns a free place for a label within the area. It tries above the point to the right, then the other three
-/// corners, then further up and down; if none is free, it takes the first.
-ScreenRect place_beside(const ImVec2& point, const ImVec2& size, const ScreenRect& area,
-                        std::span<const ScreenRect> taken, float scale) {
-  const auto label_at = [&](bool right, bool above, int rows) {
-    const float x = right ? point.x + 5 * scale : point.x - 5 * scale - size.x;
-    const float gap = 2 * scale + static_cast<float>(rows) * (size.y + scale);
-    const float y = above ? point.y - gap - size.y : point.y + gap;
-    return ScreenRect{{std::floor(x), std::floor(y)}, {std::floor(x) + size.x, std::floor(y) + size.y}};
-  };
-  const auto is_free = [&](const ScreenRect& box) {
-    return box.min.x >= area.min.x && box.min.y >= area.min.y && box.max.x <= area.max.x && box.max.y <= area.max.y &&
-           std::ranges::none_of(taken, [&](const ScreenRect& t) { return overlap(t, box); });
-  };
-  for (int rows = 0; rows < 3; ++rows)
-    for (const auto& [right, above] : {std::pair{true, true}, {false, true}, {true, false}, {false, false}})
-      if (const ScreenRect box = label_at(right, above, rows); is_free(box)) return box;
-  return label_at(true, true, 0);
-}
-
-}  // namespace
-
-void draw_labels(std::span<const render::SceneLabel> labels, const engine::Camera& camera, glm::ivec2 size,
-                 const ScreenRect& area, float scale) {
-  ImDrawList* draw = ImGui::GetBackgroundDrawList();
-  const glm::vec2 ratio = glm::vec2(area.max.x - area.min.x, area.max.y - area.min.y) / glm::vec2(glm::max(size, 1));
-  const ImVec2 pad{4 * scale, 1 * scale};
-  std::vector<ScreenRect> taken;
-  for (const render::SceneLabel& label : labels) {
-    const auto pixel = camera.project(label.at, size);
-    if (!pixel) continue;
-    const ImVec2 text = ImGui::CalcTextSize(label.text.c_str());
-    const ScreenRect box = place_beside({area.min.x + pixel->x * ratio.x, area.min.y + pixel->y * ratio.y},
-                                        {text.x + 2 * pad.x, text.y + 2 * pad.y}, area, taken, scale);
-    taken.push_back(box);
-    draw->AddRectFilled(box.min, box.max, to_imgui(glm::vec3(1.0f), 0.85f), 4 * scale);
-    draw->AddText({box.min.x + pad.x, box.min.y + pad.y}, to_imgui(glm::vec3(0.1f)), label.text.c_str());
-  }
 }
 
 }  // namespace app::ui

@@ -54,7 +54,8 @@ void draw_missed(Widgets& w, const Session& session) {
   ImGui::SameLine();
   w.text_line("Missed surface contacts");
   w.register_item("Missed surface contacts",
-                  "Overlaps of surfaces without a contact between vertices (§2.3). The scene shows them.");
+                  "Overlaps of surfaces without a contact between vertices (§2.3). The scene hatches the surface round "
+                  "them. A line joins the deepest vertex of two bodies to the surface that it passed.");
   w.figure("  vertices", share(report.missed_penetrations, report.penetrations),
            "Penetrating vertices without a contact with the body that they are in.");
   w.figure("  edges", share(report.missed_piercings, report.figures.piercings),
