@@ -39,7 +39,7 @@ void draw_past(Widgets& w, Session& session) {
   ImGui::EndDisabled();
 }
 
-void draw_state(Widgets& w, const Session& session) {
+void draw_state_text(Widgets& w, const Session& session) {
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.right_text(state_text(session));
@@ -75,7 +75,7 @@ void draw_time_line(Widgets& w, Session& session, const ScreenRect& area) {
   const bool has_state = room >= w.px(2 * state_width);
   ImGui::SetNextItemWidth(has_state ? room - w.px(state_width) : room);
   draw_past(w, session);
-  if (has_state) draw_state(w, session);
+  if (has_state) draw_state_text(w, session);
   end_dock();
 }
 
