@@ -180,13 +180,17 @@ void highlight_miss(const TourContext& v, render::Highlight& highlight) {
     high = glm::max(high, glm::max(hi, cell.hi));
     highlight.points.push_back(
         {.points = {{miss.corners[i].at, glm::vec4(colour, 1.0f)}}, .diameter = 9, .occluded_alpha = 0.9f});
-    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
+    const glm::vec3 middle = 0.5f * (cell.lo + cell.hi);
+    highlight.labels.push_back(
+        {{middle.x, cell.hi.y, middle.z}, fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
   }
   highlight.boxes.push_back(std::move(boxes));
   add_barrier(v, miss, highlight);
+  add_contacts(v, v.f.missed, render::contact_missed_colour, 2, highlight);  // those of the same pair, if known
   add_contacts(v, {miss.contact}, render::contact_missed_colour, 3.5f, highlight);
-  highlight.labels.push_back(
-      {0.5f * (miss.at[0] + miss.at[1]), fmt::format("{:.3f} m", glm::distance(miss.at[0], miss.at[1]))});
+  highlight.labels.push_back({0.5f * (miss.at[0] + miss.at[1]),
+                              fmt::format("{:.3f} m", glm::distance(miss.at[0], miss.at[1])),
+                              render::contact_missed_colour});
   frame_camera(highlight, low, high);
 }
 
