@@ -5,8 +5,8 @@
 
 #include "app/files/scene_folder.h"
 #include "collide/methods.h"
-#include "softbody/integrators.h"
-#include "softbody/scene.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/scene/scene.h"
 
 namespace app::cli {
 namespace {

@@ -10,8 +10,9 @@
 #include "app/base/parse_numbers.h"
 #include "app/cli/integer_option.h"
 #include "app/files/scene_folder.h"
-#include "softbody/limits.h"
-#include "softbody/world.h"
+#include "softbody/integrate/max_work.h"
+#include "softbody/scene/limits.h"
+#include "softbody/world/world.h"
 
 namespace app::cli {
 namespace {

@@ -9,8 +9,8 @@
 #include "app/base/usage_error.h"
 #include "app/cli/detection_options.h"
 #include "app/report/report.h"
-#include "softbody/integrators.h"
-#include "softbody/scene.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/scene/scene.h"
 
 namespace app::cli {
 

@@ -18,7 +18,7 @@
 #include "app/files/obj_writer.h"
 #include "app/files/output_file.h"
 #include "app/files/scene_folder.h"
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 #if SBCOLLIDE_GRAPHICS
 #include "app/render/animation.h"
 #include "app/render/capture.h"

@@ -7,7 +7,7 @@
 
 #include "app/compare/heap.h"
 #include "app/compare/score.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::compare {
 namespace {

@@ -9,7 +9,7 @@
 
 #include "app/base/timings.h"
 #include "app/compare/cost_model.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::compare {
 

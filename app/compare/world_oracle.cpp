@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "collide/surface/closed_shell.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::compare {
 

@@ -4,7 +4,7 @@
 #include "app/compare/positions.h"
 #include "collide/core/workers.h"
 #include "collide/oracle/surface_oracle.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::compare {
 

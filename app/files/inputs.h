@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace app::files {
 

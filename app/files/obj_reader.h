@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "collide/core/frame.h"
-#include "softbody/obj_file.h"
+#include "softbody/mesh/obj_file.h"
 
 namespace app::files {
 

@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::files {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::files {
 

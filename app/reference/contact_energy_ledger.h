@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "softbody/contacts.h"
+#include "softbody/contact/contacts.h"
 
 namespace app::reference {
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
-#include "softbody/prototype.h"
-#include "softbody/solids.h"
+#include "softbody/model/prototype.h"
+#include "softbody/scene/solids.h"
 
 namespace app::reference {
 namespace {

@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "softbody/prototype.h"
-#include "softbody/world.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/world.h"
 
 namespace app::reference {
 

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace app::reference {
 namespace {

@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "engine/image.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::render {
 

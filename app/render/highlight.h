@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/frame_data.h"
-#include "softbody/body.h"
+#include "softbody/state/body.h"
 
 namespace app::render {
 

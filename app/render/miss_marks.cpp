@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::render {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "app/compare/drawn_positions.h"
 #include "app/render/highlight.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::render {
 

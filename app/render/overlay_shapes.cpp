@@ -12,8 +12,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::render {
 namespace {

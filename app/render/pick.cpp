@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::render {
 namespace {

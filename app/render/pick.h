@@ -5,8 +5,8 @@
 
 #include "app/compare/drawn_positions.h"
 #include "engine/camera.h"
-#include "softbody/solids.h"
-#include "softbody/world.h"
+#include "softbody/scene/solids.h"
+#include "softbody/world/world.h"
 
 namespace app::render {
 

@@ -11,7 +11,7 @@
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
 #include "engine/render/ambient_occlusion.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::render {
 namespace {

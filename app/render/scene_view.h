@@ -11,7 +11,7 @@
 #include "app/render/highlight.h"
 #include "app/render/overlays.h"
 #include "engine/render/renderer.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::render {
 

@@ -9,7 +9,7 @@
 #include "app/report/page.h"
 #include "app/report/report.h"
 #include "collide/core/workers.h"
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace app::report {
 

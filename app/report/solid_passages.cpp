@@ -5,8 +5,8 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::report {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::report {
 

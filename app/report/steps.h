@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::report {
 

@@ -10,9 +10,10 @@
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
-#include "softbody/measures.h"
-#include "softbody/obj_file.h"
-#include "softbody/prototype.h"
+#include "softbody/mesh/obj_file.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/prototype_set.h"
 
 namespace app::session {
 namespace {

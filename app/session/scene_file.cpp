@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "app/files/output_file.h"
-#include "softbody/scene_write.h"
-#include "softbody/toml_text.h"
+#include "softbody/scene/scene_write.h"
+#include "softbody/scene/toml_text.h"
 
 namespace app::session {
 namespace fs = std::filesystem;

@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "softbody/integrators.h"
-#include "softbody/scene.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/scene/scene.h"
 
 namespace app::session {
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <variant>
 
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace app::session {
 

@@ -8,7 +8,7 @@
 
 #include "app/session/scene_file.h"
 #include "app/session/solid_list.h"
-#include "softbody/snapshot.h"
+#include "softbody/world/snapshot.h"
 
 namespace app::session {
 

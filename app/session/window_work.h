@@ -3,7 +3,7 @@
 
 #include "app/compare/compare.h"
 #include "app/compare/cost_model.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "softbody/integrators.h"
-#include "softbody/scene.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/scene/scene.h"
 
 namespace app::window {
 

@@ -4,8 +4,8 @@
 #include <utility>
 
 #include "app/files/output_file.h"
-#include "softbody/toml_table.h"
-#include "softbody/toml_text.h"
+#include "softbody/scene/toml_table.h"
+#include "softbody/scene/toml_text.h"
 
 namespace app::window {
 namespace fs = std::filesystem;

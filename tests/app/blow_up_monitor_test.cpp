@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -7,7 +7,7 @@
 #include <set>
 
 #include "app/session/live/live_comparison.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -6,8 +6,8 @@
 
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
-#include "softbody/limits.h"
-#include "softbody/prototype.h"
+#include "softbody/mesh/limits.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/hands.h"
 #include "tests/temporary_folder.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "app/compare/compare.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -11,7 +11,7 @@
 
 #include "app/files/obj_reader.h"
 #include "app/session/export/exporter.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

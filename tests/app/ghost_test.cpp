@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/resources.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/hands.h"
 #include "tests/app/panel_rig.h"
 

@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "app/session/import.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
-#include "softbody/prototype_set.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/prototype_set.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 

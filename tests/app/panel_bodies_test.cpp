@@ -5,7 +5,7 @@
 #include "app/files/scene_folder.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/time_line.h"
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {

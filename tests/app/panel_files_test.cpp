@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <fstream>
 
-#include "softbody/prototype.h"
-#include "softbody/scene_write.h"
+#include "softbody/model/prototype.h"
+#include "softbody/scene/scene_write.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
 

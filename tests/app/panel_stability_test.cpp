@@ -1,6 +1,6 @@
 // The panel's section on stability.
 
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 #include "tests/app/panel_rig.h"
 
 namespace app {

@@ -9,7 +9,7 @@
 #include <glm/matrix.hpp>
 
 #include "app/window/scene_mouse.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/hands.h"
 #include "tests/support/world_insides.h"
 

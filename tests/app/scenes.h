@@ -3,7 +3,7 @@
 
 #include <limits>
 
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace app {
 

@@ -4,7 +4,7 @@
 
 #include "app/session/session.h"
 #include "app/ui/views/status.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/session/session.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/app/scenes.h"
 
 namespace app {

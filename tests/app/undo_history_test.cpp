@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 #include "tests/app/scenes.h"
 
 namespace app {

@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "engine/resources.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace bench {
 namespace {

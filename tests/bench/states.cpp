@@ -8,7 +8,7 @@
 
 #include "app/cli/options.h"
 #include "app/files/output_file.h"
-#include "softbody/mesh.h"
+#include "softbody/mesh/mesh.h"
 
 namespace bench {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace app::test {
 namespace {

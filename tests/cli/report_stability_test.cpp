@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "softbody/integrators.h"
+#include "softbody/integrate/integrators.h"
 #include "tests/cli/report_rig.h"
 
 namespace cli::test {

@@ -2,7 +2,7 @@
 
 #include "app/files/obj_reader.h"
 #include "require.h"
-#include "softbody/mesh_import.h"
+#include "softbody/mesh/mesh_import.h"
 #include "text_file.h"
 
 namespace {

@@ -1,6 +1,6 @@
 // Arbitrary text as a scene file: it is read or refused in one line, and what is read is within the limits.
 
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 #include "text_file.h"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -4,11 +4,12 @@
 
 #include "random_scene.h"
 #include "require.h"
-#include "softbody/limits.h"
-#include "softbody/measures.h"
-#include "softbody/scene_write.h"
-#include "softbody/snapshot.h"
-#include "softbody/world.h"
+#include "softbody/integrate/max_work.h"
+#include "softbody/scene/limits.h"
+#include "softbody/scene/scene_write.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/snapshot.h"
+#include "softbody/world/world.h"
 #include "text_file.h"
 
 namespace fuzz {

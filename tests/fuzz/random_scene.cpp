@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/limits.h"
+#include "softbody/mesh/limits.h"
+#include "softbody/scene/limits.h"
 
 namespace fuzz {
 
@@ -11,7 +12,7 @@ namespace {
 
 using softbody::Scene;
 
-/// Of one value: what is usual, and what a scene file may hold (softbody/scene_toml.cpp).
+/// Of one value: what is usual, and what a scene file may hold (softbody/scene/scene_toml.cpp).
 struct Range {
   double usual_least, usual_most, least, most;
 };

@@ -2,7 +2,7 @@
 // Arbitrary bytes as a scene: values within what a scene file may hold, most of them usual ones, in small worlds.
 
 #include "bytes.h"
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace fuzz {
 

@@ -14,8 +14,8 @@
 #include <iostream>
 #include <sstream>
 
-#include "softbody/snapshot.h"
-#include "softbody/world.h"
+#include "softbody/world/snapshot.h"
+#include "softbody/world/world.h"
 #include "tests/cli/process.h"
 
 namespace softbody::test {

@@ -4,7 +4,7 @@
 #include <fstream>
 
 #include "collide/methods.h"
-#include "softbody/integrators.h"
+#include "softbody/integrate/integrators.h"
 
 namespace soak {
 namespace {

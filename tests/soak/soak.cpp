@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "collide/methods.h"
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 #include "tests/soak/actions.h"
 #include "tests/soak/resources.h"
 #include "tests/support/world_insides.h"

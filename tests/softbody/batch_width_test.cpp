@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "softbody/snapshot.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"
 

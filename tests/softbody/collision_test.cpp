@@ -5,8 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/shield.h"
-#include "softbody/snapshot.h"
+#include "softbody/contact/shield.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"
 

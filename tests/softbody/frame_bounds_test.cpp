@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "softbody/snapshot.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"
 

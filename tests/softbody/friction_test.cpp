@@ -5,7 +5,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/solid_law.h"
+#include "softbody/contact/solid_law.h"
+#include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -1,4 +1,4 @@
-#include "softbody/grab.h"
+#include "softbody/forces/grab.h"
 
 #include <gtest/gtest.h>
 

@@ -4,9 +4,9 @@
 #include <filesystem>
 #include <random>
 
-#include "softbody/lanes.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/state/lanes.h"
+#include "softbody/world/measures.h"
 #include "tests/temporary_folder.h"
 
 namespace softbody::test {

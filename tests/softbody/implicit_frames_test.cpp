@@ -8,9 +8,10 @@
 #include <limits>
 #include <random>
 
-#include "softbody/implicit_energy.h"
-#include "softbody/implicit_frames.h"
-#include "softbody/implicit_planes.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/integrate/implicit/energy.h"
+#include "softbody/integrate/implicit/frames.h"
+#include "softbody/integrate/implicit/planes.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

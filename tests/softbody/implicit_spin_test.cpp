@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <random>
 
-#include "softbody/rigid_motion.h"
+#include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

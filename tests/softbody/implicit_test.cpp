@@ -6,8 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/implicit_matrix.h"
-#include "softbody/implicit_solver.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/integrate/implicit/matrix.h"
+#include "softbody/integrate/implicit/solver.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

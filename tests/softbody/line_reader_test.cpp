@@ -1,4 +1,4 @@
-#include "softbody/line_reader.h"
+#include "softbody/mesh/line_reader.h"
 
 #include <gtest/gtest.h>
 

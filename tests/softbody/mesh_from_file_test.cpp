@@ -6,8 +6,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/obj_file.h"
-#include "softbody/shape_matching.h"
+#include "softbody/forces/shape_matching.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/mesh/obj_file.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 

@@ -8,8 +8,8 @@
 #include <glm/geometric.hpp>
 #include <sstream>
 
-#include "softbody/limits.h"
-#include "softbody/obj_file.h"
+#include "softbody/mesh/limits.h"
+#include "softbody/mesh/obj_file.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 

@@ -1,6 +1,6 @@
 // Meshes: counts, topology, orientation.
 
-#include "softbody/mesh.h"
+#include "softbody/mesh/mesh.h"
 
 #include <gtest/gtest.h>
 

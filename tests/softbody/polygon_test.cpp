@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "softbody/polygon.h"
+#include "softbody/mesh/polygon.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

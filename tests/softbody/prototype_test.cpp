@@ -9,8 +9,9 @@
 #include <numeric>
 #include <utility>
 
-#include "softbody/prototype_set.h"
-#include "softbody/spring_bound.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/model/spring_bound.h"
+#include "softbody/world/prototype_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 

@@ -6,7 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
-#include "softbody/scene_write.h"
+#include "softbody/scene/scene_write.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -6,8 +6,10 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/best_rotation.h"
-#include "softbody/shape_matching.h"
+#include "softbody/forces/best_rotation.h"
+#include "softbody/forces/shape_matching.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -1,11 +1,12 @@
 // Bodies at rest sleep by islands, and wake when hit.
 
-#include "softbody/sleep.h"
+#include "softbody/world/sleep.h"
 
 #include <gtest/gtest.h>
 
 #include <glm/geometric.hpp>
 
+#include "softbody/integrate/equilibrium.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"
 

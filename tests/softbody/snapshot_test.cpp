@@ -1,7 +1,7 @@
 // A world that is put back goes on to the bit: in every shipped scene, with both contact surfaces, in the same world
 // and in a new one.
 
-#include "softbody/snapshot.h"
+#include "softbody/world/snapshot.h"
 
 #include <gtest/gtest.h>
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "softbody/solid_features.h"
-#include "softbody/solids.h"
+#include "softbody/contact/solid_features.h"
+#include "softbody/scene/solids.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/kernels.h"
+#include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -1,12 +1,13 @@
 // Contact of the true surfaces, one row of it: one vertex against the middle of a face, by closed forms.
 
-#include "softbody/surface_contact.h"
+#include "softbody/contact/surface_contact.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/solid_law.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

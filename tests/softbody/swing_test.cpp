@@ -9,7 +9,7 @@
 #include <string>
 #include <utility>
 
-#include "softbody/snapshot.h"
+#include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/limits.h"
+#include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"
 

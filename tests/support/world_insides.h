@@ -1,7 +1,7 @@
 #pragma once
 // A world's solver, for tests of the solver.
 
-#include "softbody/world_state.h"
+#include "softbody/world/world_state.h"
 
 namespace softbody {
 

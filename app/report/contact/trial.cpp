@@ -14,8 +14,8 @@
 #include "app/files/scene_folder.h"
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::report {
 namespace {

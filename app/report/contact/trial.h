@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "app/base/timings.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::report {
 

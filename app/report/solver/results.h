@@ -8,7 +8,7 @@
 
 #include "app/base/timings.h"
 #include "app/report/page.h"
-#include "softbody/integrators.h"
+#include "softbody/integrate/integrators.h"
 
 namespace app::report {
 

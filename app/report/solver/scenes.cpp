@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include "app/report/steps.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::report {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 // Scenes for measuring solvers. Only springs, gas, gravity and solids act in them, so that the reference models them.
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::report {
 

@@ -8,7 +8,7 @@
 #include "app/report/solver/results.h"
 #include "app/report/solver/trial.h"
 #include "app/report/steps.h"
-#include "softbody/limits.h"
+#include "softbody/integrate/max_work.h"
 
 namespace app::report {
 namespace {

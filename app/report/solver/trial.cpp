@@ -7,8 +7,8 @@
 
 #include "app/base/timings.h"
 #include "app/report/steps.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::report {
 namespace {

@@ -11,9 +11,9 @@
 #include "app/reference/contact_energy_ledger.h"
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
-#include "softbody/snapshot.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/snapshot.h"
 
 namespace app::report {
 namespace {

@@ -9,9 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/steps.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
-#include "softbody/snapshot.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/prototype_set.h"
+#include "softbody/world/snapshot.h"
 
 namespace app::report {
 namespace {

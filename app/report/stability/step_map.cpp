@@ -6,8 +6,8 @@
 #include "app/reference/reference_body.h"
 #include "app/report/solver/scenes.h"
 #include "app/report/steps.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::report {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "softbody/integrators.h"
+#include "softbody/integrate/integrators.h"
 
 namespace app::report {
 

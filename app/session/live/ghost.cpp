@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/prototype.h"
-#include "softbody/snapshot.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/snapshot.h"
 
 namespace app::session {
 

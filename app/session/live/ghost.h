@@ -2,8 +2,8 @@
 // A second world beside the one that is shown: the same bodies from the same state on, moved by another integrator.
 
 #include "app/compare/drawn_positions.h"
-#include "softbody/integrators.h"
-#include "softbody/world.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 

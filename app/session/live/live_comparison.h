@@ -5,7 +5,7 @@
 #include "app/base/time_series.h"
 #include "app/compare/compare.h"
 #include "collide/methods.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 

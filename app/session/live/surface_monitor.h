@@ -2,7 +2,7 @@
 // Checks the surfaces of the world on the screen, step by step, on a thread of its own.
 
 #include "app/compare/surface_check.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::session {
 

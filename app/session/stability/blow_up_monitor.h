@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace app::session {
 

@@ -3,8 +3,8 @@
 
 #include <vector>
 
-#include "softbody/snapshot.h"
-#include "softbody/world.h"
+#include "softbody/world/snapshot.h"
+#include "softbody/world/world.h"
 
 namespace app::session {
 

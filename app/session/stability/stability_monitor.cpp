@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::session {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace app::ui {
 namespace {

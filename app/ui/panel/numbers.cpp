@@ -10,7 +10,7 @@
 #include "app/ui/panel/panel.h"
 #include "app/ui/views/hash_table_view.h"
 #include "app/ui/views/status.h"
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace app::ui {
 namespace {

@@ -10,7 +10,7 @@
 #include "app/ui/panel/integrators.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/views/status.h"
-#include "softbody/limits.h"
+#include "softbody/integrate/max_work.h"
 
 namespace app::ui {
 namespace {

@@ -2,7 +2,7 @@
 // One or two bodies of a world as a frame of their own, for detectors.
 
 #include "app/compare/positions.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::ui {
 

@@ -15,7 +15,7 @@
 #include "app/ui/tour/paper_boxes.h"
 #include "collide/core/body_boxes.h"
 #include "collide/methods.h"
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace app::ui {
 namespace {

@@ -8,7 +8,7 @@
 #include "app/ui/tour/miss.h"
 #include "app/ui/tour/paper_boxes.h"
 #include "collide/core/aabb.h"
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace app::ui {
 

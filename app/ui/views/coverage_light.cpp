@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 
 namespace app::ui {
 namespace {

@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
 #include "tests/bench/step/stepper.h"
 
 namespace bench {

@@ -6,8 +6,8 @@
 
 #include <fmt/core.h>
 
-#include "softbody/measures.h"
-#include "softbody/prototype.h"
+#include "softbody/model/prototype.h"
+#include "softbody/world/measures.h"
 
 namespace bench {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "tests/bench/step/stepper.h"
 
-#include "softbody/measures.h"
+#include "softbody/world/measures.h"
 
 namespace bench {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string_view>
 
-#include "softbody/scene.h"
+#include "softbody/scene/scene.h"
 
 namespace bench {
 

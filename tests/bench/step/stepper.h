@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "softbody/world.h"
+#include "softbody/world/world.h"
 
 namespace bench {
 

@@ -1,0 +1,108 @@
+#pragma once
+// The response to the detector's contacts. "A tolerance force that acts like a shield" is the paper's (§2.3); its law
+// is ours: along a unit normal n, fixed for a frame, two particles with separation d push each other apart by
+//
+//   F = k w min(h - s, h) clamp(1 - u / v, 0, 3)    s = d . n,  w = 1 - (d^2 - s_^2) / h^2,  s_ = min(s, 0),
+//
+// which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump -
+// in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
+// nobody has put in, as when solids push out what is in them.
+// h is the shield's thickness, k its stiffness, u the speed at which the two separate: Hunt and Crossley's damping
+// (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a spring
+// of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to frame as
+// long as the pair does, so that bodies stick and not merely creep. Between closed bodies n comes from the surfaces'
+// normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between the two. k
+// is shared among the contacts of a particle: a wide shield is not stiffer.
+
+#include <cmath>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "collide/core/detector.h"
+#include "softbody/contact/contacts.h"
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+struct ShieldPair {
+  collide::Contact contact;    // the two vertices
+  std::size_t slot_a, slot_b;  // into the state's arrays
+  BodyId body_a, body_b;
+  glm::vec3 offset;         // origin of a minus origin of b, m
+  glm::vec3 normal;         // unit, from b to a
+  float stiffness;          // N/m
+  float friction;           // Coulomb
+  glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
+};
+
+/// The end of a pair that falls to one batch.
+struct ShieldEnd {
+  std::size_t slot;
+  std::uint32_t pair;
+  float sign;  // +1 for a, -1 for b
+};
+
+struct Shield {
+  static constexpr float rebound_speed = 2.0f;   // v, m/s
+  static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
+  float thickness = 0;                           // h, m
+  std::vector<ShieldPair> pairs;
+  std::vector<glm::vec3> force;          // on a, of the current substep, N
+  std::vector<ShieldEnd> ends;           // grouped by batch
+  std::vector<std::uint32_t> first_end;  // batches + 1 offsets into ends
+
+  /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
+  void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
+  /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
+  double energy(const ShieldPair& pair, Field<const float> x) const;
+  std::vector<PairEnergy> energies(Field<const float> x) const;  // of all, in the order of pairs
+  /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
+  struct Slopes {
+    float spring, damper;                // along n
+    float across_spring, across_damper;  // while it sticks
+  };
+  Slopes slopes(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+  /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
+  void inherit(std::span<const ShieldPair> before);
+  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up. Slots are as before.
+  void remove(BodyId body, collide::Index first, collide::Index count);
+  /// Fills `ends`: batch_of(body) gives a body's batch.
+  void group(std::size_t batches, const auto& batch_of);
+
+  // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
+  static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
+  static float damping_bound(float k, float friction, float thickness) {                 // N s/m
+    return most_damping(friction) * k * thickness / rebound_speed;
+  }
+  /// N: of a contact as deep as can be, damped as much as can be.
+  float most_force(const ShieldPair& pair) const {
+    return approach_limit * most_damping(pair.friction) * pair.stiffness * thickness;
+  }
+  /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.
+  float damping_ahead(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+
+ private:
+  static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
+  /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.
+  static float most_damping(float friction) { return std::sqrt(1 + friction * friction); }
+};
+
+void Shield::group(std::size_t batches, const auto& batch_of) {
+  first_end.assign(batches + 1, 0);
+  for (const ShieldPair& p : pairs) {
+    ++first_end[batch_of(p.body_a) + 1];
+    ++first_end[batch_of(p.body_b) + 1];
+  }
+  for (std::size_t b = 0; b < batches; ++b) first_end[b + 1] += first_end[b];
+  std::vector<std::uint32_t> next(first_end.begin(), first_end.end() - 1);
+  ends.resize(2 * pairs.size());
+  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    ends[next[batch_of(pairs[i].body_a)]++] = {pairs[i].slot_a, i, 1.0f};
+    ends[next[batch_of(pairs[i].body_b)]++] = {pairs[i].slot_b, i, -1.0f};
+  }
+}
+
+}  // namespace softbody

@@ -1,0 +1,309 @@
+#include "softbody/contact/surface_contact.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+
+#include <glm/common.hpp>
+
+#include "softbody/contact/surface_vectors.h"
+
+namespace softbody {
+namespace {
+
+using collide::surface::Closest;
+using collide::surface::FeaturePair;
+using collide::surface::Surface;
+using collide::surface::SurfaceSearch;
+
+constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
+constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
+constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
+
+/// m: how far a body may stray, if it strayed so far before.
+float slack_after(float stray, const collide::surface::SurfaceBody& before) {
+  return std::max(2 * stray, before.slack / 2);
+}
+
+/// The calmer a body is, the fewer candidates it needs.
+void set_slack(collide::surface::SurfaceBody& body, float wanted) {
+  const float slack = std::clamp(wanted, 0.015f * body.mean_edge, 0.1f * body.mean_edge);
+  body.skin += slack - body.slack;
+  body.slack = slack;
+}
+
+/// Whether a vertex faces the same way as the face of another body that it is closest to: surfaces that have met face
+/// each other, but those of bodies in one place do not.
+bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index vertex, const Surface& other,
+                 const collide::VertexRun& other_at, Index face) {
+  const auto normal = [](const Surface& surface, const collide::VertexRun& at, Index f) {
+    const auto corner = [&](std::size_t k) {
+      const Index v = surface.triangles()[f][k];
+      return glm::vec3(at.x[v], at.y[v], at.z[v]);
+    };
+    return normal_of(corner(0), corner(1), corner(2));
+  };
+  glm::vec3 sum(0.0f);
+  for (const Index f : own.triangles_at(vertex)) sum += normal(own, own_at, f);
+  return glm::dot(sum, normal(other, other_at, face)) > 0;
+}
+
+}  // namespace
+
+void SurfaceContact::clear() {
+  last_h_ = 0;
+  search_.clear();
+  bodies_.clear();
+  pairs_.clear();
+  memory_.clear();
+  deep_.clear();
+  colours_.clear();
+  rate_ = 0;
+}
+
+void SurfaceContact::find(const collide::surface::Motion& motion, std::vector<collide::surface::SurfaceBody> traits,
+                          std::vector<ContactBody> bodies, const collide::surface::SurfaceQuery& query, float ahead,
+                          collide::Workers& workers) {
+  std::swap(traits, traits_);
+  std::swap(bodies, bodies_);
+  for (Index body = 0; body < traits_.size(); ++body) {
+    const bool known = body < bodies.size() && bodies[body].inverse_mass > 0;  // a new one is no calm one
+    if (!known) {
+      set_slack(traits_[body], traits_[body].mean_edge);
+      continue;
+    }
+    const SurfaceSearch::History history = search_.history(body);
+    set_slack(traits_[body], slack_after(history.deviation, traits[body]));
+    traits_[body].horizon = std::max(ahead, patience * history.duration);
+  }
+  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
+}
+
+void SurfaceContact::renew(const collide::surface::Motion& motion, float elapsed, float ahead,
+                           collide::Workers& workers) {
+  for (Index body = 0; body < traits_.size(); ++body) {
+    const collide::surface::SweptBody& swept = search_.body(body);
+    if (!swept.expired()) continue;
+    traits_[body].horizon = std::max(ahead, patience * (elapsed - swept.begin()));
+    if (swept.exceeds_slack()) set_slack(traits_[body], slack_after(swept.deviation(), traits_[body]));
+  }
+  search(motion.positions, [&] { search_.update(motion, traits_, elapsed, ahead, workers); });
+}
+
+/// What is remembered belongs to the features that were found last: to none, if too many are near each other.
+template <class Search>
+void SurfaceContact::search(const collide::Frame& now, const Search& search) {
+  try {
+    search();
+  } catch (...) {
+    *this = SurfaceContact();
+    throw;
+  }
+  take_candidates(now);
+}
+
+void SurfaceContact::take_candidates(const collide::Frame& now) {
+  std::swap(pairs_, pairs_before_);
+  std::swap(memory_, memory_before_);
+  pairs_.clear();
+  for (const collide::surface::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
+  memory_.assign(search_.features().size(), {});
+  room_.assign(search_.features().size(), std::numeric_limits<float>::max());
+  inherit();
+  for (const Pair& p : pairs_)
+    if (p.range.a == p.range.b) leave_room(p);
+  deep_.clear();
+  Shells shells;
+  for (Pair& p : pairs_)
+    if (p.overlap) find_deep(p, now, shells);
+  foresee_speeds();
+  colour();
+}
+
+/// Within a body, what is closer at rest than the distance that surfaces keep is not pushed apart.
+void SurfaceContact::leave_room(const Pair& pair) {
+  constexpr float share = 0.9f;
+  const Surface& surface = *traits_[pair.range.a].surface;
+  const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
+  const auto room = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
+  for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
+    const FeaturePair& f = search_.features()[i];
+    if (i < pair.range.edge_edge) {
+      const auto& [a, b, c] = surface.triangles()[f.b];
+      room_[i] = room(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
+    } else {
+      const collide::surface::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
+      room_[i] = room(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
+    }
+  }
+}
+
+/// A pair may be hit through its neighbours within one substep: it is looked at as far as either body's fastest pair
+/// goes.
+void SurfaceContact::foresee_speeds() {
+  std::vector<float> fastest(bodies_.size(), 0);
+  rate_ = 0;
+  for (const Pair& p : pairs_) {
+    const float speed = search_.max_relative_speed(p.range),
+                edge = std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge);
+    for (const Index body : {p.range.a, p.range.b}) fastest[body] = std::max(fastest[body], speed);
+    rate_ = std::max(rate_, speed / (step_share * edge));
+  }
+  for (Pair& p : pairs_) {
+    p.speed = std::max(fastest[p.range.a], fastest[p.range.b]);
+    p.rate = p.speed / (step_share * std::min(traits_[p.range.a].mean_edge, traits_[p.range.b].mean_edge));
+  }
+}
+
+SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePair& range) const {
+  const ContactBody &a = bodies_[range.a], &b = bodies_[range.b];
+  const auto reach = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
+  return {.range = range,
+          .offset = glm::vec3(b.origin - a.origin),
+          .distance = reach(range.a) + reach(range.b),
+          .friction = std::sqrt(a.friction * b.friction),
+          .restitution = std::max(a.restitution, b.restitution),
+          .inverse_a = a.inverse_mass,
+          .inverse_b = b.inverse_mass,
+          .slot_a = a.first_slot,
+          .slot_b = b.first_slot,
+          .overlap = range.a != range.b && (traits_[range.a].surface->closed() || traits_[range.b].surface->closed())};
+}
+
+/// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
+void SurfaceContact::inherit() {
+  auto old = pairs_before_.begin();
+  const std::vector<FeaturePair>& old_features = search_.previous_features();
+  const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
+    for (; to < to_end; ++to) {
+      while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
+      if (from == from_end) return;
+      if (old_features[from].key() == search_.features()[to].key()) memory_[to] = memory_before_[from];
+    }
+  };
+  for (Pair& p : pairs_) {
+    while (old != pairs_before_.end() && old->range.bodies() < p.range.bodies()) ++old;
+    if (old == pairs_before_.end()) return;
+    if (p.range.bodies() < old->range.bodies()) continue;
+    const collide::surface::SurfacePair &from = old->range, &to = p.range;
+    p.overlap = old->overlap;
+    hand_on(from.vertex_face, from.face_vertex, to.vertex_face, to.face_vertex);
+    hand_on(from.face_vertex, from.edge_edge, to.face_vertex, to.edge_edge);
+    hand_on(from.edge_edge, from.end, to.edge_edge, to.end);
+  }
+}
+
+/// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
+void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& shells) {
+  const auto run = [&](Index body) {
+    const Index first = now.bodies->first[body];
+    return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
+  };
+  pair.deep = static_cast<std::uint32_t>(deep_.size());
+  float deepest = 0;
+  std::uint32_t along = 0;
+  for (const bool of_b : {false, true}) {
+    const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
+    if (!traits_[other].surface->closed()) continue;
+    const collide::VertexRun vertices = run(own);
+    if (!collide::near(collide::measure_bounds(vertices).box, collide::measure_bounds(run(other)).box, 0.0f)) continue;
+    shells.resize(bodies_.size());
+    if (!shells[other]) shells[other].emplace(*traits_[other].surface, run(other));
+    for (Index v = 0; v < vertices.size; ++v) {
+      const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
+      if (!shells[other]->inside(p)) continue;
+      const collide::surface::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
+      deepest = std::max(deepest, nearest.distance);
+      along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
+      deep_.push_back({v, nearest.face, of_b});
+    }
+  }
+  pair.overlap = deep_.size() > pair.deep;
+  // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
+  // which no vertex is deep, be pulled both ways for ever.
+  pair.parting = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
+                 (deepest > deep_share * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge) ||
+                  2 * along > deep_.size() - pair.deep);
+  if (pair.parting) deep_.resize(pair.deep);
+  pair.deep_end = static_cast<std::uint32_t>(deep_.size());
+}
+
+/// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
+void SurfaceContact::colour() {
+  constexpr std::size_t most = 64;
+  std::vector<std::uint64_t> taken(bodies_.size(), 0);
+  for (auto& colour : colours_) colour.clear();
+  std::size_t used = 0;
+  std::vector<std::uint32_t> rest;
+  for (std::uint32_t i = 0; i < pairs_.size(); ++i) {
+    std::uint64_t &a = taken[pairs_[i].range.a], &b = taken[pairs_[i].range.b];
+    const auto free = static_cast<std::size_t>(std::countr_one(a | b));
+    if (free == most) {
+      rest.push_back(i);
+      continue;
+    }
+    a |= std::uint64_t{1} << free;
+    b |= std::uint64_t{1} << free;
+    used = std::max(used, free + 1);
+    if (colours_.size() < used) colours_.resize(used);
+    colours_[free].push_back(i);
+  }
+  colours_.resize(used);
+  for (const std::uint32_t i : rest) colours_.push_back({i});
+}
+
+SurfaceContact::Side SurfaceContact::side(const Pair& pair, bool second) const {
+  if (second)
+    return {traits_[pair.range.b].surface, pair.slot_b, bodies_[pair.range.b].stride, pair.offset, pair.inverse_b};
+  return {traits_[pair.range.a].surface, pair.slot_a, bodies_[pair.range.a].stride, glm::vec3(0.0f), pair.inverse_a};
+}
+
+std::size_t SurfaceContact::rows() const {
+  std::size_t sum = 0;
+  for (const Pair& p : pairs_) sum += p.rows;
+  return sum;
+}
+
+bool SurfaceContact::gives_energy() const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
+    const auto first = threads_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
+    return p.parting || std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.target > 0; });
+  });
+}
+
+std::vector<collide::surface::ItemPair> SurfaceContact::touching() const {
+  std::vector<collide::surface::ItemPair> list;
+  for (const Pair& p : pairs_)
+    if (p.range.a != p.range.b && p.range.vertex_face < p.range.end) list.push_back({p.range.a, p.range.b});
+  return list;
+}
+
+/// The body of the pair that a slot belongs to.
+Index SurfaceContact::owner(const Pair& pair, std::uint32_t slot) const {
+  const std::size_t first = bodies_[pair.range.a].first_slot, stride = bodies_[pair.range.a].stride;
+  const std::size_t end = first + stride * traits_[pair.range.a].surface->vertex_count();
+  return slot >= first && slot < end && (slot - first) % stride == 0 ? pair.range.a : pair.range.b;
+}
+
+std::vector<SurfaceContactPoint> SurfaceContact::touches(const collide::Bodies& vertices) const {
+  std::vector<SurfaceContactPoint> list;
+  for (const Pair& p : pairs_) {
+    const auto& rows = threads_[static_cast<std::size_t>(p.thread)].rows;
+    for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r) {
+      const ContactRow& row = rows[r];
+      if (row.pressed <= 0) continue;
+      SurfaceContactPoint& touch = list.emplace_back(
+          SurfaceContactPoint{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Index body = owner(p, row.slot[k]);
+        const std::size_t local = (row.slot[k] - bodies_[body].first_slot) / bodies_[body].stride;
+        touch.vertex[k] = vertices.first[body] + static_cast<Index>(local);
+      }
+    }
+  }
+  return list;
+}
+
+}  // namespace softbody

@@ -1,0 +1,269 @@
+// Surface contact: the rows of a substep, from the features that are near each other.
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/gtc/constants.hpp>
+
+#include "softbody/contact/solid_law.h"
+#include "softbody/contact/surface_vectors.h"
+
+namespace softbody {
+namespace {
+
+using collide::surface::Closest;
+using collide::surface::FeaturePair;
+
+constexpr float push_share = 0.1f;  // of an overlap, a substep
+constexpr float push_kept = 0.8f;   // of an impulse that pushes out is handed on to the next substep; by trial
+
+ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
+                      const collide::surface::Triangle& face, std::size_t face_slot, std::size_t stride,
+                      float face_mobility) {
+  ContactRow row{};
+  row.slot[0] = static_cast<std::uint32_t>(vertex_slot);
+  row.weight[0] = 1;
+  row.mobility[0] = vertex_mobility;
+  for (std::size_t k = 0; k < 3; ++k) {
+    row.slot[k + 1] = static_cast<std::uint32_t>(face_slot + face[k] * stride);
+    row.weight[k + 1] = -c.weight[k + 1];
+    row.mobility[k + 1] = face_mobility * row.weight[k + 1];
+  }
+  return row;
+}
+
+}  // namespace
+
+void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
+                             float h) {
+  Thread& own = threads_[static_cast<std::size_t>(thread)];
+  own.rows.clear();
+  const collide::Part part = collide::part_of(pairs_.size(), thread, threads);
+  for (std::size_t i = part.begin; i < part.end; ++i) {
+    Pair& p = pairs_[i];
+    p.thread = thread;
+    p.first_row = static_cast<std::uint32_t>(own.rows.size());
+    Step step{x, v, h, elapsed + h, own, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
+    p.rows = 0;
+    if (p.parting) continue;
+    if (p.deep < p.deep_end) deep_vertices(step);
+    vertices_on_faces(step, p.range.vertex_face, p.range.face_vertex, false);
+    vertices_on_faces(step, p.range.face_vertex, p.range.edge_edge, true);
+    if (p.deep == p.deep_end) edges_on_edges(step);
+    p.rows = static_cast<std::uint32_t>(own.rows.size()) - p.first_row;
+  }
+}
+
+glm::vec3 SurfaceContact::at(const Step& step, const Side& side, Index vertex) {
+  return read(step.x, side.slot + vertex * side.stride) + side.offset;
+}
+
+void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b) {
+  const Side vertex_side = side(step.pair, vertex_of_b), face_side = side(step.pair, !vertex_of_b);
+  const Side faces = step.pair.range.a == step.pair.range.b ? vertex_side : face_side;
+  const bool oriented = step.pair.range.a == step.pair.range.b || !faces.surface->closed();
+  const auto is_deep = [&](Index v) {
+    return std::any_of(deep_.begin() + step.pair.deep, deep_.begin() + step.pair.deep_end,
+                       [&](const DeepVertex& d) { return d.vertex == v && d.of_b == vertex_of_b; });
+  };
+  const auto& features = search_.features();
+  const float look2 = step.look * step.look;
+  collide::surface::FeatureBatch& meeting = step.own.meeting;
+  step.own.near.clear();
+  const auto flush = [&] {
+    if (!step.own.near.empty() && !is_deep(features[step.own.near[0].feature].a))
+      vertex_on_faces(step, vertex_side, faces, oriented);
+    step.own.near.clear();
+  };
+  for (std::uint32_t i = begin; i < end;) {
+    meeting.clear();
+    for (; i < end && !meeting.full(); ++i) {
+      if (features[i].earliest > step.until) continue;
+      const auto& [a, b, c] = faces.surface->triangles()[features[i].b];
+      meeting.add({at(step, vertex_side, features[i].a), at(step, faces, a), at(step, faces, b), at(step, faces, c)},
+                  i);
+    }
+    meeting.find_closest_vertex_faces();
+    for (Index k = 0; k < meeting.size(); ++k) {
+      const std::uint32_t feature = meeting.tag(k);
+      if (!step.own.near.empty() && features[step.own.near[0].feature].a != features[feature].a) flush();
+      if (meeting.distance2(k) > look2)
+        memory_[feature] = {};
+      else
+        step.own.near.push_back({meeting.closest_vertex_face(k),
+                                 normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
+                                 meeting.distance2(k), feature});
+    }
+  }
+  flush();
+}
+
+/// The rows of one vertex, whose near faces are listed.
+void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented) {
+  const auto& features = search_.features();
+  const std::vector<Near>& near = step.own.near;
+  const auto corners = [&](const Near& n) {
+    const FeaturePair& f = features[n.feature];
+    ContactRow row =
+        corners_of(n.closest, vertex_side.slot + f.a * vertex_side.stride, vertex_side.inverse_mass,
+                   face_side.surface->triangles()[f.b], face_side.slot, face_side.stride, face_side.inverse_mass);
+    row.feature = n.feature;
+    return row;
+  };
+  if (!oriented) {
+    const auto facing = [](const Near& n) {  // |cos| of the angle between the face's normal and the way to the vertex
+      return std::abs(glm::dot(n.closest.separation, n.face_normal)) / glm::length(n.face_normal);
+    };
+    const Near* nearest = &near[0];
+    for (const Near& n : near) {
+      // Faces that share the closest point: the one that faces the vertex most tells which side it is on.
+      const bool tie = std::abs(n.distance2 - nearest->distance2) <= 1e-5f * nearest->distance2;
+      if (tie ? facing(n) > facing(*nearest) : n.distance2 < nearest->distance2) nearest = &n;
+    }
+    if (glm::dot(nearest->closest.separation, nearest->face_normal) < 0) {
+      const float depth = std::sqrt(nearest->distance2);
+      for (const Near& n : near)
+        memory_[n.feature].pressed = n.feature == nearest->feature ? memory_[n.feature].pressed : 0;
+      if (depth > step.pair.distance) step.pair.overlap = true;  // to be looked at when candidates are found next
+      add_row(step, corners(*nearest), unit(-nearest->closest.separation, nearest->face_normal), -depth,
+              memory_[nearest->feature]);
+      return;
+    }
+  }
+  for (std::size_t k = 0; k < near.size(); ++k) {
+    const Near& n = near[k];
+    Memory& memory = memory_[n.feature];
+    const bool twice =
+        !n.closest.inner && std::any_of(near.begin(), near.begin() + std::ptrdiff_t(k), [&](const Near& m) {
+          const glm::vec3 d = m.closest.separation - n.closest.separation;
+          return glm::dot(d, d) <= 1e-6f * n.distance2;
+        });
+    if (twice) {
+      memory = {};
+      continue;
+    }
+    glm::vec3 normal = unit(n.closest.separation, oriented ? memory.normal : n.face_normal);
+    const bool crossed = oriented && orient(memory, n.closest.inner, normal);
+    add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), memory);
+  }
+}
+
+/// Turns the normal to the side that is remembered; true if that is not the one it is on now.
+bool SurfaceContact::orient(Memory& memory, bool inner, glm::vec3& normal) const {
+  const bool crossed = inner && glm::dot(memory.normal, normal) < 0;
+  if (crossed) normal = -normal;
+  memory.normal = inner ? normal : glm::vec3(0.0f);
+  return crossed;
+}
+
+/// Those deep inside another body: towards the plane of the face that they are closest to.
+void SurfaceContact::deep_vertices(Step& step) {
+  for (std::uint32_t i = step.pair.deep; i < step.pair.deep_end; ++i) {
+    const DeepVertex& d = deep_[i];
+    const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
+    const collide::surface::Triangle& face = face_side.surface->triangles()[d.face];
+    glm::vec3 corner[3];
+    for (std::size_t k = 0; k < 3; ++k) corner[k] = at(step, face_side, face[k]);
+    const glm::vec3 p = at(step, vertex_side, d.vertex);
+    const Closest c = collide::surface::closest_vertex_face(p, corner[0], corner[1], corner[2]);
+    const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
+    ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
+                                face_side.slot, face_side.stride, face_side.inverse_mass);
+    row.feature = forgotten;
+    Memory unseen;
+    add_row(step, row, normal, glm::dot(p - corner[0], normal), unseen);
+  }
+}
+
+void SurfaceContact::edges_on_edges(Step& step) {
+  const collide::surface::SurfacePair& range = step.pair.range;
+  const bool self = range.a == range.b;
+  const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
+  const bool closed = !self && one.surface->closed() && two.surface->closed();
+  const float look2 = step.look * step.look;
+  const auto outward = [&](const Side& s, Index edge) {
+    glm::vec3 sum(0.0f);
+    for (const Index f : s.surface->edge_triangles()[edge]) {
+      const collide::surface::Triangle& face = s.surface->triangles()[f];
+      sum += unit(normal_of(at(step, s, face[0]), at(step, s, face[1]), at(step, s, face[2])), {});
+    }
+    return sum;
+  };
+  const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
+    const FeaturePair& f = search_.features()[i];
+    const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+    Memory& memory = memory_[i];
+    ContactRow row{};
+    for (std::size_t k = 0; k < 2; ++k) {
+      row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * one.stride);
+      row.slot[k + 2] = static_cast<std::uint32_t>(two.slot + e2[k] * two.stride);
+      row.weight[k] = c.weight[k];
+      row.weight[k + 2] = -c.weight[k + 2];
+      row.mobility[k] = one.inverse_mass * row.weight[k];
+      row.mobility[k + 2] = two.inverse_mass * row.weight[k + 2];
+    }
+    row.feature = i;
+    const float distance = std::sqrt(distance2);
+    glm::vec3 normal = unit(c.separation, memory.normal);
+    bool crossed = false;
+    if (!closed) {
+      crossed = orient(memory, true, normal);
+    } else if (glm::dot(memory.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
+      crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
+      if (crossed && distance > step.pair.distance) {  // the far side of something thin
+        memory = {};
+        return;
+      }
+      memory.normal = crossed ? glm::vec3(0.0f) : normal;
+      if (crossed) normal = -normal;
+    }
+    add_row(step, row, normal, crossed ? -distance : distance, memory);
+  };
+  collide::surface::FeatureBatch& meeting = step.own.meeting;
+  for (std::uint32_t i = range.edge_edge; i < range.end;) {
+    meeting.clear();
+    for (; i < range.end && !meeting.full(); ++i) {
+      const FeaturePair& f = search_.features()[i];
+      if (f.earliest > step.until) continue;
+      const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
+      meeting.add({at(step, one, e1[0]), at(step, one, e1[1]), at(step, two, e2[0]), at(step, two, e2[1])}, i);
+    }
+    meeting.find_closest_edges();
+    for (Index k = 0; k < meeting.size(); ++k) {
+      if (meeting.inner(k) && meeting.distance2(k) <= look2)
+        meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
+      else  // those that end on a corner are a vertex's
+        memory_[meeting.tag(k)] = {};
+    }
+  }
+}
+
+/// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
+void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
+                             Memory& memory) {
+  float mobility = 0;
+  for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
+  if (mobility <= 0) return;
+  const float speed = glm::dot(relative_velocity(corners, step.v), normal);
+  const float room = corners.feature == forgotten ? step.pair.distance : room_[corners.feature];
+  const float distance = std::min(step.pair.distance, room), gap = apart - distance;
+  ContactRow& row = step.own.rows.emplace_back(corners);
+  row.normal = normal;
+  row.mass = 1 / mobility;
+  // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
+  const float spare = apart - 0.5f * distance;
+  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, max_separation_speed);
+  const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
+  row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
+  row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);
+  const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
+  if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
+  row.friction = step.pair.friction;
+  // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
+  // would grow with every substep.
+  const float kept = spare > 0 ? step.same : push_kept * step.same;
+  row.pressed = kept * memory.pressed;
+  row.drag = kept * (memory.drag - glm::dot(memory.drag, normal) * normal);
+}
+
+}  // namespace softbody

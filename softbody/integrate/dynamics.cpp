@@ -1,0 +1,160 @@
+#include "softbody/integrate/dynamics.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/forces/shape_matching.h"
+
+namespace softbody {
+
+Extent Dynamics::extent(const Batch& b, const Components& boxed, const Components& measured) const {
+  Extent e{};
+  kernels_of(b).extent(b.particles(), at(boxed, b), at(measured, b), e);
+  return e;
+}
+
+double Dynamics::fastest(const Batch& b) const { return extent(b, x_, v_).longest(); }
+
+void Dynamics::set_plan(const Plan& plan) {
+  static constexpr std::pair<Stage, BatchStage> springs_and_gas[] = {
+      {Stage::structural_springs, &Dynamics::structural_springs},
+      {Stage::bend_springs, &Dynamics::bend_springs},
+      {Stage::shear_springs, &Dynamics::shear_springs},
+      {Stage::gas_pressure, &Dynamics::gas_pressure},
+  };
+  static constexpr std::pair<Stage, BatchStage> others[] = {
+      {Stage::shape_matching, &Dynamics::shape_matching},
+      {Stage::contact_response, &Dynamics::shield_forces},
+  };
+  force_stages_.clear();
+  other_force_stages_.clear();
+  for (const auto& [stage, run] : springs_and_gas)
+    if (plan.has(stage)) force_stages_.push_back(run);
+  for (const auto& [stage, run] : others) {
+    if (!plan.has(stage)) continue;
+    force_stages_.push_back(run);
+    other_force_stages_.push_back(run);
+  }
+  if (plan.has(Stage::grab)) force_stages_.push_back(&Dynamics::grab_force);  // last: it reckons with the others
+  resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
+                 plan.has(Stage::rolling_resistance)};
+  has_gravity_ = plan.has(Stage::gravity);
+  has_restitution_ = plan.has(Stage::restitution);
+  has_surface_ = plan.has(Stage::surface_contact);
+  has_solid_features_ = plan.has(Stage::solid_features);
+  self_contact_ = scene_.collision.self_collision;
+  if (!has_surface_) surface_.clear();
+  if (!plan.has(Stage::contact_response)) shield_.pairs.clear();
+}
+
+void Dynamics::set_integrator(const Integrator& integrator) {
+  asked_ = integrator_ = &integrator;
+  why_ = {};
+  resize_scratch();
+}
+
+void Dynamics::resize_scratch() {
+  scratch_.resize(std::size_t(integrator_->scratch));
+  for (auto& components : scratch_)
+    for (auto& c : components) c.resize(x_[0].size());
+}
+
+std::size_t Dynamics::particle_count() const {
+  std::size_t count = 0;
+  for (const Batch& b : batches_) count += b.particles() * std::size_t(b.used);
+  return count;
+}
+
+bool Dynamics::moves(const Batch& b) {
+  return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
+}
+
+std::span<Batch* const> Dynamics::share(int thread) const {
+  const auto [begin, end] = collide::part_of(moving_.size(), thread, active_threads_);
+  return std::span(moving_).subspan(begin, end - begin);
+}
+
+void Dynamics::barrier() {
+  if (active_threads_ > 1) workers_.barrier();
+}
+
+void Dynamics::contact_forces(int thread, float h) {
+  if (shield_.pairs.empty()) return;
+  shield_.evaluate(collide::part_of(shield_.pairs.size(), thread, active_threads_),
+                   {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()}, h);
+  barrier();
+}
+
+void Dynamics::contacts(int thread, float h, float since_start) {
+  surface_contacts(thread, h, since_start);
+  solids(thread, h);
+  for (int turn = 0; turn < SurfaceContact::turns && has_surface_ && surface_.hit(h); ++turn) {
+    barrier();
+    if (!surface_.mend(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); }))
+      break;
+    solids(thread, h);
+  }
+}
+
+void Dynamics::surface_contacts(int thread, float h, float since_start) {
+  if (!has_surface_ || surface_.empty()) return;
+  barrier();  // the velocities of all bodies are there
+  surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
+                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)] + since_start, h);
+  barrier();
+  surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
+                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
+}
+
+void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {
+  clear(b, softbody::forces);
+  for (const BatchStage stage : stages) (this->*stage)(b);
+}
+
+void Dynamics::all_forces(Batch& b) { run_stages(b, force_stages_); }
+void Dynamics::other_forces(Batch& b) { run_stages(b, other_force_stages_); }
+
+void Dynamics::structural_springs(Batch& b) {
+  kernels_of(b).springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b));
+}
+void Dynamics::bend_springs(Batch& b) { kernels_of(b).springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::shear_springs(Batch& b) { kernels_of(b).springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
+
+void Dynamics::gas_pressure(Batch& b) {
+  if (!b.prototype->has_gas) return;
+  const Gas& gas = b.prototype->gas;
+  alignas(32) float volume[lanes], gauge[lanes]{};
+  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
+  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
+  kernels_of(b).pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
+}
+
+void Dynamics::shape_matching(Batch& b) {
+  if (b.mesh->shape.empty()) return;
+  ShapeMoments<float> moments;
+  ShapePose<float> pose{};
+  kernels_of(b).shape_moments(b.mesh->shape, at(x_, b), moments);
+  fit_shape(moments, b.used, pose);
+  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.prototype)), at(x_, b),
+                           at(f_, b));
+}
+
+void Dynamics::shield_forces(Batch& b) {
+  if (shield_.pairs.empty()) return;
+  const auto index = static_cast<std::size_t>(&b - batches_.data());
+  for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
+    const ShieldEnd& end = shield_.ends[e];
+    for (std::size_t k = 0; k < 3; ++k) f_[k][end.slot] += end.sign * shield_.force[end.pair][int(k)];
+  }
+}
+
+void Dynamics::kick(Batch& b, float h) {
+  const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
+  kernels_of(b).kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
+                     at(v_, b));
+}
+
+void Dynamics::drift(Batch& b, float h) { kernels_of(b).drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
+
+}  // namespace softbody

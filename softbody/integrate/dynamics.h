@@ -1,0 +1,282 @@
+#pragma once
+// The state of all bodies and the operations that integrators are made of: contact forces, forces, kick, solids, drift.
+
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "softbody/contact/shield.h"
+#include "softbody/contact/solid_features.h"
+#include "softbody/contact/surface_contact.h"
+#include "softbody/forces/grab.h"
+#include "softbody/integrate/dynamics_state.h"
+#include "softbody/integrate/integrators.h"
+#include "softbody/integrate/kernels.h"
+#include "softbody/integrate/max_work.h"
+#include "softbody/integrate/plan.h"
+#include "softbody/integrate/substeps.h"
+#include "softbody/model/prototype.h"
+#include "softbody/scene/scene.h"
+
+namespace softbody {
+
+class ImplicitFrames;
+class ImplicitMatrix;
+struct ImplicitSteps;
+struct ImplicitWork;
+
+/// A field over all particles that integrators compute with.
+struct Quantity {
+  int index;
+};
+inline constexpr Quantity positions{0}, velocities{1}, forces{2};
+constexpr Quantity scratch(int i) { return {3 + i}; }
+
+/// What a detector has found.
+struct SeenContacts {
+  const collide::Bodies& vertices;
+  std::span<const BodyId> vertex_body;  // the body of each vertex
+  const std::vector<collide::Contact>& contacts;
+};
+
+/// What a frame came to.
+struct Advance {
+  int substeps = 0;
+  double seconds = 0;
+};
+
+class Dynamics {
+ public:
+  Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
+      : scene_(scene), workers_(workers), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
+
+  BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
+  /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
+  void remove(BodyId body);
+  /// Bodies of the prototype `from` go on as bodies of `to`, of the same mesh, from where they are.
+  void replace(const std::shared_ptr<const Prototype>& from, const std::shared_ptr<const Prototype>& to);
+  /// What pulls a body; nothing: nobody does. The plan must have Stage::grab while one does.
+  void grab(const std::optional<Grab>& grab);
+  const std::optional<Grab>& grabbed() const { return grab_; }
+  glm::dvec3 grabbed_point() const;  // m; of the body that is grabbed
+  void set_plan(const Plan& plan);
+  void set_integrator(const Integrator& integrator);
+  /// The one that the last frame was integrated with, and, if it was chosen automatically, why.
+  const Integrator& used_integrator() const { return *integrator_; }
+  std::string_view why_integrator() const { return why_; }
+  double last_substep() const { return double(step_); }  // s, how long it was
+  /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
+  void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
+  void set_least_shared(std::size_t count) { least_shared_ = count; }
+  void set_max_work(const MaxWork& max) { max_work_ = max; }
+  /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
+  void hold(BodyId body, bool held, int release);
+  /// One a vertex, finite. The body's origin goes to their middle.
+  void set_particles(BodyId body, std::span<const Particle> particles);
+  void put_to_sleep(BodyId body, bool asleep);
+
+  /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.
+  void set_contacts(const SeenContacts& seen, float shield);
+  /// What the pairs of the last frame hold by now; what these contacts would hold, of bodies that move.
+  std::vector<PairEnergy> shield_energies() const;
+  std::vector<PairEnergy> shield_energies(const SeenContacts& seen, float shield) const;
+
+  /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
+  void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
+
+  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work: unless substeps
+  /// are fixed, their bound is worked out anew as bodies move, and those that are crushed may ask for any number, and
+  /// be full of contacts. after_substep: called by one thread while the others wait.
+  Advance advance(double seconds, const std::function<void()>& after_substep = {});
+  /// Substeps that the bound asks for in the state at hand.
+  int substeps(double seconds) const;
+  /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
+  void finish_frame(double seconds);
+
+  // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
+  std::span<Batch* const> share(int thread) const;
+  // The arithmetic leaves lanes alone that do not move.
+  void contact_forces(int thread, float h);  // of this thread's part of the contacts, for all_forces() of all threads
+  void all_forces(Batch& batch);             // at the current positions and velocities
+  void other_forces(Batch& batch);           // all but those of springs, gas and hand
+  void kick(Batch& batch, float h);          // v += h (f / m + g)
+  void accelerations(Batch& batch);          // f = f / m + g
+  void drift(Batch& batch, float h);         // x += h v
+  /// On the velocities, so that in a step of h from here surfaces do not pass through each other nor particles into
+  /// solids. All velocities must be there; needs a barrier() after it.
+  void contacts(int thread, float h) { contacts(thread, h, 0); }
+  /// The same for the positions that a substep of h ends with.
+  void contacts_at_end(int thread, float h) { contacts(thread, h, h); }
+  // XPBD, on displacements d in this step, which starts at x0; project_gas() wants the positions to be x0 + d.
+  void project_gas(Batch& batch, Quantity d, float h);
+  void project_springs(Batch& batch, Quantity x0, Quantity d, float h);
+  /// What the hand does in a step of h, on velocities that hold what all else does. For who takes other_forces().
+  void pull(Batch& batch, float h) {
+    if (grab_) grab_impulse(batch, h);
+  }
+  /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
+  /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all bodies.
+  void solve_implicit(int thread, Batch& batch, Quantity mean, Quantity rest, float h);
+  void copy(Batch& batch, Quantity from, Quantity to);           // to = from
+  void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q
+  void scale(Batch& batch, Quantity q, float times);             // q *= times
+  void clear(Batch& batch, Quantity q);                          // q = 0
+  void barrier();
+
+  // Reading.
+  const SurfaceContact& surface_contact() const { return surface_; }
+  std::size_t body_count() const { return bodies_.size(); }
+  const Body& body(BodyId id) const { return bodies_[id]; }
+  const Prototype& prototype(BodyId id) const { return *batches_[bodies_[id].batch].prototype; }
+  Particle particle(BodyId id, Index vertex) const;
+  double fastest(BodyId id) const;  // m/s, of its particles
+  /// N s, what solids gave to a body along their normals in the last advance().
+  glm::dvec3 solid_impulse(BodyId id) const;
+  /// World positions, bodies in order of their ids. Every span has one value a vertex.
+  void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
+  std::uint64_t hash() const;  // FNV-1a over the bits of origins, positions and velocities in order of the ids
+  DynamicsState save() const;
+  /// Goes on from there; the plan and the integrator stay as they are set.
+  void restore(const DynamicsState& state);
+  void set_calm_frames(BodyId id, int frames) { bodies_[id].calm_frames = frames; }
+
+ private:
+  using BatchStage = void (Dynamics::*)(Batch&);
+  using Components = std::array<LaneArray<float>, 3>;
+
+  std::size_t slot(const Body& body, Index vertex) const {
+    const Batch& b = batches_[body.batch];
+    return b.base + std::size_t(vertex) * std::size_t(b.width) + std::size_t(body.lane);
+  }
+  Field<float> at(Components& c, const Batch& b) {
+    return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
+  }
+  Field<const float> at(const Components& c, const Batch& b) const {
+    return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
+  }
+  const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
+  std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const Prototype>& prototype, int width) const;
+  Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
+  std::size_t append(std::size_t values);
+  void widen(Batch& batch);
+  Components& components(Quantity q);
+  template <class Operation>
+  void each_value(Batch& batch, Operation operation);
+  void run_stages(Batch& batch, std::span<const BatchStage> stages);
+  void contacts(int thread, float h, float since_start);
+  void surface_contacts(int thread, float h, float since_start);
+  void solids(int thread, float h);
+  void solids(Batch& batch, float h);
+  bool particles_on_solids(Batch& batch, float h, bool again);
+  void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
+  bool solid_features(Batch& batch, float h);
+  bool solid_feature(Batch& batch, SolidFeature& feature);
+  void structural_springs(Batch& batch);
+  void bend_springs(Batch& batch);
+  void shear_springs(Batch& batch);
+  void gas_pressure(Batch& batch);
+  void shape_matching(Batch& batch);
+  void shield_forces(Batch& batch);
+  void grab_force(Batch& batch);
+  void grab_impulse(Batch& batch, float h);
+  bool is_grabbed(const Batch& batch) const;
+  glm::dvec3 grab_pull(const Prototype& prototype, float h, const glm::dvec3& velocity) const;
+  void move_lane(Batch& batch, int from, int to);
+  static bool moves(const Batch& batch);
+  std::size_t particle_count() const;        // of all bodies, those that do not move too
+  double fastest(const Batch& batch) const;  // m/s, of its particles
+  Extent extent(const Batch& batch, const Components& boxed, const Components& measured) const;
+  double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
+  glm::vec3 vertex_normal(const Body& body, Index vertex) const;
+  void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
+                  std::vector<ShieldPair>& pairs) const;
+  glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
+  void find_surface_contacts(double left, double ahead, double least);
+  int foreseen_substeps(double left, double h) const;
+  void wake_what_is_hit(double seconds);
+  void prepare_solids(Batch& batch, double seconds);
+  template <class Solid>
+  void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
+  /// Of a frame.
+  struct Progress {
+    double seconds, left;
+    int substeps = 0;
+    int fixed = 0;  // substeps that it is to take; 0: as many as are needed
+    int most = 0;   // that there may be
+  };
+  void begin_frame(double seconds);
+  bool spent(const Progress& frame) const;
+  void take_substeps(Progress& frame, const std::function<void()>& after_substep);
+  int substeps_left(const Progress& frame, int stable) const;
+  int substeps_within_bound(double h) const;
+  int needed_substeps(const Progress& frame);
+  void hold(const SubstepBound& bound, double seconds);
+  int most_explicit_substeps() const;
+  SubstepBound bound(double seconds) const;  // in the state at hand
+  static int substeps(const SubstepBound& bound, double seconds, double at_least);
+  double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
+  double tremble(double step) const;
+  void choose(double seconds);
+  void resize_scratch();
+  void prepare_implicit(float h);
+  void count_implicit_work();
+  const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
+  std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                                      double h) const;
+  std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
+  void keep_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                     const std::array<bool, lanes>& which, double h) const;
+  std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                                            double h) const;
+  void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
+  void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
+  void touch(BodyId id) { batches_[bodies_[id].batch].touched |= 1u << bodies_[id].lane; }
+  void note_momenta();
+  void keep_momenta(double seconds);  // since note_momenta()
+  void resist(BodyId id, double seconds);
+  double undue_speed(BodyId id, double out, double impulse);
+  void follow(BodyId id);
+  void update_moves(const Body& body);
+
+  const Scene& scene_;
+  collide::Workers& workers_;
+  const Kernels &wide_, &narrow_;
+  Isa isa_;
+  const Integrator *asked_ = nullptr, *integrator_ = nullptr;
+  std::string_view why_;
+  std::optional<int> fixed_substeps_;
+  std::vector<BatchStage> force_stages_, other_force_stages_;
+  struct {
+    bool internal, rebound, rolling;
+  } resistance_{};
+  bool has_gravity_ = false, has_restitution_ = false;
+  std::vector<Batch> batches_;
+  std::vector<Body> bodies_;
+  Components x_, v_, f_;
+  // Room of bound(): not for two threads at once.
+  mutable Components area_;
+  mutable std::vector<float> shield_damping_;
+  std::vector<Components> scratch_;
+  Components before_;  // velocities at the start of the substep, if the scene has restitution
+  std::shared_ptr<ImplicitSteps> implicit_steps_;  // what they keep; none before the first
+  Shield shield_;
+  SurfaceContact surface_;
+  bool has_surface_ = false, self_contact_ = false, has_solid_features_ = false;
+  std::vector<float> since_found_;  // s, as each thread counts them
+  double found_ = 0;                // s before the end of the frame, when surface_ was found; 0: not yet
+  const collide::Bodies* vertices_ = nullptr;
+  std::array<std::vector<float>, 3> seen_, velocity_;  // world, for surface_
+  std::vector<ShieldPair> pairs_before_;               // of the frame before
+  std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
+  std::vector<Batch*> moving_;
+  std::vector<RigidSums> momenta_;  // of moving_, at the start of the frame; empty where keep_momenta() has no part
+  std::optional<Grab> grab_;
+  float step_ = 0;  // s, of the substep at hand
+  HeldRate held_rate_;
+  std::size_t least_shared_ = 0;
+  MaxWork max_work_;
+  double surface_work_ = 0, implicit_ = 0, shield_work_ = 0;  // of the frame at hand, as max_work_ counts them
+  int active_threads_ = 1;
+};
+
+}  // namespace softbody

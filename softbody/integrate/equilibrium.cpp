@@ -1,0 +1,122 @@
+#include "softbody/integrate/equilibrium.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/forces/kernel_bodies.h"
+#include "softbody/forces/shape_matching.h"
+#include "softbody/model/scene_error.h"
+
+namespace softbody {
+namespace {
+
+/// One body by itself, in double precision.
+class Relaxation {
+ public:
+  Relaxation(const Prototype& p, const std::vector<glm::dvec3>& from) : prototype_(p), size_(from.size()) {
+    for (auto* field : {&x_, &v_, &f_})
+      for (auto& component : *field) component.assign(size_, 0.0);
+    for (std::size_t i = 0; i < from.size(); ++i)
+      for (int k = 0; k < 3; ++k) x_[k][i] = from[i][k];
+    for (const auto* list : {&p.structural, &p.bend, &p.shear})
+      for (const Spring& s : *list) springs_.push_back({s.i, s.j, s.rest, s.stiffness, 0.0});
+    for (const glm::dvec3& q : p.goal) shape_.push_back({q.x, q.y, q.z});
+  }
+
+  void evaluate() {
+    for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
+    body::springs<double, one_lane>(springs_, constant(x_), constant(v_), field(f_));
+    if (!shape_.empty()) keep_shape();
+    if (!prototype_.has_gas) return;
+    double v;
+    body::volume<double, one_lane>(prototype_.mesh.triangles, constant(x_), &v);
+    const double gauge = prototype_.gas.gauge(v);
+    body::pressure<double, one_lane>(prototype_.mesh.triangles, constant(x_), &gauge, field(f_));
+  }
+
+  void keep_shape() {
+    ShapeMoments<double> moments;
+    ShapePose<double> pose{};
+    body::shape_moments<double, one_lane>(shape_, constant(x_), moments);
+    fit_shape(moments, 1, pose);
+    body::shape_pull<double, one_lane>(shape_, pose, shape_stiffness(prototype_), constant(x_), field(f_));
+  }
+
+  double largest_force() const {
+    double largest2 = 0;  // or NaN, once there is one
+    for (std::size_t i = 0; i < size_; ++i) {
+      const double force2 = f_[0][i] * f_[0][i] + f_[1][i] * f_[1][i] + f_[2][i] * f_[2][i];
+      if (force2 > largest2 || std::isnan(force2)) largest2 = force2;
+    }
+    return std::sqrt(largest2);
+  }
+
+  /// One step of h; velocities are dropped whenever the kinetic energy has passed a peak. From rest it takes half a
+  /// kick, as leapfrog does: a whole one would overshoot by more than it started with where h is near the stable limit.
+  void step(double h) {
+    const double kick = (kinetic_ > 0 ? h : h / 2) / prototype_.particle_mass;
+    double kinetic = 0;
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < size_; ++i) {
+        v_[k][i] += kick * f_[k][i];
+        kinetic += v_[k][i] * v_[k][i];
+      }
+    if (kinetic < kinetic_) {
+      for (auto& component : v_) std::fill(component.begin(), component.end(), 0.0);
+      kinetic = 0;
+    }
+    kinetic_ = kinetic;
+    for (int k = 0; k < 3; ++k)
+      for (std::size_t i = 0; i < size_; ++i) x_[k][i] += h * v_[k][i];
+  }
+
+  std::vector<glm::dvec3> positions() const {
+    std::vector<glm::dvec3> result;
+    for (std::size_t i = 0; i < size_; ++i) result.emplace_back(x_[0][i], x_[1][i], x_[2][i]);
+    return result;
+  }
+
+ private:
+  using Components = std::array<LaneArray<double>, 3>;
+  static Field<const double> constant(const Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
+  static Field<double> field(Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
+
+  const Prototype& prototype_;
+  std::size_t size_;
+  Components x_, v_, f_;
+  KernelSpringsOf<double> springs_;
+  std::vector<ShapePoint<double>> shape_;
+  double kinetic_ = 0;
+};
+
+}  // namespace
+
+std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::vector<glm::dvec3>& from) {
+  Relaxation relaxation(prototype, from);
+  const double scale = (prototype.spring_stiffness_bound + std::abs(prototype.gas.ambient) * prototype.radius +
+                        prototype.material.gas_pressure * prototype.radius) *
+                       prototype.radius;
+  // Half of what is stable: the kinetic energy has a peak to be found only where a swing takes more than a few steps.
+  const double h =
+      0.5 * stable_step(stiffness_per_mass(prototype, measure_surface(prototype, prototype.mesh.vertices)), 0);
+  constexpr int limit = 50'000;
+  for (int i = 0; i < limit; ++i) {
+    relaxation.evaluate();
+    const double force = relaxation.largest_force();
+    if (!std::isfinite(force)) break;
+    if (force <= 1e-11 * scale) return relaxation.positions();
+    relaxation.step(h);
+  }
+  throw SceneError("material '" + prototype.material.name + "': springs and gas pressure find no equilibrium; lower " +
+                   "gas_pressure towards ambient_pressure, raise the stiffness, or set start_in_equilibrium = false");
+}
+
+std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material) {
+  auto p = make_unbalanced_prototype(mesh, material);
+  if (!material.start_in_equilibrium || !p->has_gas) return p;
+  p->start = find_equilibrium(*p, p->mesh.vertices);
+  p->start_volume = volume(p->start, p->mesh.triangles);
+  return p;
+}
+
+}  // namespace softbody

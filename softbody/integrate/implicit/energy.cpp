@@ -1,0 +1,90 @@
+#include "softbody/integrate/implicit/energy.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/forces/deformation.h"
+#include "softbody/state/rigid_motion.h"
+
+namespace softbody {
+namespace {
+
+std::vector<glm::dvec3> places(const Prototype& p, const LaneView& x) {
+  std::vector<glm::dvec3> list;
+  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) list.push_back(x(i));
+  return list;
+}
+
+double kinetic_energy(const Prototype& p, const LaneView& v) {
+  double square = 0;
+  for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v(i), v(i));
+  return p.particle_mass / 2 * square;
+}
+
+/// J that the gas and what is around lose. By Simpson's rule: a logarithm has not the same last digits on all
+/// processors.
+double gas_work(const Gas& gas, double from, double to) {
+  const double by_gas = (to - from) / 6 * (gas.pressure(from) + 4 * gas.pressure((from + to) / 2) + gas.pressure(to));
+  return by_gas - (gas.outside_energy(to) - gas.outside_energy(from));
+}
+
+/// J that solids and shields may have done on the body in the step that ends at work.end_x.
+double contact_work(const ImplicitWork& work, std::size_t lane) {
+  const LaneView x{work.x, lane}, end_x{work.end_x, lane};
+  double sum = 0;
+  for (const PlaneContact& c : work.planes)  // they push out, and friction takes
+    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
+  for (const LinearShield& s : work.shields) {
+    if (s.at % lanes != lane) continue;
+    const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
+    sum += std::clamp(glm::dot(s.after(moved), moved), 0.0, s.most_work);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
+                    bool pushed) {
+  constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
+  const std::size_t n = p.mesh.vertices.size();
+  const LaneView x{work.x, lane}, v{work.v, lane}, end_x{work.end_x, lane}, end_v{work.end_v, lane};
+  double fallen = 0;
+  glm::dvec3 before_mean(0.0), after_mean(0.0);
+  for (std::size_t i = 0; i < n; ++i) {
+    fallen += p.particle_mass * glm::dot(gravity, end_x(i) - x(i));
+    before_mean += v(i) / double(n), after_mean += end_v(i) / double(n);
+  }
+  const std::vector<glm::dvec3> start = places(p, x), end = places(p, end_x);
+  const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = elastic_energy(p, start);
+  double gain = after - before - fallen - contact_work(work, lane) + elastic_energy(p, end) - elastic;
+  if (p.has_gas) gain -= gas_work(p.gas, enclosed_volume(p, start), enclosed_volume(p, end));
+  double motion = before + after;
+  if (!pushed)  // then how fast it flies has no part in it
+    motion -= p.material.mass / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));
+  if (!std::isfinite(gain)) return std::numeric_limits<double>::infinity();
+  return gain > share * motion + rounding * (elastic + before) ? gain : 0;
+}
+
+bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {
+  constexpr double most = 0.05;  // of the energy of what is slowed
+  const std::size_t n = p.mesh.vertices.size();
+  if (energy <= 0) return true;
+  const LaneView x{work.end_x, lane}, v{work.end_v, lane};
+  const RigidMotion whole = rigid_motion(n, x, v);
+  const auto kept = [&](std::size_t i) {
+    return pushed ? glm::dvec3(0.0) : whole.velocity + glm::cross(whole.spin, x(i) - whole.centre);
+  };
+  double slowed = 0;  // J; a rigid motion and the rest of a motion have no part in each other's energy
+  for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v(i) - kept(i), v(i) - kept(i));
+  if (!std::isfinite(energy) || !(energy <= most * slowed)) return false;
+  const double part = std::sqrt(1 - energy / slowed);
+  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * lanes + lane, kept(i) + part * (v(i) - kept(i)));
+  return true;
+}
+
+}  // namespace softbody

@@ -1,0 +1,104 @@
+#include "softbody/integrate/implicit/frames.h"
+
+namespace softbody {
+
+ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
+                               const glm::dvec3& gravity)
+    : h_(h), gravity_(gravity), fall_(h * h * gravity) {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!which[l]) continue;
+    const RigidMotion body = rigid_motion(x.size() / (3 * lanes), LaneView{x, l}, LaneView{v, l});
+    const glm::dvec3 spin = body.steady_spin_of(body.momentum);  // any frame serves, if it does not jump about
+    frames_[l] = {true, body, spin, rotation(h * spin)};
+  }
+}
+
+ImplicitFrames ImplicitFrames::some(const std::array<bool, lanes>& which) const {
+  ImplicitFrames result = *this;
+  for (std::size_t l = 0; l < lanes; ++l)
+    if (!which[l]) result.frames_[l] = {};
+  return result;
+}
+
+ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
+  ImplicitFrames result = *this;
+  result.fall_ = fall;
+  return result;
+}
+
+std::array<float, lanes> ImplicitFrames::moves() const {
+  std::array<float, lanes> moves{};
+  for (std::size_t l = 0; l < lanes; ++l) moves[l] = frames_[l].own ? 1.0f : 0.0f;
+  return moves;
+}
+
+glm::dvec3 ImplicitFrames::velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
+  return v - glm::cross(frames_[lane].spin, x - frames_[lane].body.centre);
+}
+
+glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
+  const Frame& f = frames_[lane];
+  return f.turned * (x - f.body.centre) - (x - f.body.centre);
+}
+
+glm::dvec3 ImplicitFrames::way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
+  const Frame& f = frames_[lane];
+  const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.body.velocity;
+  return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
+}
+
+/// change(frame, x, v, at): of one particle of a lane that has a frame of its own.
+template <class Change>
+void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!frames_[l].own) continue;
+    for (std::size_t at = l; at < x.size() / 3; at += lanes) {
+      glm::dvec3 place = read(x, at), velocity = read(v, at);
+      change(frames_[l], place, velocity, at);
+      write(x, at, place);
+      write(v, at, velocity);
+    }
+  }
+}
+
+void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& carried) const {
+  std::fill(carried.begin(), carried.end(), 0.0);
+  for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
+    place -= f.body.centre;
+    velocity -= f.body.velocity + glm::cross(f.spin, place);
+    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
+  });
+}
+
+LinearShield ImplicitFrames::enter(const LinearShield& shield) const {
+  LinearShield s = shield;
+  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.as_now}) *v = enter(s.at % lanes, *v);
+  return s;
+}
+
+void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) const {
+  const std::size_t stride = a.size() / 3;
+  for (std::size_t k = 0; k < 3; ++k)
+    std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    const glm::dvec3 spin = frames_[l].spin;
+    if (!frames_[l].own) continue;
+    for (std::size_t at = l; at < stride; at += lanes)
+      write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
+  }
+}
+
+void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
+  std::array<glm::dvec3, lanes> middle{};
+  for_each(x, v, [&](const Frame&, glm::dvec3& place, glm::dvec3&, std::size_t at) {
+    middle[at % lanes] += place / double(x.size() / (3 * lanes));
+  });
+  for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
+    // The middle moves as what pushes the body has it, which is told in the world's directions.
+    velocity += glm::cross(f.spin, place - middle[at % lanes]);
+    velocity = f.body.velocity + h_ * gravity_ + f.turned * velocity;
+    place = f.body.centre + h_ * f.body.velocity + fall_ + f.turned * place;
+  });
+}
+
+}  // namespace softbody

@@ -1,0 +1,142 @@
+#pragma once
+// The loops of implicit steps, in double, for eight bodies at a time. Included where they are compiled for an
+// instruction set.
+
+#include "softbody/forces/kernel_bodies.h"
+#include "softbody/integrate/implicit/kernels.h"
+
+namespace softbody::body {
+
+/// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
+SB_INLINE void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+  using V = Lane<double, lanes>;
+  const std::size_t w = run.columns;
+  const double* v = f.value.data() + run.value;
+  double* own = z + run.first * lanes;
+  for (std::size_t j = 0; j < w; ++j, v += w) {
+    V sum = load<V>(own + j * lanes);
+    for (std::size_t i = 0; i < j; ++i) sum -= v[i] * load<V>(own + i * lanes);
+    store(own + j * lanes, v[j] * sum);
+  }
+  const std::uint32_t* row = f.row.data() + run.below;
+  std::size_t r = 0;
+  for (; r + 1 < run.rows; r += 2, v += 2 * w) {
+    double *below = z + row[r] * lanes, *next = z + row[r + 1] * lanes;
+    V a = load<V>(below), b = load<V>(next);
+    for (std::size_t i = 0; i < w; ++i) {
+      const V known = load<V>(own + i * lanes);
+      a -= v[i] * known;
+      b -= v[w + i] * known;
+    }
+    store(below, a);
+    store(next, b);
+  }
+  if (r == run.rows) return;
+  V a = load<V>(z + row[r] * lanes);
+  for (std::size_t i = 0; i < w; ++i) a -= v[i] * load<V>(own + i * lanes);
+  store(z + row[r] * lanes, a);
+}
+
+/// Likewise for the transpose, once what stands after the run is known.
+SB_INLINE void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+  using V = Lane<double, lanes>;
+  const std::size_t w = run.columns;
+  const double *diagonal = f.value.data() + run.value, *below = diagonal + w * w;
+  const std::uint32_t* row = f.row.data() + run.below;
+  double* own = z + run.first * lanes;
+  std::size_t j = 0;
+  for (; j + 1 < w; j += 2) {
+    V a = load<V>(own + j * lanes), b = load<V>(own + (j + 1) * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) {
+      const V known = load<V>(z + row[r] * lanes);
+      a -= below[r * w + j] * known;
+      b -= below[r * w + j + 1] * known;
+    }
+    store(own + j * lanes, a);
+    store(own + (j + 1) * lanes, b);
+  }
+  if (j < w) {
+    V a = load<V>(own + j * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) a -= below[r * w + j] * load<V>(z + row[r] * lanes);
+    store(own + j * lanes, a);
+  }
+  for (j = w; j-- > 0;) {
+    V sum = load<V>(own + j * lanes);
+    for (std::size_t i = j + 1; i < w; ++i) sum -= diagonal[i * w + j] * load<V>(own + i * lanes);
+    store(own + j * lanes, diagonal[j * w + j] * sum);
+  }
+}
+
+/// Solves L L^T x = b in place for all lanes, x = b at first; `z` is room for as much.
+SB_INLINE void substitute(const CholeskyFactor& f, double* x, double* z) {
+  using V = Lane<double, lanes>;
+  const std::size_t n = f.place.size();
+  for (std::size_t i = 0; i < n; ++i) store(z + f.place[i] * lanes, load<V>(x + i * lanes));
+  for (const CholeskyFactor::Run& run : f.runs) substitute_forward(f, run, z);
+  for (std::size_t i = f.runs.size(); i-- > 0;) substitute_back(f, f.runs[i], z);
+  for (std::size_t i = 0; i < n; ++i) store(x + i * lanes, load<V>(z + f.place[i] * lanes));
+}
+
+/// Hooke's springs at x, and their dampers for the displacements x - from within the step, along the directions at
+/// `from`: fixed, so that the damping has a potential.
+SB_INLINE void implicit_springs(std::span<const KernelSpring<double>> list, double inverse_h, Field<const double> x,
+                                Field<const double> from, Field<double> f) {
+  using V = Lane<double, lanes>;
+  const V tiny = V{} + 1e-12;  // m
+  for (const KernelSpring<double>& s : list) {
+    const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i);
+    const V length = square_root(dot(dx, dx));
+    Vec<V> force = (s.stiffness * (length - s.rest) / larger(length, tiny)) * dx;
+    if (s.damping > 0) {
+      const Vec<V> along = load<V>(from, s.j) - load<V>(from, s.i);
+      force = force + (s.damping * inverse_h * dot(dx - along, along) / larger(dot(along, along), tiny * tiny)) * along;
+    }
+    store(f, s.i, load<V>(f, s.i) + force);
+    store(f, s.j, load<V>(f, s.j) - force);
+  }
+}
+
+/// v = R v, or R^T v if `back`, for each particle; rotation: column c of R at 3 c.
+SB_INLINE void turn(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v) {
+  using V = Lane<double, lanes>;
+  V r[3][3];  // row, column
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) (back ? r[column][row] : r[row][column]) = load<V>(rotation[3 * column + row]);
+  for (std::size_t at = 0; at < particles * lanes; at += lanes) {
+    const Vec<V> a = load<V>(v, at);
+    store(v, at,
+          Vec<V>{r[0][0] * a.x + r[0][1] * a.y + r[0][2] * a.z, r[1][0] * a.x + r[1][1] * a.y + r[1][2] * a.z,
+                 r[2][0] * a.x + r[2][1] * a.y + r[2][2] * a.z});
+  }
+}
+
+/// A sum a lane.
+SB_INLINE void inner_product(std::size_t count, const double* a, const double* b, double* result) {
+  using V = Lane<double, lanes>;
+  V sum{};
+  for (std::size_t at = 0; at < count * lanes; at += lanes) sum += load<V>(a + at) * load<V>(b + at);
+  store(result, sum);
+}
+
+/// y += times * a, one factor a lane.
+SB_INLINE void add_scaled(std::size_t count, const double* times, const double* a, double* y) {
+  using V = Lane<double, lanes>;
+  const V t = load<V>(times);
+  for (std::size_t at = 0; at < count * lanes; at += lanes) store(y + at, load<V>(y + at) + t * load<V>(a + at));
+}
+
+/// y += times * a, a the same for all lanes.
+SB_INLINE void add_scaled_shared(std::size_t count, const double* times, const double* a, double* y) {
+  using V = Lane<double, lanes>;
+  const V t = load<V>(times);
+  for (std::size_t i = 0; i < count; ++i) store(y + i * lanes, load<V>(y + i * lanes) + a[i] * t);
+}
+
+SB_INLINE void inner_product_shared(std::size_t count, const double* a, const double* b, double* result) {
+  using V = Lane<double, lanes>;
+  V sum{};
+  for (std::size_t i = 0; i < count; ++i) sum += a[i] * load<V>(b + i * lanes);
+  store(result, sum);
+}
+
+}  // namespace softbody::body

@@ -1,0 +1,203 @@
+#include "softbody/integrate/implicit/matrix.h"
+
+#include <algorithm>
+#include <mutex>
+
+#include <Eigen/SparseCholesky>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "softbody/forces/shape_matching.h"
+#include "softbody/integrate/equilibrium.h"
+#include "softbody/model/scene_error.h"
+
+namespace softbody {
+namespace {
+
+using Sparse = Eigen::SparseMatrix<double>;
+using Entries = std::vector<Eigen::Triplet<double>>;
+
+using Shape = std::vector<glm::dvec3>;
+
+/// How the springs across their directions and the gas across its faces enter: as they are, or only where they are
+/// sure to leave the matrix positive definite.
+enum class Tension { exact, pulling };
+
+/// Where the body is most of the time, if it is to be found at all.
+Shape balanced_shape(const Prototype& p) {
+  if (!p.has_gas) return p.start;
+  try {
+    return find_equilibrium(p, p.start);
+  } catch (const SceneError&) {
+    return p.start;
+  }
+}
+
+/// What a spring adds to the diagonal of its two particles, and takes from beside it.
+glm::dmat3 block(const Shape& x, const Spring& s, double h, bool turns, Tension tension) {
+  const double along = s.stiffness + s.damping / h;
+  const glm::dvec3 d = x[s.j] - x[s.i];
+  const double length = glm::length(d);
+  if (!turns || length <= 0) return glm::dmat3(along);
+  const glm::dmat3 direction = glm::outerProduct(d / length, d / length);
+  const double across = tension == Tension::exact ? 1 - s.rest / length : std::max(0.0, 1 - s.rest / length);
+  return along * direction + s.stiffness * across * (glm::dmat3(1) - direction);
+}
+
+/// -P d2V/dx2, P being the gauge pressure: a corner's gradient is a sixth of the cross product of the two others.
+void add_gas(const Prototype& p, const Shape& x, Entries& entries) {
+  const int n = int(x.size());
+  const double sixth = p.gas.gauge(volume(x, p.mesh.triangles)) / 6;
+  for (const auto& triangle : p.mesh.triangles)
+    for (std::size_t corner = 0; corner < 3; ++corner) {
+      const int a = int(triangle[corner]), b = int(triangle[(corner + 1) % 3]);
+      const glm::dvec3 c = sixth * x[triangle[(corner + 2) % 3]];
+      for (int r = 0; r < 3; ++r) {  // the matrix of v -> c x v, and its transpose
+        const int s = (r + 1) % 3, t = (r + 2) % 3;
+        entries.emplace_back(r * n + a, s * n + b, -c[t]);
+        entries.emplace_back(s * n + b, r * n + a, -c[t]);
+        entries.emplace_back(r * n + a, t * n + b, c[s]);
+        entries.emplace_back(t * n + b, r * n + a, c[s]);
+      }
+    }
+}
+
+Sparse assemble(const Prototype& p, const Shape& x, double h, bool turns, Tension tension) {
+  const int n = int(x.size()), axes = turns ? 3 : 1;
+  Entries entries;
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *list) {
+      const glm::dmat3 b = block(x, s, h, turns, tension);
+      for (int r = 0; r < axes; ++r)
+        for (int c = 0; c < axes; ++c) {
+          const int i = int(s.i), j = int(s.j);
+          entries.emplace_back(r * n + i, c * n + i, b[c][r]);
+          entries.emplace_back(r * n + j, c * n + j, b[c][r]);
+          entries.emplace_back(r * n + i, c * n + j, -b[c][r]);
+          entries.emplace_back(r * n + j, c * n + i, -b[c][r]);
+        }
+    }
+  if (p.has_gas && tension == Tension::exact) add_gas(p, x, entries);
+  for (int i = 0; i < axes * n; ++i) entries.emplace_back(i, i, p.particle_mass / (h * h) + shape_stiffness(p));
+  Sparse a(axes * n, axes * n);
+  a.setFromTriplets(entries.begin(), entries.end());
+  return a;
+}
+
+/// Whether column c + 1 has entries in the same rows as column c, but for its own.
+bool goes_on(const Sparse& l, Eigen::Index c) {
+  const auto* rows = l.innerIndexPtr();
+  const auto first = l.outerIndexPtr()[c], next = l.outerIndexPtr()[c + 1], end = l.outerIndexPtr()[c + 2];
+  return next - first == end - next + 1 && std::equal(rows + first + 1, rows + next, rows + next);
+}
+
+/// l: columns in order of their rows, each with its diagonal first.
+void copy_run(const Sparse& l, Eigen::Index first, Eigen::Index end, CholeskyFactor& f) {
+  const auto *start = l.outerIndexPtr(), *rows = l.innerIndexPtr();
+  const auto w = std::size_t(end - first), all = std::size_t(start[first + 1] - start[first]);
+  f.runs.push_back(
+      {std::uint32_t(first), std::uint32_t(w), std::uint32_t(f.row.size()), std::uint32_t(all - w), f.value.size()});
+  f.row.insert(f.row.end(), rows + start[first] + w, rows + start[first + 1]);
+  f.value.resize(f.value.size() + all * w);
+  double* value = f.value.data() + f.runs.back().value;
+  for (std::size_t c = 0; c < w; ++c) {
+    const double* column = l.valuePtr() + start[first + Eigen::Index(c)];
+    value[c * w + c] = 1 / column[0];
+    for (std::size_t r = c + 1; r < all; ++r) value[r * w + c] = column[r - c];
+  }
+}
+
+CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
+  CholeskyFactor f;
+  Sparse l = llt.matrixL();
+  l.makeCompressed();
+  for (Eigen::Index i = 0; i < l.cols(); ++i)
+    f.place.push_back(static_cast<std::uint32_t>(llt.permutationP().indices()[i]));
+  for (Eigen::Index first = 0, c = 0; c < l.cols(); ++c) {
+    if (c + 1 < l.cols() && goes_on(l, c)) continue;
+    copy_run(l, first, c + 1, f);
+    first = c + 1;
+  }
+  return f;
+}
+
+/// dV/dx
+Eigen::VectorXd volume_gradient(const Prototype& p, const Shape& x) {
+  const auto n = static_cast<Eigen::Index>(p.mesh.vertices.size());
+  Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * n);
+  for (const auto& [i, j, k] : p.mesh.triangles) {
+    const glm::dvec3 sixth = glm::cross(x[j] - x[i], x[k] - x[i]) / 6.0;
+    for (const Index corner : {i, j, k})
+      for (int axis = 0; axis < 3; ++axis) g[axis * n + Eigen::Index(corner)] += sixth[axis];
+  }
+  return g;
+}
+
+}  // namespace
+
+/// The factor as the library has it, and the columns of the inverse that were asked for.
+struct ImplicitMatrix::Factored {
+  Eigen::SimplicialLLT<Sparse> llt;
+  std::vector<std::once_flag> once;
+  std::vector<std::vector<double>> columns;  // of particle j: its three columns, or its one
+};
+
+ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h, const ImplicitMatrix* other)
+    : turns_(p.mesh.closed),
+      balanced_(other ? other->balanced_ : std::make_shared<const Shape>(balanced_shape(p))),
+      factored_(std::make_unique<Factored>()) {
+  const Shape& x = *balanced_;
+  for (const Tension tension : {Tension::exact, Tension::pulling}) {
+    Sparse a = assemble(p, x, h, turns_, tension);
+    // So little mass that rounding hides it: directions need not be that exact.
+    if (tension == Tension::pulling) a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff();
+    // A body's own springs set the scale, but as a whole it has to feel no more than the solver can bring to rest.
+    contact_stiffness_ = std::min(2 * a.diagonal().mean(), 1000 * p.material.mass / (h * h));
+    factored_->llt.compute(a);
+    if (factored_->llt.info() == Eigen::Success) break;
+  }
+  if (factored_->llt.info() != Eigen::Success)
+    throw SceneError("material '" + p.material.name + "': its stiffness, damping and mass make no matrix that can be " +
+                     "factored; use values closer to one another");
+  factor_ = copy(factored_->llt);
+  factored_->once = std::vector<std::once_flag>(x.size());
+  factored_->columns.resize(x.size());
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& place : x) mean += place / double(x.size());
+  for (const glm::dvec3& place : x) shape_.push_back(place - mean);
+  if (!p.has_gas || !turns_) return;
+  const Eigen::VectorXd g = volume_gradient(p, x), response = factored_->llt.solve(g);
+  const double slope = -p.gas.slope(volume(x, p.mesh.triangles));
+  gas_.assign(g.begin(), g.end());
+  gas_response_.assign(response.begin(), response.end());
+  gas_weight_ = slope / (1 + slope * g.dot(response));
+}
+
+ImplicitMatrix::~ImplicitMatrix() = default;
+
+void ImplicitMatrix::solve_columns(Index j) const {
+  const std::size_t n = shape_.size(), axes = turns_ ? 3 : 1;
+  std::vector<double> columns;
+  for (std::size_t axis = 0; axis < axes; ++axis) {
+    const std::size_t unknown = axis * n + j;
+    Eigen::VectorXd column = Eigen::VectorXd::Unit(Eigen::Index(axes * n), Eigen::Index(unknown));
+    column = factored_->llt.solve(column).eval();
+    for (std::size_t i = 0; i < gas_.size(); ++i)
+      column[Eigen::Index(i)] -= gas_weight_ * gas_response_[unknown] * gas_response_[i];
+    columns.insert(columns.end(), column.begin(), column.end());
+  }
+  factored_->columns[j] = std::move(columns);
+}
+
+glm::dmat3 ImplicitMatrix::compliance(Index i, Index j) const {
+  std::call_once(factored_->once[j], [&] { solve_columns(j); });
+  const std::vector<double>& column = factored_->columns[j];
+  if (!turns_) return glm::dmat3(column[i]);
+  const std::size_t n = shape_.size();
+  glm::dmat3 block;
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t r = 0; r < 3; ++r) block[int(c)][int(r)] = column[c * 3 * n + r * n + i];
+  return block;
+}
+
+}  // namespace softbody

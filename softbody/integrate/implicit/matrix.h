@@ -1,0 +1,56 @@
+#pragma once
+// The matrix that implicit steps share: mass over h^2 plus the stiffness and damping of a prototype at its shape in
+// balance, factored once for a step length and used by all bodies of the prototype.
+//
+// A closed body deforms little where it is stiff, so its matrix, turned with it, is nearly the true one, or if that is
+// not positive definite, its springs along their directions and pulling across them. An open sheet folds; there each
+// spring is k times the identity, as in projective dynamics (Bouaziz et al. 2014), which no direction exceeds. How gas
+// is compressed is one more direction, the gradient of the volume, by Sherman and Morrison's formula.
+
+#include <memory>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+
+#include "softbody/integrate/implicit/kernels.h"
+#include "softbody/model/prototype.h"
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+class ImplicitMatrix {
+ public:
+  /// h in s; `other`: one of the same prototype, whose shape in balance need not be looked for a second time. Throws
+  /// SceneError if the matrix cannot be factored.
+  ImplicitMatrix(const Prototype& prototype, double h, const ImplicitMatrix* other = nullptr);
+  ~ImplicitMatrix();
+
+  /// Coupled components (unknown k * particles + i), in the frame of the starting shape; else one factor serves each.
+  bool turns() const { return turns_; }
+  const CholeskyFactor& factor() const { return factor_; }
+  const std::vector<glm::dvec3>& shape() const { return shape_; }  // m, the starting shape from its mean
+  // The gas, empty without: gradient g of the volume in m^2, A^-1 g, and s / (1 + s g . A^-1 g), s = -dP/dV in Pa/m^3.
+  const std::vector<double>& gas() const { return gas_; }
+  const std::vector<double>& gas_response() const { return gas_response_; }
+  double gas_weight() const { return gas_weight_; }
+
+  double contact_stiffness() const { return contact_stiffness_; }  // N/m, about that of one particle
+
+  /// How particle i moves (m/N) under a force on particle j, in the matrix's frame. Worked out once for each j, on any
+  /// thread.
+  glm::dmat3 compliance(Index i, Index j) const;
+
+ private:
+  struct Factored;
+  void solve_columns(Index j) const;
+
+  bool turns_;
+  std::shared_ptr<const std::vector<glm::dvec3>> balanced_;  // where the mesh's vertices are in balance
+  CholeskyFactor factor_;
+  std::vector<glm::dvec3> shape_;
+  std::vector<double> gas_, gas_response_;
+  double gas_weight_ = 0, contact_stiffness_ = 0;
+  std::unique_ptr<Factored> factored_;
+};
+
+}  // namespace softbody

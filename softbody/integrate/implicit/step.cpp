@@ -1,0 +1,309 @@
+// Dynamics: implicit steps of a batch.
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <memory>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/solid_placement.h"
+#include "softbody/integrate/dynamics.h"
+#include "softbody/integrate/implicit/energy.h"
+#include "softbody/integrate/implicit/frames.h"
+#include "softbody/integrate/implicit/planes.h"
+#include "softbody/integrate/implicit/stages.h"
+#include "softbody/integrate/integrator_steps.h"
+#include "softbody/scene/solids.h"
+#include "softbody/state/rigid_motion.h"
+
+namespace softbody {
+
+/// What implicit steps keep: the matrices used last, and one workspace a prototype for each thread.
+struct ImplicitSteps {
+  struct MatrixOf {
+    std::shared_ptr<const Prototype> prototype;
+    double h;
+    std::shared_ptr<const ImplicitMatrix> matrix;
+  };
+  const ImplicitKernels& kernels;
+  std::vector<MatrixOf> matrices;
+  std::vector<std::map<std::shared_ptr<const Prototype>, ImplicitWork>> work;
+};
+
+namespace {
+
+ImplicitProblem problem_of(const Batch& b, const ImplicitMatrix& matrix, double h, ImplicitWork& work) {
+  return {*b.prototype, matrix,       h, work.moves.data(), &work.own_x, &work.own_v, &work.a, &work.carried,
+          &work.planes, &work.shields};
+}
+
+/// Takes the start into the lanes' frames, with what acts there; only these lanes are solved for.
+void enter(const ImplicitFrames& frames, ImplicitWork& work) {
+  work.moves = frames.moves();
+  work.own_x = work.x, work.own_v = work.v;
+  frames.enter(work.own_x, work.own_v, work.carried);
+  frames.accelerations(work.own_x, work.own_v, work.a);
+}
+
+}  // namespace
+
+/// What no body needs any more goes: prototypes that are no longer there, and of the others' matrices the oldest.
+void Dynamics::prepare_implicit(float h) {
+  if (!implicit_steps_)
+    implicit_steps_ = std::make_shared<ImplicitSteps>(ImplicitSteps{implicit_kernels(isa_), {}, {}});
+  auto& [kernels, matrices, work] = *implicit_steps_;
+  constexpr std::size_t most_lengths = 8;  // kept of one prototype, two of them in use
+  const auto gone = [this](const std::shared_ptr<const Prototype>& p) {
+    return std::none_of(batches_.begin(), batches_.end(), [&](const Batch& b) { return b.prototype == p; });
+  };
+  std::erase_if(matrices, [&](const ImplicitSteps::MatrixOf& m) { return gone(m.prototype); });
+  work.resize(std::size_t(workers_.threads()));
+  for (auto& of_thread : work) std::erase_if(of_thread, [&](const auto& entry) { return gone(entry.first); });
+  for (const Batch* b : moving_) {
+    const auto& p = b->prototype;
+    for (int thread = 0; thread < active_threads_; ++thread) work[std::size_t(thread)].try_emplace(p, *p, kernels);
+    for (const double length : {double(h), implicit_stage * double(h)}) {
+      const auto of_p = [&](const ImplicitSteps::MatrixOf& m) { return m.prototype == p; };
+      const auto known = std::find_if(matrices.begin(), matrices.end(),
+                                      [&](const ImplicitSteps::MatrixOf& m) { return of_p(m) && m.h == length; });
+      if (known != matrices.end()) {
+        std::rotate(known, known + 1, matrices.end());  // the last ones in use stand last
+        continue;
+      }
+      const auto other = std::find_if(matrices.begin(), matrices.end(), of_p);
+      const auto matrix =
+          std::make_shared<const ImplicitMatrix>(*p, length, other == matrices.end() ? nullptr : other->matrix.get());
+      if (std::size_t(std::count_if(matrices.begin(), matrices.end(), of_p)) >= most_lengths) matrices.erase(other);
+      matrices.push_back({p, length, matrix});
+    }
+  }
+}
+
+void Dynamics::count_implicit_work() {
+  if (!implicit_steps_) return;
+  for (auto& of_thread : implicit_steps_->work)
+    for (auto& [prototype, work] : of_thread) implicit_ += work.solver.take_work();
+}
+
+const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const {
+  return *std::find_if(implicit_steps_->matrices.begin(), implicit_steps_->matrices.end(),
+                       [&](const ImplicitSteps::MatrixOf& m) { return m.prototype == b.prototype && m.h == h; })
+              ->matrix;
+}
+
+/// The planes of near solids before each particle; which lanes meet one by what moves them at the start.
+std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                                              double h) const {
+  std::array<bool, lanes> touches{};
+  const std::size_t n = b.particles() * lanes;
+  work.planes.clear();
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (b.moves[lane] <= 0) continue;
+    for (const SolidArguments& s : b.near_solids)
+      for (std::size_t at = lane; at < n; at += lanes) {
+        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
+        const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
+        const auto surface =
+            std::visit([&](const auto& shape) { return body::surface_at(shape, as_vec<double>(x - place)); }, s.shape);
+        const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
+        // As the velocities' contact has it: outside, not below the surface; inside, a tenth of the way out.
+        const double out = surface.distance > 0 ? -surface.distance : std::min(-0.1 * surface.distance, h);
+        const bool meets = glm::dot(frames.way(lane, x, v), normal) < out;
+        touches[lane] = touches[lane] || meets;
+        double need = out;
+        // It is thrown back by what brings it there but for the spin, which takes it on, along its circle.
+        const double approach = -glm::dot(frames.velocity_without_spin(lane, x, v), normal);
+        if (meets && s.restitution > 0 && approach > double(impact_speed))
+          need = std::max(need,
+                          std::min(0.0, glm::dot(frames.turn(lane, x), normal)) + h * double(s.restitution) * approach);
+        work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need, std::max(0.0, out)});
+      }
+  }
+  return touches;
+}
+
+std::array<bool, lanes> Dynamics::find_shields(const Batch& b, ImplicitWork& work, double h) const {
+  std::array<bool, lanes> touches{};
+  work.shields.clear();
+  if (shield_.pairs.empty()) return touches;
+  const Field<const float> x{x_[0].data(), x_[1].data(), x_[2].data()}, v{v_[0].data(), v_[1].data(), v_[2].data()};
+  const auto velocity = [&](std::size_t slot) { return glm::dvec3(v.x[slot], v.y[slot], v.z[slot]); };
+  const auto index = static_cast<std::size_t>(&b - batches_.data());
+  for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
+    const ShieldEnd& end = shield_.ends[e];
+    const ShieldPair& pair = shield_.pairs[end.pair];
+    const Shield::Slopes slopes = shield_.slopes(pair, x, v, float(h));
+    if (slopes.spring <= 0) continue;
+    const std::size_t other = end.sign > 0 ? pair.slot_b : pair.slot_a, at = end.slot - b.base;
+    const bool moves = bodies_[end.sign > 0 ? pair.body_b : pair.body_a].moves();
+    LinearShield s{.at = at, .normal = double(end.sign) * glm::dvec3(pair.normal), .slopes = slopes};
+    s.force = double(end.sign) * glm::dvec3(shield_.force[end.pair]);
+    s.friction = double(pair.friction);
+    s.partner = moves ? h * velocity(other) : glm::dvec3(0.0);
+    s.as_now = h * velocity(end.slot) - s.partner;
+    s.most_work = double(Shield::approach_limit) * shield_.energy(pair, x) +
+                  double(shield_.most_force(pair)) * glm::length(s.partner);
+    work.shields.push_back(s);
+    touches[at % lanes] = true;
+  }
+  return touches;
+}
+
+/// Restores what the solve has lost of the lanes' linear and angular momentum, in end_v: springs and gas change
+/// neither, gravity and the other forces by as much as they act.
+void Dynamics::keep_momentum(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                             const std::array<bool, lanes>& which, double h) const {
+  const std::size_t n = b.particles();
+  const double mass = b.prototype->particle_mass;
+  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    if (!which[l] || b.moves[l] <= 0) continue;
+    const LaneView end_x{work.end_x, l};
+    const RigidMotion &before = frames.start(l), after = rigid_motion(n, end_x, LaneView{work.end_v, l});
+    glm::dvec3 total(0.0), torque(0.0);
+    for (const LinearShield& s : work.shields) {
+      if (s.at % lanes != l) continue;
+      const glm::dvec3 end = read(work.end_x, s.at), force = s.after(end - read(work.x, s.at));
+      total += force;
+      torque += glm::cross(end - after.centre, force);
+    }
+    const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + gravity) - after.velocity;
+    const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
+    for (std::size_t i = 0; i < n; ++i)
+      softbody::add(work.end_v, i * lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
+  }
+}
+
+/// end_x and end_v of the two stages; which lanes have converged. Springs, gas and dampers enter by Alexander's method,
+/// what else acts in a frame by the explicit one that goes with it (Ascher, Ruuth and Spiteri 1997, "Implicit-explicit
+/// Runge-Kutta methods", (2,2,2)).
+std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                                                    double h) const {
+  const double length = implicit_stage * h, second = 1 / (2 * implicit_stage);  // the second stage's share in them
+  enter(frames, work);
+  ImplicitProblem problem = problem_of(b, implicit_matrix(b, length), length, work);
+  std::array<bool, lanes> converged;
+  work.end_x = work.solver.solve(problem);
+  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) {
+    const double v = work.end_v[i] = (work.end_x[i] - work.own_x[i]) / length;
+    work.stage_x[i] = work.own_x[i] + (1 - implicit_stage) * h * v;
+    work.stage_v[i] = work.own_v[i] + (1 - implicit_stage) / implicit_stage * (v - work.own_v[i]);
+  }
+  frames.accelerations(work.end_x, work.end_v, work.stage_a);
+  for (std::size_t i = 0; i < work.a.size(); ++i)
+    work.stage_a[i] = work.a[i] + second / implicit_stage * (work.stage_a[i] - work.a[i]);
+  problem.x = &work.stage_x, problem.v = &work.stage_v, problem.a = &work.stage_a;
+  work.end_x = work.solver.solve(problem);
+  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
+  frames.leave(work.end_x, work.end_v);
+  return converged;
+}
+
+/// end_x and end_v, and the planes' forces.
+void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work, double h) const {
+  enter(frames, work);
+  std::vector<PlaneContact> planes = work.planes;
+  std::vector<LinearShield> shields = work.shields;
+  for (PlaneContact& c : planes) c.normal = frames.enter(c.at % lanes, c.normal);
+  for (LinearShield& s : shields) s = frames.enter(s);
+  ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, work);
+  problem.planes = &planes, problem.shields = &shields;
+  work.end_x = work.solver.solve(problem);
+  for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.own_x[i]) / h;
+  frames.leave(work.end_x, work.end_v);
+  for (std::size_t i = 0; i < planes.size(); ++i)
+    work.planes[i].force = frames.leave(planes[i].at % lanes, planes[i].force);
+}
+
+void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
+  const double h = double(step);
+  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
+  ImplicitWork& work = implicit_steps_->work[std::size_t(thread)].at(b.prototype);
+  const std::size_t stride = b.particles() * lanes;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < stride; ++i) {
+      work.x[k * stride + i] = double(x_[k][b.base + i]);
+      work.v[k * stride + i] = double(v_[k][b.base + i]);
+    }
+  std::array<bool, lanes> moving{}, free{}, again{};  // free: no contact; again: takes a step of first order
+  for (std::size_t l = 0; l < lanes; ++l) moving[l] = b.moves[l] > 0;
+  const ImplicitFrames frames(work.x, work.v, moving, h, gravity);
+  const std::array<bool, lanes> solid = find_planes(b, frames, work, h), shielded = find_shields(b, work, h);
+  for (std::size_t l = 0; l < lanes; ++l) {
+    free[l] = moving[l] && !solid[l] && !shielded[l];
+    again[l] = moving[l] && !free[l];
+  }
+  Lanes x = work.x, v = work.v;
+  if (std::ranges::count(free, true) > 0) {
+    const auto planes = std::exchange(work.planes, {});
+    const auto shields = std::exchange(work.shields, {});
+    const std::array<bool, lanes> converged =
+        second_order_step(b, frames.some(free).falling(h * h / 2 * gravity), work, h);
+    keep_momentum(b, frames, work, free, h);
+    x = work.end_x, v = work.end_v;
+    work.planes = planes;
+    work.shields = shields;
+    const std::array<bool, lanes> behind = behind_planes(work);
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (free[l]) again[l] = !converged[l] || behind[l] || undue_energy(*b.prototype, work, l, gravity, false) > 0;
+  }
+  if (std::ranges::count(again, true) > 0) {
+    std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
+    first_order_step(b, frames.some(again), work, h);
+    std::array<bool, lanes> apart = again;
+    for (const PlaneContact& c : work.planes)
+      if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
+    keep_momentum(b, frames, work, apart, h);
+    clear_planes(work, h);
+    for (std::size_t l = 0; l < lanes; ++l)
+      if (again[l] &&
+          (!keeps_balance(*b.prototype, work, l, h, gravity) ||
+           !take_back(*b.prototype, work, l, undue_energy(*b.prototype, work, l, gravity, !apart[l]), !apart[l])))
+        go_on_as_one(work, l, h, gravity);
+    for (std::size_t i = 0; i < x.size(); ++i)
+      if (again[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
+    for (const PlaneContact& c : work.planes) {
+      const std::size_t l = c.at % lanes;
+      const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
+      b.impulse.x[l] += float(impulse.x), b.impulse.y[l] += float(impulse.y), b.impulse.z[l] += float(impulse.z);
+      b.returned[l] += float(c.restitution * glm::length(impulse));
+    }
+  }
+  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
+  if (has_restitution_)
+    for (LaneArray<float>& component : before_)
+      std::fill_n(component.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
+  Components &during = components(mean), &after = components(rest);
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < stride; ++i) {
+      if (b.moves[i % lanes] <= 0) continue;
+      const double mean_v = (x[k * stride + i] - work.x[k * stride + i]) / h;
+      during[k][b.base + i] = float(mean_v);
+      after[k][b.base + i] = float(v[k * stride + i] - mean_v);
+    }
+}
+
+void implicit_step(Dynamics& dynamics, int thread, const Substep& substep) {
+  constexpr Quantity mean = scratch(0), rest = scratch(1);
+  dynamics.contact_forces(thread, substep.h);
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.solve_implicit(thread, *batch, mean, rest, substep.h);
+  }
+  dynamics.barrier();  // nobody's shields are still to look at the velocities
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.copy(*batch, mean, velocities);
+    dynamics.pull(*batch, substep.h);
+  }
+  dynamics.contacts(thread, substep.h);
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.drift(*batch, substep.h);
+    dynamics.add(*batch, velocities, 1, rest);
+  }
+  dynamics.barrier();
+}
+
+}  // namespace softbody

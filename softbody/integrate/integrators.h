@@ -1,0 +1,53 @@
+#pragma once
+// The one table of integrators. Each is a function that advances all bodies by one substep. It calls the operations of
+// Dynamics, so that all integrators share the same forces and contacts.
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace softbody {
+
+class Dynamics;
+
+struct Substep {
+  float h;     // s
+  bool first;  // of its frame: forces kept from the frame before may be out of date
+};
+
+struct Integrator {
+  std::string_view key;
+  std::string_view name;
+  std::string_view summary;
+  int order;  // of convergence for smooth motion
+  /// Advances all bodies by one substep. All threads call it at once; `thread` is the number of the calling one.
+  void (*advance)(Dynamics& dynamics, int thread, const Substep& substep);
+  /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
+  /// one particle; infinity if every step is stable. See stable_step() in prototype.h.
+  double (*stable_step)(double k_m, double c_m);
+  int substeps = 1;         // that the method makes of each step asked for
+  int scratch = 0;          // copies of a field over all particles that it needs
+  bool implicit = false;    // solves with the matrices of implicit/matrix.h
+  bool automatic = false;   // chooses another integrator for each frame, see Dynamics::choose()
+  bool by_damping = false;  // is stable only if every oscillation is damped enough
+  bool staggered = false;   // its velocities belong to the middle of the last substep
+  bool keeps_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one
+};
+
+std::span<const Integrator> integrators();
+/// Returns nullptr if there is no such integrator.
+const Integrator* find_integrator(std::string_view key);
+std::string integrator_keys();
+
+inline constexpr std::string_view default_integrator = "auto";
+
+/// An integrator, and how many substeps it takes.
+struct IntegratorChoice {
+  std::string key{default_integrator};
+  std::optional<int> substeps{};  // in a frame, whatever becomes of it; none: as many as the stability bound asks for
+  const Integrator& integrator() const;  // of the table; the key must be known
+  bool operator==(const IntegratorChoice&) const = default;
+};
+
+}  // namespace softbody

@@ -1,0 +1,157 @@
+#include "softbody/integrate/plan.h"
+
+#include <algorithm>
+#include <array>
+
+#include "softbody/model/prototype.h"
+#include "softbody/scene/solids.h"
+
+namespace softbody {
+namespace {
+
+struct Facts {
+  const Scene& scene;
+  const std::vector<std::shared_ptr<const Prototype>>& prototypes;
+  const Visitors& visitors;
+  std::size_t bodies() const {  // a dropper can always add another
+    return scene.dropper ? 2 : scene.bodies.size() + visitors.bodies;
+  }
+  template <class Test>
+  bool any(Test test) const {
+    return std::any_of(prototypes.begin(), prototypes.end(), [&](const auto& p) { return test(*p); });
+  }
+};
+
+using Why = const char* (*)(const Facts&);  // nullptr: the stage is needed
+
+const char* needed(const Facts&) { return nullptr; }
+
+const char* arrivals(const Facts& f) {
+  const bool late = std::any_of(f.scene.bodies.begin(), f.scene.bodies.end(),
+                                [](const BodySource& b) { return b.appear > 0 || b.release > 0; });
+  return late ? nullptr : "all bodies are there and free from the start";
+}
+
+const char* contacts(const Facts& f) {
+  return f.bodies() > 1 || f.scene.collision.self_collision ? nullptr : "one body, and self-collision is off";
+}
+
+const char* vertex_contacts(const Facts& f) {
+  return f.scene.contact_surface == ContactSurface::vertices ? contacts(f) : "the surfaces keep the bodies apart";
+}
+
+const char* surface_contacts(const Facts& f) {
+  return f.scene.contact_surface == ContactSurface::surfaces ? contacts(f) : "the vertices keep the bodies apart";
+}
+
+template <std::vector<Spring> Prototype::*list>
+const char* springs(const Facts& f) {
+  return f.any([](const Prototype& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
+}
+
+const char* gas(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
+}
+
+const char* shape(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
+}
+
+const char* grab(const Facts& f) { return f.visitors.grabs ? nullptr : "nobody holds a body"; }
+
+const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
+
+const char* spheres(const Facts& f) { return f.scene.spheres.empty() ? "the scene has no solid sphere" : nullptr; }
+
+const char* planes(const Facts& f) { return f.scene.planes.empty() ? "the scene has no solid plane" : nullptr; }
+
+const char* boxes(const Facts& f) { return f.scene.boxes.empty() ? "the scene has no solid box" : nullptr; }
+
+const char* capsules(const Facts& f) { return f.scene.capsules.empty() ? "the scene has no solid capsule" : nullptr; }
+
+const char* restitution(const Facts& f) {
+  bool any = false;
+  for_each_solid(f.scene, [&any](const auto& solid) { any = any || solid.restitution > 0; });
+  return any ? nullptr : "no solid has restitution";
+}
+
+const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
+
+const char* damping(const Facts& f) {
+  return f.any([](const Prototype& p) { return p.material.internal_damping > 0; }) ? nullptr
+                                                                                   : "no material has internal damping";
+}
+
+const char* rebound(const Facts& f) {
+  if (!has_solids(f.scene)) return "no solid to rebound from";
+  return f.any([](const Prototype& p) { return p.material.rebound_speed > 0; }) ? nullptr
+                                                                                : "no material has a rebound speed";
+}
+
+const char* solid_features(const Facts& f) {
+  if (f.scene.contact_surface == ContactSurface::vertices) return "the vertices keep off the solids";
+  const bool flat = f.scene.spheres.empty() && f.scene.boxes.empty() && f.scene.capsules.empty();
+  return flat ? "no solid is round or sharp" : nullptr;
+}
+
+const char* rolling(const Facts& f) {
+  if (!has_solids(f.scene)) return "no solid to roll on";
+  return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
+             ? nullptr
+             : "no closed body with rolling resistance";
+}
+
+const char* sleep(const Facts& f) { return f.scene.sleep.speed > 0 ? nullptr : "the scene's sleep speed is 0"; }
+
+struct Row {
+  Stage stage;
+  std::string_view key;
+  Why why_not;
+};
+
+constexpr std::array<Row, std::size_t(Stage::count)> all_stages{{
+    {Stage::arrive, "arrive", arrivals},
+    {Stage::contact_response, "contact-response", vertex_contacts},
+    {Stage::surface_contact, "surface-contact", surface_contacts},
+    {Stage::structural_springs, "structural-springs", springs<&Prototype::structural>},
+    {Stage::bend_springs, "bend-springs", springs<&Prototype::bend>},
+    {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},
+    {Stage::gas_pressure, "gas-pressure", gas},
+    {Stage::shape_matching, "shape-matching", shape},
+    {Stage::grab, "grab", grab},
+    {Stage::gravity, "gravity", gravity},
+    {Stage::integrate, "integrate", needed},
+    {Stage::restitution, "restitution", restitution},
+    {Stage::solid_spheres, "solid-spheres", spheres},
+    {Stage::ground, "ground", ground},
+    {Stage::solid_planes, "solid-planes", planes},
+    {Stage::solid_boxes, "solid-boxes", boxes},
+    {Stage::solid_capsules, "solid-capsules", capsules},
+    {Stage::solid_features, "solid-features", solid_features},
+    {Stage::internal_damping, "internal-damping", damping},
+    {Stage::rebound_damping, "rebound-damping", rebound},
+    {Stage::rolling_resistance, "rolling-resistance", rolling},
+    {Stage::detect, "detect", contacts},
+    {Stage::sleep, "sleep", sleep},
+}};
+
+}  // namespace
+
+std::string_view stage_key(Stage stage) { return all_stages[std::size_t(stage)].key; }
+
+bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
+
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
+               const Visitors& visitors) {
+  Plan plan;
+  const Facts facts{scene, prototypes, visitors};
+  for (const Row& row : all_stages) {
+    if (const char* why = row.why_not(facts))
+      plan.left_out.push_back({row.stage, why});
+    else
+      plan.stages.push_back(row.stage);
+  }
+  return plan;
+}
+
+}  // namespace softbody

@@ -1,0 +1,52 @@
+#include <array>
+
+#include "softbody/integrate/dynamics.h"
+#include "softbody/integrate/integrator_steps.h"
+
+namespace softbody {
+namespace {
+
+constexpr Quantity x0 = scratch(0), v0 = scratch(1), mean_v = scratch(2), mean_a = scratch(3);
+
+/// One of the four stages: takes its share of the means and goes on to where the next one stands, `ahead` seconds from
+/// the start.
+void stage(Dynamics& dynamics, Batch& batch, float weight, float ahead) {
+  dynamics.accelerations(batch);
+  dynamics.add(batch, mean_v, weight, velocities);
+  dynamics.add(batch, mean_a, weight, forces);
+  dynamics.copy(batch, x0, positions);
+  dynamics.add(batch, positions, ahead, velocities);
+  dynamics.copy(batch, v0, velocities);
+  dynamics.add(batch, velocities, ahead, forces);
+}
+
+}  // namespace
+
+void runge_kutta_4(Dynamics& dynamics, int thread, const Substep& substep) {
+  constexpr std::array<float, 4> weight{1.0f / 6, 1.0f / 3, 1.0f / 3, 1.0f / 6}, ahead{0.5f, 0.5f, 1.0f, 0.0f};
+  const float h = substep.h;
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.copy(*batch, positions, x0);
+    dynamics.copy(*batch, velocities, v0);
+    dynamics.clear(*batch, mean_v);
+    dynamics.clear(*batch, mean_a);
+  }
+  for (std::size_t s = 0; s < 4; ++s) {
+    dynamics.contact_forces(thread, s == 0 ? h : 0);  // friction's springs slip once a step
+    for (Batch* batch : dynamics.share(thread)) dynamics.all_forces(*batch);
+    for (Batch* batch : dynamics.share(thread)) stage(dynamics, *batch, weight[s], ahead[s] * h);
+    dynamics.barrier();
+  }
+  for (Batch* batch : dynamics.share(thread)) dynamics.copy(*batch, mean_v, velocities);
+  dynamics.contacts(thread, h);
+  for (Batch* batch : dynamics.share(thread)) {
+    dynamics.drift(*batch, h);
+    dynamics.add(*batch, velocities, -1, mean_v);  // what the contacts have changed
+    dynamics.add(*batch, velocities, 1, v0);
+    dynamics.add(*batch, velocities, h, mean_a);
+  }
+  dynamics.contacts_at_end(thread, h);
+  dynamics.barrier();
+}
+
+}  // namespace softbody

@@ -1,0 +1,118 @@
+#include "softbody/mesh/mesh.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <glm/geometric.hpp>
+
+namespace softbody {
+namespace {
+
+void sort_unique(std::vector<Edge>& edges) {
+  std::sort(edges.begin(), edges.end());
+  edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
+}
+
+/// The corner opposite each side of each triangle, by side: one a face that has the side.
+std::map<Edge, std::vector<Index>> opposite_corners(const std::vector<Triangle>& triangles) {
+  std::map<Edge, std::vector<Index>> corners;
+  for (const Triangle& t : triangles)
+    for (int k = 0; k < 3; ++k) corners[ordered(t[k], t[(k + 1) % 3])].push_back(t[(k + 2) % 3]);
+  return corners;
+}
+
+Mesh icosahedron() {
+  const double p = (1.0 + std::sqrt(5.0)) / 2.0;
+  Mesh mesh;
+  mesh.vertices = {{-1, p, 0},  {1, p, 0},  {-1, -p, 0}, {1, -p, 0}, {0, -1, p},  {0, 1, p},
+                   {0, -1, -p}, {0, 1, -p}, {p, 0, -1},  {p, 0, 1},  {-p, 0, -1}, {-p, 0, 1}};
+  mesh.triangles = {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+                    {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
+                    {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}};
+  return mesh;
+}
+
+void subdivide(Mesh& mesh) {
+  std::map<Edge, Index> middle;
+  const auto midpoint = [&](Index a, Index b) {
+    const auto [it, fresh] = middle.try_emplace(ordered(a, b), static_cast<Index>(mesh.vertices.size()));
+    if (fresh) mesh.vertices.push_back((mesh.vertices[a] + mesh.vertices[b]) * 0.5);
+    return it->second;
+  };
+  std::vector<Triangle> finer;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const Index ab = midpoint(a, b), bc = midpoint(b, c), ca = midpoint(c, a);
+    finer.insert(finer.end(), {{a, ab, ca}, {b, bc, ab}, {c, ca, bc}, {ab, bc, ca}});
+  }
+  mesh.triangles = std::move(finer);
+}
+
+}  // namespace
+
+void connect_triangles(Mesh& mesh) {
+  mesh.closed = !mesh.triangles.empty();
+  for (const auto& [edge, corners] : opposite_corners(mesh.triangles)) {
+    mesh.edges.push_back(edge);
+    if (corners.size() == 2)
+      mesh.bend_pairs.push_back(ordered(corners[0], corners[1]));
+    else
+      mesh.closed = false;
+  }
+  sort_unique(mesh.bend_pairs);
+}
+
+Mesh icosphere(int subdivisions, double radius) {
+  Mesh mesh = icosahedron();
+  for (int s = 0; s < subdivisions; ++s) {
+    for (auto& v : mesh.vertices) v = glm::normalize(v);
+    subdivide(mesh);
+  }
+  for (auto& v : mesh.vertices) v = radius * glm::normalize(v);
+  connect_triangles(mesh);
+  return mesh;
+}
+
+Mesh quad_grid(int columns, int rows, double width, double depth) {
+  Mesh mesh;
+  const auto at = [&](int c, int r) { return static_cast<Index>(r * (columns + 1) + c); };
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c <= columns; ++c)
+      mesh.vertices.emplace_back((double(c) / columns - 0.5) * width, 0.0, (double(r) / rows - 0.5) * depth);
+  for (int r = 0; r <= rows; ++r)
+    for (int c = 0; c <= columns; ++c) {
+      if (c < columns) mesh.edges.push_back({at(c, r), at(c + 1, r)});
+      if (r < rows) mesh.edges.push_back({at(c, r), at(c, r + 1)});
+      if (c + 2 <= columns) mesh.bend_pairs.push_back({at(c, r), at(c + 2, r)});
+      if (r + 2 <= rows) mesh.bend_pairs.push_back({at(c, r), at(c, r + 2)});
+      if (c == columns || r == rows) continue;
+      const Index a = at(c, r), b = at(c, r + 1), d = at(c + 1, r), e = at(c + 1, r + 1);
+      mesh.shear_pairs.push_back(ordered(a, e));
+      mesh.shear_pairs.push_back(ordered(b, d));
+      // Alternating diagonals keep the drawn sheet free of a preferred direction.
+      if ((c + r) % 2 == 0)
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, e}, {a, e, d}});
+      else
+        mesh.triangles.insert(mesh.triangles.end(), {{a, b, d}, {b, e, d}});
+    }
+  sort_unique(mesh.edges);
+  sort_unique(mesh.bend_pairs);
+  sort_unique(mesh.shear_pairs);
+  return mesh;
+}
+
+double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles) {
+  double six = 0;
+  for (const auto& [a, b, c] : triangles) six += glm::dot(vertices[a], glm::cross(vertices[b], vertices[c]));
+  return six / 6;
+}
+
+double bounding_radius(const Mesh& mesh) {
+  glm::dvec3 mean{0.0};
+  for (const auto& v : mesh.vertices) mean += v / double(mesh.vertices.size());
+  double radius = 0;
+  for (const auto& v : mesh.vertices) radius = std::max(radius, glm::distance(v, mean));
+  return radius;
+}
+
+}  // namespace softbody

@@ -1,0 +1,223 @@
+#include "softbody/mesh/mesh_import.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "softbody/mesh/limits.h"
+#include "softbody/mesh/obj_file.h"
+#include "softbody/mesh/polygon.h"
+#include "softbody/mesh/shortest_text.h"
+#include "softbody/mesh/surface.h"
+#include "softbody/mesh/weld.h"
+
+namespace softbody {
+namespace {
+
+constexpr Index no_vertex = ~Index{0};
+constexpr const char* where_weld_is = "(in the window under Files, in a scene beside the mesh's path)";
+
+struct Box {
+  glm::dvec3 lo{INFINITY}, hi{-INFINITY};
+  void add(const glm::dvec3& p) { lo = glm::min(lo, p), hi = glm::max(hi, p); }
+  double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
+};
+
+/// The rotation by the shortest way that brings `up` to the y axis.
+glm::dmat3 to_y(const glm::dvec3& up) {
+  const glm::dvec3 u = glm::normalize(up);
+  if (u.y < -1 + 1e-12) return {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1)};
+  const glm::dvec3 v = glm::cross(u, glm::dvec3(0, 1, 0));
+  const glm::dmat3 cross(glm::dvec3(0, v.z, -v.y), glm::dvec3(-v.z, 0, v.x), glm::dvec3(v.y, -v.x, 0));
+  return glm::dmat3(1.0) + cross + cross * cross / (1 + u.y);
+}
+
+class Importer {
+ public:
+  explicit Importer(const MeshFile& file) : file_(file), name_(file.path.string()) { require_sensible_file(); }
+
+  ImportedMesh run() {
+    obj_ = read_obj_file(file_.path);
+    findings_.file_vertices = obj_.x.size();
+    findings_.file_faces = obj_.faces.size();
+    findings_.weights = obj_.weights;
+    if (obj_.faces.empty()) fail("has no face (line f); export it as a mesh of polygons, not as points or lines");
+    place();
+    welded_to_ = weld(obj_, position_, file_.weld * findings_.extent);
+    for (Index v = 0; v < welded_to_.size(); ++v) findings_.welded_vertices += welded_to_[v] != v;
+    take_outlines();
+    cut_polygons();
+    compact();
+    orient_faces();
+    connect_triangles(mesh_);
+    return {std::move(mesh_), findings_};
+  }
+
+ private:
+  [[noreturn]] void fail(const std::string& what) const { throw ObjError(name_ + ": " + what); }
+  [[noreturn]] void fail(std::uint64_t line, const std::string& what) const {
+    throw ObjError(name_ + ":" + std::to_string(line) + ": " + what);
+  }
+
+  void require_sensible_file() const {
+    std::error_code error;
+    const auto size = std::filesystem::file_size(file_.path, error);
+    if (error) fail("cannot be read: " + error.message());
+    if (size > max_mesh_file_size)
+      fail("is larger than " + std::to_string(max_mesh_file_size >> 20) + " MiB; simplify the mesh first");
+  }
+
+  /// Positions in metres around the middle of what the faces use.
+  void place() {
+    const std::size_t count = obj_.x.size();
+    std::vector<char> used(count, false);
+    for (const Index corner : obj_.corners) used[corner] = true;
+    findings_.unused_vertices = static_cast<std::size_t>(std::count(used.begin(), used.end(), char(false)));
+    const glm::dmat3 turn = to_y(file_.up);
+    Box box;
+    for (std::size_t i = 0; i < count; ++i) {
+      position_.push_back(turn * glm::dvec3(obj_.x[i], obj_.y[i], obj_.z[i]));
+      if (used[i]) box.add(position_.back());
+    }
+    findings_.file_extent = box.extent();
+    if (!(box.extent() > 0)) fail("has all its faces in one point; check the export");
+    const double size = file_.size > 0 ? file_.size : box.extent(), scale = size / box.extent();
+    if (size < min_body_size || size > max_body_size)
+      fail("is " + shortest_text(size) + " m large (" + shortest_text(min_body_size) + " to " +
+           shortest_text(std::int64_t(max_body_size)) +
+           " are allowed); set size to the largest extent that it shall have, in m");
+    findings_.extent = size;
+    const glm::dvec3 middle = 0.5 * (box.lo + box.hi);
+    for (glm::dvec3& p : position_) p = scale * (p - middle);
+  }
+
+  void take_outlines() {
+    outlines_ = outlines(obj_, welded_to_);
+    findings_.degenerate_faces = outlines_.degenerate_faces;
+    findings_.duplicate_faces = outlines_.duplicate_faces;
+    std::vector<char> used(position_.size(), false);
+    for (const Index v : outlines_.polygons.corners) used[v] = true;
+    const auto vertices = std::count(used.begin(), used.end(), char(true));
+    if (vertices > std::ptrdiff_t(max_imported_vertices))
+      fail("has " + std::to_string(vertices) + " vertices; at most " + std::to_string(max_imported_vertices) +
+           " are allowed: simplify the mesh first");
+    for (std::size_t p = 0; p < outlines_.face.size(); ++p)
+      if (const std::size_t corners = outlines_.polygons[p].size(); corners > max_polygon_corners)
+        fail(line_of(p), "a face of " + std::to_string(corners) + " corners; at most " +
+                             std::to_string(max_polygon_corners) + " are allowed: export triangles");
+  }
+
+  std::uint64_t line_of(std::size_t polygon) const { return obj_.faces[outlines_.face[polygon]].line; }
+
+  void cut_polygons() {
+    try {
+      Triangulation cut = triangulate(outlines_.polygons, position_);
+      mesh_.triangles = std::move(cut.triangles);
+      polygon_of_ = std::move(cut.polygon);
+    } catch (const PolygonError& error) {
+      fail(
+          line_of(error.polygon),
+          "a face that cannot be cut into triangles: each cut runs along an edge or a cut of other faces with the same "
+          "vertices; repair the mesh, or export triangles");
+    }
+    if (mesh_.triangles.empty())
+      fail("has no face with three different corners; check the export, or lower weld " + std::string(where_weld_is));
+  }
+
+  /// Leaves out the vertices that no triangle has.
+  void compact() {
+    std::vector<Index> number(position_.size(), no_vertex);
+    for (Triangle& t : mesh_.triangles)
+      for (Index& corner : t) {
+        if (number[corner] == no_vertex) {
+          number[corner] = static_cast<Index>(in_file_.size());
+          in_file_.push_back(corner);
+          mesh_.vertices.push_back(position_[corner]);
+        }
+        corner = number[corner];
+      }
+  }
+
+  void orient_faces() {
+    try {
+      const SurfaceFindings found = orient(mesh_.triangles, mesh_.vertices);
+      findings_.components = found.components;
+      findings_.turned_faces = found.turned_faces;
+      findings_.closed = found.border_edges == 0;
+    } catch (const SurfaceError& error) {
+      fail(reason(error));
+    }
+    const double cube = findings_.extent * findings_.extent * findings_.extent;
+    if (findings_.closed && volume(mesh_.vertices, mesh_.triangles) < 1e-9 * cube)
+      fail("is closed but holds no volume; leave out one of its sides, or give it thickness");
+  }
+
+  /// What is wrong with the surface, by the file's lines and vertices.
+  std::string reason(const SurfaceError& error) const {
+    std::vector<std::size_t> faces;
+    for (const Index triangle : error.triangles) faces.push_back(outlines_.face[polygon_of_[triangle]]);
+    std::sort(faces.begin(), faces.end());
+    faces.erase(std::unique(faces.begin(), faces.end()), faces.end());
+    const std::size_t first = faces.front(), listed = std::min(faces.size(), std::size_t{4});
+    std::string lines = (listed > 1 ? "lines " : "line ") + std::to_string(obj_.faces[first].line);
+    for (std::size_t i = 1; i < listed; ++i)
+      lines.append(i + 1 < listed ? ", " : " and ").append(std::to_string(obj_.faces[faces[i]].line));
+    const std::string what = error.triangles.size() == 2
+                                 ? "the surface "
+                                 : "the edge between vertices " + edge_in(first, error.edge) + " (counted from 1) ";
+    return what + error.what() + ": see " + lines + "; repair the mesh, or change weld " + where_weld_is;
+  }
+
+  /// The numbers, from 1, by which a face of the file names the ends of its side that became an edge of the mesh.
+  std::string edge_in(std::size_t face, const Edge& edge) const {
+    const std::size_t begin = face > 0 ? obj_.faces[face - 1].end : 0, end = obj_.faces[face].end;
+    const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);
+    Edge ends = welded;
+    for (std::size_t i = begin; i < end; ++i) {
+      const Index a = obj_.corners[i], b = obj_.corners[i + 1 < end ? i + 1 : begin];
+      if (ordered(welded_to_[a], welded_to_[b]) == welded) ends = ordered(a, b);
+    }
+    return std::to_string(ends[0] + std::uint64_t{1}) + " and " + std::to_string(ends[1] + std::uint64_t{1});
+  }
+
+  const MeshFile& file_;
+  std::string name_;
+  ObjFile obj_;
+  std::vector<glm::dvec3> position_;  // of each vertex of the file
+  std::vector<Index> welded_to_;      // vertex of the file
+  Outlines outlines_;
+  std::vector<Index> polygon_of_;  // of each triangle
+  std::vector<Index> in_file_;     // of each vertex of the mesh
+  Mesh mesh_;
+  ImportFindings findings_;
+};
+
+}  // namespace
+
+ImportedMesh import_mesh(const MeshFile& file) { return Importer(file).run(); }
+
+std::string remarks(const ImportFindings& f) {
+  std::string text;
+  const auto add = [&text](std::size_t number, const char* what) {
+    if (number > 0) text.append(text.empty() ? "" : ", ").append(std::to_string(number)).append(what);
+  };
+  add(f.welded_vertices, " vertices welded");
+  add(f.unused_vertices, " unused vertices dropped");
+  add(f.degenerate_faces, " degenerate faces dropped");
+  add(f.duplicate_faces, " duplicate faces dropped");
+  add(f.weights, " weights of vertices passed over");
+  add(f.turned_faces, " faces turned");
+  if (f.components > 1) add(f.components, " separate pieces, one body");
+  if (!f.closed) text.append(text.empty() ? "" : ", ").append("open, so that it holds no gas");
+  return text;
+}
+
+}  // namespace softbody

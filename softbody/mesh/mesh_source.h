@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "softbody/mesh/mesh_import.h"
+
+namespace softbody {
+
+/// Where a body's mesh comes from.
+struct MeshSource {
+  std::string kind = "icosphere";
+  int subdivisions = 2;                            // icosphere
+  double radius = 0.5;                             // m, icosphere
+  int columns = 32, rows = 32;                     // grid
+  double width = 3, depth = 3;                     // m, grid
+  MeshFile file{};                                 // file
+  std::shared_ptr<const ImportedMesh> imported{};  // file: what was read, shared by all bodies of it
+  /// Reads the file. Throws ObjError.
+  static MeshSource from_file(const MeshFile& file);
+  Mesh make() const;
+  std::uint64_t vertex_count() const;  // of the mesh, without making it
+  bool operator==(const MeshSource&) const = default;
+};
+
+}  // namespace softbody

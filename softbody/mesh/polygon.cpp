@@ -1,0 +1,303 @@
+#include "softbody/mesh/polygon.h"
+
+#include <algorithm>
+#include <cassert>
+#include <compare>
+#include <cstdint>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <queue>
+#include <unordered_map>
+#include <unordered_set>
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace softbody {
+namespace {
+
+/// The corners seen along the polygon's mean normal (Newell's), counter-clockwise.
+std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
+  glm::dvec3 normal(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i)
+    normal += glm::cross(corners[i] - corners[0], corners[(i + 1) % corners.size()] - corners[0]);
+  const glm::dvec3 size = glm::abs(normal);
+  const int away = size.x >= size.y && size.x >= size.z ? 0 : size.y >= size.z ? 1 : 2;
+  int u = (away + 1) % 3, v = (away + 2) % 3;
+  if (normal[away] < 0) std::swap(u, v);
+  std::vector<glm::dvec2> flat;
+  for (const glm::dvec3& p : corners) flat.emplace_back(p[u], p[v]);
+  return flat;
+}
+
+/// Twice the area of a, b, c; positive if they run counter-clockwise.
+double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+/// What is left of a polygon while ears are clipped.
+class Remainder {
+ public:
+  explicit Remainder(std::span<const glm::dvec3> corners) : flat_(flattened(corners)), left_(corners.size()) {
+    std::iota(left_.begin(), left_.end(), Index{0});
+  }
+  std::size_t size() const { return left_.size(); }
+
+  /// The triangle at place k, whose corner goes.
+  Triangle clip(std::size_t k) {
+    const Triangle t = at(k);
+    left_.erase(left_.begin() + std::ptrdiff_t(k));
+    return t;
+  }
+
+  /// The place of the ear with the shortest cut; any place if there is no ear.
+  std::size_t best_ear() const {
+    std::size_t best = 0;
+    double shortest = std::numeric_limits<double>::infinity();
+    for (std::size_t k = 0; k < left_.size(); ++k) {
+      const auto [a, b, c] = at(k);
+      const glm::dvec2 cut = flat_[c] - flat_[a];
+      if (glm::dot(cut, cut) >= shortest || !is_ear(a, b, c)) continue;
+      best = k;
+      shortest = glm::dot(cut, cut);
+    }
+    return best;
+  }
+
+ private:
+  Triangle at(std::size_t k) const {
+    return {left_[(k + left_.size() - 1) % left_.size()], left_[k], left_[(k + 1) % left_.size()]};
+  }
+
+  bool is_ear(Index a, Index b, Index c) const {
+    const glm::dvec2 &pa = flat_[a], &pb = flat_[b], &pc = flat_[c];
+    if (turn(pa, pb, pc) <= 0) return false;
+    for (const Index other : left_) {
+      const glm::dvec2& p = flat_[other];
+      if (p == pa || p == pb || p == pc) continue;
+      if (turn(pa, pb, p) >= 0 && turn(pb, pc, p) >= 0 && turn(pc, pa, p) >= 0) return false;
+    }
+    return true;
+  }
+
+  std::vector<glm::dvec2> flat_;
+  std::vector<Index> left_;
+};
+
+/// Of a triangulation; the smaller of two is the better one.
+struct Cost {
+  double price = 0, length = 0;  // length: sum of the squares of the cuts' lengths
+  Cost operator+(const Cost& other) const { return {price + other.price, length + other.length}; }
+  auto operator<=>(const Cost&) const = default;
+};
+
+/// The cheapest of all triangulations of a polygon, by dynamic programming (Klincsek 1980). cut_price(i, j): of the cut
+/// between corners i < j; triangle_price(i, k, j): of the triangle of corners i < k < j.
+std::vector<Triangle> cheapest_triangles(std::span<const glm::dvec3> corners, const auto& cut_price,
+                                         const auto& triangle_price) {
+  const std::size_t n = corners.size();
+  struct Part {
+    Cost cost;
+    std::size_t apex = 0;
+  };
+  std::vector<Part> parts(n * n);  // [i * n + j] and [j * n + i]: what lies between corners i and j, and their cut
+  for (std::size_t span = 2; span < n; ++span)
+    for (std::size_t i = 0, j = span; j < n; ++i, ++j) {
+      Part best{{std::numeric_limits<double>::infinity(), 0}};
+      for (std::size_t k = i + 1; k < j; ++k) {
+        const Cost cost = parts[i * n + k].cost + parts[j * n + k].cost + Cost{triangle_price(i, k, j), 0};
+        if (cost < best.cost) best = {cost, k};
+      }
+      const glm::dvec3 cut = corners[j] - corners[i];
+      if (span + 1 < n) best.cost = best.cost + Cost{cut_price(i, j), glm::dot(cut, cut)};
+      parts[i * n + j] = parts[j * n + i] = best;
+    }
+  std::vector<Triangle> triangles;
+  std::vector<std::pair<std::size_t, std::size_t>> left{{0, n - 1}};
+  while (!left.empty()) {
+    const auto [i, j] = left.back();
+    left.pop_back();
+    if (j - i < 2) continue;
+    const std::size_t k = parts[i * n + j].apex;
+    triangles.push_back({static_cast<Index>(i), static_cast<Index>(k), static_cast<Index>(j)});
+    left.insert(left.end(), {{i, k}, {k, j}});
+  }
+  return triangles;
+}
+
+bool is_degenerate(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
+
+/// Shares out the cuts by an auction (Bertsekas 1979): a polygon whose cuts are taken takes the cheapest ones instead,
+/// from others if need be, and raises their price; a polygon that lost a cut chooses again.
+class Auction {
+ public:
+  Auction(const Polygons& polygons, std::span<const glm::dvec3> vertices)
+      : polygons_(polygons), vertices_(vertices), triangles_(polygons.corners.size() - 2 * polygons.size()) {
+    for (std::size_t p = 0; p < polygons.size(); ++p) {
+      assert(polygons[p].size() >= 3);
+      for (const Edge& side : sides_of(p)) sides_.push_back(side);
+    }
+    std::sort(sides_.begin(), sides_.end());
+  }
+
+  Triangulation run() {
+    for (std::size_t p = 0; p < polygons_.size(); ++p) {
+      set_triangles(p, triangulate(outline(p)));
+      if (!take_free_cuts(p)) waiting_.push(p);
+    }
+    while (!waiting_.empty()) {
+      const std::size_t p = waiting_.front();
+      waiting_.pop();
+      bid(p);
+    }
+    return result();
+  }
+
+ private:
+  static constexpr std::size_t nobody = ~std::size_t{0};
+  static constexpr double side_price = 1e9;  // more than any sum of others
+  static constexpr double fold_price = 8;    // a triangle that is turned over or flat: rather than so many lost cuts
+  static constexpr std::size_t max_work = std::size_t{1} << 31;  // of all bids, some seconds
+
+  struct Cut {
+    std::size_t owner = nobody;
+    double price = 0;
+  };
+
+  std::span<Triangle> triangles_of(std::size_t p) {
+    const std::size_t count = polygons_[p].size() - 2;
+    return std::span(triangles_).subspan(polygons_.ends[p] - 2 * (p + 1) - count, count);
+  }
+
+  std::vector<glm::dvec3> outline(std::size_t p) const {
+    std::vector<glm::dvec3> corners;
+    for (const Index v : polygons_[p]) corners.push_back(vertices_[v]);
+    return corners;
+  }
+
+  void set_triangles(std::size_t p, const std::vector<Triangle>& by_corner) {
+    const std::span<const Index> polygon = polygons_[p];
+    std::ranges::transform(by_corner, triangles_of(p).begin(), [&](const Triangle& t) -> Triangle {
+      return {polygon[t[0]], polygon[t[1]], polygon[t[2]]};
+    });
+  }
+
+  std::vector<Edge> sides_of(std::size_t p) const {
+    const std::span<const Index> polygon = polygons_[p];
+    std::vector<Edge> sides;
+    for (std::size_t i = 0; i < polygon.size(); ++i)
+      sides.push_back(ordered(polygon[i], polygon[(i + 1) % polygon.size()]));
+    return sides;
+  }
+
+  /// The edges that a polygon's triangles have beyond its sides, ascending, once for each triangle. A cut is none of
+  /// them where a degenerate triangle beside it takes the place of a side.
+  std::vector<Edge> cuts_of(std::size_t p) {
+    if (polygons_[p].size() == 3) return {};
+    std::vector<Edge> edges, sides = sides_of(p), cuts;
+    for (const Triangle& t : triangles_of(p))
+      for (std::size_t k = 0; k < 3 && !is_degenerate(t); ++k) edges.push_back(ordered(t[k], t[(k + 1) % 3]));
+    std::sort(edges.begin(), edges.end());
+    std::sort(sides.begin(), sides.end());
+    std::set_difference(edges.begin(), edges.end(), sides.begin(), sides.end(), std::back_inserter(cuts));
+    return cuts;
+  }
+
+  static std::uint64_t key(const Edge& edge) { return std::uint64_t{edge[0]} << 32 | edge[1]; }
+  bool is_side(const Edge& edge) const { return std::binary_search(sides_.begin(), sides_.end(), edge); }
+
+  /// Two cuts of an outline that comes back to a vertex may be the same edge.
+  static bool meet(const std::vector<Edge>& cuts, std::size_t i) { return i >= 2 && cuts[i] == cuts[i - 2]; }
+
+  bool take_free_cuts(std::size_t p) {
+    const std::vector<Edge> cuts = cuts_of(p);
+    for (std::size_t i = 0; i < cuts.size(); ++i)
+      if (is_side(cuts[i]) || cuts_.contains(key(cuts[i])) || meet(cuts, i)) return false;
+    for (const Edge& cut : cuts) cuts_[key(cut)].owner = p;
+    return true;
+  }
+
+  double price_of(const Edge& cut) const {
+    if (cut[0] == cut[1]) return 0;
+    if (is_side(cut)) return side_price;
+    const auto known = cuts_.find(key(cut));
+    if (known == cuts_.end()) return 0;
+    return known->second.price + (known->second.owner == nobody ? 0 : 1);
+  }
+
+  void bid(std::size_t p) {
+    const std::span<const Index> polygon = polygons_[p];
+    const std::size_t n = polygon.size();
+    if ((work_ += n * n * n + 1000) > max_work) throw PolygonError(p);
+    bidders_.insert(p);
+    const std::vector<glm::dvec3> corners = outline(p);
+    const std::vector<glm::dvec2> flat = flattened(corners);
+    const auto cut_price = [&](std::size_t i, std::size_t j) { return price_of(ordered(polygon[i], polygon[j])); };
+    const auto triangle_price = [&](std::size_t i, std::size_t k, std::size_t j) {
+      const Triangle t{polygon[i], polygon[k], polygon[j]};
+      // Two sides of a degenerate triangle are the same edge, which is left out with it once.
+      if (is_degenerate(t)) return -price_of(ordered(t[0], t[0] == t[1] ? t[2] : t[1]));
+      return turn(flat[i], flat[k], flat[j]) <= 0 ? fold_price : 0;
+    };
+    set_triangles(p, cheapest_triangles(corners, cut_price, triangle_price));
+    const std::vector<Edge> cuts = cuts_of(p);
+    bool alone = true;
+    for (std::size_t i = 0; i < cuts.size(); ++i) {
+      if (is_side(cuts[i])) throw PolygonError(p);
+      alone = alone && !meet(cuts, i);
+      Cut& taken = cuts_[key(cuts[i])];
+      if (taken.owner != nobody && taken.owner != p) give_up_cuts(taken.owner);
+      taken.owner = p;
+      // Whoever wants a cut finds a free one by a chain of bidders, if there is one, in which prices differ by less
+      // than two folds from each to the next.
+      if (++taken.price > 2 * fold_price * double(bidders_.size())) throw PolygonError(p);
+    }
+    if (!alone) give_up_cuts(p);
+  }
+
+  void give_up_cuts(std::size_t p) {
+    for (const Edge& cut : cuts_of(p)) cuts_[key(cut)].owner = nobody;
+    waiting_.push(p);
+  }
+
+  Triangulation result() {
+    Triangulation cut;
+    for (std::size_t p = 0; p < polygons_.size(); ++p)
+      for (const Triangle& t : triangles_of(p)) {
+        if (is_degenerate(t)) continue;
+        cut.triangles.push_back(t);
+        cut.polygon.push_back(static_cast<Index>(p));
+      }
+    return cut;
+  }
+
+  const Polygons& polygons_;
+  std::span<const glm::dvec3> vertices_;
+  std::vector<Triangle> triangles_;  // by vertex, two fewer than corners of each polygon
+  std::vector<Edge> sides_;          // of all polygons, ascending
+  std::unordered_map<std::uint64_t, Cut> cuts_;
+  std::queue<std::size_t> waiting_;  // polygons whose cuts are not theirs
+  std::unordered_set<std::size_t> bidders_;
+  std::size_t work_ = 0;
+};
+
+}  // namespace
+
+std::vector<Triangle> triangulate(std::span<const glm::dvec3> corners) {
+  if (corners.size() == 3) return {{0, 1, 2}};
+  Remainder rest(corners);
+  std::vector<Triangle> triangles;
+  while (rest.size() > 3) triangles.push_back(rest.clip(rest.best_ear()));
+  triangles.push_back(rest.clip(1));
+  return triangles;
+}
+
+Triangulation triangulate(const Polygons& polygons, std::span<const glm::dvec3> vertices) {
+  return Auction(polygons, vertices).run();
+}
+
+}  // namespace softbody

@@ -1,0 +1,187 @@
+#include "softbody/model/prototype.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "collide/surface/surface.h"
+#include "softbody/model/spring_bound.h"
+
+namespace softbody {
+namespace {
+
+constexpr double linear_below = 0.1;  // of V0: the gas law goes on linearly, so that flat and inverted bodies recover
+
+/// A net of equal springs is as stiff as a sheet however fine it is (Young's modulus times thickness = 2 k / sqrt(3)),
+/// so that the stiffness in N/m holds for every mesh. But where more than six springs meet, as in a regular net, they
+/// share what six would have: the middle of a fan asks for no shorter steps than the rest.
+std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pairs, const SpringLaw& law, double mass) {
+  std::vector<Spring> springs;
+  if (law.stiffness <= 0) return springs;
+  std::vector<int> meeting(mesh.vertices.size(), 0);
+  for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];
+  for (const auto& [i, j] : pairs) {
+    const double stiffness = law.stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
+    const double damping = 2 * law.damping_ratio * std::sqrt(stiffness * mass / 2);  // reduced mass m / 2
+    springs.push_back({i, j, glm::distance(mesh.vertices[i], mesh.vertices[j]), stiffness, damping});
+  }
+  return springs;
+}
+
+/// What draws the particles to their places in the mesh's own shape.
+void set_shape(Prototype& p, double frequency) {
+  p.shape_rate = 2 * std::numbers::pi * frequency;
+  p.goal.clear();
+  if (p.shape_rate <= 0) return;
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
+  for (const glm::dvec3& v : p.mesh.vertices) p.goal.push_back(v - mean);
+}
+
+/// The material as it acts on the particles of a mesh from a file. Its contact stiffness is stated for the particles of
+/// the paper's sphere; where more of them share a body, and so a contact, they share the stiffness, too. The springs of
+/// very fine meshes get softer, so that a frame takes no more substeps than one of the finest mesh with full springs.
+Material for_mesh(Material m, const MeshSource& source) {
+  constexpr double stated_for = 162, finest = 2000;  // vertices
+  if (source.kind != "file") return m;
+  const auto count = static_cast<double>(source.vertex_count());
+  m.contact_stiffness *= std::min(1.0, stated_for / count);
+  for (SpringLaw* law : {&m.structural, &m.bend, &m.shear}) law->stiffness *= std::min(1.0, finest / count);
+  return m;
+}
+
+void list_faces(Prototype& p) {
+  std::vector<std::vector<Index>> at(p.mesh.vertices.size());
+  for (Index f = 0; f < p.mesh.triangles.size(); ++f)
+    for (const Index corner : p.mesh.triangles[f]) at[corner].push_back(f);
+  for (const auto& faces : at) {
+    p.face.insert(p.face.end(), faces.begin(), faces.end());
+    p.first_face.push_back(static_cast<Index>(p.face.size()));
+  }
+}
+
+/// All that the material decides, but for the starting shape.
+void give_material(Prototype& p, const MeshSource& source, const Material& material) {
+  p.material = for_mesh(material, source);
+  p.particle_mass = material.mass / double(p.mesh.vertices.size());
+  p.structural = make_springs(p.mesh, p.mesh.edges, p.material.structural, p.particle_mass);
+  p.bend = make_springs(p.mesh, p.mesh.bend_pairs, p.material.bend, p.particle_mass);
+  p.shear = make_springs(p.mesh, p.mesh.shear_pairs, p.material.shear, p.particle_mass);
+  const std::array lists{&std::as_const(p.structural), &std::as_const(p.bend), &std::as_const(p.shear)};
+  p.spring_stiffness_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::stiffness) / 2;
+  p.spring_damping_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::damping) / 2;
+  set_shape(p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
+  if (!p.mesh.closed) return;
+  p.gas.ambient = material.ambient_pressure;
+  p.gas.amount = material.gas_pressure * p.gas.rest_volume;
+  p.has_gas = material.gas_pressure > 0 || material.ambient_pressure > 0;
+}
+
+}  // namespace
+
+double Gas::pressure(double v) const {
+  const double bend = linear_below * rest_volume;
+  if (v >= bend) return amount / v;
+  return amount / bend * (2 - v / bend);
+}
+
+double Gas::outside(double v) const { return ambient * std::clamp(v / (linear_below * rest_volume), -1.0, 1.0); }
+
+double Gas::slope(double v) const {
+  const double bend = linear_below * rest_volume, held = std::max(v, bend);
+  return -amount / (held * held) - (std::abs(v) < bend ? ambient / bend : 0);
+}
+
+double Gas::outside_energy(double v) const {
+  const double bend = linear_below * rest_volume;
+  const double pushed_away = std::abs(v) < bend ? (v * v + bend * bend) / (2 * bend) : std::abs(v);
+  return ambient * (pushed_away - rest_volume);
+}
+
+double Gas::energy(double v) const {
+  const double bend = linear_below * rest_volume;
+  if (v >= bend) return outside_energy(v) - amount * std::log(v / rest_volume);
+  const double beyond = bend - v;  // the integral of the linear law from v to the bend
+  return outside_energy(v) - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
+}
+
+double stable_step(double k_m, double c_m) {
+  // Twice the sum of a row bounds a spring matrix: each spring stands on its diagonal and beside it (Gershgorin).
+  const double omega2 = 2 * k_m, gamma = 2 * c_m;
+  if (omega2 <= 0) return gamma > 0 ? 0.8 * 2 / gamma : 1e9;
+  const double omega = std::sqrt(omega2), z = gamma / (2 * omega);
+  return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
+}
+
+double stiffness_per_mass(const Prototype& p, const SurfaceShape& surface) {
+  // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
+  const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
+  if (!p.has_gas) return springs;
+  // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum
+  // |A_i|^2, plus P d2V/dx2. Breathing, which the first is about, hardly stretches springs: L being their Laplacian, l
+  // its bound and a = A / |A|, q = a^T L a is far below l. An eigenvalue x > l of L + s a a^T has
+  // 1 = s a^T (x - L)^-1 a <= s ((1 - q/l) / x + (q/l) / (x - l)), for 1 / (x - y) is convex in y, and so is at most
+  // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
+  // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
+  // a row is at most two medians a face at i.
+  const double slope = -p.gas.slope(surface.volume);
+  const double gauge = std::abs(p.gas.gauge(surface.volume));
+  const double l = 2 * p.spring_stiffness_bound, s = slope * surface.area2;
+  const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
+  const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
+  const double gas = both - l + gauge * p.largest_degree * surface.two_medians / 6;
+  return springs + gas / (2 * p.particle_mass);  // nor is this
+}
+
+SurfaceShape measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
+  if (!p.has_gas) return {};
+  SurfaceShape s{.volume = volume(vertices, p.mesh.triangles)};
+  std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
+  for (const auto& [i, j, k] : p.mesh.triangles) {
+    const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;
+    for (const Index corner : {i, j, k}) area[corner] += third;
+    const double from_a = glm::distance(a, (b + c) / 2.0), from_b = glm::distance(b, (c + a) / 2.0),
+                 from_c = glm::distance(c, (a + b) / 2.0);
+    s.two_medians = std::max({s.two_medians, from_a + from_b, from_b + from_c, from_c + from_a});
+  }
+  for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
+  for (const auto* list : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& spring : *list) {
+      const glm::dvec3 d = area[spring.i] - area[spring.j];
+      s.stretch += spring.stiffness * glm::dot(d, d);
+    }
+  return s;
+}
+
+std::shared_ptr<Prototype> make_unbalanced_prototype(const MeshSource& source, const Material& material) {
+  auto p = std::make_shared<Prototype>();
+  p->mesh = source.make();
+  p->radius = bounding_radius(p->mesh);
+  list_faces(*p);
+  for (Index i = 0; i < p->mesh.vertices.size(); ++i)
+    p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
+  if (p->mesh.closed) p->gas.rest_volume = volume(p->mesh.vertices, p->mesh.triangles);
+  give_material(*p, source, material);
+
+  p->start = p->mesh.vertices;
+  if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
+  const std::vector<glm::vec3> rest(p->mesh.vertices.begin(), p->mesh.vertices.end());
+  p->surface = std::make_shared<collide::surface::Surface>(static_cast<Index>(rest.size()), p->mesh.triangles);
+  for (const auto& [i, j] : p->surface->edges()) p->mean_edge += glm::distance(rest[i], rest[j]);
+  p->mean_edge /= double(std::max<std::size_t>(1, p->surface->edges().size()));
+  p->shape = std::make_shared<collide::Shape>(static_cast<Index>(p->mesh.vertices.size()), p->mesh.edges, rest);
+  return p;
+}
+
+std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
+                                               const Material& material) {
+  auto p = std::make_shared<Prototype>(prototype);
+  give_material(*p, source, material);
+  return p;
+}
+
+}  // namespace softbody

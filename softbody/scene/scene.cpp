@@ -1,0 +1,45 @@
+#include "softbody/scene/scene.h"
+
+#include <algorithm>
+
+namespace softbody {
+
+std::vector<std::string> scene_keys(const std::filesystem::path& folder) {
+  std::vector<std::string> keys;
+  std::error_code error;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, error))
+    if (entry.path().extension() == ".toml") keys.push_back(entry.path().stem().string());
+  std::sort(keys.begin(), keys.end());
+  return keys;
+}
+
+std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder) {
+  if (name.ends_with(".toml")) return name;
+  const auto keys = scene_keys(folder);
+  if (std::find(keys.begin(), keys.end(), name) != keys.end()) return folder / (name + ".toml");
+  std::string known;
+  for (const auto& key : keys) known.append(known.empty() ? "" : ", ").append(key);
+  throw SceneError("unknown scene '" + name + "'; use one of: " + known + "; or the path of a .toml file");
+}
+
+Scene find_scene(const std::string& name, const std::filesystem::path& folder) {
+  return load_scene(scene_path(name, folder), presets_path(folder));
+}
+
+std::filesystem::path presets_path(const std::filesystem::path& folder) {
+  return folder.parent_path() / "materials.toml";
+}
+
+const ContactSurfaceInfo* find_contact_surface(std::string_view key) {
+  for (const ContactSurfaceInfo& c : contact_surfaces)
+    if (c.key == key) return &c;
+  return nullptr;
+}
+
+std::string contact_surface_keys() {
+  std::string keys;
+  for (const ContactSurfaceInfo& c : contact_surfaces) keys.append(keys.empty() ? "" : ", ").append(c.key);
+  return keys;
+}
+
+}  // namespace softbody

@@ -1,0 +1,121 @@
+#pragma once
+// A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; assets/scenes/README.md
+// documents the format.
+
+#include <array>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "collide/methods.h"
+#include "softbody/contact/solid.h"
+#include "softbody/mesh/mesh_source.h"
+#include "softbody/model/material.h"
+#include "softbody/model/scene_error.h"
+
+namespace softbody {
+
+struct BodySource {
+  MeshSource mesh;
+  int material = 0;              // index into Scene::materials
+  glm::dvec3 position{0, 3, 0};  // m, of the mesh's origin
+  glm::dvec3 velocity{0.0};      // m/s
+  int appear = 0;                // the frame in which it joins the scene ...
+  int release = 0;               // ... held in place until this one
+  bool operator==(const BodySource&) const = default;
+};
+
+/// Where "drop another body" puts it: a body source and the radius of the disc around its position.
+struct Dropper {
+  BodySource body;
+  double spread = 0.3;  // m
+  bool operator==(const Dropper&) const = default;
+};
+
+struct SleepRule {
+  double speed = 0.03;  // m/s: no particle of a contact island faster ...
+  int frames = 30;      // ... for this many frames
+  bool operator==(const SleepRule&) const = default;
+};
+
+struct View {
+  glm::dvec3 target{0, 0.8, 0};
+  double distance = 8;    // m
+  double azimuth = 30;    // degrees
+  double elevation = 18;  // degrees
+  bool operator==(const View&) const = default;
+};
+
+struct Caption {
+  int frame;
+  std::string text;
+  bool operator==(const Caption&) const = default;
+};
+
+/// What keeps bodies apart.
+enum class ContactSurface {
+  vertices,  // the paper's tolerance force between the vertices that the detector finds (§2.3)
+  surfaces,  // vertices against faces and edges against edges
+};
+struct ContactSurfaceInfo {
+  ContactSurface value;
+  std::string_view key, name, summary;
+};
+inline constexpr std::array<ContactSurfaceInfo, 2> contact_surfaces{{
+    {ContactSurface::vertices, "vertex-vertex", "Vertex-vertex",
+     "The paper's: vertices closer than the tolerance push each other apart (\u00a72.3)."},
+    {ContactSurface::surfaces, "surface", "Surface",
+     "Vertices against faces and edges against edges: the true surfaces never meet."},
+}};
+/// nullptr if there is none with this key.
+const ContactSurfaceInfo* find_contact_surface(std::string_view key);
+std::string contact_surface_keys();
+
+struct Scene {
+  std::string key;  // the file's stem
+  std::string name;
+  std::string look_at;              // one sentence: what to look at
+  glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
+  std::string method{collide::default_method};
+  ContactSurface contact_surface = ContactSurface::vertices;
+  collide::Settings collision;  // cell_size is filled in by the world if `default_cell_size`
+  bool default_cell_size = true;
+  std::vector<Material> materials;
+  std::vector<BodySource> bodies;
+  std::vector<SolidSphere> spheres;
+  std::vector<SolidPlane> planes;
+  std::vector<SolidBox> boxes;
+  std::vector<SolidCapsule> capsules;
+  std::optional<Ground> ground;
+  std::optional<Dropper> dropper;
+  SleepRule sleep;
+  View view;
+  std::vector<Caption> captions;  // what to see from this frame on
+  bool operator==(const Scene&) const = default;
+};
+
+/// Reads a scene file. `presets`: a file of materials that the scene may name; it is read only if the scene does.
+/// Throws SceneError; unknown keys, wrong types and values out of range are errors too.
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets = {});
+
+/// Reads a file of materials, each with a name of its own. Throws SceneError as load_scene() does.
+std::vector<Material> load_presets(const std::filesystem::path& file);
+
+/// Returns the presets of the scenes in `folder`.
+std::filesystem::path presets_path(const std::filesystem::path& folder);
+
+/// The keys of a folder's scenes (stems of its .toml files), in order.
+std::vector<std::string> scene_keys(const std::filesystem::path& folder);
+
+/// The file of a scene that is named by key in `folder`, or by path if `name` ends in .toml. Throws SceneError for an
+/// unknown key; the message lists the known ones.
+std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder);
+
+/// Loads the scene of that name, with presets_path(folder). Throws SceneError.
+Scene find_scene(const std::string& name, const std::filesystem::path& folder);
+
+}  // namespace softbody

@@ -1,0 +1,343 @@
+// Reading scene files. What is written here has its counterpart in scene_write.cpp.
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "softbody/mesh/limits.h"
+#include "softbody/mesh/obj_file.h"
+#include "softbody/scene/limits.h"
+#include "softbody/scene/scene.h"
+#include "softbody/scene/toml_table.h"
+
+namespace softbody {
+namespace {
+
+constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
+
+SpringLaw read_springs(Table table, SpringLaw law) {
+  law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);
+  law.damping_ratio = table.number("damping_ratio", law.damping_ratio, 0, 10);
+  table.close();
+  return law;
+}
+
+/// `m`: the values of keys that the table does not have.
+Material read_material(Table& table, Material m = {}) {
+  m.name = table.text("name", m.name);
+  m.mass = table.number("mass", m.mass, tiny, 1e9);
+  m.structural = read_springs(table.child("structural"), m.structural);
+  m.bend = read_springs(table.child("bend"), m.bend);
+  m.shear = read_springs(table.child("shear"), m.shear);
+  m.gas_pressure = table.number("gas_pressure", m.gas_pressure, 0, 1e9);
+  m.ambient_pressure = table.number("ambient_pressure", m.ambient_pressure, 0, 1e9);
+  m.internal_damping = table.number("internal_damping", m.internal_damping, 0, 1e6);
+  m.rebound_speed = table.number("rebound_speed", m.rebound_speed, 0, 1e6);
+  m.thickness = table.number("thickness", m.thickness, 0, 1e3);
+  m.friction = table.number("friction", m.friction, 0, 10);
+  m.restitution = table.number("restitution", m.restitution, 0, 1);
+  m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
+  m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
+  const double shape = table.number("shape_frequency", m.shape_frequency.value_or(-1), 0, 1e3);
+  if (shape >= 0) m.shape_frequency = shape;
+  m.start_in_equilibrium = table.boolean("start_in_equilibrium", m.start_in_equilibrium);
+  table.close();
+  return m;
+}
+
+/// The known mesh of the same file and settings, or a new one: each is read once, however many bodies name it.
+MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
+  MeshFile file;
+  file.path = table.folder() / table.text("path", "");
+  file.size = table.number("size", file.size, min_body_size, max_body_size);
+  file.weld = table.number("weld", file.weld, 0, 0.1);
+  file.up = table.vector("up", file.up, -1, 1);
+  if (glm::length(file.up) < 0.1) table.fail("up", "must point somewhere, e.g. [0, 0, 1]");
+  if (table.text("path", "").empty()) table.fail("path", "must name an OBJ file, relative to this one");
+  for (const MeshSource& m : known)
+    if (m.file == file) return m;
+  try {
+    return known.emplace_back(MeshSource::from_file(file));
+  } catch (const ObjError& error) {
+    table.fail("path", std::string("cannot be used: ") + error.what());
+  }
+}
+
+/// files: the meshes read from files so far.
+MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
+  MeshSource m;
+  m.kind = table.text("kind", m.kind);
+  if (m.kind == "icosphere") {
+    m.subdivisions = table.integer("subdivisions", m.subdivisions, 0, 6);
+    m.radius = table.number("radius", m.radius, min_body_size, max_body_size);
+  } else if (m.kind == "grid") {
+    m.columns = table.integer("columns", m.columns, 1, 1000);
+    m.rows = table.integer("rows", m.rows, 1, 1000);
+    m.width = table.number("width", m.width, min_body_size, max_body_size);
+    m.depth = table.number("depth", m.depth, min_body_size, max_body_size);
+  } else if (m.kind == "file") {
+    m = read_mesh_file(table, files);
+  } else {
+    table.fail("kind", "must be \"icosphere\", \"grid\" or \"file\"");
+  }
+  table.close();
+  return m;
+}
+
+/// What bodies and the dropper have in common.
+BodySource read_body(Table& table, const std::vector<Material>& materials, std::vector<MeshSource>& files) {
+  BodySource b;
+  b.mesh = read_mesh(table.child("mesh"), files);
+  const std::string name = table.text("material", materials.front().name);
+  while (std::size_t(b.material) < materials.size() && materials[std::size_t(b.material)].name != name) ++b.material;
+  if (std::size_t(b.material) == materials.size()) table.fail("material", "names no [[material]] of this file");
+  b.position = table.vector("position", b.position, -1e6, 1e6);
+  b.velocity = table.vector("velocity", b.velocity, -1e3, 1e3);
+  return b;
+}
+
+void read_collision(Table table, Scene& scene) {
+  collide::Settings& c = scene.collision;
+  scene.method = table.text("method", scene.method);
+  if (!collide::find_method(scene.method)) table.fail("method", "must be one of: " + collide::method_keys());
+  const ContactSurfaceInfo* surface =
+      find_contact_surface(table.text("contact_surface", std::string(contact_surfaces[0].key)));
+  if (!surface) table.fail("contact_surface", "must be one of: " + contact_surface_keys());
+  scene.contact_surface = surface->value;
+  c.tolerance = static_cast<float>(table.number("tolerance", c.tolerance, min_length, max_tolerance));
+  c.self_collision = table.boolean("self_collision", c.self_collision);
+  c.levels = table.integer("levels", c.levels, 0, collide::max_levels);
+  c.buckets =
+      static_cast<std::uint32_t>(table.integer("buckets", static_cast<int>(c.buckets), 1, collide::max_buckets));
+  scene.default_cell_size = !table.has("cell_size");
+  c.cell_size = glm::vec3(table.vector("cell_size", glm::dvec3(c.cell_size), min_length, max_length));
+  const glm::dvec3 primes = table.whole_vector("primes", {c.primes[0], c.primes[1], c.primes[2]}, 1,
+                                               std::numeric_limits<std::uint32_t>::max());
+  for (int axis = 0; axis < 3; ++axis) c.primes[std::size_t(axis)] = static_cast<std::uint32_t>(primes[axis]);
+  table.close();
+}
+
+constexpr double farthest = 1e6;  // m, for places
+
+/// What all solids have in common.
+template <class Solid>
+void read_surface(Table& table, Solid& solid) {
+  solid.friction = table.number("friction", solid.friction, 0, 10);
+  solid.restitution = table.number("restitution", solid.restitution, 0, 1);
+  table.close();
+}
+
+constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
+
+/// A direction of any length but zero. Those that are unit stay as they are to the bit, so that saved scenes are equal.
+glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
+  const glm::dvec3 v = table.vector(key, fallback, -farthest, farthest);
+  if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
+  return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
+}
+
+/// A rotation as its matrix, column by column: what saved scenes have, since it is exact.
+glm::dmat3 read_axes(Table table) {
+  const glm::dmat3 axes = table.matrix("axes");
+  table.close();
+  const glm::dmat3 error = glm::transpose(axes) * axes - glm::dmat3(1.0);
+  for (int k = 0; k < 3; ++k)
+    if (glm::length(error[k]) > 1e-9 || glm::determinant(axes) < 0)
+      table.fail("axes", "must be three directions of length 1, each at right angles to the others, right-handed");
+  return axes;
+}
+
+/// The columns of the matrix that turns by `degrees` about `axis`, counter-clockwise seen from its tip (Rodrigues).
+/// Sine and cosine are rounded: quarter turns are exact, and the last digits, in which processors differ, do not show.
+glm::dmat3 read_rotation(Table table) {
+  if (table.has("axes")) return read_axes(std::move(table));
+  const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
+  const double angle = glm::radians(table.number("degrees", 0, -360, 360));
+  table.close();
+  constexpr double digits = 1e12;
+  const double s = std::round(std::sin(angle) * digits) / digits, c = std::round(std::cos(angle) * digits) / digits;
+  glm::dmat3 columns;
+  for (int k = 0; k < 3; ++k) {
+    glm::dvec3 e(0.0);
+    e[k] = 1;
+    columns[k] = c * e + s * glm::cross(axis, e) + (1 - c) * glm::dot(axis, e) * axis;
+  }
+  return columns;
+}
+
+void read_sphere(Table& t, SolidSphere& s) {
+  s.centre = t.vector("centre", s.centre, -farthest, farthest);
+  s.radius = t.number("radius", s.radius, tiny, farthest);
+}
+
+void read_plane(Table& t, SolidPlane& p) {
+  p.point = t.vector("point", p.point, -farthest, farthest);
+  p.normal = read_direction(t, "normal", p.normal);
+}
+
+void read_box(Table& t, SolidBox& b) {
+  b.centre = t.vector("centre", b.centre, -farthest, farthest);
+  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, farthest);
+  b.axes = read_rotation(t.child("rotation"));
+}
+
+void read_capsule(Table& t, SolidCapsule& c) {
+  c.from = t.vector("from", c.from, -farthest, farthest);
+  c.to = t.vector("to", c.to, -farthest, farthest);
+  c.radius = t.number("radius", c.radius, tiny, farthest);
+}
+
+/// The solids of [[key]].
+template <class Solid>
+std::vector<Solid> read_list(Table& root, const std::string& key, void (*read)(Table&, Solid&)) {
+  std::vector<Solid> list;
+  for (Table& t : root.children(key)) {
+    read(t, list.emplace_back());
+    read_surface(t, list.back());
+  }
+  return list;
+}
+
+void read_solids(Table& root, Scene& scene) {
+  scene.spheres = read_list(root, "solid_sphere", read_sphere);
+  scene.planes = read_list(root, "solid_plane", read_plane);
+  scene.boxes = read_list(root, "solid_box", read_box);
+  scene.capsules = read_list(root, "solid_capsule", read_capsule);
+  if (!root.has("ground")) return;
+  Table t = root.child("ground");
+  Ground& ground = scene.ground.emplace();
+  ground.height = t.number("height", ground.height, -farthest, farthest);
+  read_surface(t, ground);
+}
+
+/// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
+/// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
+void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
+                 std::uint64_t& particles) {
+  const glm::dvec3 size = table.whole_vector("size", glm::dvec3(1.0), 1, 1000);
+  const glm::dvec3 spacing = table.vector("spacing", glm::dvec3(1.1), 0, 1e6);
+  const double jitter = table.number("jitter", 0, 0, 1e6);
+  const int nx = int(size.x), ny = int(size.y), nz = int(size.z);
+  const int number = table.integer("number", nx * ny * nz, 1, nx * ny * nz);
+  table.close();
+  particles += std::uint64_t(number) * body.mesh.vertex_count();
+  if (particles > max_particles)
+    owner.fail("lattice", "brings the scene to " + std::to_string(particles) + " particles; at most " +
+                              std::to_string(max_particles) + " are allowed: use fewer bodies or coarser meshes");
+  std::uint64_t state = 1;
+  const auto random = [&state] {  // splitmix64, the same on every platform, to [-1, 1)
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
+    return double(std::int64_t(z ^ (z >> 31))) * 0x1p-63;
+  };
+  for (int i = 0; i < number; ++i) {
+    const glm::dvec3 cell(i % nx - (nx - 1) / 2.0, double(i / (nx * nz)), i / nx % nz - (nz - 1) / 2.0);
+    BodySource copy = body;
+    copy.position += cell * spacing;
+    for (int k = 0; k < 3; ++k) copy.position[k] += jitter * random();
+    bodies.push_back(copy);
+  }
+}
+
+/// Returns the material that the key `preset` names; one with the default values if the table has no such key.
+Material read_preset(Table& table, std::span<const Material> presets) {
+  if (!table.has("preset")) return {};
+  const std::string name = table.text("preset", "");
+  if (presets.empty()) table.fail("preset", "cannot be used here: there are no presets");
+  std::string known;
+  for (const Material& m : presets) {
+    if (m.name == name) return m;
+    known.append(known.empty() ? "" : ", ").append(m.name);
+  }
+  table.fail("preset", "must be one of: " + known);
+}
+
+std::vector<Material> read_materials(Table& root, const std::filesystem::path& presets) {
+  std::vector<Material> materials, known;
+  for (Table& t : root.children("material")) {
+    if (known.empty() && !presets.empty() && t.has("preset")) known = load_presets(presets);
+    Material m = read_material(t, read_preset(t, known));
+    if (std::ranges::count(materials, m.name, &Material::name) > 0)
+      t.fail("name", "'" + m.name + "' is that of an earlier [[material]]; give each its own");
+    materials.push_back(std::move(m));
+  }
+  return materials;
+}
+
+void read_bodies(Table& root, Scene& scene, const std::filesystem::path& presets) {
+  scene.materials = read_materials(root, presets);
+  if (scene.materials.empty()) scene.materials.emplace_back();
+  constexpr int forever = 1'000'000'000;
+  std::uint64_t particles = 0;
+  std::vector<MeshSource> files;
+  for (Table& t : root.children("body")) {
+    BodySource b = read_body(t, scene.materials, files);
+    b.appear = t.integer("appear", 0, 0, forever);
+    b.release = t.integer("release", b.appear, 0, forever);
+    if (b.release < b.appear) t.fail("release", "must not come before appear");
+    add_lattice(t, t.child("lattice"), b, scene.bodies, particles);
+    t.close();
+  }
+  if (!root.has("dropper")) return;
+  Table t = root.child("dropper");
+  scene.dropper.emplace();
+  scene.dropper->body = read_body(t, scene.materials, files);
+  scene.dropper->spread = t.number("spread", scene.dropper->spread, 0, 1e6);
+  t.close();
+}
+
+void read_view(Table& root, Scene& scene) {
+  Table t = root.child("view");
+  scene.view.target = t.vector("target", scene.view.target, -1e6, 1e6);
+  scene.view.distance = t.number("distance", scene.view.distance, tiny, 1e6);
+  scene.view.azimuth = t.number("azimuth", scene.view.azimuth, -360, 360);
+  scene.view.elevation = t.number("elevation", scene.view.elevation, -89, 89);
+  t.close();
+  for (Table& c : root.children("caption")) {
+    scene.captions.push_back({c.integer("frame", 0, 0, 1'000'000'000), c.text("text", "")});
+    c.close();
+  }
+}
+
+Scene read_scene(Table root, const std::filesystem::path& file, const std::filesystem::path& presets) {
+  Scene scene;
+  scene.key = file.stem().string();
+  scene.name = root.text("name", scene.key);
+  scene.look_at = root.text("look_at", "");
+  scene.gravity = root.vector("gravity", scene.gravity, -max_gravity, max_gravity);
+  read_collision(root.child("collision"), scene);
+  read_solids(root, scene);
+  read_bodies(root, scene, presets);
+  Table sleep = root.child("sleep");
+  scene.sleep.speed = sleep.number("speed", scene.sleep.speed, 0, 1e3);
+  scene.sleep.frames = sleep.integer("frames", scene.sleep.frames, 1, 1'000'000);
+  sleep.close();
+  read_view(root, scene);
+  root.close();
+  if (scene.bodies.empty() && !scene.dropper)
+    throw SceneError(file.string() + ": has no body; add a [[body]] or a [dropper]");
+  return scene;
+}
+
+}  // namespace
+
+Scene load_scene(const std::filesystem::path& file, const std::filesystem::path& presets) {
+  const toml::table table = read_toml(file);
+  return read_scene(Table(table, file.string(), ""), file, presets);
+}
+
+std::vector<Material> load_presets(const std::filesystem::path& file) {
+  const toml::table table = read_toml(file);
+  Table root(table, file.string(), "");
+  std::vector<Material> presets = read_materials(root, {});
+  root.close();
+  return presets;
+}
+
+}  // namespace softbody

@@ -1,0 +1,144 @@
+// Writing scene files, in the order in which scene_toml.cpp reads them.
+
+#include "softbody/scene/scene_write.h"
+
+#include <algorithm>
+
+#include "softbody/scene/toml_table.h"
+#include "softbody/scene/toml_text.h"
+
+namespace softbody {
+namespace fs = std::filesystem;
+namespace {
+
+void write_collision(TomlLines& out, const Scene& scene) {
+  const collide::Settings& c = scene.collision;
+  out.heading("[collision]");
+  out.add("method", scene.method);
+  const auto surface = std::ranges::find(contact_surfaces, scene.contact_surface, &ContactSurfaceInfo::value);
+  out.add("contact_surface", surface->key);
+  out.add("tolerance", c.tolerance).add("self_collision", c.self_collision);
+  out.add("levels", c.levels).add("buckets", c.buckets);
+  if (!scene.default_cell_size) out.add("cell_size", c.cell_size);
+  out.add("primes", glm::dvec3(c.primes[0], c.primes[1], c.primes[2]));
+}
+
+TomlInline springs(const SpringLaw& law) {
+  return TomlInline().add("stiffness", law.stiffness).add("damping_ratio", law.damping_ratio);
+}
+
+void write_material(TomlLines& out, const Material& m) {
+  out.heading("[[material]]");
+  out.add("name", m.name).add("mass", m.mass);
+  out.add("structural", springs(m.structural)).add("bend", springs(m.bend)).add("shear", springs(m.shear));
+  out.add("gas_pressure", m.gas_pressure).add("ambient_pressure", m.ambient_pressure);
+  out.add("internal_damping", m.internal_damping).add("rebound_speed", m.rebound_speed);
+  out.add("thickness", m.thickness).add("friction", m.friction).add("restitution", m.restitution);
+  out.add("rolling_resistance", m.rolling_resistance).add("contact_stiffness", m.contact_stiffness);
+  if (m.shape_frequency) out.add("shape_frequency", *m.shape_frequency);
+  out.add("start_in_equilibrium", m.start_in_equilibrium);
+}
+
+template <class Solid>
+void write_surface(TomlLines& out, const Solid& solid) {
+  out.add("friction", solid.friction).add("restitution", solid.restitution);
+}
+
+void write_solids(TomlLines& out, const Scene& scene) {
+  for (const SolidSphere& s : scene.spheres) {
+    out.heading("[[solid_sphere]]").add("centre", s.centre).add("radius", s.radius);
+    write_surface(out, s);
+  }
+  for (const SolidPlane& p : scene.planes) {
+    out.heading("[[solid_plane]]").add("point", p.point).add("normal", p.normal);
+    write_surface(out, p);
+  }
+  for (const SolidBox& b : scene.boxes) {
+    out.heading("[[solid_box]]").add("centre", b.centre).add("size", 2.0 * b.half_size);
+    if (b.axes != glm::dmat3(1.0)) out.add("rotation", TomlInline().add("axes", b.axes));
+    write_surface(out, b);
+  }
+  for (const SolidCapsule& c : scene.capsules) {
+    out.heading("[[solid_capsule]]").add("from", c.from).add("to", c.to).add("radius", c.radius);
+    write_surface(out, c);
+  }
+  if (!scene.ground) return;
+  out.heading("[ground]").add("height", scene.ground->height);
+  write_surface(out, *scene.ground);
+}
+
+/// As seen from the scene file's folder, through whatever links lead to the two.
+std::string relative_path(const fs::path& file, const fs::path& folder) {
+  std::error_code error;
+  const fs::path relative = fs::relative(file, folder.empty() ? fs::path(".") : folder, error);
+  return (error || relative.empty() ? fs::absolute(file) : relative).generic_string();
+}
+
+TomlInline mesh(const MeshSource& m, const fs::path& folder) {
+  TomlInline out;
+  out.add("kind", m.kind);
+  if (m.kind == "icosphere") return out.add("subdivisions", m.subdivisions).add("radius", m.radius);
+  if (m.kind == "grid")
+    return out.add("columns", m.columns).add("rows", m.rows).add("width", m.width).add("depth", m.depth);
+  out.add("path", relative_path(m.file.path, folder));
+  if (m.file.size > 0) out.add("size", m.file.size);
+  return out.add("weld", m.file.weld).add("up", m.file.up);
+}
+
+void write_body(TomlLines& out, const BodySource& b, const Scene& scene, const fs::path& folder) {
+  out.add("mesh", mesh(b.mesh, folder));
+  out.add("material", scene.materials[std::size_t(b.material)].name);
+  out.add("position", b.position);
+  if (b.velocity != glm::dvec3(0.0)) out.add("velocity", b.velocity);
+}
+
+void write_bodies(TomlLines& out, const Scene& scene, const fs::path& folder) {
+  for (const BodySource& b : scene.bodies) {
+    out.heading("[[body]]");
+    write_body(out, b, scene, folder);
+    if (b.appear != 0) out.add("appear", b.appear);
+    if (b.release != b.appear) out.add("release", b.release);
+  }
+  if (!scene.dropper) return;
+  out.heading("[dropper]");
+  write_body(out, scene.dropper->body, scene, folder);
+  out.add("spread", scene.dropper->spread);
+}
+
+void write_view(TomlLines& out, const Scene& scene) {
+  const View& v = scene.view;
+  out.heading("[view]").add("target", v.target).add("distance", v.distance);
+  out.add("azimuth", v.azimuth).add("elevation", v.elevation);
+  for (const Caption& c : scene.captions) out.heading("[[caption]]").add("frame", c.frame).add("text", c.text);
+}
+
+/// Bodies name their material, so names must tell them apart.
+void require_different_names(const Scene& scene) {
+  for (auto m = scene.materials.begin(); m != scene.materials.end(); ++m)
+    if (std::ranges::count(scene.materials, m->name, &Material::name) > 1)
+      throw SceneError("two materials are called '" + m->name + "'; a scene file needs different names");
+}
+
+}  // namespace
+
+std::string scene_toml(const Scene& scene, const fs::path& folder) {
+  if (scene.bodies.empty() && !scene.dropper) throw SceneError("a scene without a body cannot be saved; add one");
+  require_different_names(scene);
+  TomlLines out;
+  out.add("name", scene.name).add("look_at", scene.look_at).add("gravity", scene.gravity);
+  write_collision(out, scene);
+  for (const Material& m : scene.materials) write_material(out, m);
+  write_solids(out, scene);
+  out.heading("[sleep]").add("speed", scene.sleep.speed).add("frames", scene.sleep.frames);
+  write_bodies(out, scene, folder);
+  write_view(out, scene);
+  if (out.text().size() > max_toml_file_size) throw SceneError("the scene has too many bodies for a scene file");
+  try {
+    static_cast<void>(toml::parse(out.text()));  // toml++ knows best what is UTF-8
+  } catch (const toml::parse_error& error) {
+    throw SceneError("a name in the scene cannot be written: " + std::string(error.description()));
+  }
+  return out.text();
+}
+
+}  // namespace softbody

@@ -1,0 +1,60 @@
+#include "softbody/scene/toml_text.h"
+
+#include <array>
+#include <cstdio>
+
+#include "softbody/mesh/shortest_text.h"
+
+namespace softbody {
+namespace {
+
+std::string list(const auto& vector) {
+  std::string text = "[";
+  for (int k = 0; k < 3; ++k) text.append(k > 0 ? ", " : "").append(toml_value(vector[k]));
+  return text + "]";
+}
+
+}  // namespace
+
+std::string toml_value(double value) { return shortest_text(value); }
+std::string toml_value(float value) { return shortest_text(value); }
+std::string toml_value(std::int64_t value) { return shortest_text(value); }
+std::string toml_value(bool value) { return value ? "true" : "false"; }
+std::string toml_value(const glm::dvec3& value) { return list(value); }
+std::string toml_value(const glm::vec3& value) { return list(value); }
+std::string toml_value(const glm::dmat3& value) { return list(value); }
+
+std::string toml_value(std::string_view value) {
+  std::string text = "\"";
+  for (const char c : value) {
+    std::array<char, 8> code;
+    if (c == '"' || c == '\\') {
+      text.append(1, '\\').append(1, c);
+    } else if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') {
+      std::snprintf(code.data(), code.size(), "\\u%04X", static_cast<unsigned>(c));
+      text += code.data();
+    } else {
+      text += c;
+    }
+  }
+  return text + '"';
+}
+
+TomlLines& TomlLines::put(std::string_view key, const std::string& value) {
+  text_.append(key).append(" = ").append(value).append(1, '\n');
+  return *this;
+}
+
+TomlLines& TomlLines::add(std::string_view key, const TomlInline& table) { return put(key, table.text()); }
+
+TomlLines& TomlLines::heading(std::string_view text) {
+  text_.append(text_.empty() ? "" : "\n").append(text).append(1, '\n');
+  return *this;
+}
+
+TomlInline& TomlInline::put(std::string_view key, const std::string& value) {
+  text_.append(text_.empty() ? "" : ", ").append(key).append(" = ").append(value);
+  return *this;
+}
+
+}  // namespace softbody

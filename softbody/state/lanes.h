@@ -1,0 +1,108 @@
+#pragma once
+// Eight bodies of one prototype are solved side by side, one a SIMD lane: value [particle * lanes + lane]. Or one by
+// itself: value [particle]. The same source serves both widths and, by compiler vectors, every instruction set, and
+// gives the same bits on each.
+
+#include <cmath>
+#include <cstring>
+#include <new>
+#include <type_traits>
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "softbody/state/isa.h"
+
+namespace softbody {
+
+inline constexpr int one_lane = 1;  // the width of what is solved by itself
+
+/// Inlined everywhere, so that it is compiled for the instruction set of its caller.
+#define SB_INLINE [[gnu::always_inline]] inline
+
+/// Eight doubles as two vectors that registers hold: a wider one compilers keep in memory, several times as slow.
+struct DoubleLane {
+  typedef double Half __attribute__((vector_size(4 * sizeof(double))));
+  Half lo, hi;
+
+  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, const DoubleLane& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, const DoubleLane& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  SB_INLINE friend DoubleLane operator*(const DoubleLane& a, const DoubleLane& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, const DoubleLane& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, double b) { return {a.lo + b, a.hi + b}; }
+  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, double b) { return {a.lo - b, a.hi - b}; }
+  SB_INLINE friend DoubleLane operator*(double a, const DoubleLane& b) { return {a * b.lo, a * b.hi}; }
+  SB_INLINE friend DoubleLane operator/(double a, const DoubleLane& b) { return {a / b.lo, a / b.hi}; }
+  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, double b) { return {a.lo / b, a.hi / b}; }
+  SB_INLINE DoubleLane& operator+=(const DoubleLane& b) { return *this = *this + b; }
+  SB_INLINE DoubleLane& operator-=(const DoubleLane& b) { return *this = *this - b; }
+};
+
+template <class Real, int width>
+struct LaneOf;
+template <class Real>
+struct LaneOf<Real, one_lane> {
+  using Vector = Real;
+};
+template <>
+struct LaneOf<float, lanes> {
+  typedef float Vector __attribute__((vector_size(lanes * sizeof(float))));
+};
+template <>
+struct LaneOf<double, lanes> {
+  using Vector = DoubleLane;
+};
+/// One value a body, of `width` bodies.
+template <class Real, int width>
+using Lane = typename LaneOf<Real, width>::Vector;
+
+/// Storage that starts on a cache line.
+template <class T>
+struct CacheLineAllocator {
+  using value_type = T;
+  static constexpr std::align_val_t line{64};
+  CacheLineAllocator() = default;
+  template <class U>
+  explicit CacheLineAllocator(const CacheLineAllocator<U>&) {}
+  T* allocate(std::size_t n) { return static_cast<T*>(::operator new(n * sizeof(T), line)); }
+  void deallocate(T* p, std::size_t) { ::operator delete(p, line); }
+  bool operator==(const CacheLineAllocator&) const = default;
+};
+template <class Real>
+using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
+
+/// A field of vectors over the particles of eight bodies: component k of particle i of lane l stands at
+/// (k * particles + i) * lanes + l.
+using Lanes = LaneArray<double>;
+
+// The vector `at` particle * lanes + lane.
+inline glm::dvec3 read(const Lanes& field, std::size_t at) {
+  const std::size_t stride = field.size() / 3;
+  return {field[at], field[at + stride], field[at + 2 * stride]};
+}
+inline void write(Lanes& field, std::size_t at, const glm::dvec3& value) {
+  const std::size_t stride = field.size() / 3;
+  field[at] = value.x, field[at + stride] = value.y, field[at + 2 * stride] = value.z;
+}
+inline void add(Lanes& field, std::size_t at, const glm::dvec3& more) {
+  const std::size_t stride = field.size() / 3;
+  field[at] += more.x, field[at + stride] += more.y, field[at + 2 * stride] += more.z;
+}
+
+/// One lane of a field, by its particles.
+struct LaneView {
+  const Lanes& field;
+  std::size_t lane;
+  glm::dvec3 operator()(std::size_t particle) const { return read(field, particle * lanes + lane); }
+};
+
+/// Three components of a field over the particles of one batch.
+template <class Real>
+struct Field {
+  Real *x, *y, *z;
+  operator Field<const Real>() const requires(!std::is_const_v<Real>) { return {x, y, z}; }
+};
+
+inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
+
+}  // namespace softbody

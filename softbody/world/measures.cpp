@@ -1,0 +1,139 @@
+#include "softbody/world/measures.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/forces/deformation.h"
+#include "softbody/model/prototype.h"
+#include "softbody/scene/solids.h"
+
+namespace softbody {
+namespace {
+
+/// Of a body with its particles at x: what it is bent, stretched and blown up by.
+Energy deformation(const Prototype& p, const std::vector<glm::dvec3>& x, double volume) {
+  Energy energy;
+  energy.elastic = elastic_energy(p, x);
+  if (p.has_gas) energy.gas = p.gas.energy(volume);
+  return energy;
+}
+
+double volume_of(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  return p.mesh.closed ? enclosed_volume(p, x) : 0;
+}
+
+double largest_strain(const Prototype& p, const std::vector<glm::dvec3>& x) {
+  double most = 0;
+  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
+    for (const Spring& s : *springs)
+      if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
+  return most;
+}
+
+/// BodyMeasures::staggering, of a body whose deformation holds so many J now.
+double staggering(const World& world, BodyId id, double substep, double deformation_now) {
+  const Prototype& p = world.prototype(id);
+  std::vector<glm::dvec3> middle, before;  // of the last substep
+  double sum = 0;
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
+    const Particle q = world.particle(id, i);
+    middle.push_back(q.position - substep / 2 * q.velocity);
+    before.push_back(q.position - substep * q.velocity);
+    sum += p.particle_mass * glm::dot(world.scene().gravity, substep / 2 * q.velocity);
+  }
+  const auto at = [&](const std::vector<glm::dvec3>& x) { return deformation(p, x, volume_of(p, x)).deformation(); };
+  return sum + 2 * at(middle) - (deformation_now + at(before)) / 2 - deformation_now;
+}
+
+}  // namespace
+
+Energy& Energy::operator+=(const Energy& other) {
+  kinetic += other.kinetic;
+  elastic += other.elastic;
+  gas += other.gas;
+  gravity += other.gravity;
+  return *this;
+}
+
+BodyMeasures measure(const World& world, BodyId id, double substep) {
+  const Prototype& p = world.prototype(id);
+  const Scene& scene = world.scene();
+  BodyMeasures m;
+  double kinetic = 0, gravity = 0;
+  std::vector<glm::dvec3> x;
+  x.reserve(p.mesh.vertices.size());
+  for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
+    const Particle q = world.particle(id, i);
+    x.push_back(q.position);
+    const double speed2 = glm::dot(q.velocity, q.velocity);
+    m.finite = m.finite && std::isfinite(speed2) && std::isfinite(glm::dot(q.position, q.position));
+    kinetic += 0.5 * p.particle_mass * speed2;
+    gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
+    m.momentum += p.particle_mass * q.velocity;
+    m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
+    m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
+  }
+  const double volume = volume_of(p, x);
+  m.energy = deformation(p, x, volume);
+  m.largest_strain = largest_strain(p, x);
+  if (substep > 0) m.staggering = staggering(world, id, substep, m.energy.deformation());
+  m.energy.kinetic = kinetic;
+  m.energy.gravity = gravity;
+  m.closed = p.mesh.closed;
+  if (m.closed) m.volume_ratio = volume / p.start_volume;
+  return m;
+}
+
+Energy starting_energy(const Prototype& p) { return deformation(p, p.start, p.start_volume); }
+
+SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
+  SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
+  for_each_solid(scene, [&](const auto& solid) {
+    const SolidSurface s = surface_at(solid, point);
+    if (-s.distance > deepest.depth) deepest = {glm::vec3(s.normal), -s.distance};
+  });
+  return deepest;
+}
+
+Measures total(std::span<const BodyMeasures> bodies) {
+  Measures m;
+  for (const BodyMeasures& b : bodies) {
+    m.energies += b.energy;
+    m.momentum += b.momentum;
+    m.largest_strain = std::max(m.largest_strain, b.largest_strain);
+    m.deepest_penetration = std::max(m.deepest_penetration, b.deepest_penetration);
+    m.max_speed = std::max(m.max_speed, b.max_speed);
+    m.finite = m.finite && b.finite;
+    if (!b.closed) continue;
+    m.volume_ratio_min = m.has_volume ? std::min(m.volume_ratio_min, b.volume_ratio) : b.volume_ratio;
+    m.volume_ratio_max = m.has_volume ? std::max(m.volume_ratio_max, b.volume_ratio) : b.volume_ratio;
+    m.has_volume = true;
+  }
+  m.energy = m.energies.total();
+  return m;
+}
+
+std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
+  std::vector<BodyMeasures> list;
+  for (BodyId id = 0; id < world.bodies().count(); ++id) list.push_back(measure(world, id, substep));
+  return list;
+}
+
+std::vector<SolidContact> solid_contacts(const World& world) {
+  constexpr double rounding = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding
+  std::vector<SolidContact> contacts;
+  const collide::Frame p = world.positions();
+  for (Index i = 0; i < p.x.size(); ++i) {
+    const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
+    const double distance = world.prototype(world.vertex_body()[i]).material.thickness + rounding;
+    if (d.depth > -distance) contacts.push_back({i, d.normal});
+  }
+  return contacts;
+}
+
+Measures measure(const World& world) { return total(measure_bodies(world)); }
+
+}  // namespace softbody

@@ -1,0 +1,34 @@
+#pragma once
+// Prototypes that bodies share.
+
+#include "softbody/model/prototype.h"
+#include "softbody/scene/scene.h"
+
+namespace softbody {
+
+/// Returns the prototype of a mesh and a material: the one that is in use somewhere, since an equilibrium may take long
+/// to find, or a new one. If one in use has a material of another name but the same values, it is a copy of that.
+/// Throws SceneError as make_prototype() does. May be called on any thread.
+std::shared_ptr<const Prototype> shared_prototype(const MeshSource& mesh, const Material& material);
+
+/// One prototype for each different pair of mesh and material among a scene's bodies, its dropper and added bodies.
+class PrototypeSet {
+ public:
+  /// Throws SceneError as make_prototype() does.
+  explicit PrototypeSet(const Scene& scene);
+  /// Returns the prototype of a source, and makes it if there is none yet. Throws SceneError as make_prototype() does.
+  const std::shared_ptr<const Prototype>& add(const BodySource& source, const std::vector<Material>& materials);
+  /// Replaces the material of all prototypes of material number `index`: see with_material().
+  void set_material(int index, const Material& material);
+  /// `source`: one of those added.
+  const std::shared_ptr<const Prototype>& of(const BodySource& source) const { return all_[index(source)]; }
+  const std::vector<std::shared_ptr<const Prototype>>& all() const { return all_; }
+
+ private:
+  std::size_t index(const BodySource& source) const;
+
+  std::vector<BodySource> keys_;
+  std::vector<std::shared_ptr<const Prototype>> all_;
+};
+
+}  // namespace softbody

@@ -1,0 +1,302 @@
+#include <algorithm>
+#include <cassert>
+#include <chrono>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include "softbody/world/measures.h"
+#include "softbody/world/world_state.h"
+
+namespace softbody {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+/// The default cell size is that of the bodies at rest, whatever they look like later.
+glm::vec3 rest_cell_size(const PrototypeSet& prototypes, const collide::Settings& settings) {
+  collide::Bodies bodies;
+  Coordinates rest;
+  for (const auto& p : prototypes.all()) {
+    bodies.add(p->shape);
+    for (const glm::dvec3& v : p->start) rest.add(glm::vec3(v));
+  }
+  return collide::default_cell_size(rest.frame(bodies), settings.levels, settings.tolerance);
+}
+
+}  // namespace
+
+World::State::State(Scene s, const Options& o)
+    : scene(std::move(s)),
+      options(o),
+      workers(o.threads),
+      prototypes(scene),
+      plan(make_plan(scene, prototypes.all())),
+      dynamics(scene, workers, o.isa),
+      sleep(scene.sleep),
+      arrived(scene.bodies.size(), false),
+      method(collide::find_method(scene.method)),
+      detector(method->make()),
+      settings(scene.collision),
+      shield(settings.tolerance) {
+  dynamics.set_least_shared(options.min_shared_particles);
+  dynamics.set_max_work(options.max_work);
+  dynamics.set_vertices(bodies);
+  dynamics.set_plan(plan);
+  check_stability(prototypes, plan);
+  set_integrator();
+  if (scene.default_cell_size) settings.cell_size = rest_cell_size(prototypes, settings);
+  arrive();
+  gather();
+  detect();
+}
+
+/// Those that a frame of a moving body needs if the shield is so thick (m).
+double World::State::substeps(const Prototype& p, float thickness) const {
+  double most_friction = 0;
+  for (const Material& m : scene.materials) most_friction = std::max(most_friction, m.friction);
+  const auto contact = float(p.material.contact_stiffness);
+  const auto friction = float(std::sqrt(p.material.friction * most_friction));
+  const double k =
+      stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
+  const double own = p.spring_damping_bound, all = own + Shield::damping_bound(contact, friction, thickness);
+  const auto stable_step = options.integrator.integrator().stable_step;
+  return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
+}
+
+/// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
+bool World::State::implicit_in_reserve(const PrototypeSet& all, const Plan& with) const {
+  return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
+         std::all_of(all.all().begin(), all.all().end(),
+                     [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
+}
+
+/// As the options have it, whatever becomes of it.
+void World::State::set_integrator() {
+  report.integrator = &options.integrator.integrator();
+  report.why = {};
+  dynamics.set_integrator(*report.integrator);
+  dynamics.set_substeps(options.integrator.substeps);
+}
+
+/// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.
+void World::State::check_stability(const PrototypeSet& all, const Plan& with) const {
+  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
+  for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
+}
+
+void World::State::check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const {
+  const auto particles = p.mesh.vertices.size();
+  if (options.integrator.integrator().implicit && particles > max_implicit_particles)
+    throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
+                     " vertices has too large a matrix for implicit steps (at most " +
+                     std::to_string(max_implicit_particles) + " vertices); choose another integrator");
+  if (options.integrator.substeps) return;
+  const double steps = substeps(p, contacts ? shield : 0);
+  if (steps <= max_substeps) return;
+  const bool wide = contacts && substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
+  if (!wide && implicit_in_reserve) return;
+  std::ostringstream text;
+  text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
+  if (wide)
+    text << "a tolerance of " << shield << " m damps contacts so strongly";
+  else
+    text << "so stiff for its mass";
+  text << " that a frame would take " << std::llround(std::min(steps, 1e15)) << " substeps (at most " << max_substeps
+       << "); lower the " << (wide ? "tolerance" : "stiffness or raise the mass");
+  throw SceneError(text.str());
+}
+
+BodyId World::State::add(const BodySource& source, const glm::dvec3& position) {
+  const auto& prototype = prototypes.of(source);
+  const BodyId id = dynamics.add(prototype, position, source.velocity);
+  bodies.add(prototype->shape);
+  vertex_body.resize(bodies.vertex_count(), id);
+  return id;
+}
+
+void World::State::arrive() {
+  for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
+    const BodySource& source = scene.bodies[i];
+    if (arrived[i] || source.appear > frame) continue;
+    arrived[i] = true;
+    add(source, source.position);
+    if (source.release > frame) dynamics.hold(bodies.count() - 1, true, source.release);
+  }
+  for (BodyId b = 0; b < bodies.count(); ++b)
+    if (dynamics.body(b).held && dynamics.body(b).release <= frame) dynamics.hold(b, false, 0);
+}
+
+void World::State::gather() {
+  const std::size_t n = bodies.vertex_count();
+  positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
+  dynamics.world_positions(positions.x, positions.y, positions.z);
+}
+
+void World::State::detect() {
+  const auto start = Clock::now();
+  if (plan.has(Stage::detect))
+    detector->detect(positions.frame(bodies), settings, workers, result);
+  else
+    result = {};
+  report.detect_ms = ms_since(start);
+}
+
+void World::State::wake_all() {
+  for (BodyId b = 0; b < bodies.count(); ++b)
+    if (dynamics.body(b).asleep) dynamics.put_to_sleep(b, false);
+}
+
+World::World(Scene scene, const Options& options) : state_(new State(std::move(scene), options)) {}
+void World::DeleteState::operator()(State* state) const { delete state; }
+
+void World::step(const std::function<void()>& after_substep) {
+  State& s = *state_;
+  const auto start = Clock::now();
+  if (s.plan.has(Stage::arrive)) s.arrive();
+  if (const auto& grab = grabbed()) s.dynamics.put_to_sleep(grab->body, false);  // nor does it fall asleep meanwhile
+  ++s.frame;
+  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
+  const float thickness = s.shield;
+  if (s.plan.has(Stage::contact_response)) {
+    s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
+    s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+  }
+  double looking_ms = 0;
+  const auto look = [&] {
+    const auto from = Clock::now();
+    s.gather();
+    after_substep();
+    looking_ms += ms_since(from);
+  };
+  const Advance done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
+  s.dynamics.finish_frame(done.seconds);
+  s.report.time += done.seconds;
+  s.report.seconds = done.seconds;
+  s.report.substeps = done.substeps;
+  s.report.last_substep = s.dynamics.last_substep();
+  s.report.integrator = &s.dynamics.used_integrator();
+  s.report.why = s.dynamics.why_integrator();
+  s.report.adds_energy = s.dynamics.surface_contact().gives_energy();
+  const bool whole = done.seconds == s.options.frame_time;
+  if (!whole) s.shield = std::min(s.shield, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
+  s.gather();
+  s.report.solve_ms = ms_since(start) - looking_ms;
+  s.detect();
+  const bool shield_grows =
+      s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
+  if (s.plan.has(Stage::sleep) && whole && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  s.report.total_ms = ms_since(start) - looking_ms;
+}
+
+void World::set_particles(BodyId body, std::span<const Particle> particles) {
+  State& s = *state_;
+  assert(particles.size() == s.bodies.size(body));
+  s.dynamics.set_particles(body, particles);
+  s.wake_all();
+  s.gather();
+  s.detect();
+}
+
+const Scene& World::scene() const { return state_->scene; }
+int World::frame() const { return state_->frame; }
+double World::frame_time() const { return state_->options.frame_time; }
+const Plan& World::plan() const { return state_->plan; }
+const collide::Settings& World::collision() const { return state_->settings; }
+const collide::Method& World::method() const { return *state_->method; }
+
+void World::set_method(std::string_view key) {
+  State& s = *state_;
+  const collide::Method* found = collide::find_method(key);
+  assert(found);
+  s.method = found;
+  s.detector = s.method->make();
+  s.wake_all();
+  s.detect();
+}
+
+void World::set_integrator(const IntegratorChoice& choice) {
+  State& s = *state_;
+  const IntegratorChoice before = s.options.integrator;
+  s.options.integrator = choice;
+  try {
+    s.check_stability(s.prototypes, s.plan);
+  } catch (const SceneError&) {
+    s.options.integrator = before;
+    throw;
+  }
+  s.set_integrator();
+  s.wake_all();
+}
+
+const IntegratorChoice& World::integrator_choice() const { return state_->options.integrator; }
+
+void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
+  State& s = *state_;
+  assert(collide::problem(settings).empty());
+  s.settings = s.scene.collision = settings;
+  s.scene.default_cell_size = default_cell_size;
+  s.replan();  // self-collision decides whether a lone body needs detection
+  if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
+  s.wake_all();
+  s.detect();
+}
+
+void World::set_contact_surface(ContactSurface surface) {
+  State& s = *state_;
+  const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
+  s.replan();
+  try {  // for surfaces there are no implicit steps in reserve
+    s.check_stability(s.prototypes, s.plan);
+  } catch (const SceneError&) {
+    s.scene.contact_surface = before;
+    s.replan();
+    throw;
+  }
+  // Surfaces come closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
+  if (surface == ContactSurface::surfaces && s.frame > 0) s.shield = 0;
+  s.wake_all();
+}
+
+const collide::Bodies& World::bodies() const { return state_->bodies; }
+collide::Frame World::positions() const { return state_->positions.frame(state_->bodies); }
+const Prototype& World::prototype(BodyId body) const { return state_->dynamics.prototype(body); }
+Particle World::particle(BodyId body, Index vertex) const { return state_->dynamics.particle(body, vertex); }
+const collide::Result& World::detection() const { return state_->result; }
+const collide::Detector& World::detector() const { return *state_->detector; }
+std::span<const BodyId> World::vertex_body() const { return state_->vertex_body; }
+int World::needed_substeps() const { return state_->dynamics.substeps(state_->options.frame_time); }
+std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
+const StepReport& World::last_step() const { return state_->report; }
+
+BodyState World::body(BodyId body) const {
+  const Dynamics& dynamics = state_->dynamics;
+  const Body& b = dynamics.body(body);
+  return {b.number, b.origin, b.held, b.asleep, dynamics.solid_impulse(body)};
+}
+
+PairEnergies World::pair_energies() const {
+  const State& s = *state_;
+  PairEnergies energies{.last = s.dynamics.shield_energies(), .next = {}};
+  if (s.plan.has(Stage::contact_response))
+    energies.next = s.dynamics.shield_energies({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+  return energies;
+}
+
+std::vector<SurfaceContactPoint> World::surface_contacts() const {
+  return state_->dynamics.surface_contact().touches(state_->bodies);
+}
+
+bool World::all_at_rest() const {
+  const State& s = *state_;
+  if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
+  for (BodyId b = 0; b < s.bodies.count(); ++b)
+    if (!s.dynamics.body(b).asleep) return false;
+  return true;
+}
+
+}  // namespace softbody

@@ -1,0 +1,234 @@
+// World: what is changed by hand, between frames.
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vector_relational.hpp>
+
+#include "softbody/mesh/limits.h"
+#include "softbody/world/measures.h"
+#include "softbody/world/world_state.h"
+
+namespace softbody {
+
+void World::State::replan() {
+  plan = make_plan(scene, prototypes.all(), visitors);
+  dynamics.set_plan(plan);
+}
+
+/// For so many more bodies.
+void World::State::check_room(const Prototype& p, std::size_t number) const {
+  const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
+  if (particles <= max_particles) return;
+  throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
+                   " more bodies: " + std::to_string(particles) + " particles (at most " +
+                   std::to_string(max_particles) + "); take bodies out first");
+}
+
+/// Throws SceneError if so many more must not come: two bodies touch, and for their surfaces a stiff one has no
+/// implicit steps in reserve, which alone it had.
+void World::State::check_company(const PrototypeSet& all, std::size_t number) const {
+  Visitors more = visitors;
+  more.bodies += number;
+  check_stability(all, make_plan(scene, all.all(), more));
+}
+
+void World::State::joined(std::size_t number) {
+  visitors.bodies += number;
+  replan();
+  gather();
+  detect();
+}
+
+/// The height at which a body dropped at `position` is clear of all others.
+double World::State::clear_height(const Prototype& p, const glm::dvec3& position) const {
+  double height = position.y;
+  const double clear = 1.3 * p.radius + settings.tolerance;
+  for (Index i = 0; i < bodies.vertex_count(); ++i)
+    if (glm::length(glm::dvec2(positions.x[i] - position.x, positions.z[i] - position.z)) < clear)
+      height = std::max(height, positions.y[i] + clear);
+  return height;
+}
+
+void World::State::drop(const Dropper& dropper) {
+  // Each drop turns by the golden angle, so that no two fall alike.
+  const double distance = dropper.spread * std::sqrt((drops++ % 16 + 0.5) / 16);
+  const auto [c, n] = drop_direction;
+  drop_direction = {-0.7373688780783197 * c - 0.6754902942615238 * n, 0.6754902942615238 * c - 0.7373688780783197 * n};
+  BodySource source = dropper.body;
+  source.position += distance * glm::dvec3(c, 0, n);
+  source.position.y = clear_height(*prototypes.of(source), source.position);
+  spawn(std::move(source));
+  gather();
+}
+
+BodyId World::State::spawn(BodySource source) {
+  source.appear = frame;
+  source.release = frame;
+  const BodyId id = add(source, source.position);
+  added.push_back({id, std::move(source)});
+  return id;
+}
+
+Dropper World::State::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
+
+/// Whether a new body at `position` would be outside all solids, and no vertex of another within its box.
+bool World::State::is_clear(const Prototype& p, const glm::dvec3& position) const {
+  glm::dvec3 lo = p.start.front(), hi = lo;
+  for (const glm::dvec3& v : p.start) {
+    if (solid_depth(scene, position + v).depth > -p.material.thickness) return false;
+    lo = glm::min(lo, v), hi = glm::max(hi, v);
+  }
+  const glm::vec3 low(position + lo - double(settings.tolerance)), high(position + hi + double(settings.tolerance));
+  for (Index i = 0; i < bodies.vertex_count(); ++i) {
+    const glm::vec3 v(positions.x[i], positions.y[i], positions.z[i]);
+    if (glm::all(glm::lessThan(low, v)) && glm::all(glm::lessThan(v, high))) return false;
+  }
+  return true;
+}
+
+std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3& velocity) {
+  State& s = *state_;
+  BodySource source = s.dropper().body;
+  const Prototype& p = *s.prototypes.of(source);
+  const double pace = std::min(p.radius, 0.5);  // m
+  constexpr int most_paces = 20;
+  assert(velocity != glm::dvec3(0.0));
+  const glm::dvec3 gravity = s.scene.gravity;
+  for (int i = 2; i < most_paces; ++i) {
+    const double time = i * pace / glm::length(velocity);
+    source.position = from + time * velocity + 0.5 * time * time * gravity;
+    source.velocity = velocity + time * gravity;
+    if (s.is_clear(p, source.position)) return add(source);
+  }
+  return std::nullopt;
+}
+
+const std::vector<AddedBody>& World::added() const { return state_->added; }
+
+std::vector<BodySource> body_sources(const World& world) {
+  const std::vector<AddedBody>& added = world.added();
+  const auto first_late = std::ranges::find_if(added, [](const AddedBody& one) { return one.source.appear > 0; });
+  std::vector<BodySource> all;
+  auto late = first_late;
+  for (const BodySource& body : world.scene().bodies) {
+    // Between two steps, so before those of the scene that come in the next one.
+    for (; late != added.end() && late->source.appear <= body.appear; ++late) all.push_back(late->source);
+    all.push_back(body);
+  }
+  for (auto one = added.begin(); one != first_late; ++one) all.push_back(one->source);
+  for (; late != added.end(); ++late) all.push_back(late->source);
+  return all;
+}
+
+BodyId World::drop(int count) {
+  State& s = *state_;
+  s.check_company(s.prototypes, std::size_t(count));
+  Dropper dropper = s.dropper();
+  s.check_room(*s.prototypes.of(dropper.body), std::size_t(count));
+  // Many would pile up to a tower: they fall side by side.
+  if (count > 1) dropper.spread = std::max(dropper.spread, 4 * s.prototypes.of(dropper.body)->radius);
+  for (int i = 0; i < count; ++i) s.drop(dropper);
+  s.joined(std::size_t(count));
+  return s.bodies.count() - 1;
+}
+
+BodyId World::add(const BodySource& source) {
+  State& s = *state_;
+  PrototypeSet more = s.prototypes;
+  s.check_room(*more.add(source, s.scene.materials), 1);
+  s.check_company(more, 1);
+  s.prototypes = std::move(more);
+  const BodyId id = s.spawn(source);
+  s.joined(1);
+  return id;
+}
+
+/// What touches the body may lean on it, whether a detector sees it or not.
+void World::State::wake_near(BodyId body) {
+  const auto box = [&](BodyId b) {
+    const Index first = bodies.first[b];
+    glm::vec3 lo(positions.x[first], positions.y[first], positions.z[first]), hi = lo;
+    for (Index i = first; i < bodies.first[b + 1]; ++i) {
+      const glm::vec3 p(positions.x[i], positions.y[i], positions.z[i]);
+      lo = glm::min(lo, p), hi = glm::max(hi, p);
+    }
+    return std::pair(lo, hi);
+  };
+  const float reach = std::max(settings.tolerance, 0.25f * float(dynamics.prototype(body).mean_edge));
+  const auto [lo, hi] = box(body);
+  for (BodyId b = 0; b < bodies.count(); ++b) {
+    if (!dynamics.body(b).asleep) continue;
+    const auto [low, high] = box(b);
+    if (glm::all(glm::lessThan(low, hi + reach)) && glm::all(glm::lessThan(lo, high + reach)))
+      dynamics.put_to_sleep(b, false);
+  }
+}
+
+void World::remove(BodyId body) {
+  State& s = *state_;
+  s.wake_near(body);
+  s.dynamics.remove(body);
+  std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
+  for (AddedBody& one : s.added) one.body -= one.body > body;
+  s.count_vertices();
+  s.visitors.grabs = s.dynamics.grabbed().has_value();
+  s.replan();
+  s.gather();
+  s.detector->forget();
+  s.detect();
+}
+
+void World::grab(const std::optional<Grab>& grab) {
+  State& s = *state_;
+  assert(!grab || grab->body < s.bodies.count());
+  if (grab) s.dynamics.hold(grab->body, false, 0);
+  s.dynamics.grab(grab);
+  s.visitors.grabs = grab.has_value();
+  s.replan();
+}
+
+const std::optional<Grab>& World::grabbed() const { return state_->dynamics.grabbed(); }
+
+void World::set_gravity(const glm::dvec3& gravity) {
+  state_->scene.gravity = gravity;
+  state_->replan();
+  state_->wake_all();
+}
+
+void World::set_material(std::size_t index, const Material& material) {
+  State& s = *state_;
+  assert(index <= s.scene.materials.size());
+  if (index == s.scene.materials.size()) {
+    s.scene.materials.push_back(material);
+    return;
+  }
+  PrototypeSet changed = s.prototypes;
+  changed.set_material(int(index), material);
+  s.check_stability(changed, s.plan);
+  for (std::size_t i = 0; i < changed.all().size(); ++i) {
+    const auto &from = s.prototypes.all()[i], &to = changed.all()[i];
+    if (from != to) s.dynamics.replace(from, to);
+  }
+  s.prototypes = std::move(changed);
+  s.scene.materials[index] = material;
+  s.replan();
+  s.wake_all();
+}
+
+void World::set_solids(const Scene& from) {
+  Scene& to = state_->scene;
+  to.spheres = from.spheres;
+  to.planes = from.planes;
+  to.boxes = from.boxes;
+  to.capsules = from.capsules;
+  to.ground = from.ground;
+  state_->replan();
+  state_->wake_all();
+}
+
+}  // namespace softbody
