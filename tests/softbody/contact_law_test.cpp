@@ -1,0 +1,127 @@
+// The law of contact by itself, by closed forms: for a float, a double and all lanes alike.
+
+#include "softbody/contact/law.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <vector>
+
+namespace softbody::test {
+namespace {
+
+using body::Vec;
+using V = Lane<float, lanes>;
+
+constexpr double h = 1.0 / 1024;  // s; a power of two, so that a length over it is exact
+
+/// From far outside to deep inside.
+const std::vector<double> gaps{10, 1, 0.5, 1e-3, 1e-9, 0, -1e-9, -1e-4, -1e-3, -0.009, -0.011, -0.5, -10};
+
+TEST(ContactLaw, LetsAGapCloseButNoFurther) {
+  for (const double gap : gaps)
+    if (gap > 0) {
+      EXPECT_EQ(law::least_move(gap, h), -gap);
+      EXPECT_EQ(law::least_speed(gap, 1 / h), -gap / h);
+    }
+}
+
+TEST(ContactLaw, PushesOutAShareOfTheDepthAtABoundedSpeed) {
+  for (const double gap : gaps)
+    if (gap <= 0) {
+      EXPECT_DOUBLE_EQ(law::least_move(gap, h), std::min(-gap / 10, h));
+      EXPECT_DOUBLE_EQ(law::least_speed(gap, 1 / h), std::min(-gap / (10 * h), 1.0));
+    }
+}
+
+TEST(ContactLaw, AsksForMoreTheSmallerTheGap) {
+  for (std::size_t i = 1; i < gaps.size(); ++i) {
+    EXPECT_LE(law::least_move(gaps[i - 1], h), law::least_move(gaps[i], h)) << gaps[i];
+    EXPECT_LE(law::least_speed(gaps[i - 1], 1 / h), law::least_speed(gaps[i], 1 / h)) << gaps[i];
+  }
+}
+
+TEST(ContactLaw, AsksForTheSameAsLengthAndAsSpeed) {
+  for (const double length : {1e-5, 1e-3, 1.0 / 60})
+    for (const double gap : gaps)
+      EXPECT_DOUBLE_EQ(law::least_move(gap, length) / length, law::least_speed(gap, 1 / length));
+}
+
+TEST(ContactLaw, ThrowsBackImpactsOnly) {
+  constexpr double none = -std::numeric_limits<double>::infinity();
+  for (const double e : {0.1, 0.5, 1.0}) {
+    for (const double approach : {-5.0, 0.0, 0.1, law::impact_speed}) EXPECT_EQ(law::rebound(approach, e), none);
+    for (const double approach : {std::nextafter(law::impact_speed, 1.0), 2.0, 300.0})
+      EXPECT_EQ(law::rebound(approach, e), e * approach);
+  }
+  EXPECT_EQ(law::rebound(5.0, 0.0), none) << "nothing is asked for without restitution";
+}
+
+TEST(ContactLaw, LimitsFrictionToTheCone) {
+  const std::vector<glm::dvec3> drags{{0, 0, 0}, {3, 0, -4}, {1e-9, 2e-9, 0}, {-7e5, 1e3, 12}, {0, 1e-30, 0}};
+  for (const glm::dvec3& drag : drags)
+    for (const double limit : {0.0, 1e-12, 0.5, 4.999, 5.0, 1e9}) {
+      const glm::dvec3 held = law::within_cone(drag, limit);
+      EXPECT_LE(glm::length(held), limit * (1 + 1e-15));
+      EXPECT_LE(glm::length(glm::cross(held, drag)), 1e-15 * glm::dot(drag, drag)) << "along it";
+      EXPECT_GE(glm::dot(held, drag), 0) << "and not against it";
+      if (glm::length(drag) <= limit)
+        EXPECT_EQ(held, drag) << "it sticks";
+      else
+        EXPECT_NEAR(glm::length(held), limit, 1e-15 * limit) << "it slides";
+    }
+}
+
+TEST(ContactLaw, MixesTheMaterialsOfBothSides) {
+  EXPECT_EQ(law::common_friction(0.5, 0.5), 0.5);
+  EXPECT_EQ(law::common_friction(0.25, 1.0), 0.5);
+  EXPECT_EQ(law::common_friction(0.7, 0.0), 0) << "smooth on one side is smooth";
+  EXPECT_EQ(law::common_friction(0.2f, 0.9f), law::common_friction(0.9f, 0.2f));
+  EXPECT_EQ(law::common_restitution(0.2, 0.9), 0.9);
+  EXPECT_EQ(law::common_restitution(0.9, 0.2), 0.9);
+}
+
+template <class F>
+std::array<float, lanes> each(const F& lane) {
+  std::array<float, lanes> all{};
+  for (int l = 0; l < lanes; ++l) all[std::size_t(l)] = lane(l);
+  return all;
+}
+
+SB_INLINE V load(const std::array<float, lanes>& from) {
+  V to;
+  std::memcpy(&to, from.data(), sizeof to);
+  return to;
+}
+
+TEST(ContactLaw, IsTheSameInFloatLanesAndDouble) {
+  constexpr float step = 0.003f, e = 0.7f;
+  const auto gap = each([](int l) { return 0.002f * float(3 - l); }),
+             speed = each([](int l) { return 0.3f * float(l - 3); });
+  const V move = law::least_move(load(gap), step), least = law::least_speed(load(gap), 1 / step),
+          thrown = law::rebound(load(speed), e), limit = load(each([](int l) { return 0.25f * float(l % 4); }));
+  const Vec<V> drag{load(speed), load(gap), load(each([](int l) { return l == 3 ? 0 : 0.2f; }))};
+  const Vec<V> held = law::within_cone(drag, limit);
+  for (int l = 0; l < lanes; ++l) {
+    const float g = gap[std::size_t(l)], s = speed[std::size_t(l)];
+    EXPECT_EQ(move[l], law::least_move(g, step));
+    EXPECT_EQ(least[l], law::least_speed(g, 1 / step));
+    EXPECT_EQ(thrown[l], law::rebound(s, e));
+    EXPECT_FLOAT_EQ(move[l], float(law::least_move(double(g), double(step))));
+    EXPECT_FLOAT_EQ(least[l], float(law::least_speed(double(g), 1 / double(step))));
+    EXPECT_FLOAT_EQ(thrown[l], float(law::rebound(double(s), double(e))));
+    const glm::vec3 d(drag.x[l], drag.y[l], drag.z[l]), one = law::within_cone(d, float(limit[l]));
+    const Vec<float> same = law::within_cone(Vec<float>{d.x, d.y, d.z}, float(limit[l]));
+    const glm::dvec3 exact = law::within_cone(glm::dvec3(d), double(limit[l]));
+    EXPECT_EQ(glm::vec3(held.x[l], held.y[l], held.z[l]), one);
+    EXPECT_EQ(glm::vec3(same.x, same.y, same.z), one);
+    EXPECT_LE(glm::length(exact - glm::dvec3(one)), 1e-6 * glm::length(exact));
+  }
+}
+
+}  // namespace
+}  // namespace softbody::test
