@@ -45,10 +45,10 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
-state/body state/isa
+state/body state/isa state/lane_math state/lanes
 model/material model/prototype model/scene_error
 forces/best_rotation forces/grab
-contact/contacts contact/solid contact/solid_surface
+contact/contacts contact/law contact/solid contact/solid_surface
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
 world/measures world/prototype_set world/snapshot world/world

@@ -34,7 +34,4 @@ struct SurfaceContactPoint {
   glm::vec3 normal;             // unit, from the second side to the first
 };
 
-/// m/s: surfaces that overlap separate no faster.
-inline constexpr float max_separation_speed = 1;
-
 }  // namespace softbody

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -163,8 +164,8 @@ SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePa
   return {.range = range,
           .offset = glm::vec3(b.origin - a.origin),
           .distance = reach(range.a) + reach(range.b),
-          .friction = std::sqrt(a.friction * b.friction),
-          .restitution = std::max(a.restitution, b.restitution),
+          .friction = law::common_friction(a.friction, b.friction),
+          .restitution = law::common_restitution(a.restitution, b.restitution),
           .inverse_a = a.inverse_mass,
           .inverse_b = b.inverse_mass,
           .slot_a = a.first_slot,

@@ -5,9 +5,10 @@
 // gap g within the substep of h seconds,
 //
 //   u . n >= -(g + d/2) / h    while half of the distance d is left: nothing passes through;
-//   u . n >= 0.1 (-g - d/2) / h  where it is not: pushed out at a tenth of the depth a substep, at most 1 m/s;
-//   u . n >= e |u_before . n|  at an impact faster than `impact_speed`: Newton's restitution.
+//   u . n >= 0.1 (-g - d/2) / h  where it is not: pushed out at a bounded speed;
+//   u . n >= e |u_before . n|  at an impact: Newton's restitution.
 //
+// The share of 0.1, both speeds and the cone of friction are those of contact/law.h.
 // Impulses that bring this about act on the corners by their weights, equal and opposite along the line between the two
 // points, so that linear and angular momentum stay (but for friction, which is a couple over the distance kept). The
 // distance itself is held by a spring with a damper, integrated implicitly as in a soft constraint (Catto 2011): what

@@ -5,7 +5,7 @@
 
 #include <glm/gtc/constants.hpp>
 
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/law.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -14,8 +14,7 @@ namespace {
 using collide::surface::Closest;
 using collide::surface::FeaturePair;
 
-constexpr float push_share = 0.1f;  // of an overlap, a substep
-constexpr float push_kept = 0.8f;   // of an impulse that pushes out is handed on to the next substep; by trial
+constexpr float push_kept = 0.8f;  // of an impulse that pushes out is handed on to the next substep; by trial
 
 ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mobility,
                       const collide::surface::Triangle& face, std::size_t face_slot, std::size_t stride,
@@ -252,12 +251,12 @@ void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::v
   row.mass = 1 / mobility;
   // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
   const float spare = apart - 0.5f * distance;
-  row.target = spare > 0 ? -spare / step.h : std::min(-push_share * spare / step.h, max_separation_speed);
+  row.target = law::least_move(spare, step.h) / step.h;
   const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
   row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
   row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);
-  const bool impact = memory.pressed == 0 && speed < -impact_speed && gap + step.h * speed < 0;
-  if (impact && step.pair.restitution > 0) row.target = std::max(row.target, -step.pair.restitution * speed);
+  if (memory.pressed == 0 && gap + step.h * speed < 0)
+    row.target = std::max(row.target, law::rebound(-speed, step.pair.restitution));
   row.friction = step.pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
   // would grow with every substep.

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "softbody/contact/law.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -21,8 +22,7 @@ void iterate(ContactRow& row, Field<float> v) {
   row.pressed = pressed;
   velocity += (push / row.mass) * row.normal;
   const glm::vec3 slip = velocity - glm::dot(velocity, row.normal) * row.normal;
-  glm::vec3 drag = row.drag - row.mass * slip;
-  if (const float size = glm::length(drag), limit = row.friction * pressed; size > limit) drag *= limit / size;
+  const glm::vec3 drag = law::within_cone(row.drag - row.mass * slip, row.friction * pressed);
   apply(row, push * row.normal + (drag - row.drag), v);
   row.drag = drag;
 }
@@ -49,7 +49,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
   const Side one = side(pair, false), two = side(pair, true);
   const Whole a = whole(one), b = whole(two);
   const glm::vec3 axis = unit(a.centre - b.centre, {});
-  const float missing = max_separation_speed - glm::dot(a.velocity - b.velocity, axis);
+  const float missing = float(law::max_separation_speed) - glm::dot(a.velocity - b.velocity, axis);
   if (missing <= 0) return;
   const float impulse = missing / (a.inverse_mass + b.inverse_mass);
   for (Index i = 0; i < one.surface->vertex_count(); ++i)

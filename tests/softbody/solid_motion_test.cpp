@@ -5,6 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 
@@ -66,7 +67,7 @@ TEST(Restitution, ReturnsItsSquareOfTheHeight) {
 }
 
 TEST(Restitution, LetsSlowImpactsRest) {
-  const double height = 0.9 * impact_speed * impact_speed / (2 * g);
+  const double height = 0.9 * law::impact_speed * law::impact_speed / (2 * g);
   EXPECT_LT(jump(height, 1), 1.001 * height) << "the start";
   Scene scene = sheet_on_ground(0.5, {0, -g, 0}, glm::dvec3(0.0));
   scene.ground->restitution = 1;

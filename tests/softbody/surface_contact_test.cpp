@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <set>
 
+#include "softbody/contact/law.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/world_insides.h"
 
@@ -177,10 +178,10 @@ TEST(SurfaceContact, BodiesThatStartInEachOtherComeApartGently) {
   EXPECT_TRUE(world.last_step().adds_energy);
   for (int i = 1; i < 30; ++i) {
     world.step();
-    ASSERT_LT(measure(world).max_speed, 2 * double(max_separation_speed)) << frame_of(world);
+    ASSERT_LT(measure(world).max_speed, 2 * law::max_separation_speed) << frame_of(world);
   }
   judge.expect_clean("after half a second");
-  EXPECT_LT(glm::length(motion(world, 0).velocity - motion(world, 1).velocity), 2 * double(max_separation_speed));
+  EXPECT_LT(glm::length(motion(world, 0).velocity - motion(world, 1).velocity), 2 * law::max_separation_speed);
   EXPECT_LT(measure(world).energy - energy, 0.5 * 2 * 1.0) << "no more than both at the push's speed have";
 }
 

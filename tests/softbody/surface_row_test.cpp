@@ -7,7 +7,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/law.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -115,7 +115,7 @@ TEST(SurfaceContactRow, ThrowsBackByTheRestitution) {
     EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution = e}).relative().y, 4 * e, 1e-5);
     EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, -4, 0}, .restitution_b = e}).relative().y, 4 * e, 1e-5)
         << "of the body that throws back more";
-    const double slow = 0.9 * double(impact_speed);
+    const double slow = 0.9 * law::impact_speed;
     EXPECT_NEAR(OneRow({.gap = 0.0001f, .velocity = {0, float(-slow), 0}, .restitution = e}).relative().y, -slow, 1e-4)
         << "slow ones are not thrown back";
   }
@@ -149,7 +149,7 @@ TEST(SurfaceContactRow, PushesOverlapsOutAtATenthASubstep) {
   const float depth = 0.0039f, beyond = depth - OneRow::reach;  // of half the distance
   const double spring = OneRow({.gap = -depth, .velocity = {0, 0, 0}}).relative().y;
   EXPECT_GE(spring, 0.1 * double(beyond / OneRow::h) - 1e-3);
-  EXPECT_LT(spring, double(max_separation_speed));
+  EXPECT_LT(spring, law::max_separation_speed);
   const OneRow thrown_back({.gap = -depth, .velocity = {0, -1, 0}, .restitution = 0.01f});
   EXPECT_GE(thrown_back.relative().y, 0.1 * double(beyond / OneRow::h) - 1e-3) << "no slower for its restitution";
 }

@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/model/prototype.h"
 
 namespace app::session {
@@ -44,7 +45,7 @@ void BlowUpMonitor::update_separating(const softbody::World& world, FrameTotals&
   separating_ = world.last_step().adds_energy ? std::max(separating_, 1) - 1 : 0;
   if (separating_ == 0) return;
   now.pushed = true;
-  now.bounce = std::max(now.bounce, 2 * double(softbody::max_separation_speed));  // elastic bodies bounce off
+  now.bounce = std::max(now.bounce, 2 * softbody::law::max_separation_speed);  // elastic bodies bounce off
 }
 
 BlowUpMonitor::FrameTotals BlowUpMonitor::totals_of(const std::vector<softbody::BodyMeasures>& bodies) const {
