@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
+
 namespace softbody {
 
 void Shield::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
@@ -27,11 +29,9 @@ void Shield::evaluate(collide::Part part, Field<const float> x, Field<const floa
     const glm::vec3 slip = velocity - separating * p.normal;
     const float viscous = sticking_damping * p.stiffness * h / rebound_speed;
     p.stretch += seconds * slip;
-    glm::vec3 drag = p.stiffness * p.stretch + viscous * slip;
-    if (const float size = glm::length(drag), limit = p.friction * push; size > limit) {
-      drag *= limit / size;
-      p.stretch = drag / p.stiffness;
-    }
+    const glm::vec3 asked = p.stiffness * p.stretch + viscous * slip;
+    const glm::vec3 drag = law::within_cone(asked, p.friction * push);
+    if (drag != asked) p.stretch = drag / p.stiffness;
     force[i] = push * p.normal - drag;
   }
 }

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/integrate/dynamics.h"
 
 namespace softbody {
@@ -69,7 +70,7 @@ void Dynamics::find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& 
                     .normal = {},
                     .stiffness = float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
                                        double(std::max(contacts_of[c.a], contacts_of[c.b]))),
-                    .friction = float(std::sqrt(ma.friction * mb.friction))};
+                    .friction = float(law::common_friction(ma.friction, mb.friction))};
     pair.normal = contact_normal(pair, va, vb);
     pairs.push_back(pair);
   }

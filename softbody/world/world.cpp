@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "softbody/contact/law.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_state.h"
 
@@ -60,7 +61,7 @@ double World::State::substeps(const Prototype& p, float thickness) const {
   double most_friction = 0;
   for (const Material& m : scene.materials) most_friction = std::max(most_friction, m.friction);
   const auto contact = float(p.material.contact_stiffness);
-  const auto friction = float(std::sqrt(p.material.friction * most_friction));
+  const auto friction = float(law::common_friction(p.material.friction, most_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
   const double own = p.spring_damping_bound, all = own + Shield::damping_bound(contact, friction, thickness);
