@@ -11,6 +11,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/planes.h"
 
 namespace softbody {
@@ -85,9 +86,8 @@ class ForceSweeps {
       const double before = glm::dot(c.force, c.normal), press = std::max(0.0, before + (c.need - along) / gives);
       // Across, the mean of the two other principal compliances.
       const double gives_across = 0.5 * (own[0][0] + own[1][1] + own[2][2] - gives);
-      glm::dvec3 drag = c.force - before * c.normal - (moved - along * c.normal) / gives_across;
-      if (const double size = glm::length(drag), limit = c.friction * press; size > limit) drag *= limit / size;
-      a.change = press * c.normal + drag - c.force;
+      const glm::dvec3 drag = c.force - before * c.normal - (moved - along * c.normal) / gives_across;
+      a.change = press * c.normal + law::within_cone(drag, c.friction * press) - c.force;
       if (a.change != glm::dvec3(0.0)) add(i, a.change);
       most = std::max(most, glm::length(own * a.change));
     }
@@ -134,8 +134,7 @@ glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneCo
   const double press = std::max(0.0, held + k * (c.need - along));
   if (press <= 0) return glm::dvec3(0.0);
   const glm::dvec3 drag = c.force - held * c.normal - k * (u - along * c.normal);
-  const double size = glm::length(drag), limit = c.friction * press;
-  return press * c.normal + (size > limit ? drag * (limit / size) : drag);
+  return press * c.normal + law::within_cone(drag, c.friction * press);
 }
 
 /// The prediction stops as one where planes stop it: behind, it would start far inside the solid.

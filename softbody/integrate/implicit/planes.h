@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/integrate/implicit/solver.h"
 
 namespace softbody {
@@ -17,8 +18,7 @@ inline constexpr int plane_passes = 8;  // over planes that stand in each other'
 template <class Aside>
 glm::dvec3 stopped(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
                    const Aside& aside) {
-  constexpr double push_out = 1;  // m/s, of solids
-  const double reach = glm::length(meant) + h * push_out;
+  const double reach = glm::length(meant) + h * law::max_separation_speed;
   glm::dvec3 shift = meant;
   bool stands = false;
   for (int pass = 0; !stands && pass < plane_passes; ++pass) {

@@ -7,6 +7,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/shape_matching.h"
 
@@ -108,9 +109,8 @@ glm::dvec3 LinearShield::after(const glm::dvec3& moved) const {
       0.0, push - double(slopes.spring) * glm::dot(apart, normal) - double(slopes.damper) * glm::dot(faster, normal));
   const auto across = [this](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
   // The friction spring of the start has slipped for this step already, see Shield::evaluate().
-  glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
-  if (const double size = glm::length(drag), limit = friction * press; size > limit) drag *= limit / size;
-  return press * normal + drag;
+  const glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
+  return press * normal + law::within_cone(drag, friction * press);
 }
 
 /// q = A^-1 q

@@ -8,6 +8,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/law.h"
 #include "softbody/contact/solid_placement.h"
 #include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/implicit/energy.h"
@@ -108,16 +109,15 @@ std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFram
         const auto surface =
             std::visit([&](const auto& shape) { return body::surface_at(shape, as_vec<double>(x - place)); }, s.shape);
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
-        // As the velocities' contact has it: outside, not below the surface; inside, a tenth of the way out.
-        const double out = surface.distance > 0 ? -surface.distance : std::min(-0.1 * surface.distance, h);
+        const double out = law::least_move(surface.distance, h);
         const bool meets = glm::dot(frames.way(lane, x, v), normal) < out;
         touches[lane] = touches[lane] || meets;
-        double need = out;
         // It is thrown back by what brings it there but for the spin, which takes it on, along its circle.
         const double approach = -glm::dot(frames.velocity_without_spin(lane, x, v), normal);
-        if (meets && s.restitution > 0 && approach > double(impact_speed))
-          need = std::max(need,
-                          std::min(0.0, glm::dot(frames.turn(lane, x), normal)) + h * double(s.restitution) * approach);
+        double need = out;
+        if (meets)
+          need = std::max(need, std::min(0.0, glm::dot(frames.turn(lane, x), normal)) +
+                                    law::rebound(approach, h * double(s.restitution)));
         work.planes.push_back({at, double(s.friction), double(s.restitution), normal, need, std::max(0.0, out)});
       }
   }
