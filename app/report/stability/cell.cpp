@@ -11,6 +11,7 @@
 #include "app/reference/contact_energy_ledger.h"
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
+#include "softbody/contact/law.h"
 #include "softbody/model/prototype.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
@@ -129,12 +130,12 @@ class Run {
     work_ += contact_energy_.add_bodies(penalty_energies_with(world, joiners), world.bodies().vertex_count());
   }
 
-  /// Solids push out what is inside them with up to 1 m/s. So their work is at most that times the impulse.
+  /// Adds the most work that solids can do on what is inside them: their impulse times the speed of separation.
   void add_work(const World& world, double depth_before) {
-    constexpr double push_out = 1;  // m/s
     if (frame_ > 1 && depth_before <= 0) came_out_ = true;
     if (start_.limits.begins_inside && !came_out_)
-      for (BodyId b = 0; b < world.bodies().count(); ++b) work_ += push_out * glm::length(world.body(b).solid_impulse);
+      for (BodyId b = 0; b < world.bodies().count(); ++b)
+        work_ += softbody::law::max_separation_speed * glm::length(world.body(b).solid_impulse);
   }
 
   const StabilityStart& start_;
