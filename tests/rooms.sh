@@ -14,12 +14,12 @@ collide: collide/core collide/methods collide/exact
 softbody/mesh:
 softbody/state: softbody/mesh
 softbody/model: collide/core collide/surface softbody/mesh softbody/state
-softbody/forces: softbody/mesh softbody/state softbody/model
-softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/forces
-softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/forces softbody/contact
-softbody/integrate: collide/surface softbody/mesh softbody/state softbody/model softbody/forces softbody/contact softbody/scene
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/forces softbody/contact softbody/scene softbody/integrate
-softbody/world: collide softbody/mesh softbody/state softbody/model softbody/forces softbody/contact softbody/scene softbody/integrate softbody/integrate/implicit
+softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
+softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
+softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
+softbody/integrate: collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene
+softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
+softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 engine:
 engine/render: engine
 app/base: collide softbody engine
@@ -47,8 +47,8 @@ public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/isa state/lane_math state/lanes
 model/material model/prototype model/scene_error
-forces/best_rotation forces/grab
 contact/contacts contact/law contact/solid contact/solid_surface
+forces/best_rotation forces/grab forces/pair_energy
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
 world/measures world/prototype_set world/snapshot world/world

@@ -8,7 +8,7 @@
 #include <span>
 #include <vector>
 
-#include "softbody/contact/contacts.h"
+#include "softbody/forces/pair_energy.h"
 
 namespace app::reference {
 

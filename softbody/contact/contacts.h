@@ -1,29 +1,13 @@
 #pragma once
-// Contacts between bodies, as a world shows them.
+// Contacts between surfaces, as a world shows them.
 
 #include <array>
-#include <span>
-#include <vector>
 
 #include <glm/vec3.hpp>
 
-#include "collide/core/detector.h"
 #include "softbody/state/body.h"
 
 namespace softbody {
-
-/// The energy that the penalty force between two vertices stores.
-struct PairEnergy {
-  collide::Contact contact;
-  double joules;
-};
-double total(std::span<const PairEnergy> pairs);  // J
-
-/// Pairs of vertices of which at least one moves, ascending by contact.
-struct PairEnergies {
-  std::vector<PairEnergy> last;  // the pairs that acted in the last step, as it left them
-  std::vector<PairEnergy> next;  // the pairs of the last detection, which will act in the next step
-};
 
 /// A contact of two surfaces that pressed in the last substep.
 struct SurfaceContactPoint {

@@ -5,10 +5,10 @@
 #include <memory>
 #include <optional>
 
-#include "softbody/contact/shield.h"
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/grab.h"
+#include "softbody/forces/shield.h"
 #include "softbody/integrate/dynamics_state.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/kernels.h"

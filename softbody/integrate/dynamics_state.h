@@ -5,11 +5,11 @@
 #include <memory>
 #include <vector>
 
-#include "softbody/contact/shield.h"
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/kernel_types.h"
+#include "softbody/forces/shield.h"
 #include "softbody/integrate/substeps.h"
 #include "softbody/model/prototype.h"
 #include "softbody/state/kernel_types.h"

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/contact/shield.h"
+#include "softbody/forces/shield.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_insides.h"

@@ -1,6 +1,6 @@
 // The law of the response to contacts, pair by pair.
 
-#include "softbody/contact/shield.h"
+#include "softbody/forces/shield.h"
 
 #include <gtest/gtest.h>
 

@@ -20,7 +20,7 @@
 #include <memory>
 #include <utility>
 
-#include "softbody/contact/shield.h"
+#include "softbody/forces/shield.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"

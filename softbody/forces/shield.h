@@ -22,7 +22,8 @@
 #include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
-#include "softbody/contact/contacts.h"
+#include "softbody/forces/pair_energy.h"
+#include "softbody/state/body.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {

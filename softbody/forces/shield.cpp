@@ -1,4 +1,4 @@
-#include "softbody/contact/shield.h"
+#include "softbody/forces/shield.h"
 
 #include <algorithm>
 #include <cmath>
