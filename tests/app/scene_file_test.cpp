@@ -91,7 +91,7 @@ TEST(SceneCommands, ReproduceASavedScene) {
   session.settings.set_method("multi-level-sb");
   ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
-  softbody::Scene used = session.simulation.scene_in_use();
+  softbody::Scene used = session::scene_in_use(session.simulation);
   used.view = view;
   EXPECT_TRUE(session.simulation.loaded.file.reproduces(used));
   softbody::Scene made = cli::load_scene(parse(session::demo_command(session.simulation.loaded.file.name(), used, {})));

@@ -37,7 +37,7 @@ softbody::Scene shipped_scene(const std::string& key) {
 
 /// Advances until the run ahead of the tour is over.
 void finish_run(Session& session, ui::Tour& tour) {
-  while (session.simulation.runs_ahead()) {
+  while (session.run_ahead.active()) {
     tour.update(session);
     session.advance(tick);
   }
@@ -218,7 +218,7 @@ TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
   rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
   for (int i = 0; i < 4; ++i) rig.ui.tour.next();
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(3);
   EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none"
 }
@@ -252,7 +252,7 @@ TEST(Tour, WorksInEveryScene) {
     ui::Tour tour;
     render::Overlays shown;
     tour.start(session, shown);
-    session.simulation.stop_running_ahead();  // a contact may be far
+    session.run_ahead.stop();  // a contact may be far
     for (std::size_t step = 0; step <= last_step; ++step, tour.next()) {
       tour.update(session);
       const auto context = tour.context(session);
@@ -277,7 +277,7 @@ TEST(Tour, RunsAheadToAContact) {
   EXPECT_FALSE(tour.context(session));
   EXPECT_EQ(tour.highlight(), nullptr);
   int before = 0;
-  for (; session.simulation.runs_ahead(); session.advance(tick)) before = session.world().frame();
+  for (; session.run_ahead.active(); session.advance(tick)) before = session.world().frame();
   tour.update(session);
   ASSERT_TRUE(tour.context(session));
   EXPECT_TRUE(tour.context(session)->f.touching);
@@ -319,7 +319,7 @@ TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
     const ui::WidgetRecorder::Widget close = rig.widget("Close tour");
     rig.ui.tour.close(rig.session, rig.ui.overlays);
     EXPECT_TRUE(close.enabled);
-    EXPECT_FALSE(rig.session.simulation.runs_ahead());
+    EXPECT_FALSE(rig.session.run_ahead.active());
     EXPECT_EQ(rig.session.simulation.clock.paused, paused);
   }
 }
@@ -329,7 +329,7 @@ TEST(Tour, GivesUpWhereNothingWillTouch) {
   scene.bodies.pop_back();  // alone: comes to rest
   PanelRig rig(1, scene);
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(2);
   EXPECT_TRUE(rig.session.simulation.clock.paused);
   ASSERT_TRUE(rig.ui.tour.context(rig.session)) << "explains with the body";
@@ -415,14 +415,14 @@ TEST(Tour, SaysThatNothingIsMissedAndRunsAheadToAMiss) {
   scene.collision.levels = 4;
   PanelRig rig(1, scene);
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   for (std::size_t i = 0; i < ui::miss_step; ++i) rig.ui.tour.next();
   rig.frames(3);
   ASSERT_TRUE(misses_of(rig.session.world()).empty());
   EXPECT_TRUE(rig.recorder.find("Tour lack"));
   rig.click("Run ahead");
   EXPECT_TRUE(rig.recorder.find("Tour runs ahead"));
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(2);
   EXPECT_FALSE(rig.recorder.find("Tour lack"));
   EXPECT_FALSE(misses_of(rig.session.world()).empty());

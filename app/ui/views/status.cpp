@@ -42,10 +42,12 @@ StatusLight status_light(const collide::Method& method) {
 StatusLight status_light(collide::Coverage coverage) {
   switch (coverage) {
     case collide::Coverage::exact:
-      return {render::status_green, "Green", "exact", "The method is exact. It finds every contact."};
+      return {render::status_green, "Green", "exact",
+              "The method is exact: it finds every pair of vertices closer than the tolerance."};
     case collide::Coverage::covered:
       return {render::status_amber, "Amber", "can miss",
-              "The paper's method, and every box fits into a cell. It can miss contacts across cell faces."};
+              "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
+              "method, but True surfaces found vertices inside other bodies."};
     default:
       return {render::status_red, "Red", "can miss",
               "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
@@ -70,7 +72,7 @@ std::string reference_sentence(const compare::CompareReport& report) {
 
 float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained, bool& open) {
   const float side = ImGui::GetFrameHeight();
-  box.begin(w, "Status", area, std::min(w.px(box_width), area.max.x - area.min.x - w.px(24)), false, false);
+  box.begin(w, "Status", area, std::min(w.px(box_width), area.max.x - area.min.x - w.px(24)), false);
   const ImVec2 top = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
   if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side)) open = false;
