@@ -87,8 +87,8 @@ void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choi
   notify(ghost_.choose(world(), choice, simulation.threads()));
 }
 
-void Session::notify(std::string problem) {
-  if (!problem.empty()) simulation.notice.set(std::move(problem));
+void Session::notify(const std::string& problem) {
+  if (!problem.empty()) simulation.notice.set(problem);
 }
 
 }  // namespace app::session

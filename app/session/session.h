@@ -61,7 +61,7 @@ class Session : private SimulationObserver {
 
   void add_picture(double seconds);
   void exchange();
-  void notify(std::string problem);
+  void notify(const std::string& problem);
 
   LiveGhost ghost_;
   bool has_left_world_ = false;  // whose memory is not yet given back

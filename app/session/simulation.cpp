@@ -147,7 +147,10 @@ bool Simulation::change_bodies(std::string name, const std::function<bool(World&
   bool changed = false;
   const std::size_t bodies = world_->bodies().count();
   this->change([&](World& world) { changed = change(world); });
-  if (changed) kept_.push(std::move(before));
+  if (changed) {
+    kept_.push(std::move(before));
+    if (before_drag_) before_drag_ = present(before_drag_->change);  // a drag that goes on is undone up to here
+  }
   if (world_->bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
@@ -166,7 +169,7 @@ void Simulation::release() {
 }
 
 void Simulation::keep_drag() {
-  if (drag_) kept_.push(present(*std::exchange(drag_, std::nullopt)));
+  if (before_drag_) kept_.push(*std::exchange(before_drag_, std::nullopt));
 }
 
 /// What was found out about the world before is of no use.

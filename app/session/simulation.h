@@ -87,10 +87,10 @@ class Simulation {
   /// Changes bodies, which can be undone under this name. `change` returns whether it changed anything.
   bool change_bodies(std::string name, const std::function<bool(softbody::World&)>& change);
   /// A drag of the mouse makes many changes, which are undone as one: it begins with begin_drag(), and whatever changes
-  /// something in it calls keep_drag() before. A drag that changes nothing cannot be undone.
-  void begin_drag(Change change) { drag_ = std::move(change); }
+  /// something in it calls keep_drag(). A drag that changes nothing cannot be undone.
+  void begin_drag(Change change) { before_drag_ = present(std::move(change)); }
   void keep_drag();
-  void end_drag() { drag_.reset(); }
+  void end_drag() { before_drag_.reset(); }
   /// The user touched a body: the scene's captions no longer apply. change_bodies() includes it.
   void leave_script() { as_scripted_ = false; }
   /// Move or release the body that the hand holds; each step counts a held body as a change.
@@ -127,7 +127,7 @@ class Simulation {
   int threads_;
   std::unique_ptr<softbody::World> world_;
   UndoHistory kept_;
-  std::optional<Change> drag_;  // until keep_drag()
+  std::optional<KeptWorld> before_drag_;  // until keep_drag()
   bool as_scripted_ = true;
   compare::Positions before_last_step_;
   double step_ms_ = 0;

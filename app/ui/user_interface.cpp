@@ -1,6 +1,7 @@
 #include "app/ui/user_interface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/ui/help.h"
 #include "app/ui/panel/panel.h"
@@ -20,9 +21,11 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
   session.comparison.choice.on = ui.lower == LowerView::comparison;
-  session.comparison.choice.with_paper = ui.shows_story();
+  session.comparison.choice.with_paper = ui.marks_story();
   session.comparison.choice.with_misses = ui.overlays.missed;
   session.surfaces.on = ui.overlays.true_surfaces;
+  if (!ui.hash_table && std::exchange(had_hash_table_, ui.hash_table)) session.inspector.select_bucket(std::nullopt);
+  had_hash_table_ = ui.hash_table;
   layout_ = compute_layout(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
   if (layout_.lower) draw_lower(widgets, session, ui, *layout_.lower);
@@ -57,7 +60,7 @@ void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState&
   ScreenRect beside = free;
   if (ui.lights) free.min.y = draw_status(widgets, session, lights_, free, ui.coverage_explained, ui.lights);
   if (ui.shows_story()) {
-    const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * box_width + 36);
+    const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * min_box_width + 3 * box_margin);
     const float end = draw_story(widgets, session, ui, both_fit ? beside : free);
     if (!both_fit) free.min.y = end;
   }

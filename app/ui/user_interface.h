@@ -35,6 +35,7 @@ class UserInterface {
   SweepView sweep_view_;
   FloatingBox lights_;
   StoryCard story_;
+  bool had_hash_table_ = false;  // in the last frame
   MouseState mouse_;
 };
 

@@ -13,7 +13,7 @@ bool shows_present_state(const Session& session, const render::Overlays& shown) 
 
 const std::vector<collide::Contact>* shown_misses(const Session& session, const ui::UiState& ui) {
   if (ui.overlays.missed) return session.comparison.missed();
-  return ui.shows_story() ? session.comparison.missed_by(compare::method_index(collide::paper_method)) : nullptr;
+  return ui.marks_story() ? session.comparison.missed_by(compare::method_index(collide::paper_method)) : nullptr;
 }
 
 render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui) {

@@ -192,7 +192,7 @@ TEST(SaveScene, AsksBeforeItReplacesAFileThatIsNotTheScenesOwn) {
   EXPECT_EQ(question(other), "") << "it is the scene's file now";
   EXPECT_EQ(question(file), "a.toml exists. Replace it?");
   std::filesystem::last_write_time(other, std::filesystem::last_write_time(other) + std::chrono::seconds(1));
-  EXPECT_EQ(question(other), "b.toml was changed by another program. Replace it?");
+  EXPECT_EQ(question(other), "b.toml has changed since this scene was loaded or saved. Replace it?");
   ASSERT_EQ(session.scenes.save(other, {}), "");
   EXPECT_EQ(question(other), "");
 }

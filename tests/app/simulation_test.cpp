@@ -385,6 +385,21 @@ TEST(SimulationRedo, EndsWithANewChange) {
   EXPECT_EQ(simulation.world().bodies().count(), 4u);
 }
 
+TEST(SimulationUndo, UndoesAPullBeforeTheDropThatCameDuringIt) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.grab({.body = 1, .target = {0.5, 3, 0}});
+  run(simulation, 3);
+  bodies.drop();
+  bodies.pull_to({1.5, 3, 0});
+  run(simulation, 3);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 3u);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().frame(), 3);
+}
+
 TEST(SimulationUndo, TakesAPullAsOneChange) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);

@@ -31,21 +31,24 @@ void draw_method(Widgets& w, const session::LiveComparison& comparison, std::siz
   const compare::CompareRow* row = comparison.scored_row(method);
   w.swatch(its.colour, ImGui::GetTextLineHeight());
   ImGui::SameLine();
-  ImGui::Text("%s%s", std::string(its.name).c_str(), remark);
+  const std::string text = verdict(comparison, method), name(its.name);
+  const bool narrow =
+      ImGui::CalcTextSize((name + remark + text).c_str()).x > ImGui::GetContentRegionAvail().x - w.px(12);
+  ImGui::Text("%s%s", name.c_str(), narrow ? "" : remark);
   ImGui::SameLine();
   const bool misses = row && !row->missed.empty();
   if (misses) ImGui::PushStyleColor(ImGuiCol_Text, to_imgui(render::contact_missed_colour));
-  w.right_text(verdict(comparison, method));
+  w.right_text(text);
   if (misses) ImGui::PopStyleColor();
   w.register_item(fmt::format("Story of {}", its.name).c_str(), std::string(its.summary).c_str());
 }
 
 const char* reason(collide::Coverage coverage) {
   return coverage == collide::Coverage::exceeded
-             ? "Some boxes are larger than a cell of the grid, so their corners can skip cells, and what lies there is "
-               "never compared."
-             : "Vertices on two sides of a face of the grid are close, but their boxes share no cell, so the paper's "
-               "method never compares them.";
+             ? "Why: some boxes are larger than a cell. Their corners skip cells, and what lies there is never "
+               "compared."
+             : "Why: a face of the grid lies between these vertices. Their boxes share no cell, so the paper's method "
+               "never compares them.";
 }
 
 }  // namespace
@@ -75,25 +78,30 @@ std::string StoryCard::sentence(const Session& session) const {
                        last_->coverage == collide::Coverage::exceeded
                            ? "some in cells that the corners of boxes skipped"
                            : "across a face of the grid");
+  if (session.world().all_at_rest()) return "No contact of this frame lies across a face of the grid.";
   return "Both look for all vertices that come closer than the tolerance. Watch what happens where bodies touch across "
          "a face of the grid.";
 }
 
 float StoryCard::draw(Widgets& w, const Session& session, const ScreenRect& area, Action& action) {
   follow(session);
-  box_.begin(w, "Story", area, std::min(w.px(box_width), area.max.x - area.min.x - w.px(24)), true);
+  box_.begin(w, "Story", area, box_width(w, area), true);
   if (w.closable_heading("Contacts found in the same frame###story",
                          "Puts this card away (W or Esc). W brings it back."))
     action = Action::close;
   draw_method(w, session.comparison, compare::method_index(collide::paper_method), " (the paper's)");
   if (const auto exact = exact_method(session)) draw_method(w, session.comparison, *exact, "");
   // The sentence has the same height whatever its length, so that the button does not move.
-  const float top = ImGui::GetCursorPosY(), lines = 3 * ImGui::GetTextLineHeight();
+  const float top = ImGui::GetCursorPosY(), lines = 2 * ImGui::GetTextLineHeight();
   ImGui::TextWrapped("%s", sentence(session).c_str());
   w.register_item("Story sentence", nullptr);
   ImGui::SetCursorPosY(std::max(ImGui::GetCursorPosY(), top + lines + ImGui::GetStyle().ItemSpacing.y));
+  const bool may_miss = !session.world().all_at_rest() ||
+                        (session.comparison.paper_row() && !session.comparison.paper_row()->missed.empty());
+  ImGui::BeginDisabled(!may_miss);
   if (w.button("Show me a miss###Explain story", "Opens the guided tour at its page on a missed contact."))
     action = Action::explain;
+  ImGui::EndDisabled();
   const float end = box_.end().max.y;
   return box_.in_its_place() ? end : area.min.y;
 }

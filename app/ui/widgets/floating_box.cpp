@@ -4,16 +4,18 @@
 #include <cmath>
 
 namespace app::ui {
-namespace {
 
-constexpr float margin = 12;  // to the ends of the area, design pixels
-
-}  // namespace
+float box_width(const Widgets& w, const ScreenRect& area) {
+  const float width = area.max.x - area.min.x, margin = w.px(box_margin),
+              half = std::floor(0.5f * (width - 3 * margin));
+  if (half >= w.px(min_box_width)) return std::min(half, w.px(max_box_width));
+  return std::min(width - 2 * margin, w.px(max_box_width));
+}
 
 void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, float width, bool at_right) {
-  const ImVec2 first{area.min.x + w.px(margin), area.min.y + w.px(margin)};
-  const ImVec2 last{std::max(first.x, area.max.x - w.px(margin) - width),
-                    std::max(first.y, area.max.y - w.px(margin) - (last_.max.y - last_.min.y))};
+  const ImVec2 first{area.min.x + w.px(box_margin), area.min.y + w.px(box_margin)};
+  const ImVec2 last{std::max(first.x, area.max.x - w.px(box_margin) - width),
+                    std::max(first.y, area.max.y - w.px(box_margin) - (last_.max.y - last_.min.y))};
   const auto within = [&](const ImVec2& at) {
     return ImVec2(std::floor(std::clamp(at.x, first.x, last.x)), std::floor(std::clamp(at.y, first.y, last.y)));
   };

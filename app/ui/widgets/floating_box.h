@@ -7,7 +7,11 @@
 
 namespace app::ui {
 
-inline constexpr float box_width = 430;  // of boxes over the scene, design pixels
+// Boxes over the scene, in design pixels.
+inline constexpr float min_box_width = 310, max_box_width = 430, box_margin = 12;
+
+/// Returns the width of boxes over `area`: two stand side by side if they fit.
+float box_width(const Widgets& widgets, const ScreenRect& area);
 
 class FloatingBox {
  public:
