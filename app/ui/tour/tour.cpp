@@ -75,7 +75,7 @@ void Tour::run_ahead(Session& session) {
 
 bool Tour::has_given_up(const Session& session) const {
   const double late = session.world().last_step().time - run_end_;
-  return goal_ && late >= 0 && late < session.world().frame_time();
+  return goal_ == &tour_steps()[step_].goal && late >= 0 && late < session.world().frame_time();
 }
 
 void Tour::update(const Session& session, const softbody::View* view) {
