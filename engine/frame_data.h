@@ -24,12 +24,15 @@ struct MeshDraw {
   glm::vec3 colour{0.8f};
 };
 
-/// Translucent bodies of one opacity. They cast no shadow. Each pixel shows only the nearest surface of a set.
+/// Translucent bodies of one opacity. They cast no shadow. Each pixel shows only the nearest surface of a set, which
+/// hides the sets that are drawn later and are behind it.
 struct TranslucentSet {
   std::vector<MeshDraw> meshes;
   float opacity = 0.4f;
-  bool hides = true;  // later sets and overlays that are behind them; false: a veil that is drawn after the overlays
-  bool behind_bodies = false;  // solid bodies, though not other solids, hide them even where these are farther away
+  bool hides = true;  // overlays behind them; false: a veil, drawn after the overlays and sets that hide
+  // Bodies, though not other solids, hide them even where these are farther away: solid bodies, and earlier sets without
+  // this flag.
+  bool behind_bodies = false;
 };
 
 struct Sphere {
@@ -101,7 +104,7 @@ struct FrameData {
   std::vector<float> marks;
   glm::vec3 mark_colour{0.0f};
   std::vector<MeshDraw> meshes;
-  std::vector<TranslucentSet> translucent;  // drawn in this order, after all solids
+  std::vector<TranslucentSet> translucent;  // drawn in this order after all solids: those that hide, then the others
 
   std::vector<Sphere> spheres;
   std::vector<Capsule> capsules;

@@ -20,7 +20,7 @@ struct SceneLabel {
 struct Highlight {
   std::vector<softbody::BodyId> bodies;  // in their colours; all others are faded
   float opacity = 1;                     // of these; below 1 their inside shows
-  bool bodies_hide = true;               // what is behind the front of these: other bodies and faces of boxes
+  bool bodies_hide = true;               // the faces of boxes behind these; false: these are a veil over such faces
   std::vector<engine::BoxSet> boxes;
   std::vector<engine::LineSet> lines;
   std::vector<engine::PointSet> points;

@@ -1,6 +1,7 @@
 #include "app/render/miss_marks.h"
 
 #include <algorithm>
+#include <cassert>
 #include <map>
 #include <string>
 #include <utility>
@@ -27,6 +28,7 @@ std::vector<SceneLabel> miss_marks(const softbody::World& world, std::span<const
   const auto body_of = world.vertex_body();
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, std::vector<Group>> groups;
   for (const collide::Contact& contact : missed) {
+    assert(contact.a < positions.size() && contact.b < positions.size());
     const softbody::BodyId body = body_of[contact.a];
     const glm::vec3 middle = 0.5f * (positions[contact.a] + positions[contact.b]);
     const auto near = static_cast<float>(reach * world.prototype(body).mean_edge);

@@ -180,6 +180,7 @@ void add_marks(const softbody::World& world, std::span<const compare::SurfaceMar
   std::map<std::pair<softbody::BodyId, softbody::BodyId>, const compare::SurfaceMark*> deepest;
   std::set<softbody::BodyId> marked;
   for (const compare::SurfaceMark& mark : marks) {
+    assert(mark.vertex < positions.size());
     const softbody::BodyId body = body_of[mark.vertex];
     frame.marks[mark.vertex] = 1.0f;
     marked.insert(body);

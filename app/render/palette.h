@@ -29,11 +29,10 @@ inline constexpr glm::vec3 contact_inside_colour{0.000f, 0.447f, 0.698f};   // b
 inline constexpr glm::vec3 contact_solid_colour{0.000f, 0.620f, 0.451f};    // bluish green
 inline constexpr glm::vec3 same_cell_colour{0.000f, 0.447f, 0.698f};        // blue: true sharing of a bucket
 inline constexpr glm::vec3 aliased_colour{0.902f, 0.624f, 0.000f};          // orange: sharing by the modulo alone
-inline constexpr glm::vec3 cell_face_colour{0.82f, 0.13f, 0.12f};           // red: what keeps two boxes from a cell
-inline constexpr glm::vec3 cell_colour{0.20f, 0.27f, 0.36f};                // occupied cells: dark blue
-inline constexpr glm::vec3 area_colour{0.00f, 0.42f, 0.31f};                // areas of the exact method
-inline constexpr glm::vec3 hand_colour{0.55f, 0.10f, 0.45f};                // what the mouse holds or selects
-inline constexpr glm::vec3 ghost_colour{0.80f, 0.47f, 0.65f};               // reddish purple: the second world
-inline constexpr glm::vec3 contact_missed_colour{0.78f, 0.00f, 0.30f};      // crimson
+inline constexpr glm::vec3 cell_colour{0.20f, 0.27f, 0.36f};   // dark blue: cells, and what keeps two boxes from one
+inline constexpr glm::vec3 area_colour{0.00f, 0.42f, 0.31f};   // areas of the exact method
+inline constexpr glm::vec3 hand_colour{0.55f, 0.10f, 0.45f};   // what the mouse holds or selects
+inline constexpr glm::vec3 ghost_colour{0.80f, 0.47f, 0.65f};  // reddish purple: the second world
+inline constexpr glm::vec3 contact_missed_colour{0.78f, 0.00f, 0.30f};  // crimson
 
 }  // namespace app::render

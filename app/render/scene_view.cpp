@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <numeric>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -10,7 +11,6 @@
 
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
-#include "engine/render/ambient_occlusion.h"
 #include "softbody/model/prototype.h"
 
 namespace app::render {
@@ -78,23 +78,26 @@ void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnP
   // patches.
   engine::TranslucentSet near{.meshes = {}, .opacity = 0.45f, .behind_bodies = true},
       far{.meshes = {}, .opacity = 0.45f};
-  for (engine::MeshDraw& draw : gather_bodies(ghost, first)) {
-    const auto sphere_from = [&](std::uint32_t vertex) {
-      return engine::render::mean_sphere(std::span(positions_).subspan(vertex, draw.vertex_count));
-    };
-    const glm::vec4 own = sphere_from(draw.first_vertex - first), ghostly = sphere_from(draw.first_vertex);
-    const bool overlaps = glm::distance(glm::vec3(own), glm::vec3(ghostly)) < own.w + ghostly.w;
-    draw.colour = ghost_colour;
-    (overlaps ? near : far).meshes.push_back(draw);
+  const auto centre = [&](std::uint32_t from, std::uint32_t count) {
+    const auto body = std::span(positions_).subspan(from, count);
+    return std::accumulate(body.begin(), body.end(), glm::vec3(0.0f)) / static_cast<float>(count);
+  };
+  std::vector<engine::MeshDraw> draws = gather_bodies(ghost, first);
+  for (softbody::BodyId b = 0; b < draws.size(); ++b) {
+    const auto radius = static_cast<float>(ghost.prototype(b).radius);
+    const bool overlaps = glm::distance(centre(draws[b].first_vertex - first, draws[b].vertex_count),
+                                        centre(draws[b].first_vertex, draws[b].vertex_count)) < 2 * radius;
+    draws[b].colour = ghost_colour;
+    (overlaps ? near : far).meshes.push_back(draws[b]);
   }
   frame_.translucent.push_back(std::move(near));
   frame_.translucent.push_back(std::move(far));
 }
 
-/// Fades bodies that the highlight does not name. Named bodies may be translucent.
+/// Fades bodies that the highlight does not name. These hide no named body, which may be translucent.
 void SceneView::apply(const Highlight& highlight) {
   engine::TranslucentSet named{.meshes = {}, .opacity = highlight.opacity, .hides = highlight.bodies_hide},
-      others{.meshes = {}, .opacity = 0.15f, .hides = false};
+      others{.meshes = {}, .opacity = 0.15f, .hides = false, .behind_bodies = true};
   std::vector<engine::MeshDraw> solid;
   for (std::size_t b = 0; b < frame_.meshes.size(); ++b) {
     engine::MeshDraw& draw = frame_.meshes[b];

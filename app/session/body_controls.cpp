@@ -31,14 +31,15 @@ void BodyControls::drop(int count) {
 namespace {
 
 /// Returns the velocity that carries a body over `way` under gravity: of the two with this speed the one that arrives
-/// first, or the one with the least speed if none is fast enough. `way` = v t + g t^2 / 2 is solved for t^2.
+/// first, or the one with the smallest speed if this one is too slow. `way` = v t + g t^2 / 2 is solved for t^2.
 glm::dvec3 velocity_over(const glm::dvec3& way, double speed, const glm::dvec3& gravity) {
   const double way2 = glm::dot(way, way), gravity2 = glm::dot(gravity, gravity);
   const double b = speed * speed + glm::dot(way, gravity), discriminant = b * b - gravity2 * way2;
   const bool reaches = discriminant >= 0 && b > 0;
   const double time2 = reaches ? 2 * way2 / (b + std::sqrt(discriminant)) : 2 * std::sqrt(way2 / gravity2);
   const double time = std::sqrt(time2);
-  return way / time - 0.5 * time * gravity;
+  const glm::dvec3 velocity = way / time - 0.5 * time * gravity;
+  return velocity * std::min(1.0, BodyControls::max_throw_speed / glm::length(velocity));
 }
 
 }  // namespace

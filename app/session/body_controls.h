@@ -17,7 +17,7 @@ class BodyControls {
   bool can_drop() const;
   void drop(int count = 1);
   /// Throws a body from `eye` so that it flies to `target` (m, another point), against gravity: at throw_speed, or
-  /// faster if it would not get there.
+  /// faster if it would not get there, up to max_throw_speed.
   void throw_body(const glm::dvec3& eye, const glm::dvec3& target);
   /// Adds a body. It gets the scene's material that equals `material` but for its name; if there is none, the scene
   /// gets this one.

@@ -44,7 +44,7 @@ SceneControls::SceneControls(Simulation& simulation, std::filesystem::path folde
 void SceneControls::choose(const std::string& key_or_path) {
   try {
     softbody::Scene scene = softbody::find_scene(key_or_path, folder_);
-    auto world = simulation_.make_world(scene, {});
+    auto world = make_window_world(scene, {}, simulation_.threads());
     enter(std::move(world), std::move(scene), key_or_path);
   } catch (const std::exception& error) {
     simulation_.notice.set(error.what());
@@ -60,7 +60,7 @@ void SceneControls::enter(std::unique_ptr<softbody::World> world, softbody::Scen
 }
 
 softbody::Scene SceneControls::with_added_bodies() const {
-  softbody::Scene scene = simulation_.scene_in_use();
+  softbody::Scene scene = scene_in_use(simulation_);
   scene.bodies = softbody::body_sources(simulation_.world());
   return scene;
 }
@@ -71,7 +71,7 @@ std::string SceneControls::question_before_save(const std::filesystem::path& fil
   const std::string name = file.filename().string();
   const SceneFile& own = simulation_.loaded.file;
   if (!own.is_at(file)) return name + " exists. Replace it?";
-  return own.changed_on_disk() ? name + " was changed by another program. Replace it?" : "";
+  return own.changed_on_disk() ? name + " has changed since this scene was loaded or saved. Replace it?" : "";
 }
 
 std::string SceneControls::save(const std::filesystem::path& file, const softbody::View& view) {

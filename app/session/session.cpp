@@ -6,6 +6,7 @@ namespace app::session {
 
 Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folder, int threads, std::string scene_name)
     : simulation(std::move(scene), threads, std::move(scene_name), this),
+      run_ahead(simulation),
       scenes(simulation, scene_folder),
       bodies(simulation),
       settings(simulation),
@@ -14,7 +15,8 @@ Session::Session(softbody::Scene scene, const std::filesystem::path& scene_folde
 }
 
 void Session::advance(double elapsed, bool waited) {
-  if (!waited) simulation.add_picture(elapsed);
+  if (!waited) add_picture(elapsed);
+  run_ahead.before_advance();
   simulation.advance(elapsed, stands_still());
   exchange();
 }
@@ -34,15 +36,21 @@ bool Session::awaits_answer() const {
 }
 
 void Session::advance_one(double elapsed, bool allowed) {
-  simulation.add_picture(elapsed);
+  add_picture(elapsed);
+  run_ahead.before_advance();
   simulation.advance_one(elapsed, allowed);
   exchange();
+}
+
+/// Records that a picture came `seconds` after the one before it.
+void Session::add_picture(double seconds) {
+  simulation.history.frame_ms.push(world().frame(), static_cast<float>(seconds * 1e3));
 }
 
 void Session::exchange() {
   constexpr float late_ms = 25;  // fewer than 40 pictures a second
   // The workers rest longer while pictures come late.
-  const int rests = simulation.history().frame_ms.median(15) > late_ms ? 10 : 2;
+  const int rests = simulation.history.frame_ms.median(15) > late_ms ? 10 : 2;
   comparison.exchange(world(), simulation.revision(), simulation.world_number(), rests);
   surfaces.exchange(world(), simulation.before_last_step(), simulation.revision(), rests);
   // With its first report of another world the comparison has let go of the one before; all others did so earlier.
@@ -54,7 +62,7 @@ void Session::exchange() {
 
 double Session::stepped() {
   notify(ghost_.step(world()));
-  return ghost_.step_ms();
+  return ghost_.step_ms() + run_ahead.stepped();
 }
 
 void Session::intervened() { notify(ghost_.restart(world())); }
@@ -66,6 +74,7 @@ void Session::detection_changed() {
 
 void Session::replaced(bool new_scene) {
   has_left_world_ |= new_scene;
+  run_ahead.stop();
   bodies.replaced(new_scene);
   inspector.replaced(new_scene);
   comparison.restart(world(), simulation.revision());
@@ -78,8 +87,8 @@ void Session::choose_ghost(const std::optional<softbody::IntegratorChoice>& choi
   notify(ghost_.choose(world(), choice, simulation.threads()));
 }
 
-void Session::notify(std::string problem) {
-  if (!problem.empty()) simulation.notice.set(std::move(problem));
+void Session::notify(const std::string& problem) {
+  if (!problem.empty()) simulation.notice.set(problem);
 }
 
 }  // namespace app::session

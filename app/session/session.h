@@ -6,6 +6,7 @@
 #include "app/session/live/live_comparison.h"
 #include "app/session/live/live_ghost.h"
 #include "app/session/live/surface_monitor.h"
+#include "app/session/run_ahead.h"
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
 #include "app/session/simulation.h"
@@ -22,6 +23,7 @@ class Session : private SimulationObserver {
   Session& operator=(const Session&) = delete;
 
   Simulation simulation;
+  RunAhead run_ahead;
   SceneControls scenes;
   BodyControls bodies;
   SettingControls settings;
@@ -57,8 +59,9 @@ class Session : private SimulationObserver {
   void detection_changed() override;
   void replaced(bool new_scene) override;
 
+  void add_picture(double seconds);
   void exchange();
-  void notify(std::string problem);
+  void notify(const std::string& problem);
 
   LiveGhost ghost_;
   bool has_left_world_ = false;  // whose memory is not yet given back

@@ -24,9 +24,9 @@ void SettingControls::set_material(std::size_t index, const softbody::Material& 
 void SettingControls::set_solids(const SolidList& solids) {
   softbody::Scene scene = simulation_.world().scene();
   put_solids(solids, scene);
+  simulation_.keep_drag();
   if (!simulation_.change([&](World& world) { world.set_solids(scene); })) return;
   simulation_.loaded.solids = solids;
-  simulation_.keep_drag();
 }
 
 void SettingControls::restore_world() {

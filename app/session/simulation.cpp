@@ -11,56 +11,53 @@ namespace app::session {
 
 using softbody::World;
 
+namespace {
+
+/// Where the world has other gravity or materials than those in use, it gets these; so too the solids, if asked for.
+void keep_settings(World& world, const softbody::Scene& in_use, bool with_solids) {
+  const softbody::Scene& now = world.scene();
+  if (now.gravity != in_use.gravity) world.set_gravity(in_use.gravity);
+  if (with_solids && list_solids(now) != list_solids(in_use)) world.set_solids(in_use);
+  for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
+    if (!(now.materials[i] == in_use.materials[i])) world.set_material(i, in_use.materials[i]);
+}
+
+/// The bodies as they were, with the settings in use; `with_its_solids`: with the solids as they were, too.
+void restore(World& world, const softbody::Snapshot& snapshot, bool with_its_solids) {
+  const std::string method(world.method().key);
+  const softbody::ContactSurface surface = world.scene().contact_surface;
+  const collide::Settings settings = world.collision();
+  const bool default_cell_size = world.scene().default_cell_size;
+  const softbody::IntegratorChoice integrator = world.integrator_choice();
+  const softbody::Scene in_use = world.scene();
+  world.restore(snapshot);
+  if (integrator != world.integrator_choice()) world.set_integrator(integrator);
+  if (surface != world.scene().contact_surface) world.set_contact_surface(surface);
+  keep_settings(world, in_use, !with_its_solids);
+  if (method != world.method().key) world.set_method(method);
+  if (settings != world.collision() || default_cell_size != world.scene().default_cell_size)
+    world.set_collision(settings, default_cell_size);
+}
+
+}  // namespace
+
 Simulation::Simulation(softbody::Scene scene, int threads, std::string scene_name, SimulationObserver* observer)
     : observer_(observer ? *observer : none_), threads_(threads) {
   const std::string name = scene_name.empty() ? scene.key : std::move(scene_name);
-  world_ = make_world(scene, {});
+  world_ = make_window_world(scene, {}, threads_);
   loaded = {scene, SceneFile(name, scene), list_solids(scene)};
   stability_.restart(*world_);
   before_last_step_.copy(world_->positions());
 }
 
-std::unique_ptr<World> Simulation::make_world(const softbody::Scene& scene,
-                                              const softbody::IntegratorChoice& integrator) const {
-  return std::make_unique<World>(
-      scene, World::Options{.threads = threads_, .integrator = integrator, .max_work = softbody::work_of_a_window});
-}
-
-void Simulation::add_picture(double seconds) {
-  history_.frame_ms.push(world_->frame(), static_cast<float>(seconds * 1e3));
-}
-
 void Simulation::advance(double elapsed, bool stands_still) {
-  if (clock.paused) stop_running_ahead();
   let_pass(elapsed);
   if (!stands_still) clock.advance(elapsed, world_->frame_time(), [this] { return step(); });
 }
 
 void Simulation::advance_one(double elapsed, bool allowed) {
-  if (clock.paused) stop_running_ahead();
   let_pass(elapsed);
   if (allowed) clock.advance_one([this] { return step(); });
-}
-
-void Simulation::run_ahead(std::function<bool(const World&)> reached, double max_seconds) {
-  ahead_ = {std::move(reached), world_->last_step().time + max_seconds};
-  clock.running_ahead = true;
-  clock.paused = false;
-  check_ahead();
-}
-
-void Simulation::stop_running_ahead() {
-  if (!std::exchange(ahead_, std::nullopt)) return;
-  clock.running_ahead = false;
-  clock.paused = true;
-}
-
-/// Ends the run in the frame that it looks for, and where this frame will not come.
-void Simulation::check_ahead() {
-  bool goes_on = false;
-  attempt(
-      [&] { goes_on = !world_->all_at_rest() && world_->last_step().time < ahead_->end && !ahead_->reached(*world_); });
-  if (!goes_on) stop_running_ahead();
 }
 
 SimulationClock::Step Simulation::step() {
@@ -77,11 +74,9 @@ SimulationClock::Step Simulation::step() {
   rest_steps_ = std::exchange(last_revision_, revision_) == revision_ ? rest_steps_ + 1 : 0;
   const softbody::StepReport& report = world_->last_step();
   step_ms_ = report.total_ms + observer_.stepped();
-  if (!stepped) stop_running_ahead();
-  if (ahead_) step_ms_ += time_ms([this] { check_ahead(); });
-  history_.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
-  history_.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
-  history_.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
+  history.detect_ms.push(world_->frame(), static_cast<float>(report.detect_ms));
+  history.solve_ms.push(world_->frame(), static_cast<float>(report.solve_ms));
+  history.contacts.push(world_->frame(), static_cast<float>(world_->detection().contacts.size()));
   return {report.seconds, step_ms_};
 }
 
@@ -152,7 +147,10 @@ bool Simulation::change_bodies(std::string name, const std::function<bool(World&
   bool changed = false;
   const std::size_t bodies = world_->bodies().count();
   this->change([&](World& world) { changed = change(world); });
-  if (changed) kept_.push(std::move(before));
+  if (changed) {
+    kept_.push(std::move(before));
+    if (before_drag_) before_drag_ = present(before_drag_->change);  // a drag that goes on is undone up to here
+  }
   if (world_->bodies().count() < bodies) replace(false);  // bodies after a deleted one have other ids
   return changed;
 }
@@ -160,9 +158,9 @@ bool Simulation::change_bodies(std::string name, const std::function<bool(World&
 void Simulation::pull_to(const glm::dvec3& target) {
   std::optional<softbody::Grab> grab = world_->grabbed();
   if (!grab) return;
+  keep_drag();
   grab->target = target;
   world_->grab(grab);
-  keep_drag();
 }
 
 void Simulation::release() {
@@ -176,7 +174,6 @@ void Simulation::keep_drag() {
 
 /// What was found out about the world before is of no use.
 void Simulation::replace(bool new_scene) {
-  stop_running_ahead();
   before_last_step_.copy(world_->positions());
   clock.restart();
   end_drag();
@@ -197,7 +194,7 @@ void Simulation::leave_for(std::unique_ptr<World> world) {
   step_ms_ = world_->last_step().total_ms;
   before_last_step_ = {};  // may hold the memory of many bodies
   as_scripted_ = true;
-  history_ = {};
+  history = {};
   notice.clear();
   stability_.restart(*world_);
   replace(true);
@@ -209,22 +206,9 @@ void Simulation::enter(std::unique_ptr<World> world, LoadedScene scene, std::str
   leave_for(std::move(world));
 }
 
-softbody::Scene Simulation::scene_in_use() const {
-  softbody::Scene scene = loaded.scene;
-  const softbody::Scene& now = world_->scene();
-  scene.gravity = now.gravity;
-  std::ranges::copy(now.materials, scene.materials.begin());
-  put_solids(loaded.solids, scene);
-  scene.method = world_->method().key;
-  scene.contact_surface = now.contact_surface;
-  scene.collision = world_->collision();
-  scene.default_cell_size = world_->scene().default_cell_size;
-  return scene;
-}
-
 void Simulation::reset() {
   try {
-    enter(make_world(scene_in_use(), world_->integrator_choice()), loaded, "reset");
+    enter(make_window_world(scene_in_use(*this), world_->integrator_choice(), threads_), loaded, "reset");
   } catch (const std::exception& error) {
     notice.set(error.what());
   }
@@ -240,7 +224,7 @@ void Simulation::go(Way way) {
   };
   if (there.change.of == Change::Of::scene) {
     attempt([&] {
-      auto world = make_world({}, {});
+      auto world = make_window_world({}, {}, threads_);
       world->restore(there.snapshot);
       arrive();
       leave_for(std::move(world));
@@ -250,7 +234,8 @@ void Simulation::go(Way way) {
     const bool of_solids = there.change.of == Change::Of::solids;
     if (!of_solids) there.loaded.solids = std::move(loaded.solids);  // those in use stay
     arrive();
-    restore(there.snapshot, of_solids);
+    notice.clear();
+    attempt([&] { restore(*world_, there.snapshot, of_solids); });
     after_going_back();
   }
   if (!notice.is_error()) notice.tell((way == Way::back ? "Undone: " : "Redone: ") + there.change.name);
@@ -260,45 +245,37 @@ void Simulation::rewind_to(int frame) {
   stability_.keep_present(*world_);
   const auto& past = stability_.past();
   if (past.snapshots().empty()) return;
-  restore(past.snapshots()[past.at(frame)]);
+  notice.clear();
+  attempt([&] { restore(*world_, past.snapshots()[past.at(frame)], false); });
   clock.paused = true;
   after_going_back();
 }
 
-/// The bodies as they were, with the settings in use; `with_its_solids`: with the solids as they were, too.
-void Simulation::restore(const softbody::Snapshot& snapshot, bool with_its_solids) {
-  const std::string method(world_->method().key);
-  const softbody::ContactSurface surface = world_->scene().contact_surface;
-  const collide::Settings settings = world_->collision();
-  const bool default_cell_size = world_->scene().default_cell_size;
-  const softbody::IntegratorChoice integrator = world_->integrator_choice();
-  const softbody::Scene in_use = world_->scene();
-  notice.clear();
-  attempt([&] {
-    world_->restore(snapshot);
-    if (integrator != world_->integrator_choice()) world_->set_integrator(integrator);
-    if (surface != world_->scene().contact_surface) world_->set_contact_surface(surface);
-    keep_settings(in_use, !with_its_solids);
-    if (method != world_->method().key) world_->set_method(method);
-    if (settings != world_->collision() || default_cell_size != world_->scene().default_cell_size)
-      world_->set_collision(settings, default_cell_size);
-  });
-}
-
-/// Where the world has other gravity or materials than those in use, it gets these; so too the solids, if asked for.
-void Simulation::keep_settings(const softbody::Scene& in_use, bool with_solids) {
-  const softbody::Scene& now = world_->scene();
-  if (now.gravity != in_use.gravity) world_->set_gravity(in_use.gravity);
-  if (with_solids && list_solids(now) != list_solids(in_use)) world_->set_solids(in_use);
-  for (std::size_t i = 0; i < std::min(now.materials.size(), in_use.materials.size()); ++i)
-    if (!(now.materials[i] == in_use.materials[i])) world_->set_material(i, in_use.materials[i]);
-}
-
 void Simulation::after_going_back() {
   stability_.went_back(*world_);
-  for (TimeSeries* series : {&history_.detect_ms, &history_.solve_ms, &history_.contacts})
+  for (TimeSeries* series : {&history.detect_ms, &history.solve_ms, &history.contacts})
     series->forget_from(world_->frame());
   replace(false);
+}
+
+softbody::Scene scene_in_use(const Simulation& simulation) {
+  softbody::Scene scene = simulation.loaded.scene;
+  const World& world = simulation.world();
+  const softbody::Scene& now = world.scene();
+  scene.gravity = now.gravity;
+  std::ranges::copy(now.materials, scene.materials.begin());
+  put_solids(simulation.loaded.solids, scene);
+  scene.method = world.method().key;
+  scene.contact_surface = now.contact_surface;
+  scene.collision = world.collision();
+  scene.default_cell_size = now.default_cell_size;
+  return scene;
+}
+
+std::unique_ptr<World> make_window_world(const softbody::Scene& scene, const softbody::IntegratorChoice& integrator,
+                                         int threads) {
+  return std::make_unique<World>(
+      scene, World::Options{.threads = threads, .integrator = integrator, .max_work = softbody::work_of_a_window});
 }
 
 }  // namespace app::session

@@ -44,6 +44,7 @@ class Simulation {
   SimulationClock clock;
   Notice notice;
   LoadedScene loaded;
+  StepHistory history;
   bool pause_on_blow_up = true;
 
   /// scene_name: what the scene is found by; empty: its key. `observer`, if any, must outlive this. Throws SceneError.
@@ -62,15 +63,6 @@ class Simulation {
   void let_pass(double elapsed) { notice.age(elapsed); }
   /// For recordings, in place of advance(): takes one step if `allowed`, however long it takes.
   void advance_one(double elapsed, bool allowed);
-  /// Records that a picture came `seconds` after the one before it.
-  void add_picture(double seconds);
-  /// Lets the world run, several frames a picture, to the first frame from this one on in which `reached` returns true,
-  /// and pauses it there. Gives up after `max_seconds` of simulated time, or when all bodies are at rest for good.
-  /// Whatever pauses the world ends the run, too.
-  void run_ahead(std::function<bool(const softbody::World&)> reached, double max_seconds);
-  bool runs_ahead() const { return ahead_ && !clock.paused; }
-  /// Ends the run, if there is one, and pauses.
-  void stop_running_ahead();
   /// How long (ms) the last step took, the observer's work with it.
   double step_ms() const { return step_ms_; }
   const compare::Positions& before_last_step() const { return before_last_step_; }
@@ -81,7 +73,6 @@ class Simulation {
   compare::DrawnPositions drawn_positions(bool whole_steps = false) const;
   /// The scene's sentence for this moment. Empty if there is none, or the user changed bodies.
   const std::string& caption() const;
-  const StepHistory& history() const { return history_; }
   /// Changes whenever positions or contacts may have changed: not with steps of a world at rest.
   std::uint64_t revision() const { return revision_; }
   /// Returns true if steps would change nothing but the number of the frame: all bodies have been at rest for as long
@@ -105,13 +96,8 @@ class Simulation {
   /// Move or release the body that the hand holds; each step counts a held body as a change.
   void pull_to(const glm::dvec3& target);  // m
   void release();
-  /// A world with threads() and the work limits of a window. Throws SceneError.
-  std::unique_ptr<softbody::World> make_world(const softbody::Scene& scene,
-                                              const softbody::IntegratorChoice& integrator) const;
   /// Goes on with `world`, which was made from `scene`. The one before can be had back by undo(), under this name.
   void enter(std::unique_ptr<softbody::World> world, LoadedScene scene, std::string name);
-  /// The loaded scene with the settings in use.
-  softbody::Scene scene_in_use() const;
   /// Restarts with scene_in_use(), without added bodies. On an error the present world goes on.
   void reset();
 
@@ -127,21 +113,14 @@ class Simulation {
   void rewind_to(int frame);
 
  private:
-  struct RunAhead {
-    std::function<bool(const softbody::World&)> reached;
-    double end;  // s of simulated time
-  };
   bool attempt(const std::function<void()>& action);
   void intervened();
   void replace(bool new_scene);
   KeptWorld present(Change change) const;
   void leave_for(std::unique_ptr<softbody::World> world);
   void go(Way way);
-  void restore(const softbody::Snapshot& snapshot, bool with_its_solids = false);
-  void keep_settings(const softbody::Scene& in_use, bool with_solids);
   void after_going_back();
   SimulationClock::Step step();
-  void check_ahead();
 
   SimulationObserver none_;
   SimulationObserver& observer_;
@@ -152,12 +131,17 @@ class Simulation {
   bool as_scripted_ = true;
   compare::Positions before_last_step_;
   double step_ms_ = 0;
-  StepHistory history_;
   StabilityMonitor stability_;
   std::uint64_t revision_ = 1, world_number_ = 0;
   std::uint64_t last_revision_ = 0;  // after the last step
   std::size_t rest_steps_ = 0;       // without another revision
-  std::optional<RunAhead> ahead_;
 };
+
+/// Returns the loaded scene with the settings in use.
+softbody::Scene scene_in_use(const Simulation& simulation);
+
+/// Returns a world with the work limits of a window. Throws SceneError.
+std::unique_ptr<softbody::World> make_window_world(const softbody::Scene& scene,
+                                                   const softbody::IntegratorChoice& integrator, int threads);
 
 }  // namespace app::session

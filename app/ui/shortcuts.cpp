@@ -43,7 +43,7 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_R, 0, "R", "Reset the scene", [](Session& s, UiState&) { s.simulation.reset(); }},
     Shortcut{GLFW_KEY_Z, 0, "", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL | GLFW_MOD_SHIFT},
-    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a change of bodies, solids or scene",
+    Shortcut{GLFW_KEY_Z, 0, "Ctrl+Z", "Undo a change of bodies or scene, or a drag",
              [](Session& s, UiState&) { s.simulation.undo(); }, false, GLFW_MOD_CONTROL},
     Shortcut{GLFW_KEY_Y, 0, "Ctrl+Y", redo_text, [](Session& s, UiState&) { s.simulation.redo(); }, false,
              GLFW_MOD_CONTROL},
@@ -60,7 +60,10 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_RIGHT_BRACKET, 0, "]", "More boxes per body", [](Session& s, UiState&) { change_levels(s, 1); },
              true},
     Shortcut{GLFW_KEY_G, 0, "G", "Guided tour of the method",
-             [](Session& s, UiState& ui) { ui.tour.toggle(s, ui.overlays); }},
+             [](Session& s, UiState& ui) {
+               ui.clean = false;
+               ui.tour.toggle(s, ui.overlays);
+             }},
     Shortcut{GLFW_KEY_LEFT, 0, "Left", "Tour: previous page", [](Session&, UiState& ui) { ui.tour.back(); }},
     Shortcut{GLFW_KEY_RIGHT, 0, "Right", "Tour: next page", [](Session&, UiState& ui) { ui.tour.next(); }},
     Shortcut{GLFW_KEY_V, 0, "V", "Compare the methods",
@@ -76,12 +79,12 @@ constexpr std::array shortcut_table{
     Shortcut{GLFW_KEY_X, GLFW_KEY_F11, "X or F11", "Nothing but the scene",
              [](Session&, UiState& ui) { ui.clean = !ui.clean; }},
     Shortcut{GLFW_KEY_F1, '?', "F1 or ?", "This help", [](Session&, UiState& ui) { ui.help = !ui.help; }},
-    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help or tour, clear selection",
+    Shortcut{GLFW_KEY_ESCAPE, 0, "Esc", "Close help, tour or card, clear selection",
              [](Session& s, UiState& ui) {
                if (ui.popup_open) return;  // the key closes this list and nothing else
                if (ui.clean || ui.help) return void(ui.clean = ui.help = false);
                if (ui.tour.open()) return ui.tour.close(s, ui.overlays);
-               if (!s.bodies.selected() && !s.inspector.selected_bucket()) ui.set_story(false);
+               if (ui.shows_story() && !s.bodies.selected() && !s.inspector.selected_bucket()) ui.set_story(false);
                s.bodies.select(std::nullopt);
                s.inspector.select_bucket(std::nullopt);
              }},

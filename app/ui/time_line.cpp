@@ -9,11 +9,13 @@ namespace {
 
 constexpr float padding = 4, button_width = 64, state_width = 190;  // design pixels
 
+bool is_slowed(const session::SimulationClock& clock) { return !clock.paused && clock.pace() < 0.95; }
+
 std::string state_text(const Session& session) {
   const softbody::World& world = session.world();
   const session::SimulationClock& clock = session.simulation.clock;
   if (clock.paused) return "paused";
-  if (clock.pace() < 0.95) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
+  if (is_slowed(clock)) return fmt::format("slowed to {:.0f} %", 100 * clock.pace());
   const std::size_t count = world.bodies().count(), more = bodies_to_come(world);
   std::string text = fmt::format("{} {}", grouped(count), count == 1 ? "body" : "bodies");
   if (more > 0) return text + fmt::format(", {} to come", grouped(more));
@@ -43,7 +45,7 @@ void draw_state_text(Widgets& w, const Session& session) {
   ImGui::SameLine();
   ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ImGui::GetStyle().FramePadding.y);
   w.right_text(state_text(session));
-  w.register_item("Progress", session.simulation.clock.pace() < 0.95
+  w.register_item("Progress", is_slowed(session.simulation.clock)
                                   ? "The machine does not keep up, or frames take more substeps than allowed: the "
                                     "simulation runs slower than real time."
                                   : "What the simulation does now.");

@@ -1,6 +1,7 @@
 #include "app/ui/user_interface.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "app/ui/help.h"
 #include "app/ui/panel/panel.h"
@@ -20,8 +21,11 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
   sweep_view_.update();
   ui.tour.update(session, &ui.view);
   session.comparison.choice.on = ui.lower == LowerView::comparison;
-  session.comparison.choice.shows_misses = ui.shows_misses();
+  session.comparison.choice.with_paper = ui.marks_story();
+  session.comparison.choice.with_misses = ui.overlays.missed;
   session.surfaces.on = ui.overlays.true_surfaces;
+  if (!ui.hash_table && std::exchange(had_hash_table_, ui.hash_table)) session.inspector.select_bucket(std::nullopt);
+  had_hash_table_ = ui.hash_table;
   layout_ = compute_layout(session, ui, scale);
   if (layout_.panel) draw_panel(widgets, session, ui, *layout_.panel, layout_.panel_covers_scene);
   if (layout_.lower) draw_lower(widgets, session, ui, *layout_.lower);
@@ -31,7 +35,9 @@ void UserInterface::draw(Session& session, UiState& ui, float scale, double seco
     draw_tour(widgets, session, ui.tour, ui.overlays, *layout_.tour);
   else if (layout_.panel_covers_scene)
     draw_import_report(widgets, ui.import, layout_.scene);
-  else if (!ui.clean)
+  else if (ui.clean)
+    draw_notices(widgets, session, {}, layout_.scene);
+  else
     draw_over_scene(widgets, session, ui, seconds);
   if (ui.help) draw_help(widgets, layout_.scene, ui.help);
   ui.popup_open = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
@@ -51,25 +57,24 @@ void UserInterface::draw_lower(Widgets& widgets, Session& session, UiState& ui, 
 void UserInterface::draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds) {
   ScreenRect free = layout_.scene;
   free.max.y = draw_caption(widgets, session, free, seconds);
-  draw_story(widgets, session, ui, free);
+  ScreenRect beside = free;
   if (ui.lights) free.min.y = draw_status(widgets, session, lights_, free, ui.coverage_explained, ui.lights);
+  if (ui.shows_story()) {
+    const bool both_fit = free.max.x - free.min.x >= widgets.px(2 * min_box_width + 3 * box_margin);
+    const float end = draw_story(widgets, session, ui, both_fit ? beside : free);
+    if (!both_fit) free.min.y = end;
+  }
   free.min.y = draw_notices(widgets, session, layout_.no_room_message, free);
   if (!layout_.sidebar) draw_floating_legend(widgets, session, ui.overlays, free);
   draw_import_report(widgets, ui.import, free);
 }
 
-/// Draws the card at the upper edge, unless the lights leave no room there. The views below the scene say the same.
-void UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
-  if (!ui.story || layout_.lower) return;
-  const bool beside = !ui.lights || area.max.x - area.min.x >= widgets.px(2 * box_width + 36);
-  switch (story_.draw(widgets, session, area, !beside)) {
-    case StoryCard::Action::close:
-      return ui.set_story(false);
-    case StoryCard::Action::explain:
-      return ui.tour.start(session, ui.overlays, miss_step);
-    case StoryCard::Action::none:
-      return;
-  }
+float UserInterface::draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area) {
+  StoryCard::Action action{};
+  const float end = story_.draw(widgets, session, area, action);
+  if (action == StoryCard::Action::close) ui.set_story(false);
+  if (action == StoryCard::Action::explain) ui.tour.start(session, ui.overlays, miss_step);
+  return end;
 }
 
 }  // namespace app::ui

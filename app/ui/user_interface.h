@@ -26,7 +26,8 @@ class UserInterface {
 
  private:
   void draw_lower(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
-  void draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
+  /// Draws the card at the upper edge of `area`. Returns the lower end (y) of a card that stands in its place.
+  float draw_story(Widgets& widgets, Session& session, UiState& ui, const ScreenRect& area);
   void draw_over_scene(Widgets& widgets, Session& session, UiState& ui, double seconds);
 
   Layout layout_;
@@ -34,6 +35,7 @@ class UserInterface {
   SweepView sweep_view_;
   FloatingBox lights_;
   StoryCard story_;
+  bool had_hash_table_ = false;  // in the last frame
   MouseState mouse_;
 };
 

@@ -318,9 +318,8 @@ class Demo {
   void handle_requests(const engine::Viewport& viewport) {
     if (std::exchange(ui_.throw_body, false)) {
       const engine::Ray ray = mouse_.ray(camera_, viewport.size);
-      const float distance =
-          render::distance_to_scene(ray, session_.world(), session_.simulation.drawn_positions())
-              .value_or(camera_.orbit().distance);
+      const float distance = render::distance_to_scene(ray, session_.world(), session_.simulation.drawn_positions())
+                                 .value_or(camera_.orbit().distance);
       session_.bodies.throw_body(glm::dvec3(ray.origin), glm::dvec3(ray.origin + distance * ray.direction));
     }
     if (std::exchange(ui_.focus_body, false) && session_.bodies.selected())
@@ -350,7 +349,7 @@ class Demo {
     const render::Overlays& shown = ui_.overlays;
     return {.revision = session_.simulation.revision(),
             .ghost = session_.ghost().revision(),
-            .comparison = ui_.shows_misses() ? session_.comparison.reports() : 0,
+            .comparison = shown_misses(session_, ui_) ? session_.comparison.reports() : 0,
             .surface_report = shown.true_surfaces ? session_.surfaces.reports() : 0,
             .tour = ui_.tour.highlight_revision(),
             .misses_of = session_.comparison.choice.misses_of,

@@ -11,6 +11,9 @@ namespace app::window {
 /// it too, not between two steps.
 bool shows_present_state(const Session& session, const render::Overlays& shown);
 
+/// Returns the missed contacts that the scene marks: those of the overlay, or those of the card. nullptr: none.
+const std::vector<collide::Contact>* shown_misses(const Session& session, const ui::UiState& ui);
+
 /// Returns the request for what is switched on and selected now. It is valid until the next step.
 render::OverlayRequest overlay_request(const Session& session, const ui::UiState& ui);
 

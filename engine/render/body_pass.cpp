@@ -159,11 +159,12 @@ void BodyPass::draw_translucent(bool hiding) {
   if (translucent_.empty()) return;
   program_.use();
   glBlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
-  glStencilFunc(GL_EQUAL, 0, stencil_bodies);
-  glStencilOp(GL_KEEP, GL_KEEP, GL_KEEP);
+  glEnable(GL_STENCIL_TEST);
+  glStencilOp(GL_KEEP, GL_KEEP, GL_REPLACE);
   for (const auto& [set, batches] : translucent_) {
     if (set->hides != hiding) continue;
-    if (set->behind_bodies) glEnable(GL_STENCIL_TEST);
+    glStencilFunc(set->behind_bodies ? GL_EQUAL : GL_ALWAYS, set->behind_bodies ? 0 : GLint{stencil_bodies},
+                  stencil_bodies);
     // The depth comes first, so that only the nearest surface gets a colour.
     glColorMask(GL_FALSE, GL_FALSE, GL_FALSE, GL_FALSE);
     draw_batches(batches, false);
@@ -176,8 +177,8 @@ void BodyPass::draw_translucent(bool hiding) {
     glDepthMask(GL_TRUE);
     glDepthFunc(GL_LESS);
     glDisable(GL_BLEND);
-    glDisable(GL_STENCIL_TEST);
   }
+  glDisable(GL_STENCIL_TEST);
   program_.set("opacity", 1.0f);
 }
 

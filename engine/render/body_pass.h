@@ -39,7 +39,7 @@ class BodyPass {
   void draw_shadows(const glm::mat4& light_clip_from_world);
   void draw(const FrameData& frame);
   /// Draws the translucent sets that hide what is behind them, or the others, after all solids. Sets that stand behind
-  /// the bodies require stencil_bodies where a body is seen.
+  /// the bodies require stencil_bodies where a body is seen; the other sets set it.
   void draw_translucent(bool hiding);
 
  private:

@@ -37,7 +37,7 @@ TEST(Tooltip, StandsAboveTheComparison) {
 TEST(Tooltip, KeepsOffTheLightsAndTheComparison) {
   for (const ImVec2 size : {ImVec2{1280, 720}, ImVec2{800, 500}}) {
     PanelRig rig;
-    rig.session.comparison.choice.on = true;
+    rig.ui.lower = ui::LowerView::comparison;
     rig.resize(static_cast<int>(size.x), static_cast<int>(size.y));
     for (const ui::WidgetRecorder::Widget& widget : std::vector(rig.recorder.widgets)) {
       const bool of_panel = widget.max.x < ui::panel_width && widget.max.y < size.y;
@@ -139,24 +139,32 @@ TEST(Layout, ShowsNothingButTheSceneInTheCleanView) {
 TEST(Layout, KeepsBoxesOverTheSceneApart) {
   for (const glm::ivec2 size :
        {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720), glm::ivec2(1600, 1000)})
-    for (const bool panel : {false, true}) {
-      PanelRig rig;
-      rig.ui.story = true;
-      rig.ui.panel = panel;
-      rig.ui.hash_table = false;
-      rig.ui.overlays.contacts = true;
-      rig.resize(size.x, size.y);
-      rig.frames(3);
-      const float lights_end = rig.widget("Step light").max.y, lights_right = rig.widget("Close lights").max.x;
-      const ui::WidgetRecorder::Widget card = rig.widget("Close story");
-      const ui::WidgetRecorder::Widget row = rig.widget("Story of Multi-Level SB");
-      EXPECT_TRUE(row.min.x > lights_right || card.min.y > lights_end) << size.x << " panel " << panel;
-      for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets) {
-        if (line.label != "Legend") continue;
-        EXPECT_GE(line.min.y, lights_end);
-        EXPECT_TRUE(line.max.x < row.min.x || line.max.y < card.min.y || line.min.y > row.max.y) << size.x;
+    for (const bool panel : {false, true})
+      for (const bool lights : {false, true}) {
+        PanelRig rig;
+        rig.ui.story = true;
+        rig.ui.panel = panel;
+        rig.ui.lights = lights;
+        rig.ui.hash_table = false;
+        rig.ui.overlays.contacts = true;
+        rig.resize(size.x, size.y);
+        rig.session.simulation.notice.set("something");
+        rig.frames(3);
+        const auto box = [&](const char* first, const char* last) {
+          return ui::ScreenRect{rig.widget(first).min, {rig.widget(last).max.x, rig.widget(last).max.y}};
+        };
+        std::vector<ui::ScreenRect> boxes{box("Story of Multi-Level SB", "Story sentence"), box("Notice", "Notice")};
+        boxes[0].min.y = rig.widget("Close story").min.y;
+        if (lights) boxes.push_back(box("Coverage", "Step light"));
+        for (const ui::WidgetRecorder::Widget& line : rig.recorder.widgets)
+          if (line.label == "Legend") boxes.push_back({line.min, line.max});
+        for (std::size_t i = 0; i < boxes.size(); ++i)
+          for (std::size_t j = 0; j < i; ++j) {
+            const ui::ScreenRect &p = boxes[i], &q = boxes[j];
+            EXPECT_TRUE(p.max.x <= q.min.x || q.max.x <= p.min.x || p.max.y <= q.min.y || q.max.y <= p.min.y)
+                << size.x << ", panel " << panel << ", lights " << lights << ", boxes " << i << " and " << j;
+          }
       }
-    }
 }
 
 TEST(Layout, KeepsLegendsWithinTheirArea) {

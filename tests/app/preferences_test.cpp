@@ -61,6 +61,22 @@ TEST(PreferencesFile, IgnoresABrokenFileAndSaysSo) {
   }
 }
 
+TEST(Preferences, OpenLessAtTheFirstStartWhereSpaceIsShort) {
+  const window::Preferences small = window::first_preferences({640, 480}),
+                            large = window::first_preferences({1600, 1000});
+  EXPECT_FALSE(small.panel || small.lights || small.hash_table);
+  EXPECT_TRUE(large.panel && large.lights && large.hash_table);
+  const window::Preferences usual = window::first_preferences(window::Preferences().size);
+  EXPECT_TRUE(usual.panel && usual.lights && usual.story);
+  EXPECT_FALSE(usual.hash_table);
+}
+
+TEST(PreferencesFile, KnowsTheFirstStart) {
+  const TemporaryFolder folder;
+  EXPECT_TRUE(window::PreferencesFile(folder.path() / "preferences.toml").is_new());
+  EXPECT_FALSE(window::PreferencesFile(folder.write("preferences.toml", "error_time = true\n")).is_new());
+}
+
 TEST(PreferencesFile, IgnoresUnknownKeys) {
   const TemporaryFolder folder;
   window::PreferencesFile preferences(

@@ -91,7 +91,7 @@ TEST(SceneCommands, ReproduceASavedScene) {
   session.settings.set_method("multi-level-sb");
   ASSERT_EQ(session.scenes.save(file, view), "");
   EXPECT_EQ(session.simulation.loaded.file.name(), file.string());
-  softbody::Scene used = session.simulation.scene_in_use();
+  softbody::Scene used = session::scene_in_use(session.simulation);
   used.view = view;
   EXPECT_TRUE(session.simulation.loaded.file.reproduces(used));
   softbody::Scene made = cli::load_scene(parse(session::demo_command(session.simulation.loaded.file.name(), used, {})));
@@ -192,7 +192,7 @@ TEST(SaveScene, AsksBeforeItReplacesAFileThatIsNotTheScenesOwn) {
   EXPECT_EQ(question(other), "") << "it is the scene's file now";
   EXPECT_EQ(question(file), "a.toml exists. Replace it?");
   std::filesystem::last_write_time(other, std::filesystem::last_write_time(other) + std::chrono::seconds(1));
-  EXPECT_EQ(question(other), "b.toml was changed by another program. Replace it?");
+  EXPECT_EQ(question(other), "b.toml has changed since this scene was loaded or saved. Replace it?");
   ASSERT_EQ(session.scenes.save(other, {}), "");
   EXPECT_EQ(question(other), "");
 }

@@ -124,6 +124,27 @@ TEST_F(SceneViewTest, DrawsAGhostThatOverlapsItsBodyBehindItAndOneThatLeftItInPl
   }
 }
 
+TEST_F(SceneViewTest, LetsNamedBodiesHideOrVeilTheFacesOfBoxes) {
+  const glm::vec3 body(-0.51f, 3, 0.03f);
+  const engine::Camera camera = view_.camera(session_.world().scene(), size);
+  const glm::vec3 behind = body + 1.2f * glm::normalize(body - camera.eye());
+  const glm::ivec2 pixel(*camera.project(body, size));
+  for (const bool hide : {false, true}) {
+    render::Highlight highlight;
+    highlight.bodies = {0};
+    highlight.opacity = 0.35f;
+    highlight.bodies_hide = hide;
+    render::OverlayRequest request;
+    request.highlight = &highlight;
+    const auto without = picture(request);
+    highlight.boxes = {
+        {.boxes = {{behind - 0.3f, behind + 0.3f, glm::vec4(0, 0, 1, 1)}}, .occluded_alpha = 0, .face_alpha = 0.8f}};
+    const auto with = picture(request);
+    const auto i = 4 * static_cast<std::ptrdiff_t>(pixel.y * size.x + pixel.x);
+    EXPECT_EQ(std::equal(&with[0] + i, &with[0] + i + 3, &without[0] + i), hide);
+  }
+}
+
 TEST_F(SceneViewTest, OutlinesOpenBodies) {
   const softbody::World world(softbody::find_scene("cloth", engine::find_folder("assets") / "scenes"), {});
   const engine::Camera camera = view_.camera(world.scene(), size);

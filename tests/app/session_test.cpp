@@ -94,8 +94,8 @@ TEST(Session, TakesNoWaitForASlowPicture) {
   Session session(touching_pair(), "", 1);
   for (int i = 0; i < 20; ++i) session.advance(tick);
   for (int i = 0; i < 40; ++i) session.advance(0.04, true);
-  EXPECT_EQ(session.simulation.history().frame_ms.size(), 20u);
-  EXPECT_LT(session.simulation.history().frame_ms.median(15), 17);
+  EXPECT_EQ(session.simulation.history.frame_ms.size(), 20u);
+  EXPECT_LT(session.simulation.history.frame_ms.median(15), 17);
 }
 
 TEST(Session, AgesItsNoticeWhileItWaits) {

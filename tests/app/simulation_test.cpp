@@ -43,47 +43,6 @@ TEST(Simulation, InterpolatesSlowMotionBetweenTwoSteps) {
   EXPECT_EQ(simulation.between(), 1.0f);
 }
 
-TEST(Simulation, RunsAheadToAFrame) {
-  const auto to_frame = [](int frame) {
-    return [frame](const softbody::World& world) { return world.frame() >= frame; };
-  };
-  session::Simulation simulation(touching_pair(), 1);
-  simulation.clock.slow_motion = true;
-  simulation.run_ahead(to_frame(0), 1);
-  EXPECT_FALSE(simulation.runs_ahead()) << "this frame";
-  EXPECT_TRUE(simulation.clock.paused);
-  simulation.run_ahead(to_frame(40), 1);
-  run(simulation, 100);
-  EXPECT_FALSE(simulation.runs_ahead());
-  EXPECT_TRUE(simulation.clock.paused);
-  EXPECT_EQ(simulation.world().frame(), 40);
-  softbody::World world(touching_pair(), {});
-  for (int frame = 0; frame < 40; ++frame) world.step();
-  EXPECT_EQ(simulation.world().state_hash(), world.state_hash());
-  EXPECT_FALSE(simulation.stability().past().snapshots().empty());
-}
-
-TEST(Simulation, EndsARunAheadThatFindsNothing) {
-  const auto never = [](const softbody::World&) { return false; };
-  session::Simulation simulation(touching_pair(), 1);
-  simulation.run_ahead(never, 0.5);
-  run(simulation, 100);
-  EXPECT_TRUE(simulation.clock.paused) << "out of time";
-  EXPECT_NEAR(simulation.world().frame(), 30, 1);
-  simulation.run_ahead(never, 0.5);
-  simulation.clock.paused = true;
-  EXPECT_FALSE(simulation.runs_ahead()) << "paused";
-  run(simulation, 1);
-  simulation.clock.paused = false;
-  run(simulation, 2);
-  EXPECT_FALSE(simulation.runs_ahead()) << "goes on as usual";
-  EXPECT_NEAR(simulation.world().frame(), 32, 1);
-  simulation.run_ahead(never, 0.5);
-  simulation.reset();
-  EXPECT_FALSE(simulation.runs_ahead()) << "another world";
-  EXPECT_TRUE(simulation.clock.paused);
-}
-
 TEST(Simulation, HasTheCaptionOfTheFrame) {
   session::Simulation simulation(touching_pair(), 1);
   EXPECT_EQ(simulation.caption(), "");
@@ -159,7 +118,7 @@ TEST(Simulation, ShowsTheFiguresOfTheFrameItWentBackTo) {
   EXPECT_FLOAT_EQ(shown.kinetic.latest(), float(now.energies.kinetic));
   EXPECT_FLOAT_EQ(shown.gravity.latest(), float(now.energies.gravity));
   EXPECT_FLOAT_EQ(shown.speed.latest(), float(now.max_speed));
-  for (const TimeSeries* ring : {&shown.total, &simulation.history().contacts}) {
+  for (const TimeSeries* ring : std::initializer_list<const TimeSeries*>{&shown.total, &simulation.history.contacts}) {
     ASSERT_GT(ring->size(), 0u);
     EXPECT_LE(ring->frame(ring->size() - 1), 30);
   }
@@ -318,7 +277,7 @@ TEST(SimulationUndo, BringsBackTheSettingsOfAWorldThatWasLeftForAnotherScene) {
   }
   softbody::Scene other = touching_pair();
   other.bodies.resize(1);
-  simulation.enter(simulation.make_world(other, {}), {other, session::SceneFile("other", other), {}},
+  simulation.enter(session::make_window_world(other, {}, 1), {other, session::SceneFile("other", other), {}},
                    "choice of scene");
   run(simulation, 5);
   ASSERT_EQ(simulation.world().bodies().count(), 1u);
@@ -424,6 +383,21 @@ TEST(SimulationRedo, EndsWithANewChange) {
   simulation.redo();
   EXPECT_EQ(simulation.notice.text(), "Nothing to redo");
   EXPECT_EQ(simulation.world().bodies().count(), 4u);
+}
+
+TEST(SimulationUndo, UndoesAPullBeforeTheDropThatCameDuringIt) {
+  session::Simulation simulation(touching_pair(), 1);
+  session::BodyControls bodies(simulation);
+  bodies.grab({.body = 1, .target = {0.5, 3, 0}});
+  run(simulation, 3);
+  bodies.drop();
+  bodies.pull_to({1.5, 3, 0});
+  run(simulation, 3);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 3u);
+  simulation.undo();
+  EXPECT_EQ(simulation.world().bodies().count(), 2u);
+  EXPECT_EQ(simulation.world().frame(), 3);
 }
 
 TEST(SimulationUndo, TakesAPullAsOneChange) {

@@ -6,6 +6,7 @@
 
 #include "app/compare/score.h"
 
+#include "app/render/palette.h"
 #include "app/ui/shortcuts.h"
 #include "app/ui/tour/body_subset.h"
 #include "app/ui/tour/figures.h"
@@ -37,7 +38,7 @@ softbody::Scene shipped_scene(const std::string& key) {
 
 /// Advances until the run ahead of the tour is over.
 void finish_run(Session& session, ui::Tour& tour) {
-  while (session.simulation.runs_ahead()) {
+  while (session.run_ahead.active()) {
     tour.update(session);
     session.advance(tick);
   }
@@ -55,6 +56,20 @@ std::vector<collide::Contact> misses_of(const softbody::World& world) {
   return compare::score(results[1].contacts, results[0].contacts).missed;
 }
 
+/// What the tour says that the method misses, with the structure of the method.
+std::vector<collide::Contact> missed_by(const collide::DebugGeometry& structure, const softbody::World& world) {
+  collide::Result exact;
+  collide::Workers workers(1);
+  collide::find_method(collide::reference_method)->make()->detect(world.positions(), world.collision(), workers, exact);
+  return ui::missed_contacts(structure, world.positions(), exact.contacts);
+}
+
+/// Returns the width of a figure whose label and value do not overlap. The font must be known, as after a frame.
+float width_of(const ui::TourFigure& figure) {
+  return ImGui::CalcTextSize(figure.label.c_str()).x + ImGui::GetStyle().ItemSpacing.x +
+         ImGui::CalcTextSize(figure.value.c_str()).x;
+}
+
 bool all_shown(const PanelRig& rig, const std::vector<ui::TourFigure>& figures) {
   return std::ranges::all_of(figures,
                              [&](const ui::TourFigure& figure) { return rig.recorder.find(figure.label) != nullptr; });
@@ -69,7 +84,7 @@ TEST(Tour, GoesThroughEveryStepByMouse) {
     const auto context = rig.ui.tour.context(rig.session);
     ASSERT_TRUE(context);
     EXPECT_TRUE(all_shown(rig, ui::tour_steps()[step].figures(*context))) << step;
-    EXPECT_TRUE(all_shown(rig, ui::figures_of_frame(*context)));
+    EXPECT_TRUE(all_shown(rig, ui::figures_of_frame(context->f.work)));
     EXPECT_EQ(rig.widget("Back").enabled, step > 0);
     EXPECT_EQ(rig.widget("Next").enabled, step < last_step);
     if (step < last_step) rig.click("Next");
@@ -218,7 +233,7 @@ TEST(ExampleFinder, FindsTheClosestVerticesIfThereAreNoContacts) {
   rig.session.simulation.clock.paused = true;
   rig.ui.tour.start(rig.session, rig.ui.overlays);
   for (int i = 0; i < 4; ++i) rig.ui.tour.next();
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(3);
   EXPECT_TRUE(rig.recorder.find("Contacts"));  // "none"
 }
@@ -252,7 +267,7 @@ TEST(Tour, WorksInEveryScene) {
     ui::Tour tour;
     render::Overlays shown;
     tour.start(session, shown);
-    session.simulation.stop_running_ahead();  // a contact may be far
+    session.run_ahead.stop();  // a contact may be far
     for (std::size_t step = 0; step <= last_step; ++step, tour.next()) {
       tour.update(session);
       const auto context = tour.context(session);
@@ -272,12 +287,12 @@ TEST(Tour, RunsAheadToAContact) {
   tour.start(session, shown);
   ASSERT_TRUE(tour.running_to(session));
   session.advance(tick);
-  EXPECT_GT(session.world().frame(), 1) << "several frames a picture";
+  EXPECT_GT(session.world().frame(), 1) << "several frames per picture";
   tour.update(session);
   EXPECT_FALSE(tour.context(session));
   EXPECT_EQ(tour.highlight(), nullptr);
   int before = 0;
-  for (; session.simulation.runs_ahead(); session.advance(tick)) before = session.world().frame();
+  for (; session.run_ahead.active(); session.advance(tick)) before = session.world().frame();
   tour.update(session);
   ASSERT_TRUE(tour.context(session));
   EXPECT_TRUE(tour.context(session)->f.touching);
@@ -319,7 +334,7 @@ TEST(Tour, CanBeClosedWhileTheWorldRunsAhead) {
     const ui::WidgetRecorder::Widget close = rig.widget("Close tour");
     rig.ui.tour.close(rig.session, rig.ui.overlays);
     EXPECT_TRUE(close.enabled);
-    EXPECT_FALSE(rig.session.simulation.runs_ahead());
+    EXPECT_FALSE(rig.session.run_ahead.active());
     EXPECT_EQ(rig.session.simulation.clock.paused, paused);
   }
 }
@@ -329,7 +344,7 @@ TEST(Tour, GivesUpWhereNothingWillTouch) {
   scene.bodies.pop_back();  // alone: comes to rest
   PanelRig rig(1, scene);
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(2);
   EXPECT_TRUE(rig.session.simulation.clock.paused);
   ASSERT_TRUE(rig.ui.tour.context(rig.session)) << "explains with the body";
@@ -349,6 +364,10 @@ TEST(Tour, GivesUpAfterAWhile) {
   EXPECT_NEAR(session.world().last_step().time, 20, 0.1);
   EXPECT_TRUE(tour.has_given_up(session));
   EXPECT_TRUE(tour.context(session));
+  while (tour.step() < ui::miss_step) tour.next();
+  EXPECT_FALSE(tour.has_given_up(session)) << "a page with another goal";
+  tour.back();
+  EXPECT_TRUE(tour.has_given_up(session));
   session.simulation.clock.single_step();
   session.advance(tick);
   EXPECT_FALSE(tour.has_given_up(session)) << "another frame";
@@ -366,7 +385,7 @@ TEST(Tour, ExplainsAMissOfThePapersMethod) {
   ASSERT_TRUE(tour.context(session));
   const ui::TourExample& example = tour.context(session)->f;
   ASSERT_TRUE(example.miss);
-  const ui::Miss& miss = *example.miss;
+  const ui::ExplainedMiss& miss = *example.miss;
   const std::vector<collide::Contact> misses = misses_of(session.world());
   EXPECT_EQ(example.all_missed, misses.size());
   EXPECT_TRUE(std::ranges::count(misses, miss.contact));
@@ -379,7 +398,51 @@ TEST(Tour, ExplainsAMissOfThePapersMethod) {
   EXPECT_LT(boxes[0].hi[axis], at);
   EXPECT_GE(boxes[1].lo[axis], at);
   const std::string text = ui::tour_steps()[ui::miss_step].text(*tour.context(session));
-  EXPECT_NE(text.find("a cell face (red) lies between"), std::string::npos) << text;
+  EXPECT_NE(text.find("a cell face (dark blue) lies between"), std::string::npos) << text;
+}
+
+TEST(Tour, FramesTheBoxesOfAMissAndNotTheirCells) {
+  softbody::Scene scene = touching_pair();
+  scene.collision.cell_size = {2.47f, 60, 60};  // a face at x = 0, between the bodies
+  scene.default_cell_size = false;
+  Session session(scene, {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown, ui::miss_step);
+  tour.update(session);
+  ASSERT_TRUE(tour.context(session));
+  ASSERT_TRUE(tour.context(session)->f.miss && tour.context(session)->f.miss->face);
+  const render::Highlight& highlight = *tour.highlight();
+  EXPECT_LT(highlight.radius, 1.0f);
+  for (const engine::BoxSet& set : highlight.boxes)
+    for (const engine::Box& box : set.boxes)
+      for (const glm::vec3& corner : {box.lo, box.hi})
+        EXPECT_LT(glm::distance(corner, highlight.centre), 3 * highlight.radius);
+}
+
+TEST(Tour, ShowsFewCellsOfAFullBucketAndTheCornersOwnFirst) {
+  softbody::Scene scene = touching_pair();
+  scene.collision.buckets = 1;
+  scene.collision.cell_size = glm::vec3(0.3f);
+  scene.default_cell_size = false;
+  Session session(scene, {}, 1);
+  ui::Tour tour;
+  render::Overlays shown;
+  tour.start(session, shown, 3);
+  for (std::size_t corner = 0; corner < 8; ++corner) {
+    tour.choose_corner(corner);
+    tour.update(session);
+    const auto context = tour.context(session);
+    const compare::BucketContents bucket = context->bucket();
+    ASSERT_GT(bucket.groups.size(), 3u);
+    EXPECT_EQ(bucket.groups.front().cell, context->bucket_corner().cell);
+    const std::vector<ui::TourFigure> figures = ui::tour_steps()[3].figures(*context);
+    EXPECT_EQ(figures[1].colour, render::same_cell_colour);
+    EXPECT_EQ(figures[2].colour, render::aliased_colour);
+    EXPECT_EQ(figures[4].value, grouped(bucket.groups.size() - 3)) << figures[4].label;
+    EXPECT_EQ(tour.highlight()->labels.size(), 3u);
+    EXPECT_EQ(tour.highlight()->boxes.size(), 2u) << "a set of cells and one of boxes";
+  }
 }
 
 TEST(Tour, ShowsTheCellThatALargeBoxSkips) {
@@ -392,7 +455,7 @@ TEST(Tour, ShowsTheCellThatALargeBoxSkips) {
   Session session(scene, {}, 1);
   const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
   ASSERT_TRUE(found && found->miss);
-  const ui::Miss& miss = *found->miss;
+  const ui::ExplainedMiss& miss = *found->miss;
   ASSERT_TRUE(miss.skipped && !miss.face);
   const collide::methods::CellHash hash(session.world().collision());
   int without_corner = 0;
@@ -415,14 +478,14 @@ TEST(Tour, SaysThatNothingIsMissedAndRunsAheadToAMiss) {
   scene.collision.levels = 4;
   PanelRig rig(1, scene);
   rig.ui.tour.start(rig.session, rig.ui.overlays);
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   for (std::size_t i = 0; i < ui::miss_step; ++i) rig.ui.tour.next();
   rig.frames(3);
   ASSERT_TRUE(misses_of(rig.session.world()).empty());
   EXPECT_TRUE(rig.recorder.find("Tour lack"));
   rig.click("Run ahead");
   EXPECT_TRUE(rig.recorder.find("Tour runs ahead"));
-  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.simulation.runs_ahead(); }));
+  ASSERT_TRUE(rig.frames_until([&] { return !rig.session.run_ahead.active(); }));
   rig.frames(2);
   EXPECT_FALSE(rig.recorder.find("Tour lack"));
   EXPECT_FALSE(misses_of(rig.session.world()).empty());
@@ -434,6 +497,13 @@ TEST(Tour, FitsEveryPageIntoSmallWindows) {
   scene.default_cell_size = false;
   scene.collision.buckets = collide::max_buckets;
   PanelRig rig(1, scene);
+  const ui::FrameWork of_drop_3000{.bodies = 3125,
+                                   .vertices = 506'250,
+                                   .boxes = 25'000,
+                                   .hashes = 200'000,
+                                   .pair_tests = 405'190'390,
+                                   .all_pairs = 128'144'278'125,
+                                   .pair_tests_estimated = true};
   for (const glm::ivec2 size : {glm::ivec2(640, 480), glm::ivec2(800, 500), glm::ivec2(1280, 720)}) {
     rig.resize(size.x, size.y);
     rig.ui.tour.start(rig.session, rig.ui.overlays);
@@ -443,6 +513,9 @@ TEST(Tour, FitsEveryPageIntoSmallWindows) {
       ASSERT_TRUE(context && context->f.miss);
       for (const ui::TourFigure& figure : ui::tour_steps()[step].figures(*context))
         EXPECT_LE(rig.widget(figure.label).max.x, static_cast<float>(size.x)) << figure.label << " at " << size.x;
+      const ui::WidgetRecorder::Widget row = rig.widget("All pairs");
+      for (const ui::TourFigure& figure : ui::figures_of_frame(of_drop_3000))
+        EXPECT_LE(width_of(figure), row.max.x - row.min.x) << figure.label << ": " << figure.value << " at " << size.x;
       for (const char* label : {"Back", "Next", "Close tour"})
         EXPECT_LE(rig.widget(label).max.y, static_cast<float>(size.y)) << label;
     }
@@ -485,19 +558,22 @@ TEST(Tour, FindsAliasingInAnotherBox) {
 
 TEST(MissedContacts, AreThoseThatTheDetectorMisses) {
   std::size_t missed = 0;
-  for (const int levels : {0, 3, 5, 8}) {
+  for (const int levels : {0, 3, 5, 8, collide::max_levels}) {
     for (const float cell : {0.07f, 0.3f, 0.7f}) {
       softbody::Scene scene = touching_pair();
       scene.collision.levels = levels;
       scene.collision.cell_size = glm::vec3(cell, 1.1f * cell, 0.9f * cell);
       scene.default_cell_size = false;
       Session session(scene, {}, 1);
-      for (int i = 0; i < 10; ++i) session.advance(tick);
-      const std::vector<collide::Contact> expected = misses_of(session.world());
-      const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
-      EXPECT_EQ(found->all_missed, expected.size()) << levels << ' ' << cell;
-      EXPECT_EQ(ui::ExampleFinder().has_miss(session.world()), !expected.empty());
-      missed += expected.size();
+      for (const int frames : {0, 10}) {
+        for (int i = 0; i < frames; ++i) session.advance(tick);
+        const std::vector<collide::Contact> expected = misses_of(session.world());
+        const auto found = ui::ExampleFinder().find(session.world(), std::nullopt);
+        EXPECT_EQ(missed_by(found->structure, session.world()), expected) << levels << ' ' << cell;
+        EXPECT_EQ(found->all_missed, expected.size());
+        EXPECT_EQ(ui::ExampleFinder().has_miss(session.world()), !expected.empty());
+        missed += expected.size();
+      }
     }
   }
   EXPECT_GT(missed, 0u);

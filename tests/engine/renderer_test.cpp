@@ -367,6 +367,15 @@ TEST_F(TranslucentTest, StandsBehindBodiesButNotBehindOtherSolids) {
   EXPECT_GT(centre().r - centre().g, sphere.r - sphere.g + 20);
 }
 
+TEST_F(TranslucentTest, StandsBehindBodiesOfAnEarlierSet) {
+  frame.translucent = {{.meshes = {back}, .opacity = 0.4f}};
+  const glm::ivec3 without = centre();
+  frame.translucent.push_back({.meshes = {front}, .opacity = 0.4f, .hides = false, .behind_bodies = true});
+  EXPECT_EQ(centre(), without);
+  frame.translucent[1].behind_bodies = false;
+  EXPECT_NE(centre(), without);
+}
+
 TEST_F(TranslucentTest, MarksRegionsOfSolidBodies) {
   frame.meshes = {front};
   const auto darkest = [&](const glm::vec3& around) {

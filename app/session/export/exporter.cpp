@@ -19,7 +19,7 @@ struct Curve {
 };
 
 std::vector<Curve> curves_of(const Session& session) {
-  const StepHistory& history = session.simulation.history();
+  const StepHistory& history = session.simulation.history;
   const StabilityHistory& motion = session.simulation.stability().history();
   std::vector<Curve> curves{{"frame_ms", history.frame_ms},
                             {"detect_ms", history.detect_ms},

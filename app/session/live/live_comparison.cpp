@@ -56,10 +56,13 @@ bool LiveComparison::wants_report(std::uint64_t revision) const {
 std::vector<bool> LiveComparison::chosen() const {
   std::vector<bool> methods;
   if (choice.on) methods = choice.methods;
-  if (choice.shows_misses && choice.misses_of != driver_) {
+  const auto add = [&](std::size_t method) {
+    if (method == driver_) return;
     methods.resize(collide::method_table().size());
-    methods[choice.misses_of] = true;
-  }
+    methods[method] = true;
+  };
+  if (choice.with_paper) add(compare::method_index(collide::paper_method));
+  if (choice.with_misses) add(choice.misses_of);
   return methods;
 }
 
@@ -99,11 +102,6 @@ void LiveComparison::forget_times() {
 
 const compare::CompareRow* LiveComparison::scored_row(std::size_t method) const {
   return method < report_.rows.size() && report_.rows[method].scored ? &report_.rows[method] : nullptr;
-}
-
-const std::vector<collide::Contact>* LiveComparison::missed() const {
-  const compare::CompareRow* row = scored_row(choice.misses_of);
-  return row ? &row->missed : nullptr;
 }
 
 }  // namespace app::session

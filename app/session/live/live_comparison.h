@@ -25,8 +25,9 @@ using CompareWorker = BackgroundWorker<CompareTask>;
 struct CompareChoice {
   bool on = false;  // whether `methods` are compared
   std::vector<bool> methods = std::vector<bool>(collide::method_table().size(), true);
-  bool shows_misses = false;                                             // whether `misses_of` is compared
-  std::size_t misses_of = compare::method_index(collide::paper_method);  // whose missed contacts are shown
+  bool with_paper = false;   // whether the paper's method is compared, too
+  bool with_misses = false;  // whether `misses_of` is compared, too
+  std::size_t misses_of = compare::method_index(collide::paper_method);
 };
 
 class LiveComparison {
@@ -57,7 +58,12 @@ class LiveComparison {
   /// The row of a method: nullptr until it is measured, or if it cannot be.
   const compare::CompareRow* scored_row(std::size_t method) const;
   /// What CompareChoice::misses_of missed; nullptr if that is not known.
-  const std::vector<collide::Contact>* missed() const;
+  const std::vector<collide::Contact>* missed() const { return missed_by(choice.misses_of); }
+  const std::vector<collide::Contact>* missed_by(std::size_t method) const {
+    const compare::CompareRow* row = scored_row(method);
+    return row ? &row->missed : nullptr;
+  }
+  const compare::CompareRow* paper_row() const { return scored_row(compare::method_index(collide::paper_method)); }
 
   // By frame: recall of the driver; ms of each method.
   const TimeSeries& recall() const { return recall_; }

@@ -168,7 +168,7 @@ void draw_detection(Widgets& w, Session& session, bool structure_shown) {
   bool automatic = session.world().scene().default_cell_size;
   // A setting is enabled if the driving method, the structure shown (§2) or the comparison uses it.
   const bool needed = structure_shown || session.inspector.selected_bucket() || session.comparison.choice.on ||
-                      session.comparison.choice.shows_misses;
+                      session.comparison.choice.with_paper || session.comparison.choice.with_misses;
   const bool hash = method.uses_hash || needed;
   bool changed = draw_levels(w, settings, method.uses_levels || needed);
   changed |= draw_buckets(w, settings, hash);

@@ -28,7 +28,7 @@ constexpr glm::vec3 detect_colour{0.835f, 0.369f, 0.000f}, solve_colour{0.000f, 
 
 /// Draws how many pictures come per second, or why none do.
 void draw_picture_rate(Widgets& w, const Session& session, const UiState& ui) {
-  const TimeSeries& times = session.simulation.history().frame_ms;
+  const TimeSeries& times = session.simulation.history.frame_ms;
   if (ui.picture_interval > 0) {
     const std::string text = ui.picture_interval > longest_pace
                                  ? "still: drawn when something changes"
@@ -42,7 +42,7 @@ void draw_picture_rate(Widgets& w, const Session& session, const UiState& ui) {
 }
 
 void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
-  const session::StepHistory& history = session.simulation.history();
+  const session::StepHistory& history = session.simulation.history;
   const softbody::StepReport& report = session.world().last_step();
   const float ms = axis_end(std::max(history.detect_ms.max(), history.solve_ms.max()), 1.0f);
   w.curve("Detect", fmt::format("{:.2f} ms", report.detect_ms), history.detect_ms, {0, ms}, detect_colour,
@@ -58,7 +58,7 @@ void draw_curves(Widgets& w, const Session& session, const UiState& ui) {
 /// Draws the recall, then the contacts with their parts.
 void draw_contacts(Widgets& w, const Session& session) {
   const collide::Result& found = session.world().detection();
-  const session::StepHistory& history = session.simulation.history();
+  const session::StepHistory& history = session.simulation.history;
   const compare::CompareRow* driver = session.comparison.driver_row();
   const std::string value = driver ? fmt::format("{:.4f}", rounded_down(driver->recall)) : "-";
   w.curve("Recall", value, session.comparison.recall(), {0, 1}, glm::vec3(0.45f),

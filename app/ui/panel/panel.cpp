@@ -49,7 +49,7 @@ void draw_time_controls(Widgets& w, Session& session) {
     session.simulation.reset();
   ImGui::SameLine();
   ImGui::BeginDisabled(!session.simulation.can_undo());
-  if (w.button("Undo", "Undoes the last reset, choice of scene, or change of bodies or solids (Ctrl+Z).", width))
+  if (w.button("Undo", "Undoes the last reset, choice of scene, change of bodies, or drag of a solid (Ctrl+Z).", width))
     session.simulation.undo();
   ImGui::EndDisabled();
   ImGui::SameLine();

@@ -40,8 +40,10 @@ struct UiState {
   session::Exporter exporter;
   Tour tour;
 
-  /// True if the scene marks missed contacts.
-  bool shows_misses() const { return overlays.missed || (story && !clean && !tour.open()); }
+  /// True if the scene marks what the paper's method misses.
+  bool marks_story() const { return story && !clean && !tour.open(); }
+  /// True if the card is on the screen. The views below the scene say the same.
+  bool shows_story() const { return marks_story() && lower == LowerView::none; }
   void toggle(LowerView part) { lower = lower == part ? LowerView::none : part; }
   void set_story(bool on) { story = story_at_start = on; }
   session::Import import;

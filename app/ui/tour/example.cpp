@@ -26,13 +26,9 @@ using softbody::BodyId;
 
 constexpr std::uint64_t max_pair_tests = 300'000'000;  // of the paper's method: more would keep the window waiting
 
-glm::vec3 vertex(const softbody::World& world, Index v) {
-  const collide::Frame frame = world.positions();
-  return {frame.x[v], frame.y[v], frame.z[v]};
-}
-
 float distance_of(const softbody::World& world, const Contact& contact) {
-  return glm::distance(vertex(world, contact.a), vertex(world, contact.b));
+  const collide::Frame frame = world.positions();
+  return glm::distance(position(frame, contact.a), position(frame, contact.b));
 }
 
 struct Pair {
@@ -171,6 +167,7 @@ std::size_t best_corner(const TourExample& example, const glm::vec3& cell_size) 
 
 /// Returns the corner with the nearest aliases: of the boxes of the pair, or else of any box.
 std::optional<HashedCorner> find_aliased_corner(const TourExample& example, const collide::Settings& settings) {
+  if (example.table.sharing().aliased == 0) return std::nullopt;
   const collide::methods::CellHash hash(settings);
   const collide::Range of_other = boxes_of(example.structure, example.other);
   const collide::Range all{0, static_cast<Index>(example.structure.boxes.size())};
@@ -197,7 +194,7 @@ void add_boxes(const softbody::World& world, TourExample& example) {
   const collide::methods::CellHash hash(settings);
   example.boxes = boxes_of(example.structure, example.body);
   const Index nearest = example.closest ? example.closest->a : world.bodies().first[example.body];
-  example.box = box_of(example.structure, example.body, vertex(world, nearest));
+  example.box = box_of(example.structure, example.body, position(world.positions(), nearest));
   example.corners = hash_corners(example.structure.boxes[example.box], hash);
   example.corner = best_corner(example, settings.cell_size);
   if (std::isinf(reach_of_aliases(example, example.corners[example.corner], settings.cell_size)))
@@ -263,20 +260,22 @@ std::optional<TourExample> ExampleFinder::find(const softbody::World& world, std
   }
   example.table = compare::TableContents(example.structure, frame, settings);
   add_boxes(world, example);
-  count_work(world, example);
+  example.work = count_work(world, example.structure.boxes.size());
   return example;
 }
 
-/// Adds up the work of the paper's method on the frame.
-void ExampleFinder::count_work(const softbody::World& world, TourExample& example) {
+FrameWork ExampleFinder::count_work(const softbody::World& world, std::size_t boxes) {
   const std::uint64_t estimate = estimate_pair_tests(world);
-  example.pair_tests_estimated = estimate > max_pair_tests;
-  example.work.boxes = example.structure.boxes.size();
-  example.work.hashes = 8 * example.work.boxes;
-  example.work.pair_tests =
-      example.pair_tests_estimated
-          ? estimate
-          : detect(*paper_, world.positions(), world.collision(), one_worker_).counters.pair_tests;
+  FrameWork work{.bodies = world.bodies().count(),
+                 .vertices = world.bodies().vertex_count(),
+                 .boxes = boxes,
+                 .hashes = 8 * boxes,
+                 .pair_tests = estimate,
+                 .all_pairs = compare::all_pair_tests(world.bodies(), world.collision().self_collision),
+                 .pair_tests_estimated = estimate > max_pair_tests};
+  if (!work.pair_tests_estimated)
+    work.pair_tests = detect(*paper_, world.positions(), world.collision(), one_worker_).counters.pair_tests;
+  return work;
 }
 
 }  // namespace app::ui

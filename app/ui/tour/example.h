@@ -12,6 +12,13 @@
 
 namespace app::ui {
 
+/// The work of the paper's method on a whole frame.
+struct FrameWork {
+  std::uint64_t bodies = 0, vertices = 0, boxes = 0, hashes = 0, pair_tests = 0;
+  std::uint64_t all_pairs = 0;        // the pair tests of brute force
+  bool pair_tests_estimated = false;  // the frame is too large to count them
+};
+
 /// The paper's method on one frame, whichever method drives.
 struct TourExample {
   // A pair in contact if there is one (if the contact is inside one body, `other` is `body`); else a body and the one
@@ -35,9 +42,8 @@ struct TourExample {
 
   // Of the whole frame.
   std::size_t all_contacts = 0, all_missed = 0;
-  std::optional<Miss> miss;           // one of the pair if there is one, else one of another pair
-  collide::Counters work;             // boxes, hashes and pair tests
-  bool pair_tests_estimated = false;  // the frame is too large to count its pair tests
+  std::optional<ExplainedMiss> miss;  // one of the pair if there is one, else one of another pair
+  FrameWork work;
 };
 
 /// Finds examples with detectors of its own, without using what the driving method has found. All functions may throw
@@ -54,7 +60,7 @@ class ExampleFinder {
 
  private:
   std::vector<collide::Contact> true_contacts(const softbody::World& world);
-  void count_work(const softbody::World& world, TourExample& example);
+  FrameWork count_work(const softbody::World& world, std::size_t boxes);
 
   std::unique_ptr<collide::Detector> exact_, paper_;
   collide::methods::PaperStructure paper_structure_ = collide::methods::make_paper_structure();

@@ -8,7 +8,6 @@
 #include <glm/common.hpp>
 
 #include "app/base/text.h"
-#include "app/compare/cost_model.h"
 #include "app/render/palette.h"
 #include "app/ui/views/bucket_view.h"
 
@@ -61,10 +60,10 @@ std::vector<TourFigure> figures_of_body(const TourContext& v) {
   const auto& [lo, hi] = v.f.bounds[0];
   const collide::Bodies& bodies = v.world.bodies();
   return {body_figure("Body", v.world, v.f.body),
-          {"Its vertices", grouped(bodies.size(v.f.body)), "Each is looked at once, to find the box."},
+          {"Its vertices", grouped(bodies.size(v.f.body)), "The method looks at each of them once, to find the box."},
           {"Minimum point", place(lo), "In metres: the smallest x, y and z of its vertices."},
           {"Maximum point", place(hi), "In metres: the largest x, y and z of its vertices."},
-          {"Sides", sides(hi - lo), "Of the box."}};
+          {"Sides", sides(hi - lo), "The sides of the box: the maximum point less the minimum point."}};
 }
 
 std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
@@ -72,22 +71,23 @@ std::vector<TourFigure> figures_of_boxes(const TourContext& v) {
   const glm::vec3 side = hi - lo, cell = v.world.collision().cell_size;
   const bool fits = glm::min(side, cell) == side;
   const int levels = v.world.collision().levels;
-  return {body_figure("Body", v.world, v.f.body),
-          {"n, the level of subdivision", fmt::format("{}: 2^n = {}", levels, grouped(1ull << levels)),
-           "Set it in the panel, or by [ and ]. The paper uses 3."},
-          {"Boxes with vertices", grouped(v.f.boxes.size()), "Of this body."},
-          {"A box", sides(side), "All boxes of a body have the same sides, but for rounding."},
-          {"A cell", sides(cell),
-           fmt::format("The side of a grid cell. {}",
-                       fits ? "The box fits into it, so that its corners reach every cell that it overlaps: amber."
-                            : "The box is larger, so that its corners skip cells in between: red.")}};
+  return {
+      body_figure("Body", v.world, v.f.body),
+      {"n, the level of subdivision", fmt::format("{}: 2^n = {}", levels, grouped(1ull << levels)),
+       "Set it in the panel, or by [ and ]. The paper uses 3."},
+      {"Boxes with vertices", grouped(v.f.boxes.size()), "The boxes of this body. Boxes without vertices are dropped."},
+      {"A box", sides(side), "All boxes of a body have the same sides, but for rounding."},
+      {"A cell", sides(cell),
+       fmt::format("The side of a grid cell. {}",
+                   fits ? "The box fits into it, so that its corners reach every cell that it overlaps: amber."
+                        : "The box is larger, so that its corners skip cells in between: red.")}};
 }
 
 std::vector<TourFigure> figures_of_corner(const TourContext& v) {
   const HashedCorner& corner = v.hashed_corner();
-  std::vector<TourFigure> figures{{fmt::format("Corner {}", v.chosen.value_or(v.f.corner) + 1),
-                                   fmt::format("{} m", place(corner.at)),
-                                   "Of the box that is nearest to the other body. Choose another corner above."}};
+  std::vector<TourFigure> figures{
+      {fmt::format("Corner {}", v.chosen.value_or(v.f.corner) + 1), fmt::format("{} m", place(corner.at)),
+       "A corner of the box that is nearest to the other body. Choose another corner above."}};
   if (!can_be_written_out(corner)) {
     figures.push_back({"Bucket", grouped(corner.bucket), "The corner is too far away to write its numbers out."});
     return figures;
@@ -97,21 +97,19 @@ std::vector<TourFigure> figures_of_corner(const TourContext& v) {
 }
 
 std::vector<TourFigure> figures_of_bucket(const TourContext& v) {
-  constexpr std::size_t max_groups = 3;
-  const HashedCorner& corner = v.bucket_corner();
-  const compare::BucketContents bucket = v.f.table.bucket(corner.bucket);
+  const compare::BucketContents bucket = v.bucket();
   std::vector<TourFigure> figures{
       {fmt::format("Bucket {}", grouped(bucket.bucket)),
        fmt::format("{}{}{}{}", grouped(bucket.items), bucket.items == 1 ? " box, " : " boxes, ",
                    grouped(bucket.groups.size()), bucket.groups.size() == 1 ? " cell" : " cells"),
-       "What shares the bucket with the corner."}};
-  const compare::CellGroup* own = bucket.group(corner.cell);
-  for (std::size_t i = 0; i < std::min(max_groups, bucket.groups.size()); ++i) {
-    const compare::CellGroup& group = bucket.groups[i];
+       "The boxes with a corner in this bucket, and the cells of these corners."}};
+  for (const compare::CellGroup& group : TourContext::shown_cells(bucket))
     figures.push_back({fmt::format("Cell {}", cell_text(group.cell)), bodies_text(group, bucket, v.f.structure, {}),
                        fmt::format("Boxes with a corner in this cell: {}.", grouped(group.items.size())),
-                       &group == own ? render::same_cell_colour : render::aliased_colour});
-  }
+                       &group == &bucket.groups.front() ? render::same_cell_colour : render::aliased_colour});
+  if (const std::size_t shown = TourContext::shown_cells(bucket).size(); shown < bucket.groups.size())
+    figures.push_back({"Cells not shown", grouped(bucket.groups.size() - shown),
+                       "Other cells of this bucket, each with no more boxes than those in orange."});
   figures.push_back({"Meetings: same cell / aliased", sharing_text(bucket.sharing),
                      "Pairs of boxes that meet in this bucket: as neighbours, and by the modulo alone."});
   figures.push_back({"In the whole table", sharing_text(v.f.table.sharing()), "The same, summed over all buckets."});
@@ -123,18 +121,21 @@ std::vector<TourFigure> figures_of_contact(const TourContext& v) {
   const bool self = v.f.body == v.f.other;
   std::vector<TourFigure> figures{body_figure(self ? "Within body" : "Body", v.world, v.f.body)};
   if (!self) figures.push_back(body_figure("Nearest to it", v.world, v.f.other));
-  figures.push_back({"Closest vertices", v.f.closest ? metres(v.f.distance) : "-", "Their distance d."});
-  figures.push_back({"Tolerance", metres(tolerance), "d below it is a contact (§2.3)."});
+  figures.push_back(
+      {"Closest vertices", v.f.closest ? metres(v.f.distance) : "-", "The distance d of these two vertices."});
+  figures.push_back(
+      {"Tolerance", metres(tolerance), "Two vertices whose distance d is below it are a contact (§2.3)."});
   if (!v.f.touching) {
-    figures.push_back({"Contacts", "none", "Of these bodies, in this frame."});
+    figures.push_back({"Contacts", "none", "These bodies do not touch in this frame."});
     return figures;
   }
   figures.push_back({self ? "Its contacts with itself" : "Contacts of the two", grouped(v.f.contacts.size()),
-                     "All that there are, found by an exact method.",
+                     "The number of all contacts, found by an exact method.",
                      self ? render::contact_inside_colour : render::contact_between_colour});
-  figures.push_back({"Missed", grouped(v.f.missed.size()),
-                     "Those that the paper's method does not find: no box of the one shares a bucket with the other's.",
-                     render::contact_missed_colour});
+  figures.push_back(
+      {"Missed", grouped(v.f.missed.size()),
+       "The contacts that the paper's method does not find: the boxes of their two vertices share no bucket.",
+       render::contact_missed_colour});
   return figures;
 }
 
@@ -152,38 +153,35 @@ std::vector<TourFigure> figures_of_miss(const TourContext& v) {
           {"Cell face between the boxes",
            fmt::format("{} = {}", "xyz"[miss->face->axis],
                        metres(static_cast<float>(miss->face->index) * v.world.collision().cell_size[miss->face->axis])),
-           "The corners of one box are in cells below it, those of the other in cells above it.",
-           render::cell_face_colour});
+           "The corners of one box are in cells below it, those of the other in cells above it.", render::cell_colour});
     else
       figures.push_back({"Skipped cell", cell_text(*miss->skipped),
                          "Both boxes reach over this cell, but at least one of them has no corner in it.",
-                         render::cell_face_colour});
+                         render::cell_colour});
     figures.push_back({"Tolerance", metres(v.world.collision().tolerance), "Closer vertices are a contact (§2.3)."});
   }
   figures.push_back(
-      {"Contacts of the frame", grouped(v.f.all_contacts), "All that there are, found by an exact method."});
+      {"Contacts of the frame", grouped(v.f.all_contacts), "The number of all contacts, found by an exact method."});
   figures.push_back({"Missed by the paper's method", grouped(v.f.all_missed),
-                     "With the levels, cells and buckets in use.", render::contact_missed_colour});
+                     "The contacts that it does not find with the levels, cells and buckets in use.",
+                     render::contact_missed_colour});
   return figures;
 }
 
-std::vector<TourFigure> figures_of_frame(const TourContext& v) {
-  const collide::Bodies& bodies = v.world.bodies();
-  const std::uint64_t vertices = bodies.vertex_count();
-  const std::uint64_t all = compare::all_pair_tests(bodies, v.world.collision().self_collision);
-  const collide::Counters& work = v.f.work;
+std::vector<TourFigure> figures_of_frame(const FrameWork& work) {
   return {
-      {"Boxes / bodies", fmt::format("{} / {}", grouped(work.boxes), grouped(bodies.count())),
+      {"Boxes / bodies", fmt::format("{} / {}", grouped(work.boxes), grouped(work.bodies)),
        "All subdivided boxes with vertices, in the whole frame."},
-      {"Hashes / vertices", fmt::format("{} / {}", grouped(work.hashes), grouped(vertices)),
-       fmt::format("8 corners a box, against one hash a vertex without boxes: {} a vertex. §3 claims that boxes save "
-                   "hashes; they do while a box holds more than 8 vertices. Both grow with the number of bodies.",
-                   ratio(work.hashes, vertices))},
-      {v.f.pair_tests_estimated ? "Pair tests, estimated / all pairs" : "Pair tests / all pairs",
-       fmt::format("{} / {}", grouped(work.pair_tests), grouped(all)),
-       fmt::format("{} a vertex. §3 claims O(1) at best, so many a vertex however many bodies there are, and O(N^2), "
-                   "all pairs, at worst.",
-                   ratio(work.pair_tests, vertices))}};
+      {"Hashes / vertices", fmt::format("{} / {}", grouped(work.hashes), grouped(work.vertices)),
+       fmt::format("There are 8 corners per box, against one hash per vertex without boxes: {} per vertex. §3 claims "
+                   "that boxes save hashes; they do while a box holds more than 8 vertices. Both grow with the number "
+                   "of bodies.",
+                   ratio(work.hashes, work.vertices))},
+      {work.pair_tests_estimated ? "Pair tests, estimated" : "Pair tests", grouped(work.pair_tests),
+       fmt::format("The method makes {} per vertex. §3 claims O(1) at best, which is so many per vertex however many "
+                   "bodies there are, and O(N^2), all pairs, at worst.",
+                   ratio(work.pair_tests, work.vertices))},
+      {"All pairs", grouped(work.all_pairs), "The pair tests of a method without boxes and hashes (brute force)."}};
 }
 
 }  // namespace app::ui

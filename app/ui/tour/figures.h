@@ -12,7 +12,7 @@ std::vector<TourFigure> figures_of_bucket(const TourContext& context);
 std::vector<TourFigure> figures_of_contact(const TourContext& context);
 std::vector<TourFigure> figures_of_miss(const TourContext& context);
 
-/// Hashes, boxes and pair tests of the paper's method on this frame, beside the claims of §3.
-std::vector<TourFigure> figures_of_frame(const TourContext& context);
+/// Hashes, boxes and pair tests of the paper's method on a frame, beside the claims of §3.
+std::vector<TourFigure> figures_of_frame(const FrameWork& work);
 
 }  // namespace app::ui

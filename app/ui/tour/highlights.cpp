@@ -16,38 +16,43 @@ namespace {
 
 constexpr glm::vec3 outline_colour{0.13f, 0.16f, 0.20f};
 
-glm::vec3 vertex(const TourContext& v, collide::Index i) {
-  const collide::Frame f = v.world.positions();
-  return {f.x[i], f.y[i], f.z[i]};
+collide::Aabb hull(const collide::Aabb& a, const collide::Aabb& b) {
+  return {glm::min(a.lo, b.lo), glm::max(a.hi, b.hi)};
 }
 
-void frame_camera(render::Highlight& highlight, const glm::vec3& lo, const glm::vec3& hi) {
-  highlight.centre = 0.5f * (lo + hi);
-  highlight.radius = std::max(0.5f * glm::distance(lo, hi), 1e-3f);
-}
-
-void frame_camera_on_pair(const TourContext& v, render::Highlight& highlight) {
-  frame_camera(highlight, glm::min(v.f.bounds[0].lo, v.f.bounds[1].lo), glm::max(v.f.bounds[0].hi, v.f.bounds[1].hi));
+void frame_camera(render::Highlight& highlight, const collide::Aabb& region) {
+  highlight.centre = 0.5f * (region.lo + region.hi);
+  highlight.radius = std::max(0.5f * glm::distance(region.lo, region.hi), 1e-3f);
 }
 
 engine::BoxSet outlines(float width, float fill) {
   return {.boxes = {}, .width = width, .occluded_alpha = 0.7f, .face_alpha = fill};
 }
 
-engine::Box add_cell(const TourContext& v, const compare::Cell& cell, const glm::vec3& colour,
-                     render::Highlight& highlight) {
-  engine::BoxSet set = outlines(1.25f, 0.06f);
-  set.boxes.push_back(render::cell_box(cell, v.world.collision().cell_size, glm::vec4(colour, 0.8f)));
-  highlight.boxes.push_back(set);
-  return set.boxes.front();
+/// Returns the part of a box that is in or near the region that the camera frames. A cell may be far larger.
+engine::Box clip(engine::Box box, const collide::Aabb& framed) {
+  const float margin = 0.25f * glm::distance(framed.lo, framed.hi);
+  box.lo = glm::max(box.lo, framed.lo - margin);
+  box.hi = glm::min(box.hi, framed.hi + margin);
+  return box;
 }
+
+/// Adds what is near the framed region of a cell to the set, and returns it.
+engine::Box add_cell(const TourContext& v, const compare::Cell& cell, const glm::vec3& colour,
+                     const collide::Aabb& framed, engine::BoxSet& set) {
+  return set.boxes.emplace_back(
+      clip(render::cell_box(cell, v.world.collision().cell_size, glm::vec4(colour, 0.8f)), framed));
+}
+
+engine::BoxSet cell_outlines() { return outlines(1.25f, 0.06f); }
 
 void add_contacts(const TourContext& v, const std::vector<collide::Contact>& contacts, const glm::vec3& colour,
                   float width, render::Highlight& highlight) {
   engine::LineSet lines{.lines = {}, .width = width, .occluded_alpha = 0.9f};
   engine::PointSet points{.points = {}, .diameter = 3 + 1.5f * width, .occluded_alpha = 0.9f};
+  const collide::Frame frame = v.world.positions();
   for (const collide::Contact& contact : contacts) {
-    const glm::vec3 a = vertex(v, contact.a), b = vertex(v, contact.b);
+    const glm::vec3 a = position(frame, contact.a), b = position(frame, contact.b);
     lines.lines.push_back({a, b, glm::vec4(colour, 1.0f)});
     points.points.push_back({a, glm::vec4(colour, 1.0f)});
     points.points.push_back({b, glm::vec4(colour, 1.0f)});
@@ -57,19 +62,22 @@ void add_contacts(const TourContext& v, const std::vector<collide::Contact>& con
 }
 
 /// Adds the face between the cells of the two corners, or the skipped cell.
-void add_barrier(const TourContext& v, const Miss& miss, render::Highlight& highlight) {
+void add_barrier(const TourContext& v, const ExplainedMiss& miss, const collide::Aabb& framed,
+                 render::Highlight& highlight) {
   const glm::vec3& size = v.world.collision().cell_size;
-  const glm::vec4 colour(render::cell_face_colour, 1.0f);
-  engine::BoxSet set = outlines(2.5f, 0.3f);
+  const glm::vec4 colour(render::cell_colour, 1.0f);
+  engine::Box barrier;
   if (miss.face) {
     const engine::Box one = render::cell_box(miss.corners[0].cell, size, colour);
     const engine::Box other = render::cell_box(miss.corners[1].cell, size, colour);
-    engine::Box face{glm::min(one.lo, other.lo), glm::max(one.hi, other.hi), colour};
-    face.lo[miss.face->axis] = face.hi[miss.face->axis] = static_cast<float>(miss.face->index) * size[miss.face->axis];
-    set.boxes.push_back(face);
+    barrier = {glm::min(one.lo, other.lo), glm::max(one.hi, other.hi), colour};
+    const auto [axis, index] = *miss.face;
+    barrier.lo[axis] = barrier.hi[axis] = static_cast<float>(index) * size[axis];
   } else {
-    set.boxes.push_back(render::cell_box(*miss.skipped, size, colour));
+    barrier = render::cell_box(*miss.skipped, size, colour);
   }
+  engine::BoxSet set = outlines(2.5f, 0.3f);
+  set.boxes.push_back(clip(barrier, framed));
   highlight.boxes.push_back(std::move(set));
 }
 
@@ -85,7 +93,7 @@ void highlight_body(const TourContext& v, render::Highlight& highlight) {
                        .diameter = 9,
                        .occluded_alpha = 0.9f}};
   highlight.labels = {{lo, "minimum"}, {hi, "maximum"}};
-  frame_camera(highlight, lo, hi);
+  frame_camera(highlight, v.f.bounds[0]);
 }
 
 void highlight_boxes(const TourContext& v, render::Highlight& highlight) {
@@ -98,7 +106,7 @@ void highlight_boxes(const TourContext& v, render::Highlight& highlight) {
     boxes.boxes.push_back({lo, hi, glm::vec4(render::bucket_colour(bucket), 1.0f)});
   }
   highlight.boxes = {std::move(boxes)};
-  frame_camera(highlight, v.f.bounds[0].lo, v.f.bounds[0].hi);
+  frame_camera(highlight, v.f.bounds[0]);
 }
 
 void highlight_corners(const TourContext& v, render::Highlight& highlight) {
@@ -107,8 +115,9 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
   const auto& [lo, hi, body] = v.f.structure.boxes[v.f.box];
   engine::BoxSet box = outlines(2.5f, 0.15f);
   box.boxes.push_back({lo, hi, glm::vec4(outline_colour, 1.0f)});
-  highlight.boxes = {std::move(box)};
-  add_cell(v, v.hashed_corner().cell, render::same_cell_colour, highlight);
+  engine::BoxSet cell = cell_outlines();
+  add_cell(v, v.hashed_corner().cell, render::same_cell_colour, v.f.bounds[0], cell);
+  highlight.boxes = {std::move(box), std::move(cell)};
   engine::PointSet points{.points = {}, .diameter = 9, .occluded_alpha = 0.9f};
   for (std::size_t i = 0; i < v.f.corners.size(); ++i) {
     const HashedCorner& corner = v.f.corners[i];
@@ -119,32 +128,33 @@ void highlight_corners(const TourContext& v, render::Highlight& highlight) {
     highlight.labels.push_back({corner.at, std::move(text)});
   }
   highlight.points = {std::move(points)};
-  frame_camera(highlight, v.f.bounds[0].lo, v.f.bounds[0].hi);
+  frame_camera(highlight, v.f.bounds[0]);
 }
 
 void highlight_bucket(const TourContext& v, render::Highlight& highlight) {
   highlight.opacity = 0.35f;
-  const HashedCorner& corner = v.bucket_corner();
-  const compare::BucketContents bucket = v.f.table.bucket(corner.bucket);
-  const compare::CellGroup* own = bucket.group(corner.cell);
-  engine::BoxSet boxes = outlines(2.5f, 0.2f);
-  glm::vec3 low = corner.at, high = corner.at;
-  for (const compare::CellGroup& group : bucket.groups) {
-    const glm::vec3 colour = &group == own ? render::same_cell_colour : render::aliased_colour;
-    const engine::Box cell = add_cell(v, group.cell, colour * 0.7f, highlight);
-    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + cell_text(group.cell)});
+  const compare::BucketContents bucket = v.bucket();
+  const auto groups = TourContext::shown_cells(bucket);
+  engine::BoxSet boxes = outlines(2.5f, 0.2f), cells = cell_outlines();
+  collide::Aabb framed{v.bucket_corner().at, v.bucket_corner().at};
+  const auto colour_of = [&](const compare::CellGroup& group) {
+    return &group == &groups.front() ? render::same_cell_colour : render::aliased_colour;
+  };
+  for (const compare::CellGroup& group : groups)
     for (const collide::Index item : group.items) {
       const auto& [lo, hi, body] = v.f.structure.boxes[item];
-      boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
+      boxes.boxes.push_back({lo, hi, glm::vec4(colour_of(group), 1.0f)});
       highlight.bodies.push_back(body);
-      low = glm::min(low, lo);
-      high = glm::max(high, hi);
+      framed = hull(framed, {lo, hi});
     }
+  for (const compare::CellGroup& group : groups) {
+    const engine::Box cell = add_cell(v, group.cell, colour_of(group) * 0.7f, framed, cells);
+    highlight.labels.push_back({0.5f * (cell.lo + cell.hi), "cell " + cell_text(group.cell)});
   }
   std::ranges::sort(highlight.bodies);
   highlight.bodies.erase(std::unique(highlight.bodies.begin(), highlight.bodies.end()), highlight.bodies.end());
-  highlight.boxes.push_back(std::move(boxes));
-  frame_camera(highlight, low, high);
+  highlight.boxes = {std::move(cells), std::move(boxes)};
+  frame_camera(highlight, framed);
 }
 
 void highlight_contact(const TourContext& v, render::Highlight& highlight) {
@@ -156,42 +166,43 @@ void highlight_contact(const TourContext& v, render::Highlight& highlight) {
   add_contacts(v, v.f.missed, render::contact_missed_colour, 3, highlight);
   if (v.f.closest) {
     add_contacts(v, {*v.f.closest}, render::hand_colour, 3.5f, highlight);
-    highlight.labels = {
-        {0.5f * (vertex(v, v.f.closest->a) + vertex(v, v.f.closest->b)), fmt::format("d = {:.3f} m", v.f.distance)}};
+    const collide::Frame frame = v.world.positions();
+    highlight.labels = {{0.5f * (position(frame, v.f.closest->a) + position(frame, v.f.closest->b)),
+                         fmt::format("d = {:.3f} m", v.f.distance)}};
   }
-  frame_camera_on_pair(v, highlight);
+  frame_camera(highlight, hull(v.f.bounds[0], v.f.bounds[1]));
 }
 
 void highlight_miss(const TourContext& v, render::Highlight& highlight) {
   if (!v.f.miss) return highlight_contact(v, highlight);
-  const Miss& miss = *v.f.miss;
+  const ExplainedMiss& miss = *v.f.miss;
   highlight.bodies = {miss.bodies[0]};
   if (miss.bodies[1] != miss.bodies[0]) highlight.bodies.push_back(miss.bodies[1]);
   highlight.opacity = 0.35f;
   highlight.bodies_hide = false;
-  engine::BoxSet boxes = outlines(2.5f, 0.2f);
-  glm::vec3 low = miss.at[0], high = low;
+  collide::Aabb framed{glm::min(miss.at[0], miss.at[1]), glm::max(miss.at[0], miss.at[1])};
+  for (const collide::Index box : miss.boxes)
+    framed = hull(framed, {v.f.structure.boxes[box].lo, v.f.structure.boxes[box].hi});
+  engine::BoxSet boxes = outlines(2.5f, 0.2f), cells = cell_outlines();
   for (std::size_t i = 0; i < 2; ++i) {
     const glm::vec3 colour = render::body_colour(v.world.body(miss.bodies[i]).number) * 0.72f;
     const auto& [lo, hi, body] = v.f.structure.boxes[miss.boxes[i]];
     boxes.boxes.push_back({lo, hi, glm::vec4(colour, 1.0f)});
-    const engine::Box cell = add_cell(v, miss.corners[i].cell, colour, highlight);
-    low = glm::min(low, glm::min(lo, cell.lo));
-    high = glm::max(high, glm::max(hi, cell.hi));
+    const engine::Box cell = add_cell(v, miss.corners[i].cell, colour, framed, cells);
     highlight.points.push_back(
         {.points = {{miss.corners[i].at, glm::vec4(colour, 1.0f)}}, .diameter = 9, .occluded_alpha = 0.9f});
     const glm::vec3 middle = 0.5f * (cell.lo + cell.hi);
     highlight.labels.push_back(
         {{middle.x, cell.hi.y, middle.z}, fmt::format("bucket {}", grouped(miss.corners[i].bucket))});
   }
-  highlight.boxes.push_back(std::move(boxes));
-  add_barrier(v, miss, highlight);
+  highlight.boxes = {std::move(cells), std::move(boxes)};
+  add_barrier(v, miss, framed, highlight);
   add_contacts(v, v.f.missed, render::contact_missed_colour, 2, highlight);  // those of the same pair, if known
   add_contacts(v, {miss.contact}, render::contact_missed_colour, 3.5f, highlight);
   highlight.labels.push_back({0.5f * (miss.at[0] + miss.at[1]),
                               fmt::format("{:.3f} m", glm::distance(miss.at[0], miss.at[1])),
                               render::contact_missed_colour});
-  frame_camera(highlight, low, high);
+  frame_camera(highlight, framed);
 }
 
 }  // namespace app::ui

@@ -1,6 +1,7 @@
 #include "app/ui/tour/miss.h"
 
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <cstdlib>
 #include <tuple>
@@ -44,13 +45,13 @@ HashedCorner hash_corner(const glm::vec3& at, const collide::methods::CellHash& 
   return {at, cell, hash.bucket(cell)};
 }
 
-Miss explain_miss(const collide::Contact& contact, const collide::DebugGeometry& structure, const collide::Frame& frame,
-                  const collide::methods::CellHash& hash) {
-  Miss miss{};
+ExplainedMiss explain_miss(const collide::Contact& contact, const collide::DebugGeometry& structure,
+                           const collide::Frame& frame, const collide::methods::CellHash& hash) {
+  ExplainedMiss miss{};
   miss.contact = contact;
   const std::array<Index, 2> vertices{contact.a, contact.b};
   for (std::size_t i = 0; i < 2; ++i) {
-    miss.at[i] = {frame.x[vertices[i]], frame.y[vertices[i]], frame.z[vertices[i]]};
+    miss.at[i] = position(frame, vertices[i]);
     miss.bodies[i] = frame.bodies->body_of(vertices[i]);
     miss.boxes[i] = box_of(structure, miss.bodies[i], miss.at[i]);
   }
@@ -71,6 +72,7 @@ Miss explain_miss(const collide::Contact& contact, const collide::DebugGeometry&
       between[static_cast<std::size_t>(axis)] = std::clamp(middle.index, low, high);
   }
   for (std::size_t i = 0; i < 2; ++i) miss.corners[i] = hash_corner(corners[i], hash);
+  assert(miss.corners[0].bucket != miss.corners[1].bucket);
   if (!miss.face) miss.skipped = between;  // no cell has corners of both
   return miss;
 }

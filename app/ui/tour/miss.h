@@ -25,7 +25,7 @@ struct CellFace {
 };
 
 /// A missed contact. The arrays are of its first and its second vertex.
-struct Miss {
+struct ExplainedMiss {
   collide::Contact contact;
   std::array<glm::vec3, 2> at;  // m, the vertices
   std::array<collide::Index, 2> bodies, boxes;
@@ -37,7 +37,7 @@ struct Miss {
 };
 
 /// Precondition: missed_contacts() returns the contact.
-Miss explain_miss(const collide::Contact& contact, const collide::DebugGeometry& structure, const collide::Frame& frame,
-                  const collide::methods::CellHash& hash);
+ExplainedMiss explain_miss(const collide::Contact& contact, const collide::DebugGeometry& structure,
+                           const collide::Frame& frame, const collide::methods::CellHash& hash);
 
 }  // namespace app::ui

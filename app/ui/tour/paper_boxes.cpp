@@ -12,6 +12,10 @@ namespace app::ui {
 
 using collide::Index;
 
+glm::vec3 position(const collide::Frame& frame, Index vertex) {
+  return {frame.x[vertex], frame.y[vertex], frame.z[vertex]};
+}
+
 collide::Range boxes_of(const collide::DebugGeometry& structure, Index body) {
   const auto& boxes = structure.boxes;
   const auto first = std::ranges::lower_bound(boxes, body, {}, &collide::DebugGeometry::Box::body);
@@ -21,8 +25,7 @@ collide::Range boxes_of(const collide::DebugGeometry& structure, Index body) {
 
 Index box_of(const collide::DebugGeometry& structure, Index body, const glm::vec3& at) {
   const collide::Range boxes = boxes_of(structure, body);
-  assert(boxes.size() > 0);
-  Index box = boxes.begin;
+  Index box = boxes.end;
   glm::vec3 lower(-std::numeric_limits<float>::infinity());
   for (Index i = boxes.begin; i < boxes.end; ++i) {
     const auto& [lo, hi, owner] = structure.boxes[i];
@@ -31,14 +34,14 @@ Index box_of(const collide::DebugGeometry& structure, Index body, const glm::vec
     lower = lo;
     box = i;
   }
+  assert(box < boxes.end);
   return box;
 }
 
 std::vector<collide::Contact> missed_contacts(const collide::DebugGeometry& structure, const collide::Frame& frame,
                                               const std::vector<collide::Contact>& contacts) {
   const auto buckets_of = [&](Index vertex) {
-    const Index box =
-        box_of(structure, frame.bodies->body_of(vertex), {frame.x[vertex], frame.y[vertex], frame.z[vertex]});
+    const Index box = box_of(structure, frame.bodies->body_of(vertex), position(frame, vertex));
     return std::span(structure.box_bucket)
         .subspan(structure.box_first[box], structure.box_first[box + 1] - structure.box_first[box]);
   };

@@ -1,5 +1,8 @@
 #include "app/ui/tour/steps.h"
 
+#include <algorithm>
+#include <cassert>
+
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
 
@@ -40,7 +43,7 @@ std::string text_of_bucket(const TourContext& v) {
   std::string text =
       "Boxes in one bucket may touch, so their vertices are compared. Boxes of the same cell (blue) are real "
       "neighbours. ";
-  if (v.f.table.bucket(v.bucket_corner().bucket).groups.size() == 1)
+  if (v.bucket().groups.size() == 1)
     return text +
            "No other cell has this bucket's number in this frame. It could happen: there are more cells than buckets, "
            "so the modulo gives some cells the same number.";
@@ -63,15 +66,15 @@ std::string text_of_miss(const TourContext& v) {
     return "A contact is missed if the boxes of its two vertices share no bucket. This happens where a cell face lies "
            "between two boxes, or where the corners of a large box skip a cell. Smaller cells and more boxes (the key "
            "]) make it more likely.";
-  const Miss& miss = *v.f.miss;
+  const ExplainedMiss& miss = *v.f.miss;
   return fmt::format(
-      "The vertices are {:.3f} m apart, but {}: no corner of one box is in a cell of the other, the two boxes share no "
-      "bucket, and the pair is never compared.\n\n"
+      "The vertices are {:.3f} m apart, but {}. No cell has corners of both boxes, and no bucket has both boxes, "
+      "so the pair is never compared.\n\n"
       "The complete methods find this contact. Grid Hash looks into all cells within the tolerance. The exact method "
       "uses no hash: boxes that are closer than the tolerance count as near.",
       glm::distance(miss.at[0], miss.at[1]),
-      miss.face ? "a cell face (red) lies between their boxes"
-                : "a box is larger than a cell, and its corners skip the cell between them (red)");
+      miss.face ? "a cell face (dark blue) lies between their boxes"
+                : "a box is larger than a cell, and its corners skip a cell that both boxes reach over (dark blue)");
 }
 
 constexpr std::array step_table{
@@ -87,6 +90,14 @@ constexpr std::array step_table{
 static_assert(step_table.size() == miss_step + 1);
 
 }  // namespace
+
+compare::BucketContents TourContext::bucket() const {
+  compare::BucketContents bucket = f.table.bucket(bucket_corner().bucket);
+  const auto own = std::ranges::find(bucket.groups, bucket_corner().cell, &compare::CellGroup::cell);
+  assert(own != bucket.groups.end());
+  std::rotate(bucket.groups.begin(), own, std::next(own));
+  return bucket;
+}
 
 std::span<const TourStep> tour_steps() { return step_table; }
 

@@ -1,6 +1,8 @@
 #pragma once
 // The steps of the guided tour: one table for the tour's window and the tests.
 
+#include <span>
+
 #include "app/render/highlight.h"
 #include "app/ui/tour/example.h"
 
@@ -17,6 +19,13 @@ struct TourContext {
   /// The corner whose bucket is shown.
   const HashedCorner& bucket_corner() const {
     return f.aliased_corner && !chosen ? *f.aliased_corner : hashed_corner();
+  }
+  /// Returns the contents of this bucket. The group of the corner's own cell comes first.
+  compare::BucketContents bucket() const;
+  /// Returns the groups of bucket() that are listed and drawn.
+  static std::span<const compare::CellGroup> shown_cells(const compare::BucketContents& bucket) {
+    constexpr std::size_t max_shown = 3;
+    return std::span(bucket.groups).first(std::min(max_shown, bucket.groups.size()));
   }
 };
 

@@ -30,7 +30,7 @@ void Tour::start(Session& session, render::Overlays& shown, std::size_t step) {
 
 void Tour::close(Session& session, render::Overlays& shown) {
   if (!open()) return;
-  session.simulation.stop_running_ahead();
+  session.run_ahead.stop();
   finder_.reset();
   example_.reset();
   goal_ = nullptr;
@@ -68,14 +68,14 @@ void Tour::run_ahead(Session& session) {
   example_.reset();
   example_revision_ = 0;
   framing_requested_ = overview_requested_ = true;
-  session.simulation.run_ahead([finder = finder_, frame_has = goal_->frame_has](
-                                   const softbody::World& world) { return (finder.get()->*frame_has)(world); },
-                               max_seconds_ahead);
+  session.run_ahead.start([finder = finder_, frame_has = goal_->frame_has](
+                              const softbody::World& world) { return (finder.get()->*frame_has)(world); },
+                          max_seconds_ahead);
 }
 
 bool Tour::has_given_up(const Session& session) const {
   const double late = session.world().last_step().time - run_end_;
-  return goal_ && late >= 0 && late < session.world().frame_time();
+  return goal_ == &tour_steps()[step_].goal && late >= 0 && late < session.world().frame_time();
 }
 
 void Tour::update(const Session& session, const softbody::View* view) {

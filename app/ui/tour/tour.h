@@ -28,8 +28,8 @@ class Tour {
   /// or when all bodies are at rest for good. The tour must be open.
   void run_ahead(Session& session);
   /// The goal of the run, while the world runs ahead.
-  const TourGoal* running_to(const Session& session) const { return session.simulation.runs_ahead() ? goal_ : nullptr; }
-  /// True in the frame in which a run came to the end of its time.
+  const TourGoal* running_to(const Session& session) const { return session.run_ahead.active() ? goal_ : nullptr; }
+  /// True in the frame in which a run for the goal of this step came to the end of its time.
   bool has_given_up(const Session& session) const;
 
   /// Call it once a frame. Finds a new example if the state or the selected body has changed; prefers one that is

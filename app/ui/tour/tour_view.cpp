@@ -48,9 +48,8 @@ void draw_step(Widgets& w, Tour& tour, const TourContext& context) {
   for (const TourFigure& figure : step.figures(context)) draw_figure(w, figure);
   ImGui::Spacing();
   ImGui::TextDisabled("The paper's method on the whole frame (§3)");
-  w.register_item("Tour claims",
-                  "What the step before you belongs to: the work of all bodies, beside what the paper claims.");
-  for (const TourFigure& figure : figures_of_frame(context)) draw_figure(w, figure);
+  w.register_item("Tour claims", "The work of the paper's method on all bodies, beside the paper's claims.");
+  for (const TourFigure& figure : figures_of_frame(context.f.work)) draw_figure(w, figure);
 }
 
 /// Says that the frame lacks the goal of the step, and offers to run ahead to it.
@@ -66,7 +65,7 @@ void draw_lack(Widgets& w, Session& session, Tour& tour) {
   w.register_item("Tour lack", nullptr);
   ImGui::BeginDisabled(at_rest);
   if (w.button(fmt::format("{}###Run ahead", goal.button).c_str(),
-               "Lets the world run, several frames a picture, and pauses it there. It gives up after 20 seconds of "
+               "Lets the world run, several frames per picture, and pauses it there. It gives up after 20 seconds of "
                "simulated time."))
     tour.run_ahead(session);
   ImGui::EndDisabled();

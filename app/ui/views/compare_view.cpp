@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t median_count = session::LiveComparison::times_per_state;  // measurements of a median
 
-enum ColumnIndex { run, name, time, tests, hashes, contacts, recall, precision, plot, misses, column_count };
+enum ColumnIndex { run, name, time, recall, contacts, tests, hashes, precision, plot, misses, column_count };
 
 struct Column {
   const char* label;
@@ -27,11 +27,11 @@ constexpr std::array<Column, column_count> columns{{
     {"Method", 194, false,
      "Click a name to let that method drive the bodies. The row of the driving method is shaded."},
     {"Time", 112, true, "Time to find all contacts from scratch on one core: median of the last 15 measurements (§3)."},
-    {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
-    {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
-    {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
     {"Recall", 96, true,
      "Share of the true contacts that the method found. 1: none missed. The dot is the method's status light."},
+    {"Contacts", 72, true, "Number of pairs of vertices found closer than the tolerance (§2.3, §2.4)."},
+    {"Pair tests", 96, true, "Number of distances between vertices that were evaluated (§2.3)."},
+    {"Hashes", 80, true, "Number of evaluations of the hash function (§2.2)."},
     {"Precision", 78, true, "Share of the found contacts that are true. 1: no false contact (§2.3)."},
     {"Latest times", 0, false, "The last measurements of the time. All methods have the same axis."},
     {"Misses", 56, true, "Choose the method whose missed contacts the scene shows (key 6)."},
@@ -122,7 +122,7 @@ void draw_switches(Widgets& w, Session& session, bool& show_misses, const Grid& 
     }
   }
   ImGui::SetCursorScreenPos({grid.right(misses) - grid.height(), grid.top()});
-  const bool shown = session.comparison.choice.misses_of == row.index;
+  const bool shown = show_misses && session.comparison.choice.misses_of == row.index;
   if (w.radio(row.label("Misses of").c_str(), shown, "Shows the contacts that this method misses in the scene.")) {
     session.comparison.choice.misses_of = row.index;
     show_misses = true;
@@ -188,7 +188,7 @@ void draw_reason(const Session& session, const Grid& grid, const Row& row) {
   std::string reason = row.chosen ? "measuring" : "off";
   if (row.measured && !row.measured->not_run.empty()) reason = row.measured->not_run;
   const bool timed = session.comparison.method_ms()[row.index].size() > 0;
-  ImGui::GetWindowDrawList()->AddText({grid.left(timed ? tests : time), grid.text_top()},
+  ImGui::GetWindowDrawList()->AddText({grid.left(timed ? recall : time), grid.text_top()},
                                       ImGui::GetColorU32(ImGuiCol_TextDisabled), reason.c_str());
 }
 

@@ -75,12 +75,13 @@ std::string box_against_cell(const collide::DebugGeometry& paper, const glm::vec
 }
 
 void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
-  const collide::Coverage now = session.world().detection().coverage;
-  const StatusLight light = status_light(now);
   const SurfaceRemark remark = surface_remark(session);
-  const std::string fit = box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size);
+  const collide::Coverage found = session.world().detection().coverage;
+  // Vertices inside other bodies count as little as a method that can miss contacts.
+  const collide::Coverage now =
+      remark.penetrates && found == collide::Coverage::exact ? collide::Coverage::covered : found;
   ImGui::BeginGroup();
-  w.dot(remark.penetrates && now == collide::Coverage::exact ? render::status_amber : light.colour);
+  w.dot(status_light(now).colour);
   ImGui::BeginGroup();
   ImGui::TextWrapped("%s", promise(session.world()).c_str());
   if (!remark.text.empty()) ImGui::TextWrapped("%s", remark.text.c_str());
@@ -95,7 +96,8 @@ void draw_coverage_light(Widgets& w, const Session& session, bool& explained) {
   for (const collide::Coverage each :
        {collide::Coverage::exact, collide::Coverage::covered, collide::Coverage::exceeded})
     draw_meaning(w, each, each == now);
-  ImGui::TextWrapped("%s", fit.c_str());
+  ImGui::TextWrapped(
+      "%s", box_against_cell(session.inspector.paper_geometry(), session.world().collision().cell_size).c_str());
   w.register_item("Coverage explained", nullptr);
   ImGui::Separator();
 }

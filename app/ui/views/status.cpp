@@ -26,10 +26,11 @@ constexpr double hint_seconds = 20, fade_seconds = 2;
 
 std::string missed_text(const Session& session) {
   const compare::CompareReport& report = session.comparison.report();
-  if (report.id != 0 && !report.reference) return "Missed: not measured, " + report.reference_note;
+  if (report.id != 0 && !report.reference)
+    return "Misses of the driving method: not measured, " + report.reference_note;
   const compare::CompareRow* row = session.comparison.driver_row();
-  if (!row) return "Missed: measuring";
-  return fmt::format("Missed: {} of {} contacts  (recall {:.4f})", grouped(row->missed.size()),
+  if (!row) return "Misses of the driving method: measuring";
+  return fmt::format("The driving method misses {} of {} (recall {:.4f})", grouped(row->missed.size()),
                      grouped(report.true_contacts), rounded_down(row->recall));
 }
 
@@ -42,10 +43,12 @@ StatusLight status_light(const collide::Method& method) {
 StatusLight status_light(collide::Coverage coverage) {
   switch (coverage) {
     case collide::Coverage::exact:
-      return {render::status_green, "Green", "exact", "The method is exact. It finds every contact."};
+      return {render::status_green, "Green", "exact",
+              "The method is exact: it finds every pair of vertices closer than the tolerance."};
     case collide::Coverage::covered:
       return {render::status_amber, "Amber", "can miss",
-              "The paper's method, and every box fits into a cell. It can miss contacts across cell faces."};
+              "The paper's method, and every box fits into a cell: it can miss contacts across cell faces. Or an exact "
+              "method, but True surfaces found vertices inside other bodies."};
     default:
       return {render::status_red, "Red", "can miss",
               "The paper's method, and a box is larger than a cell. It can miss contacts in the cells between its "
@@ -70,7 +73,7 @@ std::string reference_sentence(const compare::CompareReport& report) {
 
 float draw_status(Widgets& w, Session& session, FloatingBox& box, const ScreenRect& area, bool& explained, bool& open) {
   const float side = ImGui::GetFrameHeight();
-  box.begin(w, "Status", area, std::min(w.px(box_width), area.max.x - area.min.x - w.px(24)), false, false);
+  box.begin(w, "Status", area, box_width(w, area), false);
   const ImVec2 top = ImGui::GetCursorScreenPos();
   ImGui::SetCursorScreenPos({top.x + ImGui::GetContentRegionAvail().x - side, top.y});
   if (w.button("x###Close lights", "Puts the lights away (L). Drag the box to move it.", side)) open = false;
@@ -94,7 +97,7 @@ float draw_notices(Widgets& w, const Session& session, const std::string& no_roo
   if (notice.text().empty() && no_room_message.empty()) return area.min.y;
   const float margin = w.px(12);
   ImGui::SetNextWindowPos({area.min.x + margin, area.min.y + margin});
-  ImGui::SetNextWindowSize({std::min(w.px(box_width), area.max.x - area.min.x - 2 * margin), 0});
+  ImGui::SetNextWindowSize({box_width(w, area), 0});
   ImGui::Begin("Notices", nullptr, frameless_window | ImGuiWindowFlags_AlwaysAutoResize);
   if (!no_room_message.empty()) {
     ImGui::TextWrapped("%s", no_room_message.c_str());

@@ -10,19 +10,20 @@ class StoryCard {
  public:
   enum class Action { none, close, explain };
 
-  /// Draws the card in a right corner of `area`; in a low area only its figures. Returns what the user clicked. The
-  /// comparison must look for what the paper's method misses (CompareChoice::shows_misses).
-  Action draw(Widgets& widgets, const Session& session, const ScreenRect& area, bool at_bottom);
+  /// Draws the card in the upper right corner of `area`. Returns the lower end (y) of a card that stands in its place,
+  /// else the upper end of the area. `action`: what the user clicked. The comparison must include the paper's method
+  /// (CompareChoice::with_paper).
+  float draw(Widgets& widgets, const Session& session, const ScreenRect& area, Action& action);
 
  private:
   struct Miss {
     int frame;
     std::size_t missed, contacts;
+    collide::Coverage coverage;
   };
 
   void follow(const Session& session);
   std::string sentence(const Session& session) const;
-  Action draw_why(Widgets& widgets, const Session& session) const;
 
   FloatingBox box_;
   std::uint64_t reports_ = 0, world_ = 0;

@@ -4,21 +4,24 @@
 #include <cmath>
 
 namespace app::ui {
-namespace {
 
-constexpr float margin = 12;  // to the ends of the area, design pixels
+float box_width(const Widgets& w, const ScreenRect& area) {
+  const float width = area.max.x - area.min.x, margin = w.px(box_margin),
+              half = std::floor(0.5f * (width - 3 * margin));
+  if (half >= w.px(min_box_width)) return std::min(half, w.px(max_box_width));
+  return std::min(width - 2 * margin, w.px(max_box_width));
+}
 
-}  // namespace
-
-void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, float width, bool at_right,
-                        bool at_bottom) {
-  const auto place = [&](float min, float max, float length, bool at_end, std::optional<float> moved_to) {
-    const float first = min + w.px(margin), last = std::max(first, max - w.px(margin) - length);
-    return std::floor(moved_to ? std::clamp(min + *moved_to, first, last) : at_end ? last : first);
+void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, float width, bool at_right) {
+  const ImVec2 first{area.min.x + w.px(box_margin), area.min.y + w.px(box_margin)};
+  const ImVec2 last{std::max(first.x, area.max.x - w.px(box_margin) - width),
+                    std::max(first.y, area.max.y - w.px(box_margin) - (last_.max.y - last_.min.y))};
+  const auto within = [&](const ImVec2& at) {
+    return ImVec2(std::floor(std::clamp(at.x, first.x, last.x)), std::floor(std::clamp(at.y, first.y, last.y)));
   };
-  const auto moved = [&](float ImVec2::*axis) { return moved_to_ ? std::optional(*moved_to_.*axis) : std::nullopt; };
-  const ImVec2 wanted{place(area.min.x, area.max.x, width, at_right, moved(&ImVec2::x)),
-                      place(area.min.y, area.max.y, last_.max.y - last_.min.y, at_bottom, moved(&ImVec2::y))};
+  const ImVec2 wanted = within(moved_to_  ? ImVec2(area.min.x + moved_to_->x, area.min.y + moved_to_->y)
+                               : at_right ? ImVec2(last.x, first.y)
+                                          : first);
   // The mouse cannot move a window whose place is set in every frame.
   if (wanted.x != last_.min.x || wanted.y != last_.min.y) ImGui::SetNextWindowPos(wanted);
   ImGui::SetNextWindowSize({width, 0});
@@ -26,8 +29,10 @@ void FloatingBox::begin(Widgets& w, const char* name, const ScreenRect& area, fl
                ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                    ImGuiWindowFlags_NoNav | ImGuiWindowFlags_AlwaysAutoResize);
   w.keep_tooltips_off();
-  const ImVec2 at = ImGui::GetWindowPos();
-  if (at.x != wanted.x || at.y != wanted.y) moved_to_ = ImVec2(at.x - area.min.x, at.y - area.min.y);
+  const ImVec2 moved = ImGui::GetWindowPos(), at = within(moved);
+  if (moved.x == wanted.x && moved.y == wanted.y) return;
+  moved_to_ = ImVec2(at.x - area.min.x, at.y - area.min.y);
+  ImGui::SetWindowPos(at);
 }
 
 ScreenRect FloatingBox::end() {

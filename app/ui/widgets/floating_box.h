@@ -7,13 +7,17 @@
 
 namespace app::ui {
 
-inline constexpr float box_width = 430;  // of boxes over the scene, design pixels
+// Boxes over the scene, in design pixels.
+inline constexpr float min_box_width = 310, max_box_width = 430, box_margin = 12;
+
+/// Returns the width of boxes over `area`: two stand side by side if they fit.
+float box_width(const Widgets& widgets, const ScreenRect& area);
 
 class FloatingBox {
  public:
-  /// `at_right`: where the box stands until the user moves it, at the right or at the left end of the area.
-  /// `at_bottom`: at the lower or at the upper end.
-  void begin(Widgets& widgets, const char* name, const ScreenRect& area, float width, bool at_right, bool at_bottom);
+  /// Begins a window of this width. `at_right`: until the user moves it, it stands in the upper right corner of the
+  /// area, else in the upper left.
+  void begin(Widgets& widgets, const char* name, const ScreenRect& area, float width, bool at_right);
   /// Must follow begin(). Returns the rectangle that the box covers.
   ScreenRect end();
   /// False once the user has moved the box.
