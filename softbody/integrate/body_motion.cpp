@@ -35,9 +35,9 @@ RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) 
 
 /// Of all moving bodies, at the start of a frame.
 void Dynamics::note_momenta() {
-  momenta_.resize(moving_.size());
-  for (std::size_t i = 0; i < moving_.size(); ++i) {
-    const Batch& b = *moving_[i];
+  momenta_.resize(crew_.moving().size());
+  for (std::size_t i = 0; i < crew_.moving().size(); ++i) {
+    const Batch& b = *crew_.moving()[i];
     kernels_of(b).rigid_sums(b.particles(), at(std::as_const(x_), b), at(std::as_const(v_), b), momenta_[i]);
   }
 }
@@ -49,7 +49,7 @@ void Dynamics::note_momenta() {
 void Dynamics::keep_momenta(double seconds) {
   const glm::dvec3 fall = has_gravity_ ? seconds * scene_.gravity : glm::dvec3(0.0);
   for (std::size_t i = 0; i < momenta_.size(); ++i) {
-    Batch& b = *moving_[i];
+    Batch& b = *crew_.moving()[i];
     const auto count = double(b.particles());
     RigidSums now;
     kernels_of(b).rigid_sums(b.particles(), at(std::as_const(x_), b), at(std::as_const(v_), b), now);
