@@ -14,7 +14,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_substeps = 1e9;  // far more than there may be: less of the frame is simulated
 /// s, of substeps that are not fixed: forces are far from linear over longer ones.
 constexpr double longest_step = 1.0 / 60;
-constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
+constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see MomentumRestorer
 
 }  // namespace
 
@@ -133,7 +133,6 @@ void Dynamics::begin_frame(double seconds) {
   crew_.take(std::move(moving), particles);
   if (asked_->automatic && !crew_.moving().empty()) choose(seconds);
   resize_scratch();
-  momenta_.clear();
   for (const ShieldPair& p : shield_.pairs) touch(p.body_a), touch(p.body_b);
   if (grab_) touch(grab_->body);
 }
@@ -146,7 +145,8 @@ Advance Dynamics::advance(double seconds, const std::function<void()>& after_sub
   frame.most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : most_explicit_substeps();
   do take_substeps(frame, after_substep);
   while (frame.left > 0 && !spent(frame));
-  keep_momenta(seconds - frame.left);
+  const glm::dvec3 fall = has_gravity_ ? (seconds - frame.left) * scene_.gravity : glm::dvec3(0.0);
+  frame.momenta.restore(fall, integrator_->keeps_spin);
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -166,7 +166,8 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     for (const collide::surface::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
   }
   const int count = frame.fixed ? stable : substeps_left(frame, stable);
-  if (frame.substeps == 0 && !integrator_->implicit && count >= many_substeps) note_momenta();
+  if (frame.substeps == 0 && !integrator_->implicit && count >= many_substeps)
+    for (Batch* b : crew_.moving()) frame.momenta.note(view(*b));
   const double h = frame.left / count;
   int now = frame.fixed ? count : std::clamp(substeps_within_bound(h), 1, count);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.

@@ -37,8 +37,7 @@ void Dynamics::set_plan(const Plan& plan) {
     other_force_stages_.push_back(run);
   }
   if (plan.has(Stage::grab)) force_stages_.push_back(&Dynamics::grab_force);  // last: it reckons with the others
-  resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
-                 plan.has(Stage::rolling_resistance)};
+  resistance_.set_plan(plan);
   has_gravity_ = plan.has(Stage::gravity);
   has_restitution_ = plan.has(Stage::restitution);
   has_surface_ = plan.has(Stage::surface_contact);

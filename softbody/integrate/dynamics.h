@@ -14,7 +14,9 @@
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/kernels.h"
 #include "softbody/integrate/max_work.h"
+#include "softbody/integrate/momentum_restorer.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/integrate/resistance.h"
 #include "softbody/integrate/substeps.h"
 #include "softbody/model/prototype.h"
 #include "softbody/scene/scene.h"
@@ -151,6 +153,7 @@ class Dynamics {
   Field<const float> at(const Components& c, const Batch& b) const {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
   }
+  BatchView view(const Batch& b) { return {b, kernels_of(b), at(x_, b), at(v_, b)}; }
   const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
   std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const Prototype>& prototype, int width) const;
   Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
@@ -200,6 +203,7 @@ class Dynamics {
     int substeps = 0;
     int fixed = 0;  // substeps that it is to take; 0: as many as are needed
     int most = 0;   // that there may be
+    MomentumRestorer momenta{};
   };
   void begin_frame(double seconds);
   bool spent(const Progress& frame) const;
@@ -228,10 +232,6 @@ class Dynamics {
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void touch(BodyId id) { batches_[bodies_[id].batch].touched |= 1u << bodies_[id].lane; }
-  void note_momenta();
-  void keep_momenta(double seconds);  // since note_momenta()
-  void resist(BodyId id, double seconds);
-  double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);
   void update_moves(const Body& body);
 
@@ -243,9 +243,7 @@ class Dynamics {
   std::string_view why_;
   std::optional<int> fixed_substeps_;
   std::vector<BatchStage> force_stages_, other_force_stages_;
-  struct {
-    bool internal, rebound, rolling;
-  } resistance_{};
+  Resistance resistance_;
   bool has_gravity_ = false, has_restitution_ = false;
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
@@ -265,7 +263,6 @@ class Dynamics {
   std::array<std::vector<float>, 3> seen_, velocity_;  // world, for surface_
   std::vector<ShieldPair> pairs_before_;               // of the frame before
   std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
-  std::vector<RigidSums> momenta_;  // of what moves, at the start of the frame; empty where keep_momenta() has no part
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   HeldRate held_rate_;
