@@ -8,7 +8,6 @@
 
 namespace softbody {
 
-using law::impact_speed;  // for a body's rebound as a whole
 
 /// A solid seen from each body's own origin.
 struct SolidArguments {

@@ -14,7 +14,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr double most_substeps = 1e9;  // far more than there may be: less of the frame is simulated
 /// s, of substeps that are not fixed: forces are far from linear over longer ones.
 constexpr double longest_step = 1.0 / 60;
-constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see keep_momenta()
+constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see MomentumRestorer
 
 }  // namespace
 
@@ -106,7 +106,7 @@ int Dynamics::needed_substeps(const Progress& frame) {
 int Dynamics::substeps_within_bound(double h) const {
   constexpr double most = 16;
   double trusted = most;
-  for (const Batch* b : moving_) {
+  for (const Batch* b : crew_.moving()) {
     const double radius = b->prototype->radius, pressed = std::max(0.25 * double(shield_.thickness), 0.05 * radius);
     const double way = shield_.pairs.empty() ? 0.2 * radius : std::min(pressed, 0.2 * radius);
     trusted = std::min(trusted, way / (fastest(*b) * h));
@@ -118,35 +118,35 @@ void Dynamics::begin_frame(double seconds) {
   found_ = surface_work_ = implicit_ = shield_work_ = 0;
   held_rate_.pass(seconds);
   if (has_surface_) wake_what_is_hit(seconds);
-  moving_.clear();
+  std::vector<Batch*> moving;
+  std::size_t particles = 0;
   if (has_restitution_) before_ = v_;
   for (Batch& b : batches_) {
     b.impulse = {};
     b.returned = {};
     b.touched = 0;
     if (!moves(b)) continue;
-    moving_.push_back(&b);
+    moving.push_back(&b);
+    particles += b.particles() * std::size_t(b.used);
     prepare_solids(b, seconds);
   }
-  if (asked_->automatic && !moving_.empty()) choose(seconds);
+  crew_.take(std::move(moving), particles);
+  if (asked_->automatic && !crew_.moving().empty()) choose(seconds);
   resize_scratch();
-  std::size_t particles = 0;
-  for (const Batch* b : moving_) particles += b->particles() * std::size_t(b->used);
-  active_threads_ = particles >= least_shared_ ? workers_.threads() : 1;
-  momenta_.clear();
   for (const ShieldPair& p : shield_.pairs) touch(p.body_a), touch(p.body_b);
   if (grab_) touch(grab_->body);
 }
 
 Advance Dynamics::advance(double seconds, const std::function<void()>& after_substep) {
   begin_frame(seconds);
-  if (moving_.empty()) return {0, seconds};
+  if (crew_.moving().empty()) return {0, seconds};
   Progress frame{seconds, seconds};
   frame.fixed = fixed_substeps_.value_or(0) * integrator_->substeps;
   frame.most = frame.fixed ? frame.fixed : integrator_->implicit ? max_implicit_steps : most_explicit_substeps();
   do take_substeps(frame, after_substep);
   while (frame.left > 0 && !spent(frame));
-  keep_momenta(seconds - frame.left);
+  const glm::dvec3 fall = has_gravity_ ? (seconds - frame.left) * scene_.gravity : glm::dvec3(0.0);
+  frame.momenta.restore(fall, integrator_->keeps_spin);
   return {frame.substeps, seconds - frame.left};
 }
 
@@ -166,7 +166,8 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     for (const collide::surface::SurfacePair& p : surface_.search().pairs()) touch(p.a), touch(p.b);
   }
   const int count = frame.fixed ? stable : substeps_left(frame, stable);
-  if (frame.substeps == 0 && !integrator_->implicit && count >= many_substeps) note_momenta();
+  if (frame.substeps == 0 && !integrator_->implicit && count >= many_substeps)
+    for (Batch* b : crew_.moving()) frame.momenta.note(view(*b));
   const double h = frame.left / count;
   int now = frame.fixed ? count : std::clamp(substeps_within_bound(h), 1, count);
   // Then it is looked whether the candidates still hold: at once where their speed decides the count.
@@ -207,25 +208,21 @@ int Dynamics::substeps_left(const Progress& frame, int stable) const {
 void Dynamics::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   step_ = h;
   if (integrator_->implicit) prepare_implicit(h);
-  const auto task = [&](int thread) {
+  crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
       if (has_restitution_)
-        for (Batch* b : share(thread))
+        for (Batch* b : worker.batches())
           for (std::size_t k = 0; k < 3; ++k)
             std::copy_n(v_[k].begin() + std::ptrdiff_t(b->base), b->values(),
                         before_[k].begin() + std::ptrdiff_t(b->base));
-      integrator_->advance(*this, thread, {h, first && s == 0});
-      if (has_surface_) since_found_[std::size_t(thread)] += h;
+      integrator_->advance(*this, worker, {h, first && s == 0});
+      if (has_surface_) since_found_[std::size_t(worker.index())] += h;
       if (!after_substep) continue;
-      barrier();
-      if (thread == 0) after_substep();
-      barrier();
+      worker.barrier();
+      if (worker.index() == 0) after_substep();
+      worker.barrier();
     }
-  };
-  if (active_threads_ == 1)
-    task(0);
-  else
-    workers_.run(task);
+  });
 }
 
 }  // namespace softbody

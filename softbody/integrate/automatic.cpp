@@ -11,7 +11,7 @@ namespace softbody {
 double Dynamics::tremble(double step) const {
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
-  for (const Batch* b : moving_) {
+  for (const Batch* b : crew_.moving()) {
     const Extent e = extent(*b, x_, v_);
     for (int l = 0; l < b->used; ++l)
       for (const LaneVector* corner : {&e.lo, &e.hi})
@@ -32,8 +32,8 @@ void Dynamics::choose(double seconds) {
   constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");
   const SubstepBound b = bound(seconds);
-  const bool solid =
-      std::any_of(moving_.begin(), moving_.end(), [](const Batch* m) { return !m->near_solids.empty(); });
+  const auto& moving = crew_.moving();
+  const bool solid = std::ranges::any_of(moving, [](const Batch* m) { return !m->near_solids.empty(); });
   const double steps = std::max(b.fewest, seconds * b.implicit_rate(seconds));
   const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * steps) : most;
   if (!fixed_substeps_) hold(b, seconds);
@@ -46,8 +46,7 @@ void Dynamics::choose(double seconds) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
   } else if (has_surface_) {
     why_ = "contact of the true surfaces wants short steps";
-  } else if (std::any_of(moving_.begin(), moving_.end(),
-                         [](const Batch* batch) { return batch->particles() > max_implicit_particles; })) {
+  } else if (std::ranges::any_of(moving, [](const Batch* m) { return m->particles() > max_implicit_particles; })) {
     why_ = "a body has too many particles for implicit steps";
   } else {
     integrator_ = find_integrator("implicit");

@@ -1,4 +1,4 @@
-// Dynamics: bodies join, stop and are read.
+// Dynamics: bodies join, stop, end a frame and are read.
 
 #include <algorithm>
 #include <bit>
@@ -208,6 +208,33 @@ void Dynamics::world_positions(std::span<float> x, std::span<float> y, std::span
       y[out] = static_cast<float>(body.origin.y + x_[1][s]);
       z[out] = static_cast<float>(body.origin.z + x_[2][s]);
     }
+  }
+}
+
+void Dynamics::finish_frame(double seconds) {
+  for (BodyId id = 0; id < bodies_.size(); ++id) {
+    Body& body = bodies_[id];
+    if (!body.moves()) continue;
+    const BatchView b = view(batches_[body.batch]);
+    const double returned = double(b.batch.returned[std::size_t(body.lane)]);
+    resistance_.resist(*b.batch.prototype, b.positions(body.lane), b.velocities(body.lane),
+                       {solid_impulse(id), returned}, seconds, body.impact);
+    follow(id);
+  }
+}
+
+/// Moves the body's origin when its first particle, which begins no further than the radius from it, has gone further
+/// than one and a half, by a multiple of 1/64 m that floats of that size hold without loss. What is rounded off further
+/// out would keep stiff bodies trembling.
+void Dynamics::follow(BodyId id) {
+  Body& body = bodies_[id];
+  const std::size_t first = slot(body, 0);
+  const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
+  if (glm::length(away) <= 1.5 * prototype(id).radius) return;
+  for (int k = 0; k < 3; ++k) {
+    const double shift = std::round(away[k] * 64) / 64;
+    body.origin[k] += shift;
+    for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i) x_[std::size_t(k)][slot(body, i)] -= float(shift);
   }
 }
 

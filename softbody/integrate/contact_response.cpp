@@ -137,12 +137,12 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
       for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = v_[k][slot(bodies_[id], v)];
   const collide::surface::Motion motion{now, velocity_[0], velocity_[1], velocity_[2]};
   if (found_ > 0) {
-    surface_.renew(motion, elapsed, float(ahead), workers_);
+    surface_.renew(motion, elapsed, float(ahead), crew_.workers());
     surface_work_ += double(surface_.search().work());
     return;
   }
   found_ = left;
-  since_found_.assign(std::size_t(workers_.threads()), 0.0f);
+  since_found_.assign(std::size_t(crew_.workers().threads()), 0.0f);
   std::vector<collide::surface::SurfaceBody> traits;
   std::vector<ContactBody> contacts;
   for (BodyId id = 0; id < bodies_.size(); ++id) {
@@ -156,7 +156,7 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
                         float(p.material.restitution), &p.shape->rest()});
   }
   surface_.find(motion, std::move(traits), std::move(contacts),
-                {float(left), float(least), self_contact_, max_work_.candidates(n)}, float(ahead), workers_);
+                {float(left), float(least), self_contact_, max_work_.candidates(n)}, float(ahead), crew_.workers());
   surface_work_ += double(surface_.search().work());
 }
 

@@ -37,8 +37,7 @@ void Dynamics::set_plan(const Plan& plan) {
     other_force_stages_.push_back(run);
   }
   if (plan.has(Stage::grab)) force_stages_.push_back(&Dynamics::grab_force);  // last: it reckons with the others
-  resistance_ = {plan.has(Stage::internal_damping), plan.has(Stage::rebound_damping),
-                 plan.has(Stage::rolling_resistance)};
+  resistance_.set_plan(plan);
   has_gravity_ = plan.has(Stage::gravity);
   has_restitution_ = plan.has(Stage::restitution);
   has_surface_ = plan.has(Stage::surface_contact);
@@ -70,41 +69,34 @@ bool Dynamics::moves(const Batch& b) {
   return std::any_of(b.moves.begin(), b.moves.end(), [](float m) { return m > 0; });
 }
 
-std::span<Batch* const> Dynamics::share(int thread) const {
-  const auto [begin, end] = collide::part_of(moving_.size(), thread, active_threads_);
-  return std::span(moving_).subspan(begin, end - begin);
-}
-
-void Dynamics::barrier() {
-  if (active_threads_ > 1) workers_.barrier();
-}
-
-void Dynamics::contact_forces(int thread, float h) {
+void Dynamics::contact_forces(const Worker& worker, float h) {
   if (shield_.pairs.empty()) return;
-  shield_.evaluate(collide::part_of(shield_.pairs.size(), thread, active_threads_),
-                   {x_[0].data(), x_[1].data(), x_[2].data()}, {v_[0].data(), v_[1].data(), v_[2].data()}, h);
-  barrier();
+  shield_.evaluate(worker.part(shield_.pairs.size()), {x_[0].data(), x_[1].data(), x_[2].data()},
+                   {v_[0].data(), v_[1].data(), v_[2].data()}, h);
+  worker.barrier();
 }
 
-void Dynamics::contacts(int thread, float h, float since_start) {
-  surface_contacts(thread, h, since_start);
-  solids(thread, h);
+void Dynamics::contacts(const Worker& worker, float h, float since_start) {
+  surface_contacts(worker, h, since_start);
+  solids(worker, h);
   for (int turn = 0; turn < SurfaceContact::turns && has_surface_ && surface_.hit(h); ++turn) {
-    barrier();
-    if (!surface_.mend(thread, active_threads_, {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); }))
+    worker.barrier();
+    if (!surface_.mend(worker.index(), crew_.active(), {v_[0].data(), v_[1].data(), v_[2].data()}, h,
+                       [&] { worker.barrier(); }))
       break;
-    solids(thread, h);
+    solids(worker, h);
   }
 }
 
-void Dynamics::surface_contacts(int thread, float h, float since_start) {
+void Dynamics::surface_contacts(const Worker& worker, float h, float since_start) {
   if (!has_surface_ || surface_.empty()) return;
-  barrier();  // the velocities of all bodies are there
-  surface_.prepare(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
-                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(thread)] + since_start, h);
-  barrier();
-  surface_.solve(thread, active_threads_, {x_[0].data(), x_[1].data(), x_[2].data()},
-                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [this] { barrier(); });
+  worker.barrier();  // the velocities of all bodies are there
+  surface_.prepare(worker.index(), crew_.active(), {x_[0].data(), x_[1].data(), x_[2].data()},
+                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(worker.index())] + since_start,
+                   h);
+  worker.barrier();
+  surface_.solve(worker.index(), crew_.active(), {x_[0].data(), x_[1].data(), x_[2].data()},
+                 {v_[0].data(), v_[1].data(), v_[2].data()}, h, [&] { worker.barrier(); });
 }
 
 void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {

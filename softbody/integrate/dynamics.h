@@ -9,11 +9,14 @@
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/grab.h"
 #include "softbody/forces/shield.h"
+#include "softbody/integrate/crew.h"
 #include "softbody/integrate/dynamics_state.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/kernels.h"
 #include "softbody/integrate/max_work.h"
+#include "softbody/integrate/momentum_restorer.h"
 #include "softbody/integrate/plan.h"
+#include "softbody/integrate/resistance.h"
 #include "softbody/integrate/substeps.h"
 #include "softbody/model/prototype.h"
 #include "softbody/scene/scene.h"
@@ -47,8 +50,8 @@ struct Advance {
 
 class Dynamics {
  public:
-  Dynamics(const Scene& scene, collide::Workers& workers, Isa isa)
-      : scene_(scene), workers_(workers), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
+  Dynamics(const Scene& scene, const Crew& crew, Isa isa)
+      : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
 
   BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
@@ -67,7 +70,6 @@ class Dynamics {
   double last_substep() const { return double(step_); }  // s, how long it was
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
   void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
-  void set_least_shared(std::size_t count) { least_shared_ = count; }
   void set_max_work(const MaxWork& max) { max_work_ = max; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
   void hold(BodyId body, bool held, int release);
@@ -93,20 +95,18 @@ class Dynamics {
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
   void finish_frame(double seconds);
 
-  // What integrators are made of. share(): the moving batches that fall to a thread; no other thread writes to them.
-  std::span<Batch* const> share(int thread) const;
-  // The arithmetic leaves lanes alone that do not move.
-  void contact_forces(int thread, float h);  // of this thread's part of the contacts, for all_forces() of all threads
-  void all_forces(Batch& batch);             // at the current positions and velocities
-  void other_forces(Batch& batch);           // all but those of springs, gas and hand
-  void kick(Batch& batch, float h);          // v += h (f / m + g)
-  void accelerations(Batch& batch);          // f = f / m + g
-  void drift(Batch& batch, float h);         // x += h v
+  // What integrators are made of, beside what a Worker says. The arithmetic leaves lanes alone that do not move.
+  void contact_forces(const Worker& worker, float h);  // of its part of the contacts, for all_forces() of all
+  void all_forces(Batch& batch);                       // at the current positions and velocities
+  void other_forces(Batch& batch);                     // all but those of springs, gas and hand
+  void kick(Batch& batch, float h);                    // v += h (f / m + g)
+  void accelerations(Batch& batch);                    // f = f / m + g
+  void drift(Batch& batch, float h);                   // x += h v
   /// On the velocities, so that in a step of h from here surfaces do not pass through each other nor particles into
-  /// solids. All velocities must be there; needs a barrier() after it.
-  void contacts(int thread, float h) { contacts(thread, h, 0); }
+  /// solids. All velocities must be there; needs a barrier after it.
+  void contacts(const Worker& worker, float h) { contacts(worker, h, 0); }
   /// The same for the positions that a substep of h ends with.
-  void contacts_at_end(int thread, float h) { contacts(thread, h, h); }
+  void contacts_at_end(const Worker& worker, float h) { contacts(worker, h, h); }
   // XPBD, on displacements d in this step, which starts at x0; project_gas() wants the positions to be x0 + d.
   void project_gas(Batch& batch, Quantity d, float h);
   void project_springs(Batch& batch, Quantity x0, Quantity d, float h);
@@ -116,12 +116,11 @@ class Dynamics {
   }
   /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
   /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all bodies.
-  void solve_implicit(int thread, Batch& batch, Quantity mean, Quantity rest, float h);
+  void solve_implicit(const Worker& worker, Batch& batch, Quantity mean, Quantity rest, float h);
   void copy(Batch& batch, Quantity from, Quantity to);           // to = from
   void add(Batch& batch, Quantity to, float times, Quantity q);  // to += times q
   void scale(Batch& batch, Quantity q, float times);             // q *= times
   void clear(Batch& batch, Quantity q);                          // q = 0
-  void barrier();
 
   // Reading.
   const SurfaceContact& surface_contact() const { return surface_; }
@@ -154,6 +153,7 @@ class Dynamics {
   Field<const float> at(const Components& c, const Batch& b) const {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
   }
+  BatchView view(const Batch& b) { return {b, kernels_of(b), at(x_, b), at(v_, b)}; }
   const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
   std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const Prototype>& prototype, int width) const;
   Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
@@ -163,9 +163,9 @@ class Dynamics {
   template <class Operation>
   void each_value(Batch& batch, Operation operation);
   void run_stages(Batch& batch, std::span<const BatchStage> stages);
-  void contacts(int thread, float h, float since_start);
-  void surface_contacts(int thread, float h, float since_start);
-  void solids(int thread, float h);
+  void contacts(const Worker& worker, float h, float since_start);
+  void surface_contacts(const Worker& worker, float h, float since_start);
+  void solids(const Worker& worker, float h);
   void solids(Batch& batch, float h);
   bool particles_on_solids(Batch& batch, float h, bool again);
   void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
@@ -203,6 +203,7 @@ class Dynamics {
     int substeps = 0;
     int fixed = 0;  // substeps that it is to take; 0: as many as are needed
     int most = 0;   // that there may be
+    MomentumRestorer momenta{};
   };
   void begin_frame(double seconds);
   bool spent(const Progress& frame) const;
@@ -231,24 +232,18 @@ class Dynamics {
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void touch(BodyId id) { batches_[bodies_[id].batch].touched |= 1u << bodies_[id].lane; }
-  void note_momenta();
-  void keep_momenta(double seconds);  // since note_momenta()
-  void resist(BodyId id, double seconds);
-  double undue_speed(BodyId id, double out, double impulse);
   void follow(BodyId id);
   void update_moves(const Body& body);
 
   const Scene& scene_;
-  collide::Workers& workers_;
+  Crew crew_;
   const Kernels &wide_, &narrow_;
   Isa isa_;
   const Integrator *asked_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;
   std::vector<BatchStage> force_stages_, other_force_stages_;
-  struct {
-    bool internal, rebound, rolling;
-  } resistance_{};
+  Resistance resistance_;
   bool has_gravity_ = false, has_restitution_ = false;
   std::vector<Batch> batches_;
   std::vector<Body> bodies_;
@@ -268,15 +263,11 @@ class Dynamics {
   std::array<std::vector<float>, 3> seen_, velocity_;  // world, for surface_
   std::vector<ShieldPair> pairs_before_;               // of the frame before
   std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
-  std::vector<Batch*> moving_;
-  std::vector<RigidSums> momenta_;  // of moving_, at the start of the frame; empty where keep_momenta() has no part
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
   HeldRate held_rate_;
-  std::size_t least_shared_ = 0;
   MaxWork max_work_;
   double surface_work_ = 0, implicit_ = 0, shield_work_ = 0;  // of the frame at hand, as max_work_ counts them
-  int active_threads_ = 1;
 };
 
 }  // namespace softbody

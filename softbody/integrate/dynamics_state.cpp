@@ -86,7 +86,7 @@ void Dynamics::restore(const DynamicsState& state) {
   shield_.pairs = state.shield_pairs;
   surface_.restore(state.surface);
   held_rate_ = state.held_rate;
-  moving_.clear();
+  crew_.take({}, 0);
 }
 
 }  // namespace softbody

@@ -10,6 +10,7 @@
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/kernel_types.h"
 #include "softbody/forces/shield.h"
+#include "softbody/integrate/kernels.h"
 #include "softbody/integrate/substeps.h"
 #include "softbody/model/prototype.h"
 #include "softbody/state/kernel_types.h"
@@ -42,6 +43,15 @@ struct Batch {
 
   std::size_t particles() const { return prototype->mesh.vertices.size(); }
   std::size_t values() const { return particles() * std::size_t(width); }  // of one array
+};
+
+/// A batch with its positions and velocities, and the kernels of its width.
+struct BatchView {
+  const Batch& batch;
+  const Kernels& kernels;
+  Field<float> x, v;  // m and m/s
+  BodyField positions(int lane) const { return {x, std::size_t(lane), std::size_t(batch.width)}; }
+  BodyField velocities(int lane) const { return {v, std::size_t(lane), std::size_t(batch.width)}; }
 };
 
 struct Body {

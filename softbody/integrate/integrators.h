@@ -10,6 +10,7 @@
 namespace softbody {
 
 class Dynamics;
+class Worker;
 
 struct Substep {
   float h;     // s
@@ -21,8 +22,8 @@ struct Integrator {
   std::string_view name;
   std::string_view summary;
   int order;  // of convergence for smooth motion
-  /// Advances all bodies by one substep. All threads call it at once; `thread` is the number of the calling one.
-  void (*advance)(Dynamics& dynamics, int thread, const Substep& substep);
+  /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
+  void (*advance)(Dynamics& dynamics, const Worker& worker, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
   /// one particle; infinity if every step is stable. See stable_step() in prototype.h.
   double (*stable_step)(double k_m, double c_m);

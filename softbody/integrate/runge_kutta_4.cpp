@@ -22,31 +22,31 @@ void stage(Dynamics& dynamics, Batch& batch, float weight, float ahead) {
 
 }  // namespace
 
-void runge_kutta_4(Dynamics& dynamics, int thread, const Substep& substep) {
+void runge_kutta_4(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
   constexpr std::array<float, 4> weight{1.0f / 6, 1.0f / 3, 1.0f / 3, 1.0f / 6}, ahead{0.5f, 0.5f, 1.0f, 0.0f};
   const float h = substep.h;
-  for (Batch* batch : dynamics.share(thread)) {
+  for (Batch* batch : worker.batches()) {
     dynamics.copy(*batch, positions, x0);
     dynamics.copy(*batch, velocities, v0);
     dynamics.clear(*batch, mean_v);
     dynamics.clear(*batch, mean_a);
   }
   for (std::size_t s = 0; s < 4; ++s) {
-    dynamics.contact_forces(thread, s == 0 ? h : 0);  // friction's springs slip once a step
-    for (Batch* batch : dynamics.share(thread)) dynamics.all_forces(*batch);
-    for (Batch* batch : dynamics.share(thread)) stage(dynamics, *batch, weight[s], ahead[s] * h);
-    dynamics.barrier();
+    dynamics.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
+    for (Batch* batch : worker.batches()) dynamics.all_forces(*batch);
+    for (Batch* batch : worker.batches()) stage(dynamics, *batch, weight[s], ahead[s] * h);
+    worker.barrier();
   }
-  for (Batch* batch : dynamics.share(thread)) dynamics.copy(*batch, mean_v, velocities);
-  dynamics.contacts(thread, h);
-  for (Batch* batch : dynamics.share(thread)) {
+  for (Batch* batch : worker.batches()) dynamics.copy(*batch, mean_v, velocities);
+  dynamics.contacts(worker, h);
+  for (Batch* batch : worker.batches()) {
     dynamics.drift(*batch, h);
     dynamics.add(*batch, velocities, -1, mean_v);  // what the contacts have changed
     dynamics.add(*batch, velocities, 1, v0);
     dynamics.add(*batch, velocities, h, mean_a);
   }
-  dynamics.contacts_at_end(thread, h);
-  dynamics.barrier();
+  dynamics.contacts_at_end(worker, h);
+  worker.barrier();
 }
 
 }  // namespace softbody

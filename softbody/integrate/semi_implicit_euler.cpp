@@ -3,15 +3,15 @@
 
 namespace softbody {
 
-void semi_implicit_euler(Dynamics& dynamics, int thread, const Substep& substep) {
-  dynamics.contact_forces(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) {
+void semi_implicit_euler(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
+  dynamics.contact_forces(worker, substep.h);
+  for (Batch* batch : worker.batches()) {
     dynamics.all_forces(*batch);
     dynamics.kick(*batch, substep.h);
   }
-  dynamics.contacts(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) dynamics.drift(*batch, substep.h);
-  dynamics.barrier();  // the next contact forces read the positions of all bodies
+  dynamics.contacts(worker, substep.h);
+  for (Batch* batch : worker.batches()) dynamics.drift(*batch, substep.h);
+  worker.barrier();  // the next contact forces read the positions of all bodies
 }
 
 }  // namespace softbody

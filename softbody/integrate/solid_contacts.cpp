@@ -12,8 +12,8 @@
 
 namespace softbody {
 
-void Dynamics::solids(int thread, float h) {
-  for (Batch* batch : share(thread)) solids(*batch, h);
+void Dynamics::solids(const Worker& worker, float h) {
+  for (Batch* batch : worker.batches()) solids(*batch, h);
 }
 
 /// Particles, and where it is asked for also what lies between them, which may push particles back.

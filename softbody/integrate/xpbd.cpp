@@ -37,10 +37,10 @@ void Dynamics::project_springs(Batch& b, Quantity x0, Quantity d, float h) {
     kernels_of(b).project_springs(arguments, *list, at(std::as_const(components(x0)), b), at(components(d), b));
 }
 
-void xpbd(Dynamics& dynamics, int thread, const Substep& substep) {
+void xpbd(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
   constexpr Quantity start = scratch(0), displacements = velocities;
-  dynamics.contact_forces(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) {
+  dynamics.contact_forces(worker, substep.h);
+  for (Batch* batch : worker.batches()) {
     dynamics.other_forces(*batch);
     dynamics.kick(*batch, substep.h);
     dynamics.copy(*batch, positions, start);
@@ -52,9 +52,9 @@ void xpbd(Dynamics& dynamics, int thread, const Substep& substep) {
     dynamics.copy(*batch, start, positions);  // hand and contacts see where the velocities lead to from here
     dynamics.pull(*batch, substep.h);
   }
-  dynamics.contacts(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) dynamics.drift(*batch, substep.h);
-  dynamics.barrier();
+  dynamics.contacts(worker, substep.h);
+  for (Batch* batch : worker.batches()) dynamics.drift(*batch, substep.h);
+  worker.barrier();
 }
 
 }  // namespace softbody

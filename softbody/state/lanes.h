@@ -105,4 +105,20 @@ struct Field {
 
 inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
 
+/// The vectors of one body in a field, by its particles: the first one's stands at `first`, the next ones' `stride`
+/// values after each other.
+struct BodyField {
+  Field<float> field;
+  std::size_t first, stride;
+  glm::dvec3 operator()(std::size_t particle) const { return glm::dvec3(read(field, first + particle * stride)); }
+  void set(std::size_t particle, const glm::dvec3& value) const {
+    const std::size_t at = first + particle * stride;
+    field.x[at] = float(value.x), field.y[at] = float(value.y), field.z[at] = float(value.z);
+  }
+  void add(std::size_t particle, const glm::dvec3& more) const {
+    const std::size_t at = first + particle * stride;
+    field.x[at] += float(more.x), field.y[at] += float(more.y), field.z[at] += float(more.z);
+  }
+};
+
 }  // namespace softbody

@@ -37,14 +37,13 @@ World::State::State(Scene s, const Options& o)
       workers(o.threads),
       prototypes(scene),
       plan(make_plan(scene, prototypes.all())),
-      dynamics(scene, workers, o.isa),
+      dynamics(scene, Crew(workers, o.min_shared_particles), o.isa),
       sleep(scene.sleep),
       arrived(scene.bodies.size(), false),
       method(collide::find_method(scene.method)),
       detector(method->make()),
       settings(scene.collision),
       shield(settings.tolerance) {
-  dynamics.set_least_shared(options.min_shared_particles);
   dynamics.set_max_work(options.max_work);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);

@@ -60,11 +60,11 @@ void Dynamics::prepare_implicit(float h) {
     return std::none_of(batches_.begin(), batches_.end(), [&](const Batch& b) { return b.prototype == p; });
   };
   std::erase_if(matrices, [&](const ImplicitSteps::MatrixOf& m) { return gone(m.prototype); });
-  work.resize(std::size_t(workers_.threads()));
+  work.resize(std::size_t(crew_.workers().threads()));
   for (auto& of_thread : work) std::erase_if(of_thread, [&](const auto& entry) { return gone(entry.first); });
-  for (const Batch* b : moving_) {
+  for (const Batch* b : crew_.moving()) {
     const auto& p = b->prototype;
-    for (int thread = 0; thread < active_threads_; ++thread) work[std::size_t(thread)].try_emplace(p, *p, kernels);
+    for (int thread = 0; thread < crew_.active(); ++thread) work[std::size_t(thread)].try_emplace(p, *p, kernels);
     for (const double length : {double(h), implicit_stage * double(h)}) {
       const auto of_p = [&](const ImplicitSteps::MatrixOf& m) { return m.prototype == p; };
       const auto known = std::find_if(matrices.begin(), matrices.end(),
@@ -219,10 +219,10 @@ void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, Im
     work.planes[i].force = frames.leave(planes[i].at % lanes, planes[i].force);
 }
 
-void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest, float step) {
+void Dynamics::solve_implicit(const Worker& worker, Batch& b, Quantity mean, Quantity rest, float step) {
   const double h = double(step);
   const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
-  ImplicitWork& work = implicit_steps_->work[std::size_t(thread)].at(b.prototype);
+  ImplicitWork& work = implicit_steps_->work[std::size_t(worker.index())].at(b.prototype);
   const std::size_t stride = b.particles() * lanes;
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < stride; ++i) {
@@ -287,23 +287,23 @@ void Dynamics::solve_implicit(int thread, Batch& b, Quantity mean, Quantity rest
     }
 }
 
-void implicit_step(Dynamics& dynamics, int thread, const Substep& substep) {
+void implicit_step(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
   constexpr Quantity mean = scratch(0), rest = scratch(1);
-  dynamics.contact_forces(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) {
-    dynamics.solve_implicit(thread, *batch, mean, rest, substep.h);
+  dynamics.contact_forces(worker, substep.h);
+  for (Batch* batch : worker.batches()) {
+    dynamics.solve_implicit(worker, *batch, mean, rest, substep.h);
   }
-  dynamics.barrier();  // nobody's shields are still to look at the velocities
-  for (Batch* batch : dynamics.share(thread)) {
+  worker.barrier();  // nobody's shields are still to look at the velocities
+  for (Batch* batch : worker.batches()) {
     dynamics.copy(*batch, mean, velocities);
     dynamics.pull(*batch, substep.h);
   }
-  dynamics.contacts(thread, substep.h);
-  for (Batch* batch : dynamics.share(thread)) {
+  dynamics.contacts(worker, substep.h);
+  for (Batch* batch : worker.batches()) {
     dynamics.drift(*batch, substep.h);
     dynamics.add(*batch, velocities, 1, rest);
   }
-  dynamics.barrier();
+  worker.barrier();
 }
 
 }  // namespace softbody

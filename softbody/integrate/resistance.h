@@ -1,0 +1,36 @@
+#pragma once
+// What resists a body's motion as a whole, once a frame.
+
+#include "softbody/model/prototype.h"
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+struct Plan;
+
+/// What solids did to a body in a frame.
+struct SolidPush {
+  glm::dvec3 impulse{0.0};  // N s, along their normals
+  double returned = 0;      // N s, the part of its length that restitution gives back
+};
+
+/// The resistances are found from a body's rigid part v + w x r:
+/// internal damping relaxes the particles' velocities towards it, at the material's rate, and changes neither linear
+/// nor angular momentum (Mueller et al. 2007, section 3.5); rolling resistance takes up to coefficient * radius *
+/// normal impulse of the angular momentum; rebound damping is Hunt and Crossley's (1975): a contact force N that acts
+/// on a body which moves along it at u becomes N (1 - u / rebound_speed), but for what restitution keeps of u.
+class Resistance {
+ public:
+  /// Takes those of the three that the plan has; none acts before.
+  void set_plan(const Plan& plan);
+  /// Changes the velocities v of a body after a frame of `seconds`, by its positions x and what solids did to it.
+  /// `impact`: the speed (m/s) with which it came upon the solids that it touches; kept from frame to frame, 0 at
+  /// first.
+  void resist(const Prototype& prototype, const BodyField& x, const BodyField& v, const SolidPush& push, double seconds,
+              double& impact) const;
+
+ private:
+  bool internal_ = false, rebound_ = false, rolling_ = false;
+};
+
+}  // namespace softbody

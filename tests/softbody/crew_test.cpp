@@ -1,0 +1,87 @@
+#include "softbody/integrate/crew.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <stdexcept>
+
+#include "softbody/integrate/dynamics_state.h"
+
+namespace softbody::test {
+namespace {
+
+class CrewOfThree : public testing::Test {
+ protected:
+  /// `count` of the batches move, of 100 particles in all.
+  void take(std::size_t count) {
+    std::vector<Batch*> moving;
+    for (std::size_t i = 0; i < count; ++i) moving.push_back(&batches_[i]);
+    crew.take(std::move(moving), 100);
+  }
+
+  collide::Workers workers{3};
+  Crew crew{workers, 100};
+
+ private:
+  std::array<Batch, 8> batches_;
+};
+
+TEST_F(CrewOfThree, SharesBatchesInTheirOrder) {
+  for (const std::size_t count : {0, 1, 2, 3, 8}) {
+    take(count);
+    ASSERT_EQ(crew.active(), 3);
+    std::vector<Batch*> shared;
+    for (int i = 0; i < crew.active(); ++i)
+      for (Batch* b : Worker(crew, i).batches()) shared.push_back(b);
+    EXPECT_EQ(shared, crew.moving());
+  }
+}
+
+TEST_F(CrewOfThree, SharesItems) {
+  take(1);
+  std::size_t next = 0;
+  for (int i = 0; i < crew.active(); ++i) {
+    const collide::Part part = Worker(crew, i).part(100);
+    EXPECT_EQ(part.begin, next);
+    next = part.end;
+  }
+  EXPECT_EQ(next, 100u);
+}
+
+TEST_F(CrewOfThree, LeavesFewParticlesToOneThread) {
+  take(8);
+  crew.take(crew.moving(), 99);
+  EXPECT_EQ(crew.active(), 1);
+  int calls = 0;
+  crew.run([&](const Worker& worker) {
+    ++calls;
+    worker.barrier();  // nobody else is to come
+    EXPECT_EQ(worker.index(), 0);
+    EXPECT_EQ(worker.batches().size(), 8u);
+  });
+  EXPECT_EQ(calls, 1);
+}
+
+TEST_F(CrewOfThree, MeetsAtTheBarrier) {
+  take(8);
+  std::atomic<int> came = 0;
+  std::array<int, 3> seen{};
+  crew.run([&](const Worker& worker) {
+    ++came;
+    worker.barrier();
+    seen[std::size_t(worker.index())] = came;
+  });
+  EXPECT_EQ(seen, (std::array{3, 3, 3}));
+}
+
+TEST_F(CrewOfThree, ThrowsWhatOneThrows) {
+  take(8);
+  const auto task = [](const Worker& worker) {
+    if (worker.index() == 1) throw std::runtime_error("one");
+    worker.barrier();
+  };
+  EXPECT_THROW(crew.run(task), std::runtime_error);
+}
+
+}  // namespace
+}  // namespace softbody::test
