@@ -46,12 +46,12 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/isa state/lane_math state/lanes
-model/material model/prototype model/scene_error
+model/material model/body_model model/scene_error
 contact/contacts contact/law contact/solid contact/solid_surface
 forces/best_rotation forces/grab forces/pair_energy
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
-world/measures world/prototype_set world/snapshot world/world
+world/measures world/body_model_set world/snapshot world/world
 "
 
 # A folder without a row belongs to the row of the folder above it. In rows of app, an entry allows the folders below it,

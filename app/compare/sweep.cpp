@@ -7,7 +7,7 @@
 
 #include "app/compare/heap.h"
 #include "app/compare/score.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::compare {
 namespace {
@@ -23,12 +23,12 @@ std::vector<Value> axis(bool used, const Values& values, Value otherwise) {
 glm::vec3 automatic_cell_size(const softbody::World& world, int levels) {
   collide::Bodies bodies;
   std::vector<float> x, y, z;
-  std::set<const softbody::Prototype*> seen;
+  std::set<const softbody::BodyModel*> seen;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::Prototype& prototype = world.prototype(b);
-    if (!seen.insert(&prototype).second) continue;
-    bodies.add(prototype.shape);
-    for (const glm::dvec3& v : prototype.start) {
+    const softbody::BodyModel& model = world.model(b);
+    if (!seen.insert(&model).second) continue;
+    bodies.add(model.shape);
+    for (const glm::dvec3& v : model.start) {
       x.push_back(static_cast<float>(v.x));
       y.push_back(static_cast<float>(v.y));
       z.push_back(static_cast<float>(v.z));

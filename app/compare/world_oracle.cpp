@@ -8,13 +8,13 @@
 #include <glm/geometric.hpp>
 
 #include "collide/surface/closed_shell.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::compare {
 
 collide::surface::Surfaces surfaces_of(const softbody::World& world) {
   collide::surface::Surfaces surfaces;
-  for (collide::Index b = 0; b < world.bodies().count(); ++b) surfaces.push_back(world.prototype(b).surface);
+  for (collide::Index b = 0; b < world.bodies().count(); ++b) surfaces.push_back(world.model(b).surface);
   return surfaces;
 }
 

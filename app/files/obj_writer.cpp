@@ -7,7 +7,7 @@
 
 #include <fmt/core.h>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::files {
 namespace {
@@ -48,18 +48,18 @@ std::string faces_of(const softbody::Mesh& mesh, std::size_t first) {
   return text;
 }
 
-std::vector<const softbody::Prototype*> prototypes_of(const softbody::World& world) {
-  std::vector<const softbody::Prototype*> list;
-  for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(&world.prototype(b));
+std::vector<const softbody::BodyModel*> models_of(const softbody::World& world) {
+  std::vector<const softbody::BodyModel*> list;
+  for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) list.push_back(&world.model(b));
   return list;
 }
 
 }  // namespace
 
-ObjWriter::ObjWriter(const softbody::World& world) : prototypes_(prototypes_of(world)), first_{0} {
-  for (const softbody::Prototype* prototype : prototypes_) {
-    faces_.push_back(faces_of(prototype->mesh, first_.back()));
-    for (const glm::dvec3& v : prototype->mesh.vertices) {
+ObjWriter::ObjWriter(const softbody::World& world) : models_(models_of(world)), first_{0} {
+  for (const softbody::BodyModel* model : models_) {
+    faces_.push_back(faces_of(model->mesh, first_.back()));
+    for (const glm::dvec3& v : model->mesh.vertices) {
       x_.push_back(static_cast<float>(v.x));
       y_.push_back(static_cast<float>(v.y));
       z_.push_back(static_cast<float>(v.z));
@@ -68,7 +68,7 @@ ObjWriter::ObjWriter(const softbody::World& world) : prototypes_(prototypes_of(w
   }
 }
 
-bool ObjWriter::matches(const softbody::World& world) const { return prototypes_ == prototypes_of(world); }
+bool ObjWriter::matches(const softbody::World& world) const { return models_ == models_of(world); }
 
 std::string ObjWriter::frame(std::span<const float> x, std::span<const float> y, std::span<const float> z) const {
   assert(x.size() == first_.back() && y.size() == x.size() && z.size() == x.size());

@@ -22,10 +22,10 @@ class ObjWriter {
   std::string at_rest() const;
 
  private:
-  std::vector<const softbody::Prototype*> prototypes_;  // only for comparison: the world may be gone
-  std::vector<std::size_t> first_;                      // by body: its first vertex; one more at the end
-  std::vector<std::string> faces_;                      // by body
-  std::vector<float> x_, y_, z_;                        // at rest
+  std::vector<const softbody::BodyModel*> models_;  // only for comparison: the world may be gone
+  std::vector<std::size_t> first_;                  // by body: its first vertex; one more at the end
+  std::vector<std::string> faces_;                  // by body
+  std::vector<float> x_, y_, z_;                    // at rest
 };
 
 }  // namespace app::files

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/solids.h"
 
 namespace app::reference {
@@ -54,7 +54,7 @@ std::vector<dvec3> add_scaled(const std::vector<dvec3>& a, double s, const std::
 
 BodyState state_of(const softbody::World& world, softbody::BodyId body) {
   BodyState state;
-  for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) {
+  for (softbody::Index i = 0; i < world.model(body).mesh.vertices.size(); ++i) {
     const softbody::Particle p = world.particle(body, i);
     state.x.push_back(p.position);
     state.v.push_back(p.velocity);
@@ -80,25 +80,25 @@ void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state
   if (length == 0) return;  // no direction
   const dvec3 n = d / length;
   const double tension = s.stiffness * (length - s.rest) + s.damping * glm::dot(state.v[s.j] - state.v[s.i], n);
-  a[s.i] += tension / prototype_.particle_mass * n;
-  a[s.j] -= tension / prototype_.particle_mass * n;
+  a[s.i] += tension / model_.particle_mass * n;
+  a[s.j] -= tension / model_.particle_mass * n;
 }
 
 void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
-  const auto& faces = prototype_.mesh.triangles;
+  const auto& faces = model_.mesh.triangles;
   const double volume = volume_of(state.x, faces);
-  const double gauge = absolute_pressure(prototype_.gas, volume) - ambient_pressure(prototype_.gas, volume);
+  const double gauge = absolute_pressure(model_.gas, volume) - ambient_pressure(model_.gas, volume);
   for (const auto& [i, j, k] : faces) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
-    for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / prototype_.particle_mass * area;
+    for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / model_.particle_mass * area;
   }
 }
 
 std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
   std::vector<dvec3> a(state.x.size(), scene_.gravity);
-  for (const auto* list : {&prototype_.structural, &prototype_.bend, &prototype_.shear})
+  for (const auto* list : {&model_.structural, &model_.bend, &model_.shear})
     for (const softbody::Spring& s : *list) add_spring(s, state, a);
-  if (prototype_.has_gas) add_gas(state, a);
+  if (model_.has_gas) add_gas(state, a);
   return a;
 }
 
@@ -108,7 +108,7 @@ void ReferenceBody::collide_with_solids(const std::vector<dvec3>& x, std::vector
   softbody::for_each_solid(scene_, [&](const auto& solid) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const softbody::SolidSurface s = softbody::surface_at(solid, x[i]);
-      const double gap = s.distance - prototype_.material.thickness;
+      const double gap = s.distance - model_.material.thickness;
       const double min_up = gap > 0 ? -gap / h : std::min(-0.1 * gap / h, 1.0);
       const double up = glm::dot(v[i], s.normal);
       if (up >= min_up) continue;
@@ -139,22 +139,21 @@ void ReferenceBody::step(BodyState& state, double h) const {
 }
 
 double ReferenceBody::stable_step(const BodyState& state) const {
-  const double k_m = softbody::stiffness_per_mass(prototype_, softbody::measure_surface(prototype_, state.x));
-  const double c_m = prototype_.spring_damping_bound / prototype_.particle_mass;
+  const double k_m = softbody::stiffness_per_mass(model_, softbody::measure_surface(model_, state.x));
+  const double c_m = model_.spring_damping_bound / model_.particle_mass;
   return softbody::find_integrator("rk4")->stable_step(k_m, c_m);
 }
 
 double ReferenceBody::energy(const BodyState& state) const {
   double energy = 0;
   for (std::size_t i = 0; i < state.x.size(); ++i)
-    energy +=
-        prototype_.particle_mass * (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(scene_.gravity, state.x[i]));
-  for (const auto* list : {&prototype_.structural, &prototype_.bend, &prototype_.shear})
+    energy += model_.particle_mass * (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(scene_.gravity, state.x[i]));
+  for (const auto* list : {&model_.structural, &model_.bend, &model_.shear})
     for (const softbody::Spring& s : *list) {
       const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
       energy += 0.5 * s.stiffness * stretch * stretch;
     }
-  if (prototype_.has_gas) energy += gas_energy(prototype_.gas, volume_of(state.x, prototype_.mesh.triangles));
+  if (model_.has_gas) energy += gas_energy(model_.gas, volume_of(state.x, model_.mesh.triangles));
   return energy;
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/world.h"
 
 namespace app::reference {
@@ -20,15 +20,14 @@ BodyState state_of(const softbody::World& world, softbody::BodyId body);
 
 class ReferenceBody {
  public:
-  /// prototype: of the scene's only body. Both arguments must outlive the object.
-  ReferenceBody(const softbody::Prototype& prototype, const softbody::Scene& scene)
-      : prototype_(prototype), scene_(scene) {}
+  /// body model: of the scene's only body. Both arguments must outlive the object.
+  ReferenceBody(const softbody::BodyModel& model, const softbody::Scene& scene) : model_(model), scene_(scene) {}
 
   /// Returns a stage of the world's plan that affects the motion and that this model lacks, or "several bodies"; empty
   /// if the model fits the scene.
   static std::string unsupported_stage(const softbody::World& world);
 
-  const softbody::Prototype& prototype() const { return prototype_; }
+  const softbody::BodyModel& model() const { return model_; }
   const softbody::Scene& scene() const { return scene_; }
   /// Returns the accelerations (m/s^2) by springs, dampers, gas and gravity.
   std::vector<glm::dvec3> accelerations(const BodyState& state) const;
@@ -45,7 +44,7 @@ class ReferenceBody {
   void add_gas(const BodyState& state, std::vector<glm::dvec3>& a) const;
   void collide_with_solids(const std::vector<glm::dvec3>& x, std::vector<glm::dvec3>& v, double h) const;
 
-  const softbody::Prototype& prototype_;
+  const softbody::BodyModel& model_;
   const softbody::Scene& scene_;
 };
 

@@ -26,7 +26,7 @@ double fastest(const BodyState& s) {
 /// Returns the stable step (s), shortened so that no particle moves more than a tenth of the radius: the stable step
 /// holds only for the current shape.
 double longest_step(const ReferenceBody& body, const BodyState& s) {
-  return std::min(body.stable_step(s), 0.1 * body.prototype().radius / fastest(s));
+  return std::min(body.stable_step(s), 0.1 * body.model().radius / fastest(s));
 }
 
 }  // namespace
@@ -34,7 +34,7 @@ double longest_step(const ReferenceBody& body, const BodyState& s) {
 double unsettled_speed(const ReferenceBody& body, const BodyState& s) {
   const softbody::Scene& scene = body.scene();
   const bool free = scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
-                      return softbody::solid_depth(scene, p).depth > -body.prototype().material.thickness;
+                      return softbody::solid_depth(scene, p).depth > -body.model().material.thickness;
                     });
   return free ? deformation_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
 }
@@ -76,7 +76,7 @@ Trajectory integrate(const ReferenceBody& body, BodyState s, double fraction, co
 
 Reference find_reference(const ReferenceBody& body, const BodyState& start, double bound,
                          const TrajectoryLimits& limits) {
-  const double radius = body.prototype().radius;
+  const double radius = body.model().radius;
   double fraction = 1;
   Trajectory best = integrate(body, start, fraction, limits);
   Reference r;

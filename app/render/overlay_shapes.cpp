@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace app::render {
@@ -142,7 +142,7 @@ void add_surface_contacts(const softbody::World& world, std::span<const softbody
     for (std::size_t k = 0; k < contact.vertex.size(); ++k)
       (contact.weight[k] > 0 ? first : second) += std::abs(contact.weight[k]) * positions[contact.vertex[k]];
     const glm::vec4 colour(contact.a == contact.b ? contact_inside_colour : contact_between_colour, 1.0f);
-    const float length = 0.5f * static_cast<float>(world.prototype(contact.a).mean_edge);
+    const float length = 0.5f * static_cast<float>(world.model(contact.a).mean_edge);
     lines.lines.push_back({second, second + length * contact.normal, colour});
     points.points.push_back({first, colour});
     points.points.push_back({second, colour});
@@ -189,7 +189,7 @@ void add_marks(const softbody::World& world, std::span<const compare::SurfaceMar
     if (!deepest_here || glm::length(deepest_here->offset) < glm::length(mark.offset)) deepest_here = &mark;
   }
   for (const softbody::BodyId body : marked)
-    widen(*world.prototype(body).surface,
+    widen(*world.model(body).surface,
           std::span(frame.marks).subspan(world.bodies().first[body], world.bodies().size(body)));
   engine::LineSet lines{.lines = {}, .width = 1.5f, .occluded_alpha = half_hidden};
   engine::PointSet points{.points = {}, .diameter = 4.5f, .occluded_alpha = half_hidden};
@@ -203,14 +203,14 @@ void add_marks(const softbody::World& world, std::span<const compare::SurfaceMar
   frame.points.push_back(std::move(points));
 }
 
-bool is_open(const softbody::Prototype& prototype) { return !(prototype.start_volume > 0); }
+bool is_open(const softbody::BodyModel& model) { return !(model.start_volume > 0); }
 
 /// Returns for each vertex of a body whether one of its faces is turned to the eye; always true for an open body, which
 /// shows both sides.
-std::vector<char> vertices_in_sight(const softbody::Prototype& prototype, Points body, const glm::vec3& eye) {
-  std::vector<char> in_sight(body.size(), is_open(prototype));
-  if (is_open(prototype)) return in_sight;
-  for (const auto& [a, b, c] : prototype.mesh.triangles) {
+std::vector<char> vertices_in_sight(const softbody::BodyModel& model, Points body, const glm::vec3& eye) {
+  std::vector<char> in_sight(body.size(), is_open(model));
+  if (is_open(model)) return in_sight;
+  for (const auto& [a, b, c] : model.mesh.triangles) {
     if (glm::dot(glm::cross(body[b] - body[a], body[c] - body[a]), eye - body[a]) <= 0) continue;
     in_sight[a] = in_sight[b] = in_sight[c] = true;
   }
@@ -228,9 +228,9 @@ void add_springs(const std::vector<softbody::Spring>& springs, Points body, cons
 }
 
 /// Returns true if the body is so large on the screen that its other springs can be told from those along edges.
-bool is_near(const softbody::Prototype& prototype, Points body, const Viewpoint& viewpoint) {
+bool is_near(const softbody::BodyModel& model, Points body, const Viewpoint& viewpoint) {
   constexpr float min_edge = 20;  // pixels
-  const float edge = static_cast<float>(prototype.mean_edge);
+  const float edge = static_cast<float>(model.mean_edge);
   return edge * viewpoint.pixels_at_one_metre > min_edge * glm::distance(body.front(), viewpoint.eye);
 }
 
@@ -239,13 +239,13 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
   engine::LineSet others{.lines = {}, .width = 1.0f, .occluded_alpha = hidden};
   const collide::Bodies& bodies = world.bodies();
   for (collide::Index b = 0; b < bodies.count(); ++b) {
-    const softbody::Prototype& prototype = world.prototype(b);
+    const softbody::BodyModel& model = world.model(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
-    const std::vector<char> in_sight = vertices_in_sight(prototype, body, viewpoint.eye);
-    add_springs(prototype.structural, body, in_sight, 1.0f, structural);
-    if (!is_near(prototype, body, viewpoint)) continue;
-    add_springs(prototype.bend, body, in_sight, 0.45f, others);
-    add_springs(prototype.shear, body, in_sight, 0.7f, others);
+    const std::vector<char> in_sight = vertices_in_sight(model, body, viewpoint.eye);
+    add_springs(model.structural, body, in_sight, 1.0f, structural);
+    if (!is_near(model, body, viewpoint)) continue;
+    add_springs(model.bend, body, in_sight, 0.45f, others);
+    add_springs(model.shear, body, in_sight, 0.7f, others);
   }
   frame.lines.push_back(std::move(others));
   frame.lines.push_back(std::move(structural));
@@ -256,7 +256,7 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
 void add_outline(const softbody::World& world, softbody::BodyId id, const glm::vec3& eye, Points positions,
                  const glm::vec3& colour, engine::LineSet& lines) {
   constexpr float outside = 0.08f;  // of the length of an edge
-  const collide::surface::Surface& surface = *world.prototype(id).surface;
+  const collide::surface::Surface& surface = *world.model(id).surface;
   const Points body = positions.subspan(world.bodies().first[id], world.bodies().size(id));
   const auto normal_of = [&](collide::Index face) {  // twice as long as its area
     const auto& [a, b, c] = surface.triangles()[face];
@@ -286,7 +286,7 @@ void add_outlines(const softbody::World& world, const OverlayRequest& request, c
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (body == request.selected_body)
       add_outline(world, body, eye, positions, hand_colour, bold);
-    else if (is_open(world.prototype(body)) && !(request.highlight && request.highlight->fades(body)))
+    else if (is_open(world.model(body)) && !(request.highlight && request.highlight->fades(body)))
       add_outline(world, body, eye, positions, 0.5f * body_colour(world.body(body).number), fine);
   }
   frame.lines.push_back(std::move(fine));

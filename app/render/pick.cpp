@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::render {
 namespace {
@@ -65,7 +65,7 @@ std::optional<Pick> pick(const engine::Ray& ray, const softbody::World& world,
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body) {
     if (!passes(ray, bounding_sphere(world, body, positions))) continue;
     const collide::Index first = world.bodies().first[body];
-    for (const softbody::Triangle& t : world.prototype(body).mesh.triangles) {
+    for (const softbody::Triangle& t : world.model(body).mesh.triangles) {
       const auto hit = meet(ray, positions[first + t[0]], positions[first + t[1]], positions[first + t[2]]);
       if (!hit || (nearest && hit->distance >= nearest->distance)) continue;
       nearest = Pick{body, t, hit->weights, ray.origin + hit->distance * ray.direction, hit->distance};

@@ -11,7 +11,7 @@
 
 #include "app/render/overlay_shapes.h"
 #include "app/render/palette.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::render {
 namespace {
@@ -57,11 +57,11 @@ std::vector<engine::MeshDraw> SceneView::gather_bodies(const softbody::World& wo
   const collide::Bodies& bodies = world.bodies();
   std::vector<engine::MeshDraw> draws;
   const UploadedMesh* mesh = nullptr;
-  const softbody::Prototype* last = nullptr;
+  const softbody::BodyModel* last = nullptr;
   for (collide::Index b = 0; b < bodies.count(); ++b) {
-    const softbody::Prototype& prototype = world.prototype(b);
-    if (&prototype != last) mesh = &upload(prototype.mesh);
-    last = &prototype;
+    const softbody::BodyModel& model = world.model(b);
+    if (&model != last) mesh = &upload(model.mesh);
+    last = &model;
     const std::uint32_t begin = first + bodies.first[b], count = bodies.size(b);
     engine::smooth_normals(mesh->indices, std::span(positions_).subspan(begin, count),
                            std::span(normals_).subspan(begin, count));
@@ -84,7 +84,7 @@ void SceneView::gather_ghost(const softbody::World& ghost, const compare::DrawnP
   };
   std::vector<engine::MeshDraw> draws = gather_bodies(ghost, first);
   for (softbody::BodyId b = 0; b < draws.size(); ++b) {
-    const auto radius = static_cast<float>(ghost.prototype(b).radius);
+    const auto radius = static_cast<float>(ghost.model(b).radius);
     const bool overlaps = glm::distance(centre(draws[b].first_vertex - first, draws[b].vertex_count),
                                         centre(draws[b].first_vertex, draws[b].vertex_count)) < 2 * radius;
     draws[b].colour = ghost_colour;

@@ -5,7 +5,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {
@@ -36,7 +36,7 @@ bool SolidPassages::passed(const softbody::World& world, const glm::dvec3& from,
 bool SolidPassages::observe(const softbody::World& world) {
   bool finite = true;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::Prototype& p = world.prototype(b);
+    const softbody::BodyModel& p = world.model(b);
     const glm::dvec3 to = middle_of(world, b);
     if (b == outside_.size()) outside_.push_back(to);
     const bool known = std::isfinite(glm::distance(outside_[b], to));

@@ -11,9 +11,9 @@
 
 #include "app/base/text.h"
 #include "softbody/mesh/obj_file.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
+#include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/prototype_set.h"
 
 namespace app::session {
 namespace {
@@ -44,7 +44,7 @@ std::vector<std::string> lines_about(const FileReader::Mesh& read, const softbod
   if (mesh.imported->mesh.vertices.size() > many_vertices)
     lines.push_back("so many vertices that the world may run slower than real time");
   if (world.scene().contact_surface == softbody::ContactSurface::vertices) {
-    const double edge = read.prototype->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
+    const double edge = read.model->mean_edge, tolerance = static_cast<double>(world.collision().tolerance);
     if (edge < finest_edge * tolerance)
       lines.push_back("much finer than the tolerance: vertex-vertex contact may let others sink in, F is for surfaces");
     if (edge > coarsest_edge * tolerance)
@@ -60,7 +60,7 @@ FileReader::Answer FileReader::answer(const Question& question, const std::stop_
   try {
     if (const auto* file = std::get_if<softbody::MeshFile>(&question)) {
       Mesh read{softbody::MeshSource::from_file(*file), nullptr};
-      read.prototype = softbody::shared_prototype(read.mesh, imported_material(read.mesh.imported->findings.extent));
+      read.model = softbody::shared_body_model(read.mesh, imported_material(read.mesh.imported->findings.extent));
       return read;
     }
     const auto& [path, threads, presets] = std::get<SceneToRead>(question);

@@ -22,8 +22,7 @@ struct FileReader {
   };
   struct Mesh {
     softbody::MeshSource mesh;
-    std::shared_ptr<const softbody::Prototype>
-        prototype;  // of imported_material(); kept alive so that a world finds it
+    std::shared_ptr<const softbody::BodyModel> model;  // of imported_material(); kept alive so that a world finds it
   };
   struct World {
     std::filesystem::path path;

@@ -21,21 +21,21 @@ inline constexpr double impact_speed = 0.5;  // m/s
 /// Returns the least change of a gap in one step, in a unit of which a metre has `per_metre`: a gap may close but not
 /// turn into an overlap; an overlap (a negative gap) becomes smaller, by `most` at most.
 template <class V, class T>
-SB_INLINE V least_change(V gap, T per_metre, T most) {
+SB_INLINE V min_change(V gap, T per_metre, T most) {
   const V zero{};
   return gap > zero ? -gap * per_metre : body::smaller(-T(push_share) * per_metre * gap, zero + most);
 }
 
 /// Returns how far (m) two sides have to separate in a step of h, at least; negative: they may approach.
 template <class V, class T>
-SB_INLINE V least_move(V gap, T h) {
-  return least_change(gap, T(1), T(max_separation_speed) * h);
+SB_INLINE V min_move(V gap, T h) {
+  return min_change(gap, T(1), T(max_separation_speed) * h);
 }
 
 /// Returns how fast (m/s) they have to separate, from 1 / h.
 template <class V, class T>
-SB_INLINE V least_speed(V gap, T inverse_h) {
-  return least_change(gap, inverse_h, T(max_separation_speed));
+SB_INLINE V min_speed(V gap, T inverse_h) {
+  return min_change(gap, inverse_h, T(max_separation_speed));
 }
 
 /// Returns the speed with which an impact at the speed `approach` is thrown back (Newton), or -infinity if it is not.

@@ -8,7 +8,6 @@
 
 namespace softbody {
 
-
 /// A solid seen from each body's own origin.
 struct SolidArguments {
   std::size_t particles;
@@ -33,7 +32,7 @@ namespace body {
 template <class V>
 SB_INLINE V respond(const SolidArguments& s, V moves, V gap, Vec<V> n, Vec<V> before, Vec<V>& v) {
   const V zero{};
-  V target = law::least_speed(gap, 1.0f / s.h);
+  V target = law::min_speed(gap, 1.0f / s.h);
   const V normal_speed = dot(v, n);
   if (s.restitution > 0) {
     const V thrown_back = larger(law::rebound(-dot(before, n), s.restitution), target);

@@ -20,7 +20,7 @@ using collide::surface::SurfaceSearch;
 
 constexpr float step_share = 0.15f;  // of the shorter mean edge: how far two bodies may pass each other in a substep
 constexpr float patience = 2;        // a motion is foreseen for so many times as long as the last one has lasted
-constexpr float deep_share = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
+constexpr float separation_depth = 0.25f;  // of the shorter mean edge: deeper bodies are parted as a whole
 
 /// m: how far a body may stray, if it strayed so far before.
 float slack_after(float stray, const collide::surface::SurfaceBody& before) {
@@ -57,8 +57,8 @@ void SurfaceContact::clear() {
   search_.clear();
   bodies_.clear();
   pairs_.clear();
-  memory_.clear();
-  deep_.clear();
+  cached_.clear();
+  interior_.clear();
   colours_.clear();
   rate_ = 0;
 }
@@ -78,12 +78,12 @@ void SurfaceContact::find(const collide::surface::Motion& motion, std::vector<co
     set_slack(traits_[body], slack_after(history.deviation, traits[body]));
     traits_[body].horizon = std::max(ahead, patience * history.duration);
   }
-  threads_.resize(static_cast<std::size_t>(workers.threads()));
+  thread_work_.resize(static_cast<std::size_t>(workers.threads()));
   search(motion.positions, [&] { search_.find(motion, traits_, query, workers); });
 }
 
-void SurfaceContact::renew(const collide::surface::Motion& motion, float elapsed, float ahead,
-                           collide::Workers& workers) {
+void SurfaceContact::update(const collide::surface::Motion& motion, float elapsed, float ahead,
+                            collide::Workers& workers) {
   for (Index body = 0; body < traits_.size(); ++body) {
     const collide::surface::SweptBody& swept = search_.body(body);
     if (!swept.expired()) continue;
@@ -107,43 +107,43 @@ void SurfaceContact::search(const collide::Frame& now, const Search& search) {
 
 void SurfaceContact::take_candidates(const collide::Frame& now) {
   std::swap(pairs_, pairs_before_);
-  std::swap(memory_, memory_before_);
+  std::swap(cached_, cached_before_);
   pairs_.clear();
   for (const collide::surface::SurfacePair& range : search_.pairs()) pairs_.push_back(make_pair(range));
-  memory_.assign(search_.features().size(), {});
-  room_.assign(search_.features().size(), std::numeric_limits<float>::max());
-  inherit();
+  cached_.assign(search_.features().size(), {});
+  max_gap_.assign(search_.features().size(), std::numeric_limits<float>::max());
+  carry_over();
   for (const Pair& p : pairs_)
-    if (p.range.a == p.range.b) leave_room(p);
-  deep_.clear();
+    if (p.range.a == p.range.b) limit_gaps_at_rest(p);
+  interior_.clear();
   Shells shells;
   for (Pair& p : pairs_)
-    if (p.overlap) find_deep(p, now, shells);
-  foresee_speeds();
+    if (p.overlap) find_interior_vertices(p, now, shells);
+  predict_speeds();
   colour();
 }
 
 /// Within a body, what is closer at rest than the distance that surfaces keep is not pushed apart.
-void SurfaceContact::leave_room(const Pair& pair) {
+void SurfaceContact::limit_gaps_at_rest(const Pair& pair) {
   constexpr float share = 0.9f;
   const Surface& surface = *traits_[pair.range.a].surface;
   const std::vector<glm::vec3>& rest = *bodies_[pair.range.a].rest;
-  const auto room = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
+  const auto max_gap = [&](const Closest& c) { return std::min(pair.distance, share * glm::length(c.separation)); };
   for (std::uint32_t i = pair.range.vertex_face; i < pair.range.end; ++i) {
     const FeaturePair& f = search_.features()[i];
     if (i < pair.range.edge_edge) {
       const auto& [a, b, c] = surface.triangles()[f.b];
-      room_[i] = room(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
+      max_gap_[i] = max_gap(collide::surface::closest_vertex_face(rest[f.a], rest[a], rest[b], rest[c]));
     } else {
       const collide::surface::Edge &one = surface.edges()[f.a], &two = surface.edges()[f.b];
-      room_[i] = room(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
+      max_gap_[i] = max_gap(collide::surface::closest_edges(rest[one[0]], rest[one[1]], rest[two[0]], rest[two[1]]));
     }
   }
 }
 
 /// A pair may be hit through its neighbours within one substep: it is looked at as far as either body's fastest pair
 /// goes.
-void SurfaceContact::foresee_speeds() {
+void SurfaceContact::predict_speeds() {
   std::vector<float> fastest(bodies_.size(), 0);
   rate_ = 0;
   for (const Pair& p : pairs_) {
@@ -160,10 +160,10 @@ void SurfaceContact::foresee_speeds() {
 
 SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePair& range) const {
   const ContactBody &a = bodies_[range.a], &b = bodies_[range.b];
-  const auto reach = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
+  const auto margin = [&](Index body) { return traits_[body].skin - traits_[body].slack; };
   return {.range = range,
           .offset = glm::vec3(b.origin - a.origin),
-          .distance = reach(range.a) + reach(range.b),
+          .distance = margin(range.a) + margin(range.b),
           .friction = law::common_friction(a.friction, b.friction),
           .restitution = law::common_restitution(a.restitution, b.restitution),
           .inverse_a = a.inverse_mass,
@@ -174,14 +174,14 @@ SurfaceContact::Pair SurfaceContact::make_pair(const collide::surface::SurfacePa
 }
 
 /// Hands on what is remembered of the same features. Pairs that were near before know whether they overlap.
-void SurfaceContact::inherit() {
+void SurfaceContact::carry_over() {
   auto old = pairs_before_.begin();
   const std::vector<FeaturePair>& old_features = search_.previous_features();
   const auto hand_on = [&](std::uint32_t from, std::uint32_t from_end, std::uint32_t to, std::uint32_t to_end) {
     for (; to < to_end; ++to) {
       while (from < from_end && old_features[from].key() < search_.features()[to].key()) ++from;
       if (from == from_end) return;
-      if (old_features[from].key() == search_.features()[to].key()) memory_[to] = memory_before_[from];
+      if (old_features[from].key() == search_.features()[to].key()) cached_[to] = cached_before_[from];
     }
   };
   for (Pair& p : pairs_) {
@@ -197,12 +197,12 @@ void SurfaceContact::inherit() {
 }
 
 /// Lists the vertices of two closed bodies that lie inside the other one, with the faces that they are closest to.
-void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& shells) {
+void SurfaceContact::find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells) {
   const auto run = [&](Index body) {
     const Index first = now.bodies->first[body];
     return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
   };
-  pair.deep = static_cast<std::uint32_t>(deep_.size());
+  pair.interior = static_cast<std::uint32_t>(interior_.size());
   float deepest = 0;
   std::uint32_t along = 0;
   for (const bool of_b : {false, true}) {
@@ -218,17 +218,18 @@ void SurfaceContact::find_deep(Pair& pair, const collide::Frame& now, Shells& sh
       const collide::surface::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
       deepest = std::max(deepest, nearest.distance);
       along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
-      deep_.push_back({v, nearest.face, of_b});
+      interior_.push_back({v, nearest.face, of_b});
     }
   }
-  pair.overlap = deep_.size() > pair.deep;
+  pair.overlap = interior_.size() > pair.interior;
   // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
   // which no vertex is deep, be pulled both ways for ever.
-  pair.parting = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
-                 (deepest > deep_share * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge) ||
-                  2 * along > deep_.size() - pair.deep);
-  if (pair.parting) deep_.resize(pair.deep);
-  pair.deep_end = static_cast<std::uint32_t>(deep_.size());
+  pair.separating =
+      traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
+      (deepest > separation_depth * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge) ||
+       2 * along > interior_.size() - pair.interior);
+  if (pair.separating) interior_.resize(pair.interior);
+  pair.interior_end = static_cast<std::uint32_t>(interior_.size());
 }
 
 /// Greedily, in order: pairs of one colour share no body. Those for which no colour is left come last, one by one.
@@ -267,14 +268,14 @@ std::size_t SurfaceContact::rows() const {
   return sum;
 }
 
-bool SurfaceContact::gives_energy() const {
+bool SurfaceContact::adds_energy() const {
   return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) {
-    const auto first = threads_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
-    return p.parting || std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.target > 0; });
+    const auto first = thread_work_[static_cast<std::size_t>(p.thread)].rows.begin() + p.first_row;
+    return p.separating || std::any_of(first, first + p.rows, [](const ContactRow& row) { return row.target > 0; });
   });
 }
 
-std::vector<collide::surface::ItemPair> SurfaceContact::touching() const {
+std::vector<collide::surface::ItemPair> SurfaceContact::interactions() const {
   std::vector<collide::surface::ItemPair> list;
   for (const Pair& p : pairs_)
     if (p.range.a != p.range.b && p.range.vertex_face < p.range.end) list.push_back({p.range.a, p.range.b});
@@ -288,13 +289,13 @@ Index SurfaceContact::owner(const Pair& pair, std::uint32_t slot) const {
   return slot >= first && slot < end && (slot - first) % stride == 0 ? pair.range.a : pair.range.b;
 }
 
-std::vector<SurfaceContactPoint> SurfaceContact::touches(const collide::Bodies& vertices) const {
+std::vector<SurfaceContactPoint> SurfaceContact::contact_points(const collide::Bodies& vertices) const {
   std::vector<SurfaceContactPoint> list;
   for (const Pair& p : pairs_) {
-    const auto& rows = threads_[static_cast<std::size_t>(p.thread)].rows;
+    const auto& rows = thread_work_[static_cast<std::size_t>(p.thread)].rows;
     for (std::uint32_t r = p.first_row; r < p.first_row + p.rows; ++r) {
       const ContactRow& row = rows[r];
-      if (row.pressed <= 0) continue;
+      if (row.normal_impulse <= 0) continue;
       SurfaceContactPoint& touch = list.emplace_back(
           SurfaceContactPoint{owner(p, row.slot[0]), owner(p, row.slot[3]), {}, row.weight, row.normal});
       for (std::size_t k = 0; k < 4; ++k) {

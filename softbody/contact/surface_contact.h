@@ -52,26 +52,26 @@ struct ContactRow {
   std::array<float, 4> mobility;  // weight / mass
   glm::vec3 normal;               // unit, from the second side to the first
   float mass;                     // kg, effective: 1 / sum of weight^2 / mass
-  float
-      hardness;  // of the spring that keeps the distance, times the substep squared, over the mass; 0: out of its reach
-  float widening;  // m/s, that it asks for
-  float target;    // m/s, least normal speed
+  float relative_stiffness;  // of the spring that keeps the distance, times the substep squared, over the mass; 0: out
+                             // of its reach
+  float bias;                // m/s, that it asks for
+  float target;              // m/s, least normal speed
   float friction;
-  float pressed;          // N s, accumulated along the normal
-  glm::vec3 drag;         // N s, accumulated across it
-  std::uint32_t feature;  // place in the search's features
+  float normal_impulse;        // N s, accumulated along the normal
+  glm::vec3 friction_impulse;  // N s, accumulated across it
+  std::uint32_t feature;       // place in the search's features
 };
 
 class SurfaceContact {
  public:
-  /// All that is remembered from one substep to the next, and the rows that touches() shows.
+  /// All that is remembered from one substep to the next, and the rows that contact_points() shows.
   struct State;
   State save() const;
   void restore(const State& state);
 
-  static constexpr int iterations = 2;          // a substep
-  static constexpr int iterations_of_hits = 8;  // see hit()
-  static constexpr int turns = 8;               // of mend(), which the solids take with it
+  static constexpr int iterations = 2;      // a substep
+  static constexpr int max_iterations = 8;  // see needs_more_iterations()
+  static constexpr int max_passes = 8;      // of resolve_after_solids(), which the solids take with it
   // Of the spring that keeps the distance, against the effective mass of the contact:
   static constexpr float spring_frequency = 750;  // 1/s, angular
   static constexpr float spring_damping = 5;      // of the critical
@@ -85,40 +85,42 @@ class SurfaceContact {
             collide::Workers& workers);
   /// `elapsed` seconds later: those of bodies that have strayed from the motion that was foreseen, or whose was not
   /// foreseen for the seconds `ahead`, anew. Throws as find() does.
-  void renew(const collide::surface::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
+  void update(const collide::surface::Motion& motion, float elapsed, float ahead, collide::Workers& workers);
   void clear();
-  bool holds(const collide::Frame& now, float elapsed, float ahead) { return search_.check_valid(now, elapsed, ahead); }
+  bool check_valid(const collide::Frame& now, float elapsed, float ahead) {
+    return search_.check_valid(now, elapsed, ahead);
+  }
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
-  float rate() const { return rate_; }
+  float substep_rate() const { return rate_; }
 
   /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
   /// forces. On every thread.
-  void prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
+  void make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed, float h);
   /// Solves them on the velocities. On every thread, after a barrier; `barrier` is called by all threads alike.
   void solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
              const std::function<void()>& barrier);
   /// Whether two bodies pass each other half as far as they may in a substep of h, or one lies on itself: what a solid
   /// stops is then hit from behind by the body's other side.
-  bool hit(float h) const;
+  bool needs_more_iterations(float h) const;
   /// Where solids, which have the last word, have pressed what lies on them through a surface that follows fast: one
   /// more round for such bodies. False if there are none. On every thread, after a barrier.
-  bool mend(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
+  bool resolve_after_solids(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
 
   /// Of the last substep, of h seconds: its candidates, and a half for each time that a contact may have been solved,
   /// or a vertex moved with its whole body.
   double work_of_substep(float h) const;
 
   /// Every two bodies of which features may touch in the frame at hand, a < b.
-  std::vector<collide::surface::ItemPair> touching() const;
+  std::vector<collide::surface::ItemPair> interactions() const;
   std::size_t rows() const;
   /// Whether the last substep was to push out what overlaps, or throw back what hit: with energy that nobody puts in.
-  bool gives_energy() const;
+  bool adds_energy() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.
-  std::vector<SurfaceContactPoint> touches(const collide::Bodies& vertices) const;
+  std::vector<SurfaceContactPoint> contact_points(const collide::Bodies& vertices) const;
 
  private:
   struct Pair {
@@ -128,21 +130,21 @@ class SurfaceContact {
     float friction, restitution;
     float inverse_a, inverse_b;
     std::size_t slot_a, slot_b;
-    float speed = 0;       // m/s, with which the two may meet
-    float rate = 0;        // 1/s: that over how far they may go in a substep
-    bool overlap = false;  // some vertex may be inside the other body: see find_deep()
-    bool parting = false;  // so deep, or so much in one place, that the bodies are moved apart as a whole
-    std::uint32_t deep = 0, deep_end = 0;
+    float speed = 0;          // m/s, with which the two may meet
+    float rate = 0;           // 1/s: that over how far they may go in a substep
+    bool overlap = false;     // some vertex may be inside the other body: see find_interior_vertices()
+    bool separating = false;  // so deep, or so much in one place, that the bodies are moved apart as a whole
+    std::uint32_t interior = 0, interior_end = 0;
     int thread = 0;
     std::uint32_t first_row = 0, rows = 0;
   };
   /// What is remembered of a candidate.
-  struct Memory {
+  struct CachedContact {
     glm::vec3 normal{0.0f};
-    float pressed = 0;
-    glm::vec3 drag{0.0f};
+    float normal_impulse = 0;
+    glm::vec3 friction_impulse{0.0f};
   };
-  struct DeepVertex {
+  struct InteriorVertex {
     Index vertex, face;
     bool of_b;  // whose vertex it is
   };
@@ -153,27 +155,27 @@ class SurfaceContact {
     glm::vec3 offset;
     float inverse_mass;
   };
-  struct Near {
+  struct NearFace {
     collide::surface::Closest closest;
     glm::vec3 face_normal;  // not of unit length
     float distance2;
     std::uint32_t feature;
   };
-  struct alignas(64) Thread {
+  struct alignas(64) ThreadWork {
     std::vector<ContactRow> rows;
-    std::vector<Near> near;  // faces near one vertex
+    std::vector<NearFace> near_faces;  // faces near one vertex
     collide::surface::FeatureBatch meeting;
-    bool undone = false;  // mend() had something to do
+    bool violated = false;  // resolve_after_solids() had something to do
   };
   /// The state of a substep, as one thread sees it.
   struct Step {
     Field<const float> x, v;
     float h;
     float until;  // s after the candidates were found: the end of the substep
-    Thread& own;
+    ThreadWork& work;
     Pair& pair;
-    float look;  // m: no contact beyond it
-    float same;  // the length of this substep over that of the last one; 0: there was none
+    float max_distance;  // m: no contact beyond it
+    float h_ratio;       // the length of this substep over that of the last one; 0: there was none
   };
 
   using Shells = std::vector<std::optional<collide::surface::ClosedShell>>;  // of the bodies, where one was needed
@@ -181,11 +183,11 @@ class SurfaceContact {
   template <class Search>
   void search(const collide::Frame& now, const Search& search);
   void take_candidates(const collide::Frame& now);
-  void inherit();
+  void carry_over();
   Pair make_pair(const collide::surface::SurfacePair& range) const;
-  void find_deep(Pair& pair, const collide::Frame& now, Shells& shells);
-  void leave_room(const Pair& pair);
-  void foresee_speeds();
+  void find_interior_vertices(Pair& pair, const collide::Frame& now, Shells& shells);
+  void limit_gaps_at_rest(const Pair& pair);
+  void predict_speeds();
   void colour();
   Side side(const Pair& pair, bool second) const;
   Index owner(const Pair& pair, std::uint32_t slot) const;
@@ -193,28 +195,28 @@ class SurfaceContact {
   static glm::vec3 at(const Step& step, const Side& side, Index vertex);
   void vertices_on_faces(Step& step, std::uint32_t begin, std::uint32_t end, bool vertex_of_b);
   void vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented);
-  void deep_vertices(Step& step);
+  void add_interior_vertices(Step& step);
   void edges_on_edges(Step& step);
   void separate(const Pair& pair, Field<const float> x, Field<float> v) const;
-  bool orient(Memory& memory, bool inner, glm::vec3& normal) const;
+  bool orient(CachedContact& cached, bool inner, glm::vec3& normal) const;
   bool few_rows() const { return rows() < 2000; }
-  static bool hit(const Pair& pair, float h) {
+  static bool needs_more_iterations(const Pair& pair, float h) {
     return h * pair.rate > 0.5f || (pair.range.a == pair.range.b && pair.rows > 0);
   }
-  bool undone(const Pair& pair, Field<const float> v, float h) const;
+  bool violates_target(const Pair& pair, Field<const float> v, float h) const;
   template <class Visit>
-  void each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
-  void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, Memory& memory);
+  void for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit);
+  void add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart, CachedContact& cached);
 
   std::vector<collide::surface::SurfaceBody> traits_;
   std::vector<ContactBody> bodies_;
   collide::surface::SurfaceSearch search_;
-  std::vector<Pair> pairs_, pairs_before_;      // before: the last find() or renew()
-  std::vector<Memory> memory_, memory_before_;  // of each feature pair
-  std::vector<float> room_;                     // m, of each feature pair: no more than this is kept between the two
-  std::vector<DeepVertex> deep_;
+  std::vector<Pair> pairs_, pairs_before_;             // before: the last find() or update()
+  std::vector<CachedContact> cached_, cached_before_;  // of each feature pair
+  std::vector<float> max_gap_;  // m, of each feature pair: no more than this is kept between the two
+  std::vector<InteriorVertex> interior_;
   std::vector<std::vector<std::uint32_t>> colours_;
-  std::vector<Thread> threads_;
+  std::vector<ThreadWork> thread_work_;
   float rate_ = 0;
   float last_h_ = 0;  // s, of the last substep
 };
@@ -225,7 +227,7 @@ struct SurfaceContact::State {
   std::vector<collide::surface::SurfaceSearch::History> history;  // one a body
   std::vector<Pair> pairs;                                        // with their ranges in ...
   std::vector<collide::surface::FeaturePair> features;            // ... those of which something is remembered,
-  std::vector<Memory> memory;                                     // namely this,
+  std::vector<CachedContact> cached;                              // namely this,
   std::vector<ContactRow> rows;                                   // and in those that pressed
   float last_h = 0;
 

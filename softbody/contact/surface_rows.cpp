@@ -33,23 +33,23 @@ ContactRow corners_of(const Closest& c, std::size_t vertex_slot, float vertex_mo
 
 }  // namespace
 
-void SurfaceContact::prepare(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
-                             float h) {
-  Thread& own = threads_[static_cast<std::size_t>(thread)];
-  own.rows.clear();
+void SurfaceContact::make_rows(int thread, int threads, Field<const float> x, Field<const float> v, float elapsed,
+                               float h) {
+  ThreadWork& work = thread_work_[static_cast<std::size_t>(thread)];
+  work.rows.clear();
   const collide::Part part = collide::part_of(pairs_.size(), thread, threads);
   for (std::size_t i = part.begin; i < part.end; ++i) {
     Pair& p = pairs_[i];
     p.thread = thread;
-    p.first_row = static_cast<std::uint32_t>(own.rows.size());
-    Step step{x, v, h, elapsed + h, own, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
+    p.first_row = static_cast<std::uint32_t>(work.rows.size());
+    Step step{x, v, h, elapsed + h, work, p, 1.1f * p.distance + h * p.speed, last_h_ > 0 ? h / last_h_ : 0};
     p.rows = 0;
-    if (p.parting) continue;
-    if (p.deep < p.deep_end) deep_vertices(step);
+    if (p.separating) continue;
+    if (p.interior < p.interior_end) add_interior_vertices(step);
     vertices_on_faces(step, p.range.vertex_face, p.range.face_vertex, false);
     vertices_on_faces(step, p.range.face_vertex, p.range.edge_edge, true);
-    if (p.deep == p.deep_end) edges_on_edges(step);
-    p.rows = static_cast<std::uint32_t>(own.rows.size()) - p.first_row;
+    if (p.interior == p.interior_end) edges_on_edges(step);
+    p.rows = static_cast<std::uint32_t>(work.rows.size()) - p.first_row;
   }
 }
 
@@ -61,18 +61,18 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
   const Side vertex_side = side(step.pair, vertex_of_b), face_side = side(step.pair, !vertex_of_b);
   const Side faces = step.pair.range.a == step.pair.range.b ? vertex_side : face_side;
   const bool oriented = step.pair.range.a == step.pair.range.b || !faces.surface->closed();
-  const auto is_deep = [&](Index v) {
-    return std::any_of(deep_.begin() + step.pair.deep, deep_.begin() + step.pair.deep_end,
-                       [&](const DeepVertex& d) { return d.vertex == v && d.of_b == vertex_of_b; });
+  const auto is_interior = [&](Index v) {
+    return std::any_of(interior_.begin() + step.pair.interior, interior_.begin() + step.pair.interior_end,
+                       [&](const InteriorVertex& d) { return d.vertex == v && d.of_b == vertex_of_b; });
   };
   const auto& features = search_.features();
-  const float look2 = step.look * step.look;
-  collide::surface::FeatureBatch& meeting = step.own.meeting;
-  step.own.near.clear();
+  const float max_distance2 = step.max_distance * step.max_distance;
+  collide::surface::FeatureBatch& meeting = step.work.meeting;
+  step.work.near_faces.clear();
   const auto flush = [&] {
-    if (!step.own.near.empty() && !is_deep(features[step.own.near[0].feature].a))
+    if (!step.work.near_faces.empty() && !is_interior(features[step.work.near_faces[0].feature].a))
       vertex_on_faces(step, vertex_side, faces, oriented);
-    step.own.near.clear();
+    step.work.near_faces.clear();
   };
   for (std::uint32_t i = begin; i < end;) {
     meeting.clear();
@@ -85,13 +85,13 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
     meeting.find_closest_vertex_faces();
     for (Index k = 0; k < meeting.size(); ++k) {
       const std::uint32_t feature = meeting.tag(k);
-      if (!step.own.near.empty() && features[step.own.near[0].feature].a != features[feature].a) flush();
-      if (meeting.distance2(k) > look2)
-        memory_[feature] = {};
+      if (!step.work.near_faces.empty() && features[step.work.near_faces[0].feature].a != features[feature].a) flush();
+      if (meeting.distance2(k) > max_distance2)
+        cached_[feature] = {};
       else
-        step.own.near.push_back({meeting.closest_vertex_face(k),
-                                 normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
-                                 meeting.distance2(k), feature});
+        step.work.near_faces.push_back({meeting.closest_vertex_face(k),
+                                        normal_of(meeting.corner(1, k), meeting.corner(2, k), meeting.corner(3, k)),
+                                        meeting.distance2(k), feature});
     }
   }
   flush();
@@ -100,8 +100,8 @@ void SurfaceContact::vertices_on_faces(Step& step, std::uint32_t begin, std::uin
 /// The rows of one vertex, whose near faces are listed.
 void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const Side& face_side, bool oriented) {
   const auto& features = search_.features();
-  const std::vector<Near>& near = step.own.near;
-  const auto corners = [&](const Near& n) {
+  const std::vector<NearFace>& near_faces = step.work.near_faces;
+  const auto corners = [&](const NearFace& n) {
     const FeaturePair& f = features[n.feature];
     ContactRow row =
         corners_of(n.closest, vertex_side.slot + f.a * vertex_side.stride, vertex_side.inverse_mass,
@@ -110,55 +110,56 @@ void SurfaceContact::vertex_on_faces(Step& step, const Side& vertex_side, const 
     return row;
   };
   if (!oriented) {
-    const auto facing = [](const Near& n) {  // |cos| of the angle between the face's normal and the way to the vertex
-      return std::abs(glm::dot(n.closest.separation, n.face_normal)) / glm::length(n.face_normal);
-    };
-    const Near* nearest = &near[0];
-    for (const Near& n : near) {
+    const auto facing =
+        [](const NearFace& n) {  // cosine, its sign dropped, between the normal and the way to the vertex
+          return std::abs(glm::dot(n.closest.separation, n.face_normal)) / glm::length(n.face_normal);
+        };
+    const NearFace* nearest = &near_faces[0];
+    for (const NearFace& n : near_faces) {
       // Faces that share the closest point: the one that faces the vertex most tells which side it is on.
       const bool tie = std::abs(n.distance2 - nearest->distance2) <= 1e-5f * nearest->distance2;
       if (tie ? facing(n) > facing(*nearest) : n.distance2 < nearest->distance2) nearest = &n;
     }
     if (glm::dot(nearest->closest.separation, nearest->face_normal) < 0) {
       const float depth = std::sqrt(nearest->distance2);
-      for (const Near& n : near)
-        memory_[n.feature].pressed = n.feature == nearest->feature ? memory_[n.feature].pressed : 0;
+      for (const NearFace& n : near_faces)
+        cached_[n.feature].normal_impulse = n.feature == nearest->feature ? cached_[n.feature].normal_impulse : 0;
       if (depth > step.pair.distance) step.pair.overlap = true;  // to be looked at when candidates are found next
       add_row(step, corners(*nearest), unit(-nearest->closest.separation, nearest->face_normal), -depth,
-              memory_[nearest->feature]);
+              cached_[nearest->feature]);
       return;
     }
   }
-  for (std::size_t k = 0; k < near.size(); ++k) {
-    const Near& n = near[k];
-    Memory& memory = memory_[n.feature];
-    const bool twice =
-        !n.closest.inner && std::any_of(near.begin(), near.begin() + std::ptrdiff_t(k), [&](const Near& m) {
-          const glm::vec3 d = m.closest.separation - n.closest.separation;
-          return glm::dot(d, d) <= 1e-6f * n.distance2;
-        });
+  for (std::size_t k = 0; k < near_faces.size(); ++k) {
+    const NearFace& n = near_faces[k];
+    CachedContact& cached = cached_[n.feature];
+    const bool twice = !n.closest.inner &&
+                       std::any_of(near_faces.begin(), near_faces.begin() + std::ptrdiff_t(k), [&](const NearFace& m) {
+                         const glm::vec3 d = m.closest.separation - n.closest.separation;
+                         return glm::dot(d, d) <= 1e-6f * n.distance2;
+                       });
     if (twice) {
-      memory = {};
+      cached = {};
       continue;
     }
-    glm::vec3 normal = unit(n.closest.separation, oriented ? memory.normal : n.face_normal);
-    const bool crossed = oriented && orient(memory, n.closest.inner, normal);
-    add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), memory);
+    glm::vec3 normal = unit(n.closest.separation, oriented ? cached.normal : n.face_normal);
+    const bool crossed = oriented && orient(cached, n.closest.inner, normal);
+    add_row(step, corners(n), normal, std::sqrt(n.distance2) * (crossed ? -1.0f : 1.0f), cached);
   }
 }
 
 /// Turns the normal to the side that is remembered; true if that is not the one it is on now.
-bool SurfaceContact::orient(Memory& memory, bool inner, glm::vec3& normal) const {
-  const bool crossed = inner && glm::dot(memory.normal, normal) < 0;
+bool SurfaceContact::orient(CachedContact& cached, bool inner, glm::vec3& normal) const {
+  const bool crossed = inner && glm::dot(cached.normal, normal) < 0;
   if (crossed) normal = -normal;
-  memory.normal = inner ? normal : glm::vec3(0.0f);
+  cached.normal = inner ? normal : glm::vec3(0.0f);
   return crossed;
 }
 
 /// Those deep inside another body: towards the plane of the face that they are closest to.
-void SurfaceContact::deep_vertices(Step& step) {
-  for (std::uint32_t i = step.pair.deep; i < step.pair.deep_end; ++i) {
-    const DeepVertex& d = deep_[i];
+void SurfaceContact::add_interior_vertices(Step& step) {
+  for (std::uint32_t i = step.pair.interior; i < step.pair.interior_end; ++i) {
+    const InteriorVertex& d = interior_[i];
     const Side vertex_side = side(step.pair, d.of_b), face_side = side(step.pair, !d.of_b);
     const collide::surface::Triangle& face = face_side.surface->triangles()[d.face];
     glm::vec3 corner[3];
@@ -168,8 +169,8 @@ void SurfaceContact::deep_vertices(Step& step) {
     const glm::vec3 normal = unit(normal_of(corner[0], corner[1], corner[2]), {});
     ContactRow row = corners_of(c, vertex_side.slot + d.vertex * vertex_side.stride, vertex_side.inverse_mass, face,
                                 face_side.slot, face_side.stride, face_side.inverse_mass);
-    row.feature = forgotten;
-    Memory unseen;
+    row.feature = uncached;
+    CachedContact unseen;
     add_row(step, row, normal, glm::dot(p - corner[0], normal), unseen);
   }
 }
@@ -179,7 +180,7 @@ void SurfaceContact::edges_on_edges(Step& step) {
   const bool self = range.a == range.b;
   const Side one = side(step.pair, false), two = self ? one : side(step.pair, true);
   const bool closed = !self && one.surface->closed() && two.surface->closed();
-  const float look2 = step.look * step.look;
+  const float max_distance2 = step.max_distance * step.max_distance;
   const auto outward = [&](const Side& s, Index edge) {
     glm::vec3 sum(0.0f);
     for (const Index f : s.surface->edge_triangles()[edge]) {
@@ -191,7 +192,7 @@ void SurfaceContact::edges_on_edges(Step& step) {
   const auto meets = [&](std::uint32_t i, const Closest& c, float distance2) {
     const FeaturePair& f = search_.features()[i];
     const collide::surface::Edge &e1 = one.surface->edges()[f.a], &e2 = two.surface->edges()[f.b];
-    Memory& memory = memory_[i];
+    CachedContact& cached = cached_[i];
     ContactRow row{};
     for (std::size_t k = 0; k < 2; ++k) {
       row.slot[k] = static_cast<std::uint32_t>(one.slot + e1[k] * one.stride);
@@ -203,22 +204,22 @@ void SurfaceContact::edges_on_edges(Step& step) {
     }
     row.feature = i;
     const float distance = std::sqrt(distance2);
-    glm::vec3 normal = unit(c.separation, memory.normal);
+    glm::vec3 normal = unit(c.separation, cached.normal);
     bool crossed = false;
     if (!closed) {
-      crossed = orient(memory, true, normal);
-    } else if (glm::dot(memory.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
+      crossed = orient(cached, true, normal);
+    } else if (glm::dot(cached.normal, normal) <= 0.5f) {  // else they are on the sides that they were on before
       crossed = glm::dot(normal, outward(two, f.b) - outward(one, f.a)) < 0;
       if (crossed && distance > step.pair.distance) {  // the far side of something thin
-        memory = {};
+        cached = {};
         return;
       }
-      memory.normal = crossed ? glm::vec3(0.0f) : normal;
+      cached.normal = crossed ? glm::vec3(0.0f) : normal;
       if (crossed) normal = -normal;
     }
-    add_row(step, row, normal, crossed ? -distance : distance, memory);
+    add_row(step, row, normal, crossed ? -distance : distance, cached);
   };
-  collide::surface::FeatureBatch& meeting = step.own.meeting;
+  collide::surface::FeatureBatch& meeting = step.work.meeting;
   for (std::uint32_t i = range.edge_edge; i < range.end;) {
     meeting.clear();
     for (; i < range.end && !meeting.full(); ++i) {
@@ -229,40 +230,40 @@ void SurfaceContact::edges_on_edges(Step& step) {
     }
     meeting.find_closest_edges();
     for (Index k = 0; k < meeting.size(); ++k) {
-      if (meeting.inner(k) && meeting.distance2(k) <= look2)
+      if (meeting.inner(k) && meeting.distance2(k) <= max_distance2)
         meets(meeting.tag(k), meeting.closest_edges(k), meeting.distance2(k));
       else  // those that end on a corner are a vertex's
-        memory_[meeting.tag(k)] = {};
+        cached_[meeting.tag(k)] = {};
     }
   }
 }
 
 /// Adds a row, unless neither side moves. apart: between the surfaces, negative where they overlap.
 void SurfaceContact::add_row(Step& step, const ContactRow& corners, const glm::vec3& normal, float apart,
-                             Memory& memory) {
+                             CachedContact& cached) {
   float mobility = 0;
   for (std::size_t k = 0; k < 4; ++k) mobility += corners.weight[k] * corners.mobility[k];
   if (mobility <= 0) return;
   const float speed = glm::dot(relative_velocity(corners, step.v), normal);
-  const float room = corners.feature == forgotten ? step.pair.distance : room_[corners.feature];
-  const float distance = std::min(step.pair.distance, room), gap = apart - distance;
-  ContactRow& row = step.own.rows.emplace_back(corners);
+  const float max_gap = corners.feature == uncached ? step.pair.distance : max_gap_[corners.feature];
+  const float distance = std::min(step.pair.distance, max_gap), gap = apart - distance;
+  ContactRow& row = step.work.rows.emplace_back(corners);
   row.normal = normal;
   row.mass = 1 / mobility;
   // A spring and damper hold the distance; half of it is never given up, and what overlaps is pushed out.
   const float spare = apart - 0.5f * distance;
-  row.target = law::least_move(spare, step.h) / step.h;
+  row.target = law::min_move(spare, step.h) / step.h;
   const float turn = step.h * std::min(spring_frequency, 0.25f * 2 * glm::pi<float>() / step.h);
-  row.hardness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
-  row.widening = -gap * turn / ((2 * spring_damping + turn) * step.h);
-  if (memory.pressed == 0 && gap + step.h * speed < 0)
+  row.relative_stiffness = gap < 0 ? turn * (2 * spring_damping + turn) : 0;
+  row.bias = -gap * turn / ((2 * spring_damping + turn) * step.h);
+  if (cached.normal_impulse == 0 && gap + step.h * speed < 0)
     row.target = std::max(row.target, law::rebound(-speed, step.pair.restitution));
   row.friction = step.pair.friction;
   // Bodies that stand in each other's way cannot all be pushed out as they ask for: handed on in full, their impulses
   // would grow with every substep.
-  const float kept = spare > 0 ? step.same : push_kept * step.same;
-  row.pressed = kept * memory.pressed;
-  row.drag = kept * (memory.drag - glm::dot(memory.drag, normal) * normal);
+  const float kept = spare > 0 ? step.h_ratio : push_kept * step.h_ratio;
+  row.normal_impulse = kept * cached.normal_impulse;
+  row.friction_impulse = kept * (cached.friction_impulse - glm::dot(cached.friction_impulse, normal) * normal);
 }
 
 }  // namespace softbody

@@ -15,16 +15,18 @@ void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
 void iterate(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
-  const float held = row.hardness / (1 + row.hardness) * (row.pressed + row.mass * (row.widening - speed));
-  const float pressed = std::max({0.0f, held, row.pressed + row.mass * (row.target - speed)});
-  if (pressed == 0 && row.pressed == 0) return;
-  const float push = pressed - row.pressed;
-  row.pressed = pressed;
+  const float held =
+      row.relative_stiffness / (1 + row.relative_stiffness) * (row.normal_impulse + row.mass * (row.bias - speed));
+  const float normal_impulse = std::max({0.0f, held, row.normal_impulse + row.mass * (row.target - speed)});
+  if (normal_impulse == 0 && row.normal_impulse == 0) return;
+  const float push = normal_impulse - row.normal_impulse;
+  row.normal_impulse = normal_impulse;
   velocity += (push / row.mass) * row.normal;
   const glm::vec3 slip = velocity - glm::dot(velocity, row.normal) * row.normal;
-  const glm::vec3 drag = law::within_cone(row.drag - row.mass * slip, row.friction * pressed);
-  apply(row, push * row.normal + (drag - row.drag), v);
-  row.drag = drag;
+  const glm::vec3 friction_impulse =
+      law::within_cone(row.friction_impulse - row.mass * slip, row.friction * normal_impulse);
+  apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
+  row.friction_impulse = friction_impulse;
 }
 
 }  // namespace
@@ -58,21 +60,21 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     add(v, two.slot + i * two.stride, -impulse * b.inverse_mass * axis);
 }
 
-bool SurfaceContact::hit(float h) const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return hit(p, h); });
+bool SurfaceContact::needs_more_iterations(float h) const {
+  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return needs_more_iterations(p, h); });
 }
 
 /// visit(pair, its rows): colour by colour, each by one thread. A few rows are done by the first thread before all have
 /// met at every colour; the others do not wait for it.
 template <class Visit>
-void SurfaceContact::each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit) {
+void SurfaceContact::for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit) {
   const bool alone = few_rows();
   for (const auto& colour : colours_) {
     const collide::Part part =
         alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
     for (std::size_t i = part.begin; i < part.end; ++i) {
       const Pair& p = pairs_[colour[i]];
-      visit(p, std::span(threads_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
+      visit(p, std::span(thread_work_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
     }
     if (!alone) barrier();
   }
@@ -80,28 +82,29 @@ void SurfaceContact::each_pair(int thread, int threads, const std::function<void
 
 void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<float> v, float h,
                            const std::function<void()>& barrier) {
-  const auto pass = [&](const auto& takes_part, const auto& visit, bool parting = false) {
-    each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+  const auto pass = [&](const auto& takes_part, const auto& visit, bool separating = false) {
+    for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
       if (!takes_part(p)) return;
-      if (parting && p.parting) separate(p, x, v);
+      if (separating && p.separating) separate(p, x, v);
       std::for_each(rows.begin(), rows.end(), visit);
     });
   };
   const auto all = [](const Pair&) { return true; };
   pass(all, [&](ContactRow& row) {
-    if (row.pressed > 0) apply(row, row.pressed * row.normal + row.drag, v);
+    if (row.normal_impulse > 0) apply(row, row.normal_impulse * row.normal + row.friction_impulse, v);
   });
   const auto round = [&](ContactRow& row) { iterate(row, v); };
-  if (hit(h))
-    for (int i = iterations; i < iterations_of_hits; ++i) pass([&](const Pair& p) { return hit(p, h); }, round, true);
+  if (needs_more_iterations(h))
+    for (int i = iterations; i < max_iterations; ++i)
+      pass([&](const Pair& p) { return needs_more_iterations(p, h); }, round, true);
   for (int i = 1; i < iterations; ++i) pass(all, round, true);
   pass(
       all,
       [&](ContactRow& row) {
         iterate(row, v);
-        if (row.feature == forgotten) return;
-        memory_[row.feature].pressed = row.pressed;
-        memory_[row.feature].drag = row.drag;
+        if (row.feature == uncached) return;
+        cached_[row.feature].normal_impulse = row.normal_impulse;
+        cached_[row.feature].friction_impulse = row.friction_impulse;
       },
       true);
   if (thread == 0) last_h_ = h;
@@ -109,33 +112,37 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
 }
 
 /// Whether a contact uses up of the distance what it has to leave.
-bool SurfaceContact::undone(const Pair& pair, Field<const float> v, float h) const {
+bool SurfaceContact::violates_target(const Pair& pair, Field<const float> v, float h) const {
   constexpr float hair = 0.02f;  // of the distance
-  const auto& rows = threads_[static_cast<std::size_t>(pair.thread)].rows;
+  const auto& rows = thread_work_[static_cast<std::size_t>(pair.thread)].rows;
   const auto first = rows.begin() + pair.first_row;
   return std::any_of(first, first + pair.rows, [&](const ContactRow& row) {
     return h * (row.target - glm::dot(relative_velocity(row, v), row.normal)) > hair * pair.distance;
   });
 }
 
-bool SurfaceContact::mend(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier) {
-  bool& mine = threads_[static_cast<std::size_t>(thread)].undone;
+bool SurfaceContact::resolve_after_solids(int thread, int threads, Field<float> v, float h,
+                                          const std::function<void()>& barrier) {
+  bool& mine = thread_work_[static_cast<std::size_t>(thread)].violated;
   mine = false;
-  each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
-    if (!hit(p, h) || !undone(p, v, h)) return;
+  for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
+    if (!needs_more_iterations(p, h) || !violates_target(p, v, h)) return;
     mine = true;
     for (ContactRow& row : rows) iterate(row, v);
   });
   if (few_rows()) barrier();
-  return std::any_of(threads_.begin(), threads_.begin() + threads, [](const Thread& t) { return t.undone; });
+  return std::any_of(thread_work_.begin(), thread_work_.begin() + threads,
+                     [](const ThreadWork& t) { return t.violated; });
 }
 
 double SurfaceContact::work_of_substep(float h) const {
   auto work = double(search_.features().size());
   for (const Pair& p : pairs_) {
-    const Index whole = p.parting ? side(p, false).surface->vertex_count() + side(p, true).surface->vertex_count() : 0;
-    const int solves = hit(p, h) ? iterations_of_hits : iterations, mends = hit(p, h) ? turns : 0;
-    work += 0.5 * (double(solves) * double(p.rows + whole) + double(mends) * p.rows);
+    const Index whole =
+        p.separating ? side(p, false).surface->vertex_count() + side(p, true).surface->vertex_count() : 0;
+    const int solves = needs_more_iterations(p, h) ? max_iterations : iterations,
+              extra_passes = needs_more_iterations(p, h) ? max_passes : 0;
+    work += 0.5 * (double(solves) * double(p.rows + whole) + double(extra_passes) * p.rows);
   }
   return work;
 }

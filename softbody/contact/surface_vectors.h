@@ -10,7 +10,7 @@
 namespace softbody {
 
 /// ContactRow::feature of a row that nothing is remembered of.
-inline constexpr std::uint32_t forgotten = std::numeric_limits<std::uint32_t>::max();
+inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::max();
 
 inline void add(Field<float> f, std::size_t slot, const glm::vec3& d) {
   f.x[slot] += d.x;

@@ -6,7 +6,7 @@
 
 namespace softbody {
 
-double elastic_energy(const Prototype& p, const std::vector<glm::dvec3>& x) {
+double elastic_energy(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   double energy = shape_energy(p, x);
   for (const auto* springs : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *springs) {
@@ -16,7 +16,7 @@ double elastic_energy(const Prototype& p, const std::vector<glm::dvec3>& x) {
   return energy;
 }
 
-double enclosed_volume(const Prototype& p, const std::vector<glm::dvec3>& x) {
+double enclosed_volume(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   const glm::dvec3 from = x.front();  // any point will do; a near one loses no digits
   double six = 0;
   for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));

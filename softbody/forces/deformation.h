@@ -3,14 +3,14 @@
 
 #include <vector>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 
 /// In J: of springs, and of what keeps the shape.
-double elastic_energy(const Prototype& prototype, const std::vector<glm::dvec3>& x);
+double elastic_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 /// In m^3, of a closed mesh; the particles may be far from the origin.
-double enclosed_volume(const Prototype& prototype, const std::vector<glm::dvec3>& x);
+double enclosed_volume(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 }  // namespace softbody

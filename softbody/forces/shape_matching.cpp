@@ -24,9 +24,9 @@ void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pos
 template void fit_shape<float>(const ShapeMoments<float>&, int, ShapePose<float>&);
 template void fit_shape<double>(const ShapeMoments<double>&, int, ShapePose<double>&);
 
-double shape_stiffness(const Prototype& p) { return p.particle_mass * p.shape_rate * p.shape_rate; }
+double shape_stiffness(const BodyModel& p) { return p.particle_mass * p.shape_rate * p.shape_rate; }
 
-double shape_energy(const Prototype& p, const std::vector<glm::dvec3>& x) {
+double shape_energy(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   if (p.goal.empty()) return 0;
   glm::dvec3 centre(0.0);
   for (std::size_t i = 0; i < p.goal.size(); ++i) centre += (x[i] - x[0]) / double(x.size());

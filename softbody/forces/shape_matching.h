@@ -9,7 +9,7 @@
 // angular momentum; a maximum over rotations is convex in x, so that w^2 bounds its stiffness over mass in every state.
 
 #include "softbody/forces/kernel_types.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 
@@ -18,9 +18,9 @@ template <class Real>
 void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pose);
 
 /// m w^2 in N/m: what draws one particle.
-double shape_stiffness(const Prototype& prototype);
+double shape_stiffness(const BodyModel& model);
 
 /// In J, of one body with its particles at x; 0 if it does not keep its shape.
-double shape_energy(const Prototype& prototype, const std::vector<glm::dvec3>& x);
+double shape_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 }  // namespace softbody

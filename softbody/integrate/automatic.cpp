@@ -8,7 +8,7 @@
 namespace softbody {
 
 /// m/s: how fast the fastest swing goes on by what is lost where positions are rounded to floats; `step` is its bound.
-double Dynamics::tremble(double step) const {
+double Dynamics::rounding_velocity(double step) const {
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
   for (const Batch* b : crew_.moving()) {
@@ -28,21 +28,21 @@ double Dynamics::tremble(double step) const {
 /// ask for more explicit substeps than there may be is left to the other, and what they cannot bring to rest, or near
 /// enough for it to fall asleep; unless there the fastest asks for too many implicit ones. Where somebody waits for the
 /// frames of a large world, both are cut alike, so that the choice is the same.
-void Dynamics::choose(double seconds) {
+void Dynamics::choose_integrator(double seconds) {
   constexpr double in_flight = 150, on_solids = 300, most = max_substeps / 2;  // substeps
   integrator_ = find_integrator("semi-implicit-euler");
   const SubstepBound b = bound(seconds);
   const auto& moving = crew_.moving();
   const bool solid = std::ranges::any_of(moving, [](const Batch* m) { return !m->near_solids.empty(); });
-  const double steps = std::max(b.fewest, seconds * b.implicit_rate(seconds));
-  const double worth = shield_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * steps) : most;
-  if (!fixed_substeps_) hold(b, seconds);
-  const double held = fixed_substeps_ ? 0 : held_rate_.rate();
-  const double needed = std::max(seconds / b.step, seconds * std::max(b.deforming, held));
+  const double steps = std::max(b.min_substeps, seconds * b.implicit_rate(seconds));
+  const double worth = penalty_.pairs.empty() ? std::min(most, (solid ? on_solids : in_flight) * steps) : most;
+  if (!fixed_substeps_) raise_min_substep_rate(b, seconds);
+  const double held = fixed_substeps_ ? 0 : substep_hysteresis_.rate();
+  const double needed = std::max(seconds / b.stable_step, seconds * std::max(b.deformation_rate, held));
   const bool cheaper = needed <= (fixed_substeps_ ? double(*fixed_substeps_) : worth) ||
-                       (!fixed_substeps_ && b.fewest > max_implicit_steps && needed <= max_substeps);
+                       (!fixed_substeps_ && b.min_substeps > max_implicit_steps && needed <= max_substeps);
   const double rest = std::max(1e-3, 0.2 * scene_.sleep.speed);  // m/s
-  if (cheaper && tremble(b.step) <= rest) {
+  if (cheaper && rounding_velocity(b.stable_step) <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
   } else if (has_surface_) {
     why_ = "contact of the true surfaces wants short steps";

@@ -23,38 +23,37 @@ KernelSprings kernel_springs(const std::vector<Spring>& springs, Index width) {
 
 }  // namespace
 
-KernelMesh::KernelMesh(const Prototype& prototype, int width)
-    : structural(kernel_springs(prototype.structural, Index(width))),
-      bend(kernel_springs(prototype.bend, Index(width))),
-      shear(kernel_springs(prototype.shear, Index(width))) {
+KernelMesh::KernelMesh(const BodyModel& model, int width)
+    : structural(kernel_springs(model.structural, Index(width))),
+      bend(kernel_springs(model.bend, Index(width))),
+      shear(kernel_springs(model.shear, Index(width))) {
   const auto w = Index(width);
-  faces.reserve(prototype.mesh.triangles.size());
-  for (const auto& [i, j, k] : prototype.mesh.triangles) faces.push_back({i * w, j * w, k * w});
-  for (const glm::dvec3& q : prototype.goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
+  faces.reserve(model.mesh.triangles.size());
+  for (const auto& [i, j, k] : model.mesh.triangles) faces.push_back({i * w, j * w, k * w});
+  for (const glm::dvec3& q : model.goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
 }
 
-std::shared_ptr<const KernelMesh> Dynamics::mesh_of(const std::shared_ptr<const Prototype>& prototype,
-                                                    int width) const {
+std::shared_ptr<const KernelMesh> Dynamics::mesh_of(const std::shared_ptr<const BodyModel>& model, int width) const {
   for (const Batch& b : batches_)
-    if (b.prototype == prototype && b.width == width) return b.mesh;
-  return std::make_shared<const KernelMesh>(*prototype, width);
+    if (b.model == model && b.width == width) return b.mesh;
+  return std::make_shared<const KernelMesh>(*model, width);
 }
 
-/// The only large body of a prototype is solved by itself: in eight lanes it takes eight times the memory and, as
+/// The only large body of a model is solved by itself: in eight lanes it takes eight times the memory and, as
 /// measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long. Two bodies already take 1.4 times as long apart as in
 /// lanes. What implicit steps may take is never solved by itself: they want all lanes.
-Batch& Dynamics::batch_with_room(const std::shared_ptr<const Prototype>& prototype) {
+Batch& Dynamics::batch_with_free_lane(const std::shared_ptr<const BodyModel>& model) {
   bool alone = true;
   for (Batch& b : batches_) {
-    if (b.prototype != prototype) continue;
+    if (b.model != model) continue;
     if (b.width == one_lane && b.used > 0) widen(b);
     if (b.used < b.width) return b;
     alone = false;
   }
   Batch b;
-  b.prototype = prototype;
+  b.model = model;
   b.width = alone && b.particles() > max_implicit_particles ? one_lane : lanes;
-  b.mesh = mesh_of(prototype, b.width);
+  b.mesh = mesh_of(model, b.width);
   b.base = append(b.values());
   return batches_.emplace_back(std::move(b));
 }
@@ -70,21 +69,20 @@ std::size_t Dynamics::append(std::size_t values) {
 /// Gives a batch of one body eight lanes. What it had lies idle: an eighth more.
 void Dynamics::widen(Batch& b) {
   const std::size_t from = b.base;
-  b.mesh = mesh_of(b.prototype, lanes);
+  b.mesh = mesh_of(b.model, lanes);
   b.width = lanes;  // after it: mesh_of() looks at all batches
   b.base = append(b.values());
   for (auto* components : {&x_, &v_, &f_})
     for (auto& c : *components)
       for (std::size_t i = 0; i < b.particles(); ++i) c[b.base + i * lanes] = c[from + i];
-  for (ShieldPair& p : shield_.pairs) {
+  for (PenaltyPair& p : penalty_.pairs) {
     if (p.body_a == b.body[0]) p.slot_a = b.base + (p.slot_a - from) * lanes;
     if (p.body_b == b.body[0]) p.slot_b = b.base + (p.slot_b - from) * lanes;
   }
 }
 
-BodyId Dynamics::add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position,
-                     const glm::dvec3& velocity) {
-  Batch& batch = batch_with_room(prototype);
+BodyId Dynamics::add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity) {
+  Batch& batch = batch_with_free_lane(model);
   const auto id = static_cast<BodyId>(bodies_.size());
   const std::uint32_t number = bodies_.empty() ? 0 : bodies_.back().number + 1;  // they ascend
   Body& body = bodies_.emplace_back();
@@ -95,7 +93,7 @@ BodyId Dynamics::add(std::shared_ptr<const Prototype> prototype, const glm::dvec
   batch.body[std::size_t(body.lane)] = id;
   for (Index i = 0; i < batch.particles(); ++i)
     for (int k = 0; k < 3; ++k) {
-      x_[std::size_t(k)][slot(body, i)] = float(prototype->start[i][k]);
+      x_[std::size_t(k)][slot(body, i)] = float(model->start[i][k]);
       v_[std::size_t(k)][slot(body, i)] = float(velocity[k]);
     }
   update_moves(body);
@@ -114,7 +112,7 @@ void Dynamics::move_lane(Batch& b, int from, int to) {
   for (float* values : {b.moves.data(), b.impulse.x, b.impulse.y, b.impulse.z, b.returned.data()}) move(values);
   const BodyId body = b.body[std::size_t(to)] = b.body[std::size_t(from)];
   bodies_[body].lane = to;
-  for (ShieldPair& p : shield_.pairs) {
+  for (PenaltyPair& p : penalty_.pairs) {
     if (p.body_a == body) p.slot_a = p.slot_a + std::size_t(to) - std::size_t(from);
     if (p.body_b == body) p.slot_b = p.slot_b + std::size_t(to) - std::size_t(from);
   }
@@ -123,7 +121,7 @@ void Dynamics::move_lane(Batch& b, int from, int to) {
 void Dynamics::remove(BodyId id) {
   Batch& batch = batches_[bodies_[id].batch];
   move_lane(batch, --batch.used, bodies_[id].lane);
-  shield_.remove(id, vertices_->first[id], vertices_->size(id));
+  penalty_.remove(id, vertices_->first[id], vertices_->size(id));
   surface_.clear();  // found anew in the next frame
   bodies_.erase(bodies_.begin() + std::ptrdiff_t(id));
   for (Batch& b : batches_)
@@ -132,11 +130,11 @@ void Dynamics::remove(BodyId id) {
   if (grab_ && grab_->body > id) --grab_->body;
 }
 
-void Dynamics::replace(const std::shared_ptr<const Prototype>& from, const std::shared_ptr<const Prototype>& to) {
+void Dynamics::replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to) {
   for (Batch& b : batches_) {
-    if (b.prototype != from) continue;
+    if (b.model != from) continue;
     b.mesh = mesh_of(to, b.width);
-    b.prototype = to;
+    b.model = to;
   }
 }
 
@@ -144,19 +142,19 @@ void Dynamics::update_moves(const Body& body) {
   batches_[body.batch].moves[std::size_t(body.lane)] = body.moves() ? 1.0f : 0.0f;
 }
 
-void Dynamics::hold(BodyId id, bool held, int release) {
-  bodies_[id].held = held;
+void Dynamics::pin_body(BodyId id, bool pinned, int release) {
+  bodies_[id].pinned = pinned;
   bodies_[id].release = release;
   update_moves(bodies_[id]);
 }
 
-void Dynamics::put_to_sleep(BodyId id, bool asleep) {
+void Dynamics::set_asleep(BodyId id, bool asleep) {
   Body& body = bodies_[id];
   body.asleep = asleep;
   body.calm_frames = 0;
   update_moves(body);
   if (!asleep) return;
-  for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i)
+  for (Index i = 0; i < model(id).mesh.vertices.size(); ++i)
     for (auto& c : v_) c[slot(body, i)] = 0.0f;
 }
 
@@ -164,7 +162,7 @@ void Dynamics::set_particles(BodyId id, std::span<const Particle> particles) {
   Body& body = bodies_[id];
   glm::dvec3 middle(0.0);
   for (const Particle& p : particles) middle += p.position / double(particles.size());
-  body.origin = glm::round(middle * 64.0) / 64.0;  // as follow() moves it
+  body.origin = glm::round(middle * 64.0) / 64.0;  // as recentre_origin() moves it
   for (std::size_t i = 0; i < particles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
       const std::size_t s = slot(body, static_cast<Index>(i));
@@ -185,9 +183,9 @@ glm::dvec3 Dynamics::solid_impulse(BodyId id) const {
   return {j.x[lane], j.y[lane], j.z[lane]};
 }
 
-double Dynamics::fastest(BodyId id) const {
+double Dynamics::max_particle_speed(BodyId id) const {
   const Body& body = bodies_[id];
-  const auto count = static_cast<Index>(prototype(id).mesh.vertices.size());
+  const auto count = static_cast<Index>(model(id).mesh.vertices.size());
   double speed2 = 0;
   for (Index i = 0; i < count; ++i) {
     const std::size_t s = slot(body, i);
@@ -217,24 +215,24 @@ void Dynamics::finish_frame(double seconds) {
     if (!body.moves()) continue;
     const BatchView b = view(batches_[body.batch]);
     const double returned = double(b.batch.returned[std::size_t(body.lane)]);
-    resistance_.resist(*b.batch.prototype, b.positions(body.lane), b.velocities(body.lane),
-                       {solid_impulse(id), returned}, seconds, body.impact);
-    follow(id);
+    resistance_.apply(*b.batch.model, b.positions(body.lane), b.velocities(body.lane), {solid_impulse(id), returned},
+                      seconds, body.impact);
+    recentre_origin(id);
   }
 }
 
 /// Moves the body's origin when its first particle, which begins no further than the radius from it, has gone further
 /// than one and a half, by a multiple of 1/64 m that floats of that size hold without loss. What is rounded off further
 /// out would keep stiff bodies trembling.
-void Dynamics::follow(BodyId id) {
+void Dynamics::recentre_origin(BodyId id) {
   Body& body = bodies_[id];
   const std::size_t first = slot(body, 0);
   const glm::dvec3 away(x_[0][first], x_[1][first], x_[2][first]);
-  if (glm::length(away) <= 1.5 * prototype(id).radius) return;
+  if (glm::length(away) <= 1.5 * model(id).radius) return;
   for (int k = 0; k < 3; ++k) {
     const double shift = std::round(away[k] * 64) / 64;
     body.origin[k] += shift;
-    for (Index i = 0; i < prototype(id).mesh.vertices.size(); ++i) x_[std::size_t(k)][slot(body, i)] -= float(shift);
+    for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) x_[std::size_t(k)][slot(body, i)] -= float(shift);
   }
 }
 

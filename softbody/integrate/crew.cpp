@@ -19,7 +19,7 @@ void Worker::barrier() const {
 
 void Crew::take(std::vector<Batch*> moving, std::size_t particles) {
   moving_ = std::move(moving);
-  active_ = particles >= least_shared_ ? workers_.threads() : 1;
+  active_ = particles >= min_shared_ ? workers_.threads() : 1;
 }
 
 void Crew::run(const std::function<void(const Worker&)>& task) const {

@@ -37,8 +37,8 @@ class Worker {
 /// Shares what moves in a frame among the threads. Who integrates what depends only on the number of threads.
 class Crew {
  public:
-  /// Fewer particles than `least_shared` are left to one thread: to share them would take longer.
-  Crew(collide::Workers& workers, std::size_t least_shared) : workers_(workers), least_shared_(least_shared) {}
+  /// Fewer particles than `min_shared` are left to one thread: to share them would take longer.
+  Crew(collide::Workers& workers, std::size_t min_shared) : workers_(workers), min_shared_(min_shared) {}
 
   /// Takes the batches that move in the coming frame, and how many particles they have in all. They must not be moved
   /// in memory as long as anybody asks for them.
@@ -54,7 +54,7 @@ class Crew {
 
  private:
   collide::Workers& workers_;
-  std::size_t least_shared_;
+  std::size_t min_shared_;
   std::vector<Batch*> moving_;
   int active_ = 1;
 };

@@ -14,7 +14,7 @@ Extent Dynamics::extent(const Batch& b, const Components& boxed, const Component
   return e;
 }
 
-double Dynamics::fastest(const Batch& b) const { return extent(b, x_, v_).longest(); }
+double Dynamics::max_particle_speed(const Batch& b) const { return extent(b, x_, v_).max_length(); }
 
 void Dynamics::set_plan(const Plan& plan) {
   static constexpr std::pair<Stage, BatchStage> springs_and_gas[] = {
@@ -25,7 +25,7 @@ void Dynamics::set_plan(const Plan& plan) {
   };
   static constexpr std::pair<Stage, BatchStage> others[] = {
       {Stage::shape_matching, &Dynamics::shape_matching},
-      {Stage::contact_response, &Dynamics::shield_forces},
+      {Stage::contact_response, &Dynamics::penalty_forces},
   };
   force_stages_.clear();
   other_force_stages_.clear();
@@ -44,11 +44,11 @@ void Dynamics::set_plan(const Plan& plan) {
   has_solid_features_ = plan.has(Stage::solid_features);
   self_contact_ = scene_.collision.self_collision;
   if (!has_surface_) surface_.clear();
-  if (!plan.has(Stage::contact_response)) shield_.pairs.clear();
+  if (!plan.has(Stage::contact_response)) penalty_.pairs.clear();
 }
 
 void Dynamics::set_integrator(const Integrator& integrator) {
-  asked_ = integrator_ = &integrator;
+  chosen_ = integrator_ = &integrator;
   why_ = {};
   resize_scratch();
 }
@@ -70,19 +70,19 @@ bool Dynamics::moves(const Batch& b) {
 }
 
 void Dynamics::contact_forces(const Worker& worker, float h) {
-  if (shield_.pairs.empty()) return;
-  shield_.evaluate(worker.part(shield_.pairs.size()), {x_[0].data(), x_[1].data(), x_[2].data()},
-                   {v_[0].data(), v_[1].data(), v_[2].data()}, h);
+  if (penalty_.pairs.empty()) return;
+  penalty_.evaluate(worker.part(penalty_.pairs.size()), {x_[0].data(), x_[1].data(), x_[2].data()},
+                    {v_[0].data(), v_[1].data(), v_[2].data()}, h);
   worker.barrier();
 }
 
 void Dynamics::contacts(const Worker& worker, float h, float since_start) {
   surface_contacts(worker, h, since_start);
   solids(worker, h);
-  for (int turn = 0; turn < SurfaceContact::turns && has_surface_ && surface_.hit(h); ++turn) {
+  for (int pass = 0; pass < SurfaceContact::max_passes && has_surface_ && surface_.needs_more_iterations(h); ++pass) {
     worker.barrier();
-    if (!surface_.mend(worker.index(), crew_.active(), {v_[0].data(), v_[1].data(), v_[2].data()}, h,
-                       [&] { worker.barrier(); }))
+    if (!surface_.resolve_after_solids(worker.index(), crew_.active(), {v_[0].data(), v_[1].data(), v_[2].data()}, h,
+                                       [&] { worker.barrier(); }))
       break;
     solids(worker, h);
   }
@@ -91,9 +91,9 @@ void Dynamics::contacts(const Worker& worker, float h, float since_start) {
 void Dynamics::surface_contacts(const Worker& worker, float h, float since_start) {
   if (!has_surface_ || surface_.empty()) return;
   worker.barrier();  // the velocities of all bodies are there
-  surface_.prepare(worker.index(), crew_.active(), {x_[0].data(), x_[1].data(), x_[2].data()},
-                   {v_[0].data(), v_[1].data(), v_[2].data()}, since_found_[std::size_t(worker.index())] + since_start,
-                   h);
+  surface_.make_rows(worker.index(), crew_.active(), {x_[0].data(), x_[1].data(), x_[2].data()},
+                     {v_[0].data(), v_[1].data(), v_[2].data()},
+                     since_found_[std::size_t(worker.index())] + since_start, h);
   worker.barrier();
   surface_.solve(worker.index(), crew_.active(), {x_[0].data(), x_[1].data(), x_[2].data()},
                  {v_[0].data(), v_[1].data(), v_[2].data()}, h, [&] { worker.barrier(); });
@@ -114,8 +114,8 @@ void Dynamics::bend_springs(Batch& b) { kernels_of(b).springs(b.mesh->bend, at(x
 void Dynamics::shear_springs(Batch& b) { kernels_of(b).springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
 
 void Dynamics::gas_pressure(Batch& b) {
-  if (!b.prototype->has_gas) return;
-  const Gas& gas = b.prototype->gas;
+  if (!b.model->has_gas) return;
+  const Gas& gas = b.model->gas;
   alignas(32) float volume[lanes], gauge[lanes]{};
   kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
@@ -128,22 +128,21 @@ void Dynamics::shape_matching(Batch& b) {
   ShapePose<float> pose{};
   kernels_of(b).shape_moments(b.mesh->shape, at(x_, b), moments);
   fit_shape(moments, b.used, pose);
-  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.prototype)), at(x_, b),
-                           at(f_, b));
+  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.model)), at(x_, b), at(f_, b));
 }
 
-void Dynamics::shield_forces(Batch& b) {
-  if (shield_.pairs.empty()) return;
+void Dynamics::penalty_forces(Batch& b) {
+  if (penalty_.pairs.empty()) return;
   const auto index = static_cast<std::size_t>(&b - batches_.data());
-  for (std::uint32_t e = shield_.first_end[index]; e < shield_.first_end[index + 1]; ++e) {
-    const ShieldEnd& end = shield_.ends[e];
-    for (std::size_t k = 0; k < 3; ++k) f_[k][end.slot] += end.sign * shield_.force[end.pair][int(k)];
+  for (std::uint32_t e = penalty_.first_end[index]; e < penalty_.first_end[index + 1]; ++e) {
+    const PenaltyEnd& end = penalty_.ends[e];
+    for (std::size_t k = 0; k < 3; ++k) f_[k][end.slot] += end.sign * penalty_.force[end.pair][int(k)];
   }
 }
 
 void Dynamics::kick(Batch& b, float h) {
   const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
-  kernels_of(b).kick({b.particles(), h / float(b.prototype->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
+  kernels_of(b).kick({b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
                      at(v_, b));
 }
 

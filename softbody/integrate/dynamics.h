@@ -8,7 +8,7 @@
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/grab.h"
-#include "softbody/forces/shield.h"
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/dynamics_state.h"
 #include "softbody/integrate/integrators.h"
@@ -18,7 +18,7 @@
 #include "softbody/integrate/plan.h"
 #include "softbody/integrate/resistance.h"
 #include "softbody/integrate/substeps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/scene.h"
 
 namespace softbody {
@@ -36,14 +36,14 @@ inline constexpr Quantity positions{0}, velocities{1}, forces{2};
 constexpr Quantity scratch(int i) { return {3 + i}; }
 
 /// What a detector has found.
-struct SeenContacts {
+struct DetectedContacts {
   const collide::Bodies& vertices;
   std::span<const BodyId> vertex_body;  // the body of each vertex
   const std::vector<collide::Contact>& contacts;
 };
 
 /// What a frame came to.
-struct Advance {
+struct FrameResult {
   int substeps = 0;
   double seconds = 0;
 };
@@ -53,11 +53,11 @@ class Dynamics {
   Dynamics(const Scene& scene, const Crew& crew, Isa isa)
       : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
 
-  BodyId add(std::shared_ptr<const Prototype> prototype, const glm::dvec3& position, const glm::dvec3& velocity);
+  BodyId add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
   void remove(BodyId body);
-  /// Bodies of the prototype `from` go on as bodies of `to`, of the same mesh, from where they are.
-  void replace(const std::shared_ptr<const Prototype>& from, const std::shared_ptr<const Prototype>& to);
+  /// Bodies of the model `from` go on as bodies of `to`, of the same mesh, from where they are.
+  void replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to);
   /// What pulls a body; nothing: nobody does. The plan must have Stage::grab while one does.
   void grab(const std::optional<Grab>& grab);
   const std::optional<Grab>& grabbed() const { return grab_; }
@@ -69,19 +69,19 @@ class Dynamics {
   std::string_view why_integrator() const { return why_; }
   double last_substep() const { return double(step_); }  // s, how long it was
   /// The substeps of a frame: as many as the bound asks for, or exactly this many of the integrator's.
-  void set_substeps(std::optional<int> count) { fixed_substeps_ = count; }
+  void set_fixed_substeps(std::optional<int> count) { fixed_substeps_ = count; }
   void set_max_work(const MaxWork& max) { max_work_ = max; }
   /// A body that sleeps or is held is not integrated; one that falls asleep also loses its velocities.
-  void hold(BodyId body, bool held, int release);
+  void pin_body(BodyId body, bool pinned, int release);
   /// One a vertex, finite. The body's origin goes to their middle.
   void set_particles(BodyId body, std::span<const Particle> particles);
-  void put_to_sleep(BodyId body, bool asleep);
+  void set_asleep(BodyId body, bool asleep);
 
-  /// Takes the contacts that hold for the coming frame; shield: thickness of the tolerance force (§2.3) in m.
-  void set_contacts(const SeenContacts& seen, float shield);
+  /// Takes the contacts that hold for the coming frame; thickness: of the tolerance force (§2.3) in m.
+  void set_contacts(const DetectedContacts& detected, float thickness);
   /// What the pairs of the last frame hold by now; what these contacts would hold, of bodies that move.
-  std::vector<PairEnergy> shield_energies() const;
-  std::vector<PairEnergy> shield_energies(const SeenContacts& seen, float shield) const;
+  std::vector<PairEnergy> penalty_energies() const;
+  std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
@@ -89,9 +89,9 @@ class Dynamics {
   /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work: unless substeps
   /// are fixed, their bound is worked out anew as bodies move, and those that are crushed may ask for any number, and
   /// be full of contacts. after_substep: called by one thread while the others wait.
-  Advance advance(double seconds, const std::function<void()>& after_substep = {});
+  FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
   /// Substeps that the bound asks for in the state at hand.
-  int substeps(double seconds) const;
+  int needed_substeps(double seconds) const;
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
   void finish_frame(double seconds);
 
@@ -126,9 +126,9 @@ class Dynamics {
   const SurfaceContact& surface_contact() const { return surface_; }
   std::size_t body_count() const { return bodies_.size(); }
   const Body& body(BodyId id) const { return bodies_[id]; }
-  const Prototype& prototype(BodyId id) const { return *batches_[bodies_[id].batch].prototype; }
+  const BodyModel& model(BodyId id) const { return *batches_[bodies_[id].batch].model; }
   Particle particle(BodyId id, Index vertex) const;
-  double fastest(BodyId id) const;  // m/s, of its particles
+  double max_particle_speed(BodyId id) const;  // m/s, of its particles
   /// N s, what solids gave to a body along their normals in the last advance().
   glm::dvec3 solid_impulse(BodyId id) const;
   /// World positions, bodies in order of their ids. Every span has one value a vertex.
@@ -155,8 +155,8 @@ class Dynamics {
   }
   BatchView view(const Batch& b) { return {b, kernels_of(b), at(x_, b), at(v_, b)}; }
   const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
-  std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const Prototype>& prototype, int width) const;
-  Batch& batch_with_room(const std::shared_ptr<const Prototype>& prototype);
+  std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const BodyModel>& model, int width) const;
+  Batch& batch_with_free_lane(const std::shared_ptr<const BodyModel>& model);
   std::size_t append(std::size_t values);
   void widen(Batch& batch);
   Components& components(Quantity q);
@@ -168,7 +168,7 @@ class Dynamics {
   void solids(const Worker& worker, float h);
   void solids(Batch& batch, float h);
   bool particles_on_solids(Batch& batch, float h, bool again);
-  void find_solid_features(Batch& batch, int lane, std::span<const SolidBone> bones, const Approach& approach);
+  void find_solid_features(Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
   bool solid_features(Batch& batch, float h);
   bool solid_feature(Batch& batch, SolidFeature& feature);
   void structural_springs(Batch& batch);
@@ -176,24 +176,24 @@ class Dynamics {
   void shear_springs(Batch& batch);
   void gas_pressure(Batch& batch);
   void shape_matching(Batch& batch);
-  void shield_forces(Batch& batch);
+  void penalty_forces(Batch& batch);
   void grab_force(Batch& batch);
   void grab_impulse(Batch& batch, float h);
   bool is_grabbed(const Batch& batch) const;
-  glm::dvec3 grab_pull(const Prototype& prototype, float h, const glm::dvec3& velocity) const;
+  glm::dvec3 grab_pull(const BodyModel& model, float h, const glm::dvec3& velocity) const;
   void move_lane(Batch& batch, int from, int to);
   static bool moves(const Batch& batch);
-  std::size_t particle_count() const;        // of all bodies, those that do not move too
-  double fastest(const Batch& batch) const;  // m/s, of its particles
+  std::size_t particle_count() const;                   // of all bodies, those that do not move too
+  double max_particle_speed(const Batch& batch) const;  // m/s, of its particles
   Extent extent(const Batch& batch, const Components& boxed, const Components& measured) const;
-  double reach(const Batch& batch, const Extent& extent, int lane, double seconds) const;
+  double max_travel(const Batch& batch, const Extent& extent, int lane, double seconds) const;
   glm::vec3 vertex_normal(const Body& body, Index vertex) const;
-  void find_pairs(const SeenContacts& seen, std::vector<std::uint32_t>& contacts_of,
-                  std::vector<ShieldPair>& pairs) const;
-  glm::vec3 contact_normal(const ShieldPair& pair, Index vertex_a, Index vertex_b) const;
+  void find_pairs(const DetectedContacts& detected, std::vector<std::uint32_t>& contacts_of,
+                  std::vector<PenaltyPair>& pairs) const;
+  glm::vec3 contact_normal(const PenaltyPair& pair, Index vertex_a, Index vertex_b) const;
   void find_surface_contacts(double left, double ahead, double least);
-  int foreseen_substeps(double left, double h) const;
-  void wake_what_is_hit(double seconds);
+  int predicted_substeps(double left, double h) const;
+  void wake_hit_sleepers(double seconds);
   void prepare_solids(Batch& batch, double seconds);
   template <class Solid>
   void prepare_solid(Batch& batch, const Extent& extent, double seconds, const Solid& solid);
@@ -201,45 +201,45 @@ class Dynamics {
   struct Progress {
     double seconds, left;
     int substeps = 0;
-    int fixed = 0;  // substeps that it is to take; 0: as many as are needed
-    int most = 0;   // that there may be
+    int fixed = 0;         // substeps that it is to take; 0: as many as are needed
+    int max_substeps = 0;  // that there may be
     MomentumRestorer momenta{};
   };
   void begin_frame(double seconds);
-  bool spent(const Progress& frame) const;
+  bool out_of_budget(const Progress& frame) const;
   void take_substeps(Progress& frame, const std::function<void()>& after_substep);
   int substeps_left(const Progress& frame, int stable) const;
   int substeps_within_bound(double h) const;
-  int needed_substeps(const Progress& frame);
-  void hold(const SubstepBound& bound, double seconds);
-  int most_explicit_substeps() const;
+  int plan_substeps(const Progress& frame);
+  void raise_min_substep_rate(const SubstepBound& bound, double seconds);
+  int max_explicit_substeps() const;
   SubstepBound bound(double seconds) const;  // in the state at hand
-  static int substeps(const SubstepBound& bound, double seconds, double at_least);
+  static int count_substeps(const SubstepBound& bound, double seconds, double at_least);
   double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
-  double tremble(double step) const;
-  void choose(double seconds);
+  double rounding_velocity(double step) const;
+  void choose_integrator(double seconds);
   void resize_scratch();
   void prepare_implicit(float h);
   void count_implicit_work();
   const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
   std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                       double h) const;
-  std::array<bool, lanes> find_shields(const Batch& batch, ImplicitWork& work, double h) const;
-  void keep_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                     const std::array<bool, lanes>& which, double h) const;
+  std::array<bool, lanes> find_penalty_pairs(const Batch& batch, ImplicitWork& work, double h) const;
+  void correct_solver_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                               const std::array<bool, lanes>& which, double h) const;
   std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
                                             double h) const;
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
-  void touch(BodyId id) { batches_[bodies_[id].batch].touched |= 1u << bodies_[id].lane; }
-  void follow(BodyId id);
+  void mark_contacted(BodyId id) { batches_[bodies_[id].batch].contacted |= 1u << bodies_[id].lane; }
+  void recentre_origin(BodyId id);
   void update_moves(const Body& body);
 
   const Scene& scene_;
   Crew crew_;
   const Kernels &wide_, &narrow_;
   Isa isa_;
-  const Integrator *asked_ = nullptr, *integrator_ = nullptr;
+  const Integrator *chosen_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;
   std::vector<BatchStage> force_stages_, other_force_stages_;
@@ -250,24 +250,24 @@ class Dynamics {
   Components x_, v_, f_;
   // Room of bound(): not for two threads at once.
   mutable Components area_;
-  mutable std::vector<float> shield_damping_;
+  mutable std::vector<float> penalty_damping_;
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   std::shared_ptr<ImplicitSteps> implicit_steps_;  // what they keep; none before the first
-  Shield shield_;
+  PenaltyContact penalty_;
   SurfaceContact surface_;
   bool has_surface_ = false, self_contact_ = false, has_solid_features_ = false;
   std::vector<float> since_found_;  // s, as each thread counts them
   double found_ = 0;                // s before the end of the frame, when surface_ was found; 0: not yet
   const collide::Bodies* vertices_ = nullptr;
-  std::array<std::vector<float>, 3> seen_, velocity_;  // world, for surface_
-  std::vector<ShieldPair> pairs_before_;               // of the frame before
-  std::vector<std::uint32_t> contacts_of_;             // a vertex, in the frame at hand
+  std::array<std::vector<float>, 3> world_positions_, velocity_;  // world, for surface_
+  std::vector<PenaltyPair> pairs_before_;                         // of the frame before
+  std::vector<std::uint32_t> contacts_of_;                        // a vertex, in the frame at hand
   std::optional<Grab> grab_;
   float step_ = 0;  // s, of the substep at hand
-  HeldRate held_rate_;
+  SubstepHysteresis substep_hysteresis_;
   MaxWork max_work_;
-  double surface_work_ = 0, implicit_ = 0, shield_work_ = 0;  // of the frame at hand, as max_work_ counts them
+  double surface_work_ = 0, implicit_ = 0, penalty_work_ = 0;  // of the frame at hand, as max_work_ counts them
 };
 
 }  // namespace softbody

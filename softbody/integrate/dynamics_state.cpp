@@ -52,7 +52,7 @@ void Dynamics::clear(Batch& b, Quantity q) {
 }
 
 void Dynamics::accelerations(Batch& b) {
-  const auto inverse_mass = float(1 / b.prototype->particle_mass);
+  const auto inverse_mass = float(1 / b.model->particle_mass);
   for (std::size_t k = 0; k < 3; ++k) {
     const float g = has_gravity_ ? float(scene_.gravity[int(k)]) : 0;
     float* f = f_[k].data();
@@ -61,14 +61,15 @@ void Dynamics::accelerations(Batch& b) {
 }
 
 std::size_t DynamicsState::bytes() const {
-  std::size_t sum = bytes_of(batches) + bytes_of(bodies) + bytes_of(shield_pairs) + surface.bytes();
+  std::size_t sum = bytes_of(batches) + bytes_of(bodies) + bytes_of(penalty_pairs) + surface.bytes();
   for (const auto* components : {&x, &v})
     for (const auto& c : *components) sum += bytes_of(c);
   return sum;
 }
 
 DynamicsState Dynamics::save() const {
-  DynamicsState state{batches_, bodies_, x_, v_, shield_.thickness, shield_.pairs, surface_.save(), held_rate_};
+  DynamicsState state{batches_,           bodies_, x_, v_, penalty_.thickness, penalty_.pairs, surface_.save(),
+                      substep_hysteresis_};
   for (Batch& b : state.batches) {  // for one frame only, and they point into the batch that they were copied from
     b.near_solids.clear();
     b.solid_features.clear();
@@ -82,10 +83,10 @@ void Dynamics::restore(const DynamicsState& state) {
   x_ = state.x;
   v_ = state.v;
   for (auto& c : f_) c.resize(x_[0].size());
-  shield_.thickness = state.shield_thickness;
-  shield_.pairs = state.shield_pairs;
+  penalty_.thickness = state.penalty_thickness;
+  penalty_.pairs = state.penalty_pairs;
   surface_.restore(state.surface);
-  held_rate_ = state.held_rate;
+  substep_hysteresis_ = state.substep_hysteresis;
   crew_.take({}, 0);
 }
 

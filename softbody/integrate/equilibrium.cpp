@@ -13,7 +13,7 @@ namespace {
 /// One body by itself, in double precision.
 class Relaxation {
  public:
-  Relaxation(const Prototype& p, const std::vector<glm::dvec3>& from) : prototype_(p), size_(from.size()) {
+  Relaxation(const BodyModel& p, const std::vector<glm::dvec3>& from) : model_(p), size_(from.size()) {
     for (auto* field : {&x_, &v_, &f_})
       for (auto& component : *field) component.assign(size_, 0.0);
     for (std::size_t i = 0; i < from.size(); ++i)
@@ -27,11 +27,11 @@ class Relaxation {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
     body::springs<double, one_lane>(springs_, constant(x_), constant(v_), field(f_));
     if (!shape_.empty()) keep_shape();
-    if (!prototype_.has_gas) return;
+    if (!model_.has_gas) return;
     double v;
-    body::volume<double, one_lane>(prototype_.mesh.triangles, constant(x_), &v);
-    const double gauge = prototype_.gas.gauge(v);
-    body::pressure<double, one_lane>(prototype_.mesh.triangles, constant(x_), &gauge, field(f_));
+    body::volume<double, one_lane>(model_.mesh.triangles, constant(x_), &v);
+    const double gauge = model_.gas.gauge(v);
+    body::pressure<double, one_lane>(model_.mesh.triangles, constant(x_), &gauge, field(f_));
   }
 
   void keep_shape() {
@@ -39,7 +39,7 @@ class Relaxation {
     ShapePose<double> pose{};
     body::shape_moments<double, one_lane>(shape_, constant(x_), moments);
     fit_shape(moments, 1, pose);
-    body::shape_pull<double, one_lane>(shape_, pose, shape_stiffness(prototype_), constant(x_), field(f_));
+    body::shape_pull<double, one_lane>(shape_, pose, shape_stiffness(model_), constant(x_), field(f_));
   }
 
   double largest_force() const {
@@ -54,7 +54,7 @@ class Relaxation {
   /// One step of h; velocities are dropped whenever the kinetic energy has passed a peak. From rest it takes half a
   /// kick, as leapfrog does: a whole one would overshoot by more than it started with where h is near the stable limit.
   void step(double h) {
-    const double kick = (kinetic_ > 0 ? h : h / 2) / prototype_.particle_mass;
+    const double kick = (kinetic_ > 0 ? h : h / 2) / model_.particle_mass;
     double kinetic = 0;
     for (int k = 0; k < 3; ++k)
       for (std::size_t i = 0; i < size_; ++i) {
@@ -81,7 +81,7 @@ class Relaxation {
   static Field<const double> constant(const Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
   static Field<double> field(Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
 
-  const Prototype& prototype_;
+  const BodyModel& model_;
   std::size_t size_;
   Components x_, v_, f_;
   KernelSpringsOf<double> springs_;
@@ -91,14 +91,13 @@ class Relaxation {
 
 }  // namespace
 
-std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::vector<glm::dvec3>& from) {
-  Relaxation relaxation(prototype, from);
-  const double scale = (prototype.spring_stiffness_bound + std::abs(prototype.gas.ambient) * prototype.radius +
-                        prototype.material.gas_pressure * prototype.radius) *
-                       prototype.radius;
+std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vector<glm::dvec3>& from) {
+  Relaxation relaxation(model, from);
+  const double scale = (model.spring_stiffness_bound + std::abs(model.gas.ambient) * model.radius +
+                        model.material.gas_pressure * model.radius) *
+                       model.radius;
   // Half of what is stable: the kinetic energy has a peak to be found only where a swing takes more than a few steps.
-  const double h =
-      0.5 * stable_step(stiffness_per_mass(prototype, measure_surface(prototype, prototype.mesh.vertices)), 0);
+  const double h = 0.5 * stable_step(stiffness_per_mass(model, measure_surface(model, model.mesh.vertices)), 0);
   constexpr int limit = 50'000;
   for (int i = 0; i < limit; ++i) {
     relaxation.evaluate();
@@ -107,12 +106,12 @@ std::vector<glm::dvec3> find_equilibrium(const Prototype& prototype, const std::
     if (force <= 1e-11 * scale) return relaxation.positions();
     relaxation.step(h);
   }
-  throw SceneError("material '" + prototype.material.name + "': springs and gas pressure find no equilibrium; lower " +
+  throw SceneError("material '" + model.material.name + "': springs and gas pressure find no equilibrium; lower " +
                    "gas_pressure towards ambient_pressure, raise the stiffness, or set start_in_equilibrium = false");
 }
 
-std::shared_ptr<const Prototype> make_prototype(const MeshSource& mesh, const Material& material) {
-  auto p = make_unbalanced_prototype(mesh, material);
+std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material) {
+  auto p = make_unbalanced_body_model(mesh, material);
   if (!material.start_in_equilibrium || !p->has_gas) return p;
   p->start = find_equilibrium(*p, p->mesh.vertices);
   p->start_volume = volume(p->start, p->mesh.triangles);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "softbody/integrate/integrator_steps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 namespace {
@@ -24,24 +24,24 @@ struct FastestMode {
 };
 
 constexpr double safety = 0.8;
-constexpr double longest_step = 1e9;  // s, where nothing swings
+constexpr double max_step = 1e9;  // s, where nothing swings
 
 /// |1 + h s| <= 1: h <= gamma / omega^2, and 2 / |s| if overdamped. What is hardly damped grows at every step: then by
 /// no more than a factor of e in energy a second. Modes that tension and gas stiffen, too, have less damping for their
 /// stiffness than the springs alone: a third is what balls that are let loose far from balance lose energy with.
 double explicit_euler_step(double k_m, double c_m) {
-  constexpr double least_damped = 1.0 / 3;
+  constexpr double min_damped = 1.0 / 3;
   const FastestMode mode(k_m, c_m);
-  if (mode.rate() <= 0) return safety * longest_step;
-  const double damped = least_damped * mode.gamma;
-  return safety * std::min(mode.omega2 > 0 ? std::max(damped, 1.0) / mode.omega2 : longest_step, 2 / mode.rate());
+  if (mode.rate() <= 0) return safety * max_step;
+  const double damped = min_damped * mode.gamma;
+  return safety * std::min(mode.omega2 > 0 ? std::max(damped, 1.0) / mode.omega2 : max_step, 2 / mode.rate());
 }
 
 /// The region of stability holds the left half of the disc of this radius (its border meets the real axis at -2.785 and
 /// the imaginary one at 2.828).
 double runge_kutta_4_step(double k_m, double c_m) {
   const double rate = FastestMode(k_m, c_m).rate();
-  return safety * (rate > 0 ? 2.78 / rate : longest_step);
+  return safety * (rate > 0 ? 2.78 / rate : max_step);
 }
 
 double unconditional(double, double) { return std::numeric_limits<double>::infinity(); }
@@ -69,7 +69,7 @@ constexpr std::array all_integrators{
                .advance = semi_implicit_euler,
                .stable_step = stable_step,
                .staggered = true,
-               .keeps_spin = true},
+               .conserves_spin = true},
     Integrator{.key = "velocity-verlet",
                .name = "Velocity Verlet",
                .summary = "Second order at the price of semi-implicit Euler. Dampers use a predicted velocity.",
@@ -77,7 +77,7 @@ constexpr std::array all_integrators{
                .advance = velocity_verlet,
                .stable_step = stable_step,
                .scratch = 1,
-               .keeps_spin = true},
+               .conserves_spin = true},
     Integrator{.key = "rk4",
                .name = "Runge-Kutta 4",
                .summary = "Fourth order with four evaluations per step: accurate if nothing is stiff.",
@@ -94,7 +94,7 @@ constexpr std::array all_integrators{
         .order = 1,
         .advance = xpbd,
         .stable_step = unconditional,
-        .substeps = 20,
+        .substeps_per_step = 20,
         .scratch = 1},
     Integrator{.key = "implicit",
                .name = "Implicit",

@@ -18,17 +18,17 @@ inline constexpr std::size_t max_implicit_particles = 1000;
 struct MaxWork {
   double surface = 2e7;   // of surface contact: SurfaceContact::work_of_substep() and SurfaceSearch::work()
   double implicit = 4e6;  // iterations of the implicit solver, times the particles of a body, and its sweeps
-  double shield = 1e7;    // vertex pairs, times how often each is evaluated: once a substep and once a substep bound
+  double penalty = 1e7;   // vertex pairs, times how often each is evaluated: once a substep and once a substep bound
   double at_once = double(1 << 24);  // candidates of surface contact at one time, 1.5 GiB; see candidates()
   /// A frame in a world of more particles may do no more work than in a world of so many, explicit substeps included.
   double max_counted_particles = std::numeric_limits<double>::infinity();
 
-  /// Returns the factor of `surface`, `implicit` and `shield` in a world of so many particles.
+  /// Returns the factor of `surface`, `implicit` and `penalty` in a world of so many particles.
   double times(std::size_t particles) const {
     return std::max(1.0, std::min(double(particles), max_counted_particles) / 10'000);
   }
   /// Returns the most explicit substeps in a world of so many particles, `most` in a small one.
-  int substeps(int most, std::size_t particles) const {
+  int scaled_substeps(int most, std::size_t particles) const {
     const double part = std::min(1.0, max_counted_particles / double(particles));
     return std::max(1, static_cast<int>(part * most));
   }

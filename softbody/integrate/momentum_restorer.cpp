@@ -43,7 +43,7 @@ void MomentumRestorer::restore(const glm::dvec3& fall, bool spin) const {
     view.kernels.rigid_sums(b.particles(), view.x, view.v, now);
     RigidChange change{};
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      if (b.moves[l] <= 0 || (b.touched >> l & 1u)) continue;
+      if (b.moves[l] <= 0 || (b.contacted >> l & 1u)) continue;
       const RigidMotion before = rigid_motion(sums, l, count), after = rigid_motion(now, l, count);
       const glm::dvec3 push = before.velocity + fall - after.velocity;
       const glm::dvec3 turn = spin ? after.steady_spin_of(before.momentum - after.momentum) : glm::dvec3(0.0);

@@ -16,7 +16,7 @@ class MomentumRestorer {
   /// Notes the momenta that the bodies of a batch have now. The batch and its fields must stay where they are until
   /// restore() has been called, or this is gone.
   void note(const BatchView& batch);
-  /// Restores the momenta of all bodies that have been noted, that move, and whose bit in Batch::touched is not set.
+  /// Restores the momenta of all bodies that have been noted, that move, and whose bit in Batch::contacted is not set.
   /// The linear ones become the noted ones after a change of velocity by `fall` (m/s), which gravity makes. `spin`: the
   /// angular ones become the noted ones; else what the integrator itself does to them stays.
   void restore(const glm::dvec3& fall, bool spin) const;

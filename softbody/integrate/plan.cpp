@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
@@ -11,14 +11,14 @@ namespace {
 
 struct Facts {
   const Scene& scene;
-  const std::vector<std::shared_ptr<const Prototype>>& prototypes;
-  const Visitors& visitors;
+  const std::vector<std::shared_ptr<const BodyModel>>& models;
+  const AddedBodies& added_bodies;
   std::size_t bodies() const {  // a dropper can always add another
-    return scene.dropper ? 2 : scene.bodies.size() + visitors.bodies;
+    return scene.dropper ? 2 : scene.bodies.size() + added_bodies.bodies;
   }
   template <class Test>
   bool any(Test test) const {
-    return std::any_of(prototypes.begin(), prototypes.end(), [&](const auto& p) { return test(*p); });
+    return std::any_of(models.begin(), models.end(), [&](const auto& p) { return test(*p); });
   }
 };
 
@@ -44,20 +44,20 @@ const char* surface_contacts(const Facts& f) {
   return f.scene.contact_surface == ContactSurface::surfaces ? contacts(f) : "the vertices keep the bodies apart";
 }
 
-template <std::vector<Spring> Prototype::*list>
+template <std::vector<Spring> BodyModel::*list>
 const char* springs(const Facts& f) {
-  return f.any([](const Prototype& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
+  return f.any([](const BodyModel& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
 }
 
 const char* gas(const Facts& f) {
-  return f.any([](const Prototype& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
+  return f.any([](const BodyModel& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
 }
 
 const char* shape(const Facts& f) {
-  return f.any([](const Prototype& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
+  return f.any([](const BodyModel& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
 }
 
-const char* grab(const Facts& f) { return f.visitors.grabs ? nullptr : "nobody holds a body"; }
+const char* grab(const Facts& f) { return f.added_bodies.grabs ? nullptr : "nobody holds a body"; }
 
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
@@ -78,13 +78,13 @@ const char* restitution(const Facts& f) {
 const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
 const char* damping(const Facts& f) {
-  return f.any([](const Prototype& p) { return p.material.internal_damping > 0; }) ? nullptr
+  return f.any([](const BodyModel& p) { return p.material.internal_damping > 0; }) ? nullptr
                                                                                    : "no material has internal damping";
 }
 
 const char* rebound(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to rebound from";
-  return f.any([](const Prototype& p) { return p.material.rebound_speed > 0; }) ? nullptr
+  return f.any([](const BodyModel& p) { return p.material.rebound_speed > 0; }) ? nullptr
                                                                                 : "no material has a rebound speed";
 }
 
@@ -96,7 +96,7 @@ const char* solid_features(const Facts& f) {
 
 const char* rolling(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to roll on";
-  return f.any([](const Prototype& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
+  return f.any([](const BodyModel& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
 }
@@ -113,9 +113,9 @@ constexpr std::array<Row, std::size_t(Stage::count)> all_stages{{
     {Stage::arrive, "arrive", arrivals},
     {Stage::contact_response, "contact-response", vertex_contacts},
     {Stage::surface_contact, "surface-contact", surface_contacts},
-    {Stage::structural_springs, "structural-springs", springs<&Prototype::structural>},
-    {Stage::bend_springs, "bend-springs", springs<&Prototype::bend>},
-    {Stage::shear_springs, "shear-springs", springs<&Prototype::shear>},
+    {Stage::structural_springs, "structural-springs", springs<&BodyModel::structural>},
+    {Stage::bend_springs, "bend-springs", springs<&BodyModel::bend>},
+    {Stage::shear_springs, "shear-springs", springs<&BodyModel::shear>},
     {Stage::gas_pressure, "gas-pressure", gas},
     {Stage::shape_matching, "shape-matching", shape},
     {Stage::grab, "grab", grab},
@@ -141,10 +141,10 @@ std::string_view stage_key(Stage stage) { return all_stages[std::size_t(stage)].
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
-Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
-               const Visitors& visitors) {
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyModel>>& models,
+               const AddedBodies& added_bodies) {
   Plan plan;
-  const Facts facts{scene, prototypes, visitors};
+  const Facts facts{scene, models, added_bodies};
   for (const Row& row : all_stages) {
     if (const char* why = row.why_not(facts))
       plan.left_out.push_back({row.stage, why});

@@ -10,7 +10,7 @@
 
 namespace softbody {
 
-struct Prototype;
+struct BodyModel;
 struct Scene;
 
 /// In the order in which a step runs them.
@@ -56,13 +56,13 @@ struct Plan {
 };
 
 /// What a world has besides its scene's own bodies.
-struct Visitors {
+struct AddedBodies {
   std::size_t bodies = 0;  // dropped or thrown in by hand
   bool grabs = false;      // a hand holds a body
 };
 
-/// `prototypes`: those of the scene's bodies, of its dropper and of the visitors.
-Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const Prototype>>& prototypes,
-               const Visitors& visitors = {});
+/// `models`: those of the scene's bodies, of its dropper and of the visitors.
+Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyModel>>& models,
+               const AddedBodies& added_bodies = {});
 
 }  // namespace softbody

@@ -15,7 +15,7 @@ namespace {
 
 /// The part of `out`, a body's speed away from the solids that gave it the impulse in this frame, that rebound damping
 /// acts on: all of it without restitution; else what is beyond the restitution times the speed of the impact.
-double undue_speed(double out, double impulse, double returned, double mass, double& impact) {
+double excess_rebound_speed(double out, double impulse, double returned, double mass, double& impact) {
   const double in = impulse / mass - out;  // before the impulse, towards the solids
   const double restitution = std::min(1.0, returned / impulse);
   if (in > law::impact_speed)
@@ -33,8 +33,8 @@ void Resistance::set_plan(const Plan& plan) {
   rolling_ = plan.has(Stage::rolling_resistance);
 }
 
-void Resistance::resist(const Prototype& p, const BodyField& x, const BodyField& v, const SolidPush& push,
-                        double seconds, double& impact) const {
+void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& v, const SolidPush& push,
+                       double seconds, double& impact) const {
   assert(seconds >= 0);
   if (!internal_ && !rebound_ && !rolling_) return;
   const Material& m = p.material;
@@ -44,14 +44,14 @@ void Resistance::resist(const Prototype& p, const BodyField& x, const BodyField&
   if (share <= 0 && normal <= 0) return;
   const std::size_t count = p.mesh.vertices.size();
   const RigidMotion motion = rigid_motion(count, x, v);
-  if (!motion.turns) return;
-  const auto& [centre, velocity, momentum, inertia, turns, spin] = motion;
+  if (!motion.can_rotate) return;
+  const auto& [centre, velocity, momentum, inertia, can_rotate, spin] = motion;
   glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
   if (const double size = p.particle_mass * glm::length(momentum); rolling_ && p.mesh.closed && size > 0)
     lost_spin = spin * std::min(1.0, m.rolling_resistance * p.radius * normal / size);
   if (rebound_ && m.rebound_speed > 0 && normal > 0) {
     const glm::dvec3 n = push.impulse / normal;
-    lost_velocity = n * undue_speed(glm::dot(velocity, n), normal, push.returned, m.mass, impact) *
+    lost_velocity = n * excess_rebound_speed(glm::dot(velocity, n), normal, push.returned, m.mass, impact) *
                     std::min(1.0, normal / (m.mass * m.rebound_speed));
   }
   for (std::size_t i = 0; i < count; ++i) {

@@ -1,7 +1,7 @@
 #pragma once
 // What resists a body's motion as a whole, once a frame.
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
@@ -26,8 +26,8 @@ class Resistance {
   /// Changes the velocities v of a body after a frame of `seconds`, by its positions x and what solids did to it.
   /// `impact`: the speed (m/s) with which it came upon the solids that it touches; kept from frame to frame, 0 at
   /// first.
-  void resist(const Prototype& prototype, const BodyField& x, const BodyField& v, const SolidPush& push, double seconds,
-              double& impact) const;
+  void apply(const BodyModel& model, const BodyField& x, const BodyField& v, const SolidPush& push, double seconds,
+             double& impact) const;
 
  private:
   bool internal_ = false, rebound_ = false, rolling_ = false;

@@ -24,10 +24,10 @@ void Dynamics::solids(Batch& b, float h) {
 /// Each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a groove: they
 /// take turns until what is left is slow, or for so long (Gauss and Seidel). False if there is no solid near.
 bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
-  constexpr int most_passes = 8;
+  constexpr int max_passes = 8;
   constexpr float slack = 1e-4f;  // m/s
   unsigned acted = again ? ~0u : 0;
-  for (int pass = 0; pass < most_passes; ++pass) {
+  for (int pass = 0; pass < max_passes; ++pass) {
     bool more = false;
     for (SolidArguments& s : b.near_solids) {
       s.h = h;
@@ -35,7 +35,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
       const unsigned now = kernels_of(b).solid(s, at(x_, b), at(v_, b));
       more = more || (acted & now) || (pass && now);
       acted |= now;
-      b.touched |= now;
+      b.contacted |= now;
     }
     if (!more) break;
   }
@@ -56,15 +56,15 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
   const auto near = [&](int l) {  // the plane before the solid, as seen from the box's centre, cuts the box
     const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
     const SolidSurface s = surface_at(solid, bodies_[b.body[std::size_t(l)]].origin + 0.5 * (lo + hi));
-    return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= reach(b, e, l, seconds);
+    return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= max_travel(b, e, l, seconds);
   };
   bool any = false;
   for (int l = 0; l < b.used; ++l) any = any || near(l);
   if (!any) return;
-  const double thickness = b.prototype->material.thickness;
+  const double thickness = b.model->material.thickness;
   SolidArguments& s = b.near_solids.emplace_back();
   s.particles = b.particles();
-  s.mass = float(b.prototype->particle_mass);
+  s.mass = float(b.model->particle_mass);
   s.friction = float(solid.friction);
   s.restitution = float(solid.restitution);
   s.shape = shape_of<float>(solid, thickness);
@@ -78,22 +78,22 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
   s.returned = b.returned.data();
   if (has_restitution_) s.before = at(std::as_const(before_), b);
   if (!has_solid_features_) return;
-  const std::vector<SolidBone> bones = bones_of(solid);
+  const std::vector<SolidCore> cores = cores_of(solid);
   for (int l = 0; l < b.used; ++l) {
     if (b.moves[std::size_t(l)] == 0) continue;
-    const double far = reach(b, e, l, seconds);
-    find_solid_features(b, l, bones,
-                        {bone_radius(solid) + thickness,
-                         far / seconds,
-                         far,
+    const double travel = max_travel(b, e, l, seconds);
+    find_solid_features(b, l, cores,
+                        {core_radius(solid) + thickness,
+                         travel / seconds,
+                         travel,
                          {glm::vec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::vec3(e.hi.x[l], e.hi.y[l], e.hi.z[l])}});
   }
 }
 
-double Dynamics::reach(const Batch& b, const Extent& e, int lane, double seconds) const {
+double Dynamics::max_travel(const Batch& b, const Extent& e, int lane, double seconds) const {
   const double fall = glm::length(scene_.gravity) * seconds;
-  return (2 * std::sqrt(double(e.length2[lane])) + fall) * seconds + 0.1 * b.prototype->radius +
-         b.prototype->material.thickness;
+  return (2 * std::sqrt(double(e.length2[lane])) + fall) * seconds + 0.1 * b.model->radius +
+         b.model->material.thickness;
 }
 
 }  // namespace softbody

@@ -15,7 +15,7 @@ namespace softbody {
 namespace {
 
 /// Where the balls round the two overlap.
-bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const glm::vec3& to, float reach) {
+bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const glm::vec3& to, float max_distance) {
   glm::vec3 middle(0.0f);
   for (const glm::vec3& c : corners) middle += c / static_cast<float>(corners.size());
   float radius = 0;
@@ -23,20 +23,20 @@ bool may_meet(std::span<const glm::vec3> corners, const glm::vec3& from, const g
   const glm::vec3 along = to - from;
   const float square = glm::dot(along, along);
   const float t = square > 0 ? std::clamp(glm::dot(middle - from, along) / square, 0.0f, 1.0f) : 0.0f;
-  return glm::length(middle - from - t * along) <= radius + reach;
+  return glm::length(middle - from - t * along) <= radius + max_distance;
 }
 
 /// A body's face and a solid's point, or two edges: where they are closest to each other.
-struct Meeting {
+struct ClosestPoints {
   std::array<float, 3> weight{};  // of the body's corners
   glm::vec3 point{0.0f};          // m, on the body
-  glm::vec3 apart;                // m, from the bone to it
+  glm::vec3 apart;                // m, from the core to it
   glm::vec3 across;               // normal to both, of either sign and any length
   bool inner;                     // on the border of neither
 };
 
-Meeting meet(const SolidFeature& f, std::span<const glm::vec3> x) {
-  Meeting m;
+ClosestPoints closest_points(const SolidFeature& f, std::span<const glm::vec3> x) {
+  ClosestPoints m;
   const bool face = x.size() == 3;
   const collide::surface::Closest c = face ? collide::surface::closest_vertex_face(f.from, x[0], x[1], x[2])
                                            : collide::surface::closest_edges(x[0], x[1], f.from, f.to);
@@ -48,9 +48,9 @@ Meeting meet(const SolidFeature& f, std::span<const glm::vec3> x) {
   return m;
 }
 
-/// How far apart the two are: as seen from a round solid, which has the bone inside. A box has it on its surface, so
+/// How far apart the two are: as seen from a round solid, which has the core inside. A box has it on its surface, so
 /// there it is along what is normal to both, also where they have crossed. Nothing where others are closer.
-std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const Meeting& m, const SolidShape<float>& shape,
+std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoints& m, const SolidShape<float>& shape,
                                        const glm::vec3& place) {
   const auto* box = std::get_if<BoxShape<float>>(&shape);
   if (!box) {
@@ -60,7 +60,7 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const Meeting& m, 
   if (!m.inner || glm::dot(m.across, m.across) == 0) return std::nullopt;
   glm::vec3 n = glm::normalize(m.across);
   if (glm::dot(n, f.out) < 0) n = -n;
-  for (const body::Vec<float>& a : box->axes) {  // it points away from all of the box's sides that meet in the bone
+  for (const body::Vec<float>& a : box->axes) {  // it points away from all of the box's sides that meet in the core
     const glm::vec3 axis(a.x, a.y, a.z);
     if (glm::dot(n, axis) * glm::dot(f.out, axis) < 0) return std::nullopt;
   }
@@ -69,36 +69,36 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const Meeting& m, 
 
 }  // namespace
 
-void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone> bones, const Approach& approach) {
+void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidCore> cores, const Approach& approach) {
   const glm::dvec3 origin = bodies_[b.body[std::size_t(lane)]].origin;
   const Field<const float> x = at(std::as_const(x_), b);
   const auto position = [&](std::uint32_t v) {
     return read(x, std::size_t(v) * std::size_t(b.width) + std::size_t(lane));
   };
-  const collide::surface::Surface& surface = *b.prototype->surface;
-  for (const SolidBone& bone : bones) {
+  const collide::surface::Surface& surface = *b.model->surface;
+  for (const SolidCore& core : cores) {
     SolidFeature found{.lane = lane,
                        .solid = b.near_solids.size() - 1,
                        .vertices = {},
-                       .from = glm::vec3(bone.from - origin),
-                       .to = glm::vec3(bone.to - origin),
-                       .out = glm::vec3(bone.out),
-                       .grown = float(approach.grown),
+                       .from = glm::vec3(core.from - origin),
+                       .to = glm::vec3(core.to - origin),
+                       .out = glm::vec3(core.out),
+                       .distance = float(approach.distance),
                        .speed = float(approach.speed)};
-    if (!may_meet(approach.box, found.from, found.to, float(approach.grown + approach.reach))) continue;
+    if (!may_meet(approach.box, found.from, found.to, float(approach.distance + approach.travel))) continue;
     const auto add = [&](const auto& features) {
       for (const auto& feature : features) {
         std::array<glm::vec3, 3> corners{};
         std::transform(feature.begin(), feature.end(), corners.begin(), position);
         if (!may_meet(std::span(corners).first(feature.size()), found.from, found.to,
-                      float(approach.grown + approach.reach)))
+                      float(approach.distance + approach.travel)))
           continue;
         found.vertices.fill(SolidFeature::no_vertex);
         std::copy(feature.begin(), feature.end(), found.vertices.begin());
         b.solid_features.push_back(found);
       }
     };
-    bone.point() ? add(surface.triangles()) : add(surface.edges());
+    core.point() ? add(surface.triangles()) : add(surface.edges());
   }
 }
 
@@ -106,8 +106,8 @@ void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidBone
 bool Dynamics::solid_features(Batch& b, float h) {
   bool acted = false;
   for (SolidFeature& f : b.solid_features) {
-    f.far -= f.speed * h;
-    if (f.far <= 0) acted = solid_feature(b, f) || acted;
+    f.free_travel -= f.speed * h;
+    if (f.free_travel <= 0) acted = solid_feature(b, f) || acted;
   }
   return acted;
 }
@@ -124,8 +124,8 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
     slot[k] = std::size_t(f.vertices[k]) * std::size_t(b.width) + lane;
     x[k] = read(at(std::as_const(x_), b), slot[k]);
   }
-  const Meeting m = meet(f, std::span(x).first(corners));
-  f.far = 0.5f * (glm::length(m.apart) - f.grown);  // half: single particles may be faster than was foreseen
+  const ClosestPoints m = closest_points(f, std::span(x).first(corners));
+  f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
   if (*std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return false;
   const SolidArguments& s = b.near_solids[f.solid];
   const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
@@ -151,7 +151,7 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
   const float impulse = s.mass / square * change;
   s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
   s.returned[lane] += s.restitution * impulse;
-  b.touched |= 1u << lane;
+  b.contacted |= 1u << lane;
   return true;
 }
 

@@ -7,28 +7,28 @@ namespace softbody {
 
 /// What bounds substeps in a state of the bodies.
 struct SubstepBound {
-  double step;       // s, that is stable: infinite for integrators that are at any step
-  double fewest;     // of the stretch: those that keep up with the fastest body near a solid
-  double deforming;  // 1/s, that keep up with the body that changes its shape fastest
-  double swinging;   // 1/s, that are stable for what bodies do by themselves, contacts apart
+  double stable_step;       // s, that is stable: infinite for integrators that are at any step
+  double min_substeps;      // of the stretch: those that keep up with the fastest body near a solid
+  double deformation_rate;  // 1/s, that keep up with the body that changes its shape fastest
+  double free_rate;         // 1/s, that are stable for what bodies do by themselves, contacts apart
 
   /// Implicit steps a second that keep up with that body: a tenth as many, for one that bends it by more than its
   /// radius leaves no round body round. None is needed for stability, so there is an end to them. frame: s.
-  double implicit_rate(double frame) const { return std::min(0.1 * deforming, 16 / frame); }
+  double implicit_rate(double frame) const { return std::min(0.1 * deformation_rate, 16 / frame); }
 };
 
 /// Substeps a second that bodies asked for by themselves: no fewer are taken for half a second to one second more.
 /// Steps of one length keep the energy of a swing within bounds; where they get longer and shorter as it swings, they
 /// feed it, however short they are (Skeel and Gear 1992, "Does variable step size ruin a symplectic integrator?").
-class HeldRate {
+class SubstepHysteresis {
  public:
-  void pass(double seconds) {
+  void advance(double seconds) {
     age_ += seconds;
     if (age_ < half_second) return;
     before_ = now_;
     now_ = age_ = 0;
   }
-  void ask(double rate) { now_ = std::max(now_, rate); }
+  void raise(double rate) { now_ = std::max(now_, rate); }
   double rate() const { return std::max(now_, before_); }  // 1/s
 
  private:

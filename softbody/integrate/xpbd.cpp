@@ -8,7 +8,7 @@ namespace softbody {
 /// Of XPBD the limit of one constraint on the volume V with the gas as its compliance: along the gradient g of V the
 /// gauge pressure p acts that the step ends with, to first order: p = gauge(V) / (1 - slope(V) h^2 |g|^2 / m).
 void Dynamics::project_gas(Batch& b, Quantity d, float h) {
-  const Prototype& p = *b.prototype;
+  const BodyModel& p = *b.model;
   if (!p.has_gas) return;
   alignas(32) float volume[lanes], unit[lanes];
   double square[lanes]{};
@@ -32,7 +32,7 @@ void Dynamics::project_gas(Batch& b, Quantity d, float h) {
 }
 
 void Dynamics::project_springs(Batch& b, Quantity x0, Quantity d, float h) {
-  const ProjectArguments arguments{h, float(1 / b.prototype->particle_mass), b.moves.data()};
+  const ProjectArguments arguments{h, float(1 / b.model->particle_mass), b.moves.data()};
   for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
     kernels_of(b).project_springs(arguments, *list, at(std::as_const(components(x0)), b), at(components(d), b));
 }

@@ -74,7 +74,7 @@ bool LineReader::read_more() {
   end_ -= begin_;
   begin_ = 0;
   if (end_ == buffer_.size()) {
-    if (end_ == longest_line) throw std::length_error("the line is longer than 1 MiB");
+    if (end_ == max_line_length) throw std::length_error("the line is longer than 1 MiB");
     buffer_.resize(2 * end_);
   }
   ssize_t count;

@@ -11,7 +11,7 @@ namespace softbody {
 
 class LineReader {
  public:
-  static constexpr std::size_t longest_line = std::size_t{1} << 20;  // bytes; no sensible file has such lines
+  static constexpr std::size_t max_line_length = std::size_t{1} << 20;  // bytes; no sensible file has such lines
 
   /// Throws std::system_error, as next() does, if the file cannot be read.
   explicit LineReader(const std::filesystem::path& file);
@@ -22,7 +22,7 @@ class LineReader {
   /// The next line, without its end (LF, CRLF or CR); false if there is none. The text is valid until the next call. A
   /// line that ends with a backslash goes on in the next one, unless that begins with a letter or #: the joint becomes
   /// spaces. Ctrl-Z and NUL at the end of the file are left out.
-  /// Throws std::length_error if the line is longer than longest_line.
+  /// Throws std::length_error if the line is longer than max_line_length.
   bool next(std::string_view& line);
   /// Of the line that next() gave, or at which it failed: 1 is the first. The first one of lines that were joined.
   std::uint64_t number() const { return number_; }

@@ -22,7 +22,7 @@ namespace {
 /// Finds for each point the first one before it that is no further away than `distance`, by a grid of such cells.
 class Places {
  public:
-  Places(double distance, double least_cell) : distance_(distance), cell_(std::max(distance, least_cell)) {}
+  Places(double distance, double min_cell) : distance_(distance), cell_(std::max(distance, min_cell)) {}
 
   /// The number of the point that this one is at the place of: its own if there is none.
   Index add(const glm::dvec3& point, Index number) {

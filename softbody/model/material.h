@@ -28,7 +28,7 @@ struct Material {
   double friction = 0.5;     // Coulomb, against other bodies
   double restitution = 0;    // 0..1, Newton's, of surface contact between bodies
   double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
-  double contact_stiffness = 100;    // N/m of the shield, summed over one particle's contacts
+  double contact_stiffness = 100;    // N/m of penalty contact, summed over one particle's contacts
   /// Hz with which a lone particle swings about its place in the mesh's own shape (shape_matching.h); 0: springs and
   /// gas alone. Not given: mesh_file_shape_frequency for meshes from files, 0 for others.
   std::optional<double> shape_frequency;

@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 

@@ -18,10 +18,10 @@ struct Particle {
 struct BodyState {
   std::uint32_t number = 0;  // stays the same when bodies before it are removed and ids move up
   glm::dvec3 origin{0.0};    // m; the solver stores the positions of particles relative to it
-  bool held = false;         // in place, until the frame that the scene says
+  bool pinned = false;       // in place, until the frame that the scene says
   bool asleep = false;
   glm::dvec3 solid_impulse{0.0};  // N s, that solids gave to it along their normals in the last step
-  bool moves() const { return !held && !asleep; }
+  bool moves() const { return !pinned && !asleep; }
 };
 
 }  // namespace softbody

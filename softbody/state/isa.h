@@ -8,7 +8,7 @@
 
 namespace softbody {
 
-/// Bodies of one prototype that are solved side by side, one in each SIMD lane.
+/// Bodies of one model that are solved side by side, one in each SIMD lane.
 inline constexpr int lanes = 8;
 
 /// Instruction sets that the inner loops are compiled for. All give the same bits.

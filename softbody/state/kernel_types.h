@@ -31,8 +31,8 @@ struct Extent {
   LaneVector lo, hi;                 // corners of the box round one field's vectors
   alignas(32) float length2[lanes];  // squared length of the longest vector of another
 
-  double longest() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
-  double widest() const {  // of the boxes' diagonals
+  double max_length() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
+  double max_diagonal() const {  // of the boxes' diagonals
     double most = 0;
     for (int l = 0; l < lanes; ++l)
       most =

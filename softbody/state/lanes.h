@@ -1,5 +1,5 @@
 #pragma once
-// Eight bodies of one prototype are solved side by side, one a SIMD lane: value [particle * lanes + lane]. Or one by
+// Eight bodies of one model are solved side by side, one a SIMD lane: value [particle * lanes + lane]. Or one by
 // itself: value [particle]. The same source serves both widths and, by compiler vectors, every instruction set, and
 // gives the same bits on each.
 

@@ -13,11 +13,11 @@ struct RigidMotion {
   glm::dvec3 centre{0.0}, velocity{0.0};
   glm::dvec3 momentum{0.0};  // angular, about the centre, for particles of mass 1
   glm::dmat3 inertia{0.0};   // likewise
-  bool turns = false;        // false: a line or a point, which has no spin
+  bool can_rotate = false;   // false: a line or a point, which has no spin
   glm::dvec3 spin{0.0};      // rad/s
 
   glm::dvec3 spin_of(const glm::dvec3& angular) const {
-    return turns ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
+    return can_rotate ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
   }
   /// Nearly that, but little about an axis to which all particles are so near that what swings there looks like a spin.
   glm::dvec3 steady_spin_of(const glm::dvec3& angular) const {
@@ -57,7 +57,7 @@ RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity
     m.momentum += glm::cross(r, velocity(i) - m.velocity);
     m.inertia += glm::dmat3(glm::dot(r, r)) - glm::outerProduct(r, r);
   }
-  m.turns = glm::determinant(m.inertia) > 1e-12 * m.inertia[0][0] * m.inertia[1][1] * m.inertia[2][2];
+  m.can_rotate = glm::determinant(m.inertia) > 1e-12 * m.inertia[0][0] * m.inertia[1][1] * m.inertia[2][2];
   m.spin = m.spin_of(m.momentum);
   return m;
 }

@@ -7,25 +7,25 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/deformation.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
 namespace {
 
 /// Of a body with its particles at x: what it is bent, stretched and blown up by.
-Energy deformation(const Prototype& p, const std::vector<glm::dvec3>& x, double volume) {
+Energy deformation(const BodyModel& p, const std::vector<glm::dvec3>& x, double volume) {
   Energy energy;
   energy.elastic = elastic_energy(p, x);
   if (p.has_gas) energy.gas = p.gas.energy(volume);
   return energy;
 }
 
-double volume_of(const Prototype& p, const std::vector<glm::dvec3>& x) {
+double volume_of(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   return p.mesh.closed ? enclosed_volume(p, x) : 0;
 }
 
-double largest_strain(const Prototype& p, const std::vector<glm::dvec3>& x) {
+double largest_strain(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   double most = 0;
   for (const auto* springs : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *springs)
@@ -35,7 +35,7 @@ double largest_strain(const Prototype& p, const std::vector<glm::dvec3>& x) {
 
 /// BodyMeasures::staggering, of a body whose deformation holds so many J now.
 double staggering(const World& world, BodyId id, double substep, double deformation_now) {
-  const Prototype& p = world.prototype(id);
+  const BodyModel& p = world.model(id);
   std::vector<glm::dvec3> middle, before;  // of the last substep
   double sum = 0;
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
@@ -59,7 +59,7 @@ Energy& Energy::operator+=(const Energy& other) {
 }
 
 BodyMeasures measure(const World& world, BodyId id, double substep) {
-  const Prototype& p = world.prototype(id);
+  const BodyModel& p = world.model(id);
   const Scene& scene = world.scene();
   BodyMeasures m;
   double kinetic = 0, gravity = 0;
@@ -87,7 +87,7 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   return m;
 }
 
-Energy starting_energy(const Prototype& p) { return deformation(p, p.start, p.start_volume); }
+Energy starting_energy(const BodyModel& p) { return deformation(p, p.start, p.start_volume); }
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};
@@ -128,7 +128,7 @@ std::vector<SolidContact> solid_contacts(const World& world) {
   const collide::Frame p = world.positions();
   for (Index i = 0; i < p.x.size(); ++i) {
     const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
-    const double distance = world.prototype(world.vertex_body()[i]).material.thickness + rounding;
+    const double distance = world.model(world.vertex_body()[i]).material.thickness + rounding;
     if (d.depth > -distance) contacts.push_back({i, d.normal});
   }
   return contacts;

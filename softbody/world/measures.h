@@ -37,7 +37,7 @@ BodyMeasures measure(const World& world, BodyId body, double substep = 0);
 std::vector<BodyMeasures> measure_bodies(const World& world, double substep = 0);
 
 /// Returns the deformation energy of a body's starting shape. It is the smallest one if the body starts in equilibrium.
-Energy starting_energy(const Prototype& prototype);
+Energy starting_energy(const BodyModel& model);
 
 struct Measures {
   double energy = 0;                                  // J: the total of `energies`

@@ -8,15 +8,16 @@ namespace softbody {
 void Sleep::wake_touched(Dynamics& dynamics, std::span<const BodyId> vertex_body,
                          const std::vector<collide::Contact>& contacts) const {
   const auto wakes = [&](BodyId by, BodyId sleeper) {
-    return dynamics.body(sleeper).asleep && dynamics.body(by).moves() && dynamics.fastest(by) > 2 * rule_.speed;
+    return dynamics.body(sleeper).asleep && dynamics.body(by).moves() &&
+           dynamics.max_particle_speed(by) > 2 * rule_.speed;
   };
   BodyId last_a = std::numeric_limits<BodyId>::max(), last_b = last_a;
   for (const collide::Contact& c : contacts) {
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     if (a == b || (a == last_a && b == last_b)) continue;
     last_a = a, last_b = b;
-    if (wakes(a, b)) dynamics.put_to_sleep(b, false);
-    if (wakes(b, a)) dynamics.put_to_sleep(a, false);
+    if (wakes(a, b)) dynamics.set_asleep(b, false);
+    if (wakes(b, a)) dynamics.set_asleep(a, false);
   }
 }
 
@@ -34,15 +35,15 @@ void Sleep::settle(Dynamics& dynamics, std::span<const BodyId> vertex_body,
     if (a != b && dynamics.body(a).moves() && dynamics.body(b).moves()) parent_[root(a)] = root(b);
   };
   for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
-  for (const collide::surface::ItemPair& pair : dynamics.surface_contact().touching()) join(pair.a, pair.b);
+  for (const collide::surface::ItemPair& pair : dynamics.surface_contact().interactions()) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: its least calm body
   for (BodyId b = 0; b < count; ++b) {
     if (!dynamics.body(b).moves()) continue;
-    dynamics.set_calm_frames(b, dynamics.fastest(b) < rule_.speed ? dynamics.body(b).calm_frames + 1 : 0);
+    dynamics.set_calm_frames(b, dynamics.max_particle_speed(b) < rule_.speed ? dynamics.body(b).calm_frames + 1 : 0);
     calm[root(b)] = std::min(calm[root(b)], dynamics.body(b).calm_frames);
   }
   for (BodyId b = 0; b < count; ++b)
-    if (dynamics.body(b).moves() && calm[root(b)] >= rule_.frames) dynamics.put_to_sleep(b, true);
+    if (dynamics.body(b).moves() && calm[root(b)] >= rule_.frames) dynamics.set_asleep(b, true);
 }
 
 }  // namespace softbody

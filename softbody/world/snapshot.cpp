@@ -7,7 +7,7 @@
 namespace softbody {
 
 std::size_t Snapshot::bytes() const {
-  const Insides& all = *insides;
+  const Values& all = *values;
   return sizeof(*this) + sizeof(all) + bytes_of(all.scene.bodies) + bytes_of(all.arrived) + bytes_of(all.added) +
          all.dynamics.bytes();
 }
@@ -16,33 +16,33 @@ Snapshot World::snapshot() const {
   const State& s = *state_;
   return {.frame = s.frame,
           .grab = grabbed(),
-          .insides = std::make_shared<const Snapshot::Insides>(Snapshot::Insides{.scene = s.scene,
-                                                                                 .prototypes = s.prototypes,
-                                                                                 .dynamics = s.dynamics.save(),
-                                                                                 .arrived = s.arrived,
-                                                                                 .visitors = s.visitors,
-                                                                                 .added = s.added,
-                                                                                 .drops = s.drops,
-                                                                                 .drop_direction = s.drop_direction,
-                                                                                 .integrator = s.options.integrator,
-                                                                                 .method = s.method,
-                                                                                 .settings = s.settings,
-                                                                                 .shield = s.shield,
-                                                                                 .report = s.report})};
+          .values = std::make_shared<const Snapshot::Values>(Snapshot::Values{.scene = s.scene,
+                                                                              .models = s.models,
+                                                                              .dynamics = s.dynamics.save(),
+                                                                              .arrived = s.arrived,
+                                                                              .added_bodies = s.added_bodies,
+                                                                              .added = s.added,
+                                                                              .drops = s.drops,
+                                                                              .drop_direction = s.drop_direction,
+                                                                              .integrator = s.options.integrator,
+                                                                              .method = s.method,
+                                                                              .settings = s.settings,
+                                                                              .penalty_thickness = s.penalty_thickness,
+                                                                              .report = s.report})};
 }
 
 void World::restore(const Snapshot& snapshot) {
-  assert(snapshot.insides);
+  assert(snapshot.values);
   State& s = *state_;
-  const Snapshot::Insides& from = *snapshot.insides;
+  const Snapshot::Values& from = *snapshot.values;
   s.scene = from.scene;
-  s.prototypes = from.prototypes;
-  s.visitors = from.visitors;
+  s.models = from.models;
+  s.added_bodies = from.added_bodies;
   s.added = from.added;
   s.sleep = Sleep(s.scene.sleep);
   s.options.integrator = from.integrator;
   s.report = from.report;
-  s.replan();
+  s.update_plan();
   s.set_integrator();  // unchecked: what it has come to since would not be accepted from a scene any more
   s.dynamics.restore(from.dynamics);
   s.dynamics.grab(snapshot.grab);
@@ -51,11 +51,11 @@ void World::restore(const Snapshot& snapshot) {
   s.drop_direction = from.drop_direction;
   s.frame = snapshot.frame;
   s.settings = from.settings;
-  s.shield = from.shield;
+  s.penalty_thickness = from.penalty_thickness;
   s.method = from.method;
   s.detector = s.method->make();  // what it remembers is of another state
   s.count_vertices();
-  s.gather();
+  s.update_positions();
   s.detect();
 }
 
@@ -64,7 +64,7 @@ void World::State::count_vertices() {
   bodies = {};
   vertex_body.clear();
   for (BodyId id = 0; id < dynamics.body_count(); ++id) {
-    bodies.add(dynamics.prototype(id).shape);
+    bodies.add(dynamics.model(id).shape);
     vertex_body.resize(bodies.vertex_count(), id);
   }
 }

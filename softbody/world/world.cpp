@@ -19,10 +19,10 @@ double ms_since(Clock::time_point start) {
 }
 
 /// The default cell size is that of the bodies at rest, whatever they look like later.
-glm::vec3 rest_cell_size(const PrototypeSet& prototypes, const collide::Settings& settings) {
+glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& settings) {
   collide::Bodies bodies;
   Coordinates rest;
-  for (const auto& p : prototypes.all()) {
+  for (const auto& p : models.all()) {
     bodies.add(p->shape);
     for (const glm::dvec3& v : p->start) rest.add(glm::vec3(v));
   }
@@ -35,41 +35,41 @@ World::State::State(Scene s, const Options& o)
     : scene(std::move(s)),
       options(o),
       workers(o.threads),
-      prototypes(scene),
-      plan(make_plan(scene, prototypes.all())),
+      models(scene),
+      plan(make_plan(scene, models.all())),
       dynamics(scene, Crew(workers, o.min_shared_particles), o.isa),
       sleep(scene.sleep),
       arrived(scene.bodies.size(), false),
       method(collide::find_method(scene.method)),
       detector(method->make()),
       settings(scene.collision),
-      shield(settings.tolerance) {
+      penalty_thickness(settings.tolerance) {
   dynamics.set_max_work(options.max_work);
   dynamics.set_vertices(bodies);
   dynamics.set_plan(plan);
-  check_stability(prototypes, plan);
+  check_stability(models, plan);
   set_integrator();
-  if (scene.default_cell_size) settings.cell_size = rest_cell_size(prototypes, settings);
+  if (scene.default_cell_size) settings.cell_size = rest_cell_size(models, settings);
   arrive();
-  gather();
+  update_positions();
   detect();
 }
 
-/// Those that a frame of a moving body needs if the shield is so thick (m).
-double World::State::substeps(const Prototype& p, float thickness) const {
-  double most_friction = 0;
-  for (const Material& m : scene.materials) most_friction = std::max(most_friction, m.friction);
+/// Returns the substeps that one frame needs for a contact layer of `thickness` (m).
+double World::State::needed_substeps(const BodyModel& p, float thickness) const {
+  double max_friction = 0;
+  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m.friction);
   const auto contact = float(p.material.contact_stiffness);
-  const auto friction = float(law::common_friction(p.material.friction, most_friction));
+  const auto friction = float(law::common_friction(p.material.friction, max_friction));
   const double k =
-      stiffness_per_mass(p, measure_surface(p, p.start)) + Shield::stiffness_bound(contact) / p.particle_mass;
-  const double own = p.spring_damping_bound, all = own + Shield::damping_bound(contact, friction, thickness);
+      stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
+  const double own = p.spring_damping_bound, all = own + PenaltyContact::damping_bound(contact, friction, thickness);
   const auto stable_step = options.integrator.integrator().stable_step;
   return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }
 
 /// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
-bool World::State::implicit_in_reserve(const PrototypeSet& all, const Plan& with) const {
+bool World::State::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
   return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
          std::all_of(all.all().begin(), all.all().end(),
                      [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
@@ -80,30 +80,31 @@ void World::State::set_integrator() {
   report.integrator = &options.integrator.integrator();
   report.why = {};
   dynamics.set_integrator(*report.integrator);
-  dynamics.set_substeps(options.integrator.substeps);
+  dynamics.set_fixed_substeps(options.integrator.substeps);
 }
 
 /// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.
-void World::State::check_stability(const PrototypeSet& all, const Plan& with) const {
+void World::State::check_stability(const BodyModelSet& all, const Plan& with) const {
   const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
   for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
 }
 
-void World::State::check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const {
+void World::State::check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const {
   const auto particles = p.mesh.vertices.size();
   if (options.integrator.integrator().implicit && particles > max_implicit_particles)
     throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
                      " vertices has too large a matrix for implicit steps (at most " +
                      std::to_string(max_implicit_particles) + " vertices); choose another integrator");
   if (options.integrator.substeps) return;
-  const double steps = substeps(p, contacts ? shield : 0);
+  const double steps = needed_substeps(p, contacts ? penalty_thickness : 0);
   if (steps <= max_substeps) return;
-  const bool wide = contacts && substeps(p, 0) <= max_substeps;  // a thin shield would do: it is the tolerance's fault
+  const bool wide =
+      contacts && needed_substeps(p, 0) <= max_substeps;  // a thin contact layer would do: it is the tolerance's fault
   if (!wide && implicit_in_reserve) return;
   std::ostringstream text;
   text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
   if (wide)
-    text << "a tolerance of " << shield << " m damps contacts so strongly";
+    text << "a tolerance of " << penalty_thickness << " m damps contacts so strongly";
   else
     text << "so stiff for its mass";
   text << " that a frame would take " << std::llround(std::min(steps, 1e15)) << " substeps (at most " << max_substeps
@@ -112,9 +113,9 @@ void World::State::check_stability(const Prototype& p, bool implicit_in_reserve,
 }
 
 BodyId World::State::add(const BodySource& source, const glm::dvec3& position) {
-  const auto& prototype = prototypes.of(source);
-  const BodyId id = dynamics.add(prototype, position, source.velocity);
-  bodies.add(prototype->shape);
+  const auto& model = models.of(source);
+  const BodyId id = dynamics.add(model, position, source.velocity);
+  bodies.add(model->shape);
   vertex_body.resize(bodies.vertex_count(), id);
   return id;
 }
@@ -125,13 +126,13 @@ void World::State::arrive() {
     if (arrived[i] || source.appear > frame) continue;
     arrived[i] = true;
     add(source, source.position);
-    if (source.release > frame) dynamics.hold(bodies.count() - 1, true, source.release);
+    if (source.release > frame) dynamics.pin_body(bodies.count() - 1, true, source.release);
   }
   for (BodyId b = 0; b < bodies.count(); ++b)
-    if (dynamics.body(b).held && dynamics.body(b).release <= frame) dynamics.hold(b, false, 0);
+    if (dynamics.body(b).pinned && dynamics.body(b).release <= frame) dynamics.pin_body(b, false, 0);
 }
 
-void World::State::gather() {
+void World::State::update_positions() {
   const std::size_t n = bodies.vertex_count();
   positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
   dynamics.world_positions(positions.x, positions.y, positions.z);
@@ -148,7 +149,7 @@ void World::State::detect() {
 
 void World::State::wake_all() {
   for (BodyId b = 0; b < bodies.count(); ++b)
-    if (dynamics.body(b).asleep) dynamics.put_to_sleep(b, false);
+    if (dynamics.body(b).asleep) dynamics.set_asleep(b, false);
 }
 
 World::World(Scene scene, const Options& options) : state_(new State(std::move(scene), options)) {}
@@ -158,22 +159,23 @@ void World::step(const std::function<void()>& after_substep) {
   State& s = *state_;
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
-  if (const auto& grab = grabbed()) s.dynamics.put_to_sleep(grab->body, false);  // nor does it fall asleep meanwhile
+  if (const auto& grab = grabbed()) s.dynamics.set_asleep(grab->body, false);  // nor does it fall asleep meanwhile
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
-  const float thickness = s.shield;
+  const float thickness = s.penalty_thickness;
   if (s.plan.has(Stage::contact_response)) {
-    s.shield = std::min(s.settings.tolerance, s.shield + float(0.05 * s.options.frame_time));  // 5 cm/s
-    s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+    s.penalty_thickness =
+        std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.options.frame_time));  // 5 cm/s
+    s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
   const auto look = [&] {
     const auto from = Clock::now();
-    s.gather();
+    s.update_positions();
     after_substep();
     looking_ms += ms_since(from);
   };
-  const Advance done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
+  const FrameResult done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
   s.dynamics.finish_frame(done.seconds);
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
@@ -181,15 +183,17 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.last_substep = s.dynamics.last_substep();
   s.report.integrator = &s.dynamics.used_integrator();
   s.report.why = s.dynamics.why_integrator();
-  s.report.adds_energy = s.dynamics.surface_contact().gives_energy();
+  s.report.adds_energy = s.dynamics.surface_contact().adds_energy();
   const bool whole = done.seconds == s.options.frame_time;
-  if (!whole) s.shield = std::min(s.shield, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
-  s.gather();
+  if (!whole)
+    s.penalty_thickness =
+        std::min(s.penalty_thickness, thickness + float(0.05 * done.seconds));  // it grows with time, not frames
+  s.update_positions();
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool shield_grows =
-      s.plan.has(Stage::contact_response) && s.shield < s.settings.tolerance;  // slow, but nobody sleeps over it
-  if (s.plan.has(Stage::sleep) && whole && !shield_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  const bool penalty_grows = s.plan.has(Stage::contact_response) &&
+                             s.penalty_thickness < s.settings.tolerance;  // slow, but nobody sleeps over it
+  if (s.plan.has(Stage::sleep) && whole && !penalty_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 
@@ -198,7 +202,7 @@ void World::set_particles(BodyId body, std::span<const Particle> particles) {
   assert(particles.size() == s.bodies.size(body));
   s.dynamics.set_particles(body, particles);
   s.wake_all();
-  s.gather();
+  s.update_positions();
   s.detect();
 }
 
@@ -224,7 +228,7 @@ void World::set_integrator(const IntegratorChoice& choice) {
   const IntegratorChoice before = s.options.integrator;
   s.options.integrator = choice;
   try {
-    s.check_stability(s.prototypes, s.plan);
+    s.check_stability(s.models, s.plan);
   } catch (const SceneError&) {
     s.options.integrator = before;
     throw;
@@ -240,8 +244,8 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
   assert(collide::problem(settings).empty());
   s.settings = s.scene.collision = settings;
   s.scene.default_cell_size = default_cell_size;
-  s.replan();  // self-collision decides whether a lone body needs detection
-  if (default_cell_size) s.settings.cell_size = rest_cell_size(s.prototypes, settings);
+  s.update_plan();  // self-collision decides whether a lone body needs detection
+  if (default_cell_size) s.settings.cell_size = rest_cell_size(s.models, settings);
   s.wake_all();
   s.detect();
 }
@@ -249,46 +253,46 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
 void World::set_contact_surface(ContactSurface surface) {
   State& s = *state_;
   const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
-  s.replan();
+  s.update_plan();
   try {  // for surfaces there are no implicit steps in reserve
-    s.check_stability(s.prototypes, s.plan);
+    s.check_stability(s.models, s.plan);
   } catch (const SceneError&) {
     s.scene.contact_surface = before;
-    s.replan();
+    s.update_plan();
     throw;
   }
-  // Surfaces come closer than the tolerance: the shield grows from nothing, or it would throw the bodies apart.
-  if (surface == ContactSurface::surfaces && s.frame > 0) s.shield = 0;
+  // Surfaces come closer than the tolerance: the contact layer grows from nothing, or it would throw the bodies apart.
+  if (surface == ContactSurface::surfaces && s.frame > 0) s.penalty_thickness = 0;
   s.wake_all();
 }
 
 const collide::Bodies& World::bodies() const { return state_->bodies; }
 collide::Frame World::positions() const { return state_->positions.frame(state_->bodies); }
-const Prototype& World::prototype(BodyId body) const { return state_->dynamics.prototype(body); }
+const BodyModel& World::model(BodyId body) const { return state_->dynamics.model(body); }
 Particle World::particle(BodyId body, Index vertex) const { return state_->dynamics.particle(body, vertex); }
 const collide::Result& World::detection() const { return state_->result; }
 const collide::Detector& World::detector() const { return *state_->detector; }
 std::span<const BodyId> World::vertex_body() const { return state_->vertex_body; }
-int World::needed_substeps() const { return state_->dynamics.substeps(state_->options.frame_time); }
+int World::needed_substeps() const { return state_->dynamics.needed_substeps(state_->options.frame_time); }
 std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
 const StepReport& World::last_step() const { return state_->report; }
 
 BodyState World::body(BodyId body) const {
   const Dynamics& dynamics = state_->dynamics;
   const Body& b = dynamics.body(body);
-  return {b.number, b.origin, b.held, b.asleep, dynamics.solid_impulse(body)};
+  return {b.number, b.origin, b.pinned, b.asleep, dynamics.solid_impulse(body)};
 }
 
 PairEnergies World::pair_energies() const {
   const State& s = *state_;
-  PairEnergies energies{.last = s.dynamics.shield_energies(), .next = {}};
+  PairEnergies energies{.last = s.dynamics.penalty_energies(), .next = {}};
   if (s.plan.has(Stage::contact_response))
-    energies.next = s.dynamics.shield_energies({s.bodies, s.vertex_body, s.result.contacts}, s.shield);
+    energies.next = s.dynamics.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   return energies;
 }
 
 std::vector<SurfaceContactPoint> World::surface_contacts() const {
-  return state_->dynamics.surface_contact().touches(state_->bodies);
+  return state_->dynamics.surface_contact().contact_points(state_->bodies);
 }
 
 bool World::all_at_rest() const {

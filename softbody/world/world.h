@@ -23,7 +23,7 @@
 
 namespace softbody {
 
-struct Prototype;
+struct BodyModel;
 struct Snapshot;
 
 /// What the last step did. Before the first step all numbers but detect_ms are 0.
@@ -120,7 +120,7 @@ class World {
   collide::Frame positions() const;             // in the world, valid until the next change
   Particle particle(BodyId body, Index vertex) const;
   BodyState body(BodyId body) const;
-  const Prototype& prototype(BodyId body) const;
+  const BodyModel& model(BodyId body) const;
   const collide::Result& detection() const;   // at positions()
   const collide::Detector& detector() const;  // for its debug()
   bool all_at_rest() const;                   // all bodies are asleep, and none is still to come
@@ -133,7 +133,7 @@ class World {
   std::vector<SurfaceContactPoint> surface_contacts() const;  // while all bodies sleep: of the last substep before
 
  private:
-  friend struct WorldInsides;  // for tests of the solver
+  friend struct WorldTestAccess;  // for tests of the solver
   struct State;
   struct DeleteState {
     void operator()(State* state) const;

@@ -15,13 +15,13 @@
 
 namespace softbody {
 
-void World::State::replan() {
-  plan = make_plan(scene, prototypes.all(), visitors);
+void World::State::update_plan() {
+  plan = make_plan(scene, models.all(), added_bodies);
   dynamics.set_plan(plan);
 }
 
 /// For so many more bodies.
-void World::State::check_room(const Prototype& p, std::size_t number) const {
+void World::State::check_capacity(const BodyModel& p, std::size_t number) const {
   const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
   if (particles <= max_particles) return;
   throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
@@ -31,21 +31,21 @@ void World::State::check_room(const Prototype& p, std::size_t number) const {
 
 /// Throws SceneError if so many more must not come: two bodies touch, and for their surfaces a stiff one has no
 /// implicit steps in reserve, which alone it had.
-void World::State::check_company(const PrototypeSet& all, std::size_t number) const {
-  Visitors more = visitors;
+void World::State::check_stability_with(const BodyModelSet& all, std::size_t number) const {
+  AddedBodies more = added_bodies;
   more.bodies += number;
   check_stability(all, make_plan(scene, all.all(), more));
 }
 
-void World::State::joined(std::size_t number) {
-  visitors.bodies += number;
-  replan();
-  gather();
+void World::State::bodies_added(std::size_t number) {
+  added_bodies.bodies += number;
+  update_plan();
+  update_positions();
   detect();
 }
 
 /// The height at which a body dropped at `position` is clear of all others.
-double World::State::clear_height(const Prototype& p, const glm::dvec3& position) const {
+double World::State::clear_height(const BodyModel& p, const glm::dvec3& position) const {
   double height = position.y;
   const double clear = 1.3 * p.radius + settings.tolerance;
   for (Index i = 0; i < bodies.vertex_count(); ++i)
@@ -61,9 +61,9 @@ void World::State::drop(const Dropper& dropper) {
   drop_direction = {-0.7373688780783197 * c - 0.6754902942615238 * n, 0.6754902942615238 * c - 0.7373688780783197 * n};
   BodySource source = dropper.body;
   source.position += distance * glm::dvec3(c, 0, n);
-  source.position.y = clear_height(*prototypes.of(source), source.position);
+  source.position.y = clear_height(*models.of(source), source.position);
   spawn(std::move(source));
-  gather();
+  update_positions();
 }
 
 BodyId World::State::spawn(BodySource source) {
@@ -77,7 +77,7 @@ BodyId World::State::spawn(BodySource source) {
 Dropper World::State::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
 
 /// Whether a new body at `position` would be outside all solids, and no vertex of another within its box.
-bool World::State::is_clear(const Prototype& p, const glm::dvec3& position) const {
+bool World::State::is_clear(const BodyModel& p, const glm::dvec3& position) const {
   glm::dvec3 lo = p.start.front(), hi = lo;
   for (const glm::dvec3& v : p.start) {
     if (solid_depth(scene, position + v).depth > -p.material.thickness) return false;
@@ -94,12 +94,12 @@ bool World::State::is_clear(const Prototype& p, const glm::dvec3& position) cons
 std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3& velocity) {
   State& s = *state_;
   BodySource source = s.dropper().body;
-  const Prototype& p = *s.prototypes.of(source);
+  const BodyModel& p = *s.models.of(source);
   const double pace = std::min(p.radius, 0.5);  // m
-  constexpr int most_paces = 20;
+  constexpr int max_paces = 20;
   assert(velocity != glm::dvec3(0.0));
   const glm::dvec3 gravity = s.scene.gravity;
-  for (int i = 2; i < most_paces; ++i) {
+  for (int i = 2; i < max_paces; ++i) {
     const double time = i * pace / glm::length(velocity);
     source.position = from + time * velocity + 0.5 * time * time * gravity;
     source.velocity = velocity + time * gravity;
@@ -127,24 +127,24 @@ std::vector<BodySource> body_sources(const World& world) {
 
 BodyId World::drop(int count) {
   State& s = *state_;
-  s.check_company(s.prototypes, std::size_t(count));
+  s.check_stability_with(s.models, std::size_t(count));
   Dropper dropper = s.dropper();
-  s.check_room(*s.prototypes.of(dropper.body), std::size_t(count));
+  s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
   // Many would pile up to a tower: they fall side by side.
-  if (count > 1) dropper.spread = std::max(dropper.spread, 4 * s.prototypes.of(dropper.body)->radius);
+  if (count > 1) dropper.spread = std::max(dropper.spread, 4 * s.models.of(dropper.body)->radius);
   for (int i = 0; i < count; ++i) s.drop(dropper);
-  s.joined(std::size_t(count));
+  s.bodies_added(std::size_t(count));
   return s.bodies.count() - 1;
 }
 
 BodyId World::add(const BodySource& source) {
   State& s = *state_;
-  PrototypeSet more = s.prototypes;
-  s.check_room(*more.add(source, s.scene.materials), 1);
-  s.check_company(more, 1);
-  s.prototypes = std::move(more);
+  BodyModelSet more = s.models;
+  s.check_capacity(*more.add(source, s.scene.materials), 1);
+  s.check_stability_with(more, 1);
+  s.models = std::move(more);
   const BodyId id = s.spawn(source);
-  s.joined(1);
+  s.bodies_added(1);
   return id;
 }
 
@@ -159,13 +159,13 @@ void World::State::wake_near(BodyId body) {
     }
     return std::pair(lo, hi);
   };
-  const float reach = std::max(settings.tolerance, 0.25f * float(dynamics.prototype(body).mean_edge));
+  const float wake_distance = std::max(settings.tolerance, 0.25f * float(dynamics.model(body).mean_edge));
   const auto [lo, hi] = box(body);
   for (BodyId b = 0; b < bodies.count(); ++b) {
     if (!dynamics.body(b).asleep) continue;
     const auto [low, high] = box(b);
-    if (glm::all(glm::lessThan(low, hi + reach)) && glm::all(glm::lessThan(lo, high + reach)))
-      dynamics.put_to_sleep(b, false);
+    if (glm::all(glm::lessThan(low, hi + wake_distance)) && glm::all(glm::lessThan(lo, high + wake_distance)))
+      dynamics.set_asleep(b, false);
   }
 }
 
@@ -176,9 +176,9 @@ void World::remove(BodyId body) {
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
   for (AddedBody& one : s.added) one.body -= one.body > body;
   s.count_vertices();
-  s.visitors.grabs = s.dynamics.grabbed().has_value();
-  s.replan();
-  s.gather();
+  s.added_bodies.grabs = s.dynamics.grabbed().has_value();
+  s.update_plan();
+  s.update_positions();
   s.detector->forget();
   s.detect();
 }
@@ -186,17 +186,17 @@ void World::remove(BodyId body) {
 void World::grab(const std::optional<Grab>& grab) {
   State& s = *state_;
   assert(!grab || grab->body < s.bodies.count());
-  if (grab) s.dynamics.hold(grab->body, false, 0);
+  if (grab) s.dynamics.pin_body(grab->body, false, 0);
   s.dynamics.grab(grab);
-  s.visitors.grabs = grab.has_value();
-  s.replan();
+  s.added_bodies.grabs = grab.has_value();
+  s.update_plan();
 }
 
 const std::optional<Grab>& World::grabbed() const { return state_->dynamics.grabbed(); }
 
 void World::set_gravity(const glm::dvec3& gravity) {
   state_->scene.gravity = gravity;
-  state_->replan();
+  state_->update_plan();
   state_->wake_all();
 }
 
@@ -207,16 +207,16 @@ void World::set_material(std::size_t index, const Material& material) {
     s.scene.materials.push_back(material);
     return;
   }
-  PrototypeSet changed = s.prototypes;
+  BodyModelSet changed = s.models;
   changed.set_material(int(index), material);
   s.check_stability(changed, s.plan);
   for (std::size_t i = 0; i < changed.all().size(); ++i) {
-    const auto &from = s.prototypes.all()[i], &to = changed.all()[i];
+    const auto &from = s.models.all()[i], &to = changed.all()[i];
     if (from != to) s.dynamics.replace(from, to);
   }
-  s.prototypes = std::move(changed);
+  s.models = std::move(changed);
   s.scene.materials[index] = material;
-  s.replan();
+  s.update_plan();
   s.wake_all();
 }
 
@@ -227,7 +227,7 @@ void World::set_solids(const Scene& from) {
   to.boxes = from.boxes;
   to.capsules = from.capsules;
   to.ground = from.ground;
-  state_->replan();
+  state_->update_plan();
   state_->wake_all();
 }
 

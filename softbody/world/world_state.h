@@ -2,7 +2,7 @@
 // What a world is made of, for the files that implement World. Only they and tests of the solver include this.
 
 #include "softbody/integrate/dynamics.h"
-#include "softbody/world/prototype_set.h"
+#include "softbody/world/body_model_set.h"
 #include "softbody/world/sleep.h"
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
@@ -26,34 +26,34 @@ struct World::State {
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
   void count_vertices();
-  void gather();
+  void update_positions();
   void detect();
   void wake_all();
   void set_integrator();
   void wake_near(BodyId body);
-  void replan();
-  bool implicit_in_reserve(const PrototypeSet& all, const Plan& with) const;
-  double substeps(const Prototype& p, float thickness) const;
-  void check_room(const Prototype& p, std::size_t number) const;
-  void check_stability(const PrototypeSet& all, const Plan& with) const;
-  void check_stability(const Prototype& p, bool implicit_in_reserve, bool contacts) const;
-  void check_company(const PrototypeSet& all, std::size_t number) const;
-  void joined(std::size_t number);  // bodies, by hand
-  Dropper dropper() const;          // the scene's, or one over its first body
+  void update_plan();
+  bool implicit_in_reserve(const BodyModelSet& all, const Plan& with) const;
+  double needed_substeps(const BodyModel& p, float thickness) const;
+  void check_capacity(const BodyModel& p, std::size_t number) const;
+  void check_stability(const BodyModelSet& all, const Plan& with) const;
+  void check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const;
+  void check_stability_with(const BodyModelSet& all, std::size_t number) const;
+  void bodies_added(std::size_t number);  // bodies, by hand
+  Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);
   BodyId spawn(BodySource source);
-  bool is_clear(const Prototype& p, const glm::dvec3& position) const;
-  double clear_height(const Prototype& p, const glm::dvec3& position) const;
+  bool is_clear(const BodyModel& p, const glm::dvec3& position) const;
+  double clear_height(const BodyModel& p, const glm::dvec3& position) const;
 
   Scene scene;
   Options options;
   collide::Workers workers;
-  PrototypeSet prototypes;
+  BodyModelSet models;
   Plan plan;
   Dynamics dynamics;
   Sleep sleep;
   std::vector<char> arrived;  // one a body source of the scene
-  Visitors visitors;
+  AddedBodies added_bodies;
   std::vector<AddedBody> added;
   int drops = 0;
   std::array<double, 2> drop_direction{1, 0};  // x and z
@@ -62,8 +62,8 @@ struct World::State {
   const collide::Method* method;
   std::unique_ptr<collide::Detector> detector;
   collide::Settings settings;
-  float shield;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider throws bodies
-                 // about
+  float penalty_thickness;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider
+                            // throws bodies about
 
   collide::Bodies bodies;
   std::vector<BodyId> vertex_body;
@@ -72,19 +72,19 @@ struct World::State {
   StepReport report;
 };
 
-struct Snapshot::Insides {
+struct Snapshot::Values {
   Scene scene;  // with all changes
-  PrototypeSet prototypes;
+  BodyModelSet models;
   DynamicsState dynamics;
   std::vector<char> arrived;
-  Visitors visitors;
+  AddedBodies added_bodies;
   std::vector<AddedBody> added;
   int drops = 0;
   std::array<double, 2> drop_direction{};
   IntegratorChoice integrator;
   const collide::Method* method = nullptr;
   collide::Settings settings;
-  float shield = 0;  // m, how thick it has grown
+  float penalty_thickness = 0;  // m, how thick it has grown
   StepReport report;
 };
 

@@ -5,7 +5,7 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -33,7 +33,7 @@ TEST(BlowUpMonitor, ReportsABodyThatIsNotFinite) {
 TEST(BlowUpMonitor, ReportsABodyThatGainsEnergyFromNothing) {
   const softbody::World world = pair_after(1);
   auto bodies = softbody::measure_bodies(world);
-  const double weight = 9.81 * world.prototype(0).radius;  // J: m g R of one body of 1 kg
+  const double weight = 9.81 * world.model(0).radius;  // J: m g R of one body of 1 kg
   session::BlowUpMonitor monitor;
   EXPECT_FALSE(monitor.check(world, bodies));
   bodies[1].energy.elastic += 0.1 * weight;
@@ -137,7 +137,7 @@ TEST(BlowUpMonitor, AcceptsABodyPushedOutOfASolidButNotForEver) {
     ASSERT_FALSE(blow_up) << "frame " << frame << ": " << blow_up->what;
     most = std::max(most, softbody::measure(world).energy);
   }
-  EXPECT_GT(most, start + 9.81 * world.prototype(0).radius)
+  EXPECT_GT(most, start + 9.81 * world.model(0).radius)
       << "pushed out with ten times the gain that is a blow-up elsewhere";
   ASSERT_FALSE(look());
   auto bodies = softbody::measure_bodies(world, world.last_step().last_substep);

@@ -7,7 +7,7 @@
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
 #include "softbody/mesh/limits.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
 #include "tests/temporary_folder.h"
 
@@ -59,7 +59,7 @@ TEST(BodyControls, RefuseAThrowWithoutRoom) {
 TEST(BodyControls, DoNotPauseAtADropThatIsRefused) {
   session::Simulation simulation(touching_pair(), 1);
   session::BodyControls bodies(simulation);
-  bodies.drop(1 + static_cast<int>(softbody::max_particles / simulation.world().prototype(0).mesh.vertices.size()));
+  bodies.drop(1 + static_cast<int>(softbody::max_particles / simulation.world().model(0).mesh.vertices.size()));
   EXPECT_NE(simulation.notice.text().find("no room"), std::string::npos) << simulation.notice.text();
   EXPECT_EQ(simulation.world().bodies().count(), 2u);
   EXPECT_FALSE(simulation.clock.paused);

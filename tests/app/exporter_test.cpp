@@ -11,7 +11,7 @@
 
 #include "app/files/obj_reader.h"
 #include "app/session/export/exporter.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -218,7 +218,7 @@ TEST_F(ExporterTest, WritesMotionThatReadsBackAsTheSameBodies) {
       names(folder.path() / "motion_0001"),
       (std::set<std::string>{"frame_00001.obj", "frame_00002.obj", "frame_00003.obj", "frame_00004.obj", "rest.obj"}));
   EXPECT_EQ(names(folder.path() / "motion_0002").size(), 3u) << "another body needs another folder";
-  const softbody::Mesh& mesh = session.world().prototype(0).mesh;
+  const softbody::Mesh& mesh = session.world().model(0).mesh;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const files::ObjBodies file =
         files::read_obj(folder.path() / "motion_0001" / ("frame_0000" + std::to_string(i + 1) + ".obj"));

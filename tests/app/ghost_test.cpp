@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/resources.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
 #include "tests/app/panel_rig.h"
 
@@ -45,7 +45,7 @@ TEST(Ghost, ItsDistanceIsThatOfTheIntegrators) {
   session.settings.set_integrator({"semi-implicit-euler", 10});
   session.choose_ghost(softbody::IntegratorChoice{"velocity-verlet", 10});
   go_on(session, 30);
-  const double h = 1.0 / 600, t = 0.5, radius = session.world().prototype(0).radius;
+  const double h = 1.0 / 600, t = 0.5, radius = session.world().model(0).radius;
   EXPECT_NEAR(session.ghost().get()->distance(session.world()), 0.5 * 10 * h * t / radius, 1e-4);
 }
 

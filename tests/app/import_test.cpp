@@ -11,9 +11,9 @@
 #include <thread>
 
 #include "app/session/import.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
+#include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/prototype_set.h"
 #include "tests/app/scenes.h"
 #include "tests/temporary_folder.h"
 
@@ -76,7 +76,7 @@ class ImportTest : public testing::Test {
     return text;
   }
   bool refused() const { return !import.report().empty() && import.report().back().refused; }
-  const softbody::Prototype& last() const { return session.world().prototype(session.world().bodies().count() - 1); }
+  const softbody::BodyModel& last() const { return session.world().model(session.world().bodies().count() - 1); }
   void expect_finite_after(int steps) {
     for (int i = 0; i < steps; ++i) session.advance(tick);
     EXPECT_TRUE(softbody::measure(session.world()).finite);
@@ -190,11 +190,11 @@ TEST_F(ImportTest, MakesTheBodyBesideTheWindow) {
   const softbody::MeshFile file{.path = folder.write("ball.obj", obj_of({})), .size = 1};
   const session::FileReader::Answer answer = reader.answer(file, {});
   const auto& mesh = std::get<session::FileReader::Mesh>(answer);
-  EXPECT_EQ(softbody::shared_prototype(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
-            mesh.prototype);
+  EXPECT_EQ(softbody::shared_body_model(mesh.mesh, session::imported_material(mesh.mesh.imported->findings.extent)),
+            mesh.model);
   session.bodies.add(session::place_above(session.world(), mesh.mesh),
                      session::imported_material(mesh.mesh.imported->findings.extent));
-  EXPECT_EQ(&last(), mesh.prototype.get());
+  EXPECT_EQ(&last(), mesh.model.get());
 }
 
 TEST_F(ImportTest, ReadsDroppedFilesOneAfterAnother) {

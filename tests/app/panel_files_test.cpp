@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/scene/scene_write.h"
 #include "tests/app/panel_rig.h"
 #include "tests/temporary_folder.h"
@@ -53,7 +53,7 @@ TEST(FilesPanel, SetsTheWeldDistanceOfTheNextMesh) {
     const std::size_t before = rig.session.world().bodies().count();
     rig.ui.import.drop({mesh.string()}, rig.session);
     for (int i = 0; i < 6000 && rig.session.world().bodies().count() == before; ++i) rig.frame();
-    return rig.session.world().prototype(rig.session.world().bodies().count() - 1).mesh.closed;
+    return rig.session.world().model(rig.session.world().bodies().count() - 1).mesh.closed;
   };
   EXPECT_EQ(rig.ui.import.weld, softbody::MeshFile{}.weld);
   EXPECT_FALSE(import_is_closed());

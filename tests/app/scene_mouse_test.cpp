@@ -9,9 +9,9 @@
 #include <glm/matrix.hpp>
 
 #include "app/window/scene_mouse.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace app {
 namespace {
@@ -40,7 +40,7 @@ Nearest brute_force(const engine::Ray& ray, const softbody::World& world) {
   Nearest nearest;
   const collide::Frame f = world.positions();
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body)
-    for (const softbody::Triangle& t : world.prototype(body).mesh.triangles) {
+    for (const softbody::Triangle& t : world.model(body).mesh.triangles) {
       const auto at = [&](std::size_t k) {
         const std::size_t i = world.bodies().first[body] + t[k];
         return glm::dvec3(f.x[i], f.y[i], f.z[i]);
@@ -170,11 +170,11 @@ TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   const glm::vec2 target = input.at + glm::vec2(150, -60);
   for (int i = 1; i <= 30; ++i) move(input.at + (target - input.at) * 0.2f);
   frame(90);
-  const glm::vec3 point(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
+  const glm::vec3 point(softbody::WorldTestAccess::dynamics(session.world()).grabbed_point());
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
   EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // the body hangs from the mouse
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-  const glm::dvec3 held(softbody::WorldInsides::dynamics(session.world()).grabbed_point());
+  const glm::dvec3 held(softbody::WorldTestAccess::dynamics(session.world()).grabbed_point());
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
               glm::distance(glm::dvec3(camera.eye()), centre(session.world(), 0)), 1);
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));

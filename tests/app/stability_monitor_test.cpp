@@ -4,7 +4,7 @@
 
 #include "app/session/session.h"
 #include "app/ui/views/status.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -97,8 +97,7 @@ TEST(StepMargin, HasTheSimulatedShareOfAFrame) {
   step();
   EXPECT_EQ(monitor.margin().share, 1);
   std::vector<softbody::Particle> particles;
-  for (softbody::Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i)
-    particles.push_back(world.particle(0, i));
+  for (softbody::Index i = 0; i < world.model(0).mesh.vertices.size(); ++i) particles.push_back(world.particle(0, i));
   particles[0].velocity.y += 1e6;
   world.set_particles(0, particles);
   step();

@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/session/session.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 
 namespace app {
@@ -30,7 +30,7 @@ compare::StepSnapshot pair_apart(double distance) {
   step.at.copy(world.positions());
   step.before = step.at;
   step.bodies = world.bodies();
-  step.surfaces = {world.prototype(0).surface, world.prototype(1).surface};
+  step.surfaces = {world.model(0).surface, world.model(1).surface};
   return step;
 }
 

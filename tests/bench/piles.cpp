@@ -138,8 +138,8 @@ State squeezed(State state, double part) {
   return state;
 }
 
-/// Bodies lie in a pile and touch. The scenes' shield, 0.67 mean edges wide, has kept them that far apart, more than
-/// the tolerances that are timed here: the squeeze closes the gap.
+/// Bodies lie in a pile and touch. The scenes' contact layer, 0.67 mean edges wide, has kept them that far apart, more
+/// than the tolerances that are timed here: the squeeze closes the gap.
 State pile(softbody::Scene scene, int threads) {
   constexpr int frames = 240;
   constexpr double gap = 0.05;

@@ -30,18 +30,18 @@ softbody::Scene lone_ball(double stiffness, double damping_ratio) {
 /// Two particles, joined by a spring of 1 m.
 struct Pair {
   Pair(double stiffness, double damping) {
-    prototype.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
-    prototype.structural = {{0, 1, 1.0, stiffness, damping}};
-    prototype.spring_stiffness_bound = stiffness;
-    prototype.spring_damping_bound = damping;
-    prototype.particle_mass = 0.5;
-    prototype.radius = 0.5;
+    model.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
+    model.structural = {{0, 1, 1.0, stiffness, damping}};
+    model.spring_stiffness_bound = stiffness;
+    model.spring_damping_bound = damping;
+    model.particle_mass = 0.5;
+    model.radius = 0.5;
     scene.gravity = {};
   }
-  softbody::Prototype prototype;
+  softbody::BodyModel model;
   softbody::Scene scene;
   reference::BodyState stretched{{{0, 0, 0}, {1.1, 0, 0}}, {{0, 0, 0}, {0, 0, 0}}};
-  reference::ReferenceBody body{prototype, scene};
+  reference::ReferenceBody body{model, scene};
 };
 
 TEST(ReferenceBody, AgreesWithTheClosedFormOfADampedSpring) {
@@ -68,7 +68,7 @@ TEST(ReferenceBody, FollowsAParabolaInFreeFall) {
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].velocity = {3, 4, 5};
   const softbody::World world(scene, {});
-  const reference::ReferenceBody body(world.prototype(0), scene);
+  const reference::ReferenceBody body(world.model(0), scene);
   const reference::BodyState end = reference::integrate(body, reference::state_of(world, 0), 1, {.seconds = 0.5}).end;
   const reference::RigidMotion m = reference::rigid_motion(end);
   EXPECT_LT(glm::distance(m.centre, 0.5 * dvec3(3, 4, 5) + 0.125 * dvec3(0, -9.81, 0)), 1e-7);
@@ -79,7 +79,7 @@ TEST(ReferenceBody, HasForcesThatAreTheGradientOfTheEnergy) {
   softbody::Scene scene = lone_ball(1e3, 0);
   scene.materials[0].ambient_pressure = 300;
   const softbody::World world(scene, {});
-  const reference::ReferenceBody body(world.prototype(0), scene);
+  const reference::ReferenceBody body(world.model(0), scene);
   for (const double scale : {1.1, 0.3, -0.5}) {  // large, below 0.1 V0, inside out
     reference::BodyState s = reference::state_of(world, 0);
     for (dvec3& p : s.x) p *= scale;
@@ -90,7 +90,7 @@ TEST(ReferenceBody, HasForcesThatAreTheGradientOfTheEnergy) {
         reference::BodyState up = s, down = s;
         up.x[i][k] += d, down.x[i][k] -= d;
         const double force = -(body.energy(up) - body.energy(down)) / (2 * d);
-        EXPECT_NEAR(world.prototype(0).particle_mass * a[i][k], force, 1e-4 * std::abs(force) + 1e-5) << scale;
+        EXPECT_NEAR(world.model(0).particle_mass * a[i][k], force, 1e-4 * std::abs(force) + 1e-5) << scale;
       }
   }
 }
@@ -99,7 +99,7 @@ TEST(ReferenceBody, StopsOnTheGroundAndSlowsByFriction) {
   Pair pair(100, 0);
   pair.scene.ground = softbody::Ground{.height = 0, .friction = 0.5};
   pair.scene.gravity = {0, -10, 0};
-  pair.prototype.material.thickness = 0;
+  pair.model.material.thickness = 0;
   const reference::BodyState sliding{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}};
   const reference::BodyState end = reference::integrate(pair.body, sliding, 0.02, {.seconds = 0.1}).end;
   EXPECT_NEAR(end.v[0].z, 0.5, 1e-6) << "0.1 s at 5 m/s^2";
@@ -110,12 +110,12 @@ TEST(ReferenceBody, StopsOnTheGroundAndSlowsByFriction) {
 double difference(const softbody::Scene& scene, int substeps) {
   softbody::World world(scene, {.integrator = {"rk4", substeps}});
   EXPECT_EQ(reference::ReferenceBody::unsupported_stage(world), "");
-  const reference::ReferenceBody body(world.prototype(0), world.scene());
+  const reference::ReferenceBody body(world.model(0), world.scene());
   const reference::Reference r =
       find_reference(body, reference::state_of(world, 0), 1e-5, {.seconds = 0.25, .steps = 20'000});
   EXPECT_LT(r.change, 1e-3);
   for (int frame = 0; frame < 15; ++frame) world.step();
-  return reference::rms_distance(reference::state_of(world, 0).x, r.end.x) / world.prototype(0).radius;
+  return reference::rms_distance(reference::state_of(world, 0).x, r.end.x) / world.model(0).radius;
 }
 
 TEST(ReferenceBody, AgreesWithTheWorldInFreeFlight) {
@@ -136,8 +136,8 @@ TEST(ReferenceBody, AgreesWithTheWorldInContact) {
 TEST(ReferenceBody, KeepsItsAccuracyAKilometreFromTheOrigin) {
   softbody::Scene scene = lone_ball(1e8, 0.02);
   const softbody::World world(scene, {.integrator = {.substeps = 1}});
-  const reference::ReferenceBody body(world.prototype(0), scene);
-  reference::BodyState s{world.prototype(0).start, std::vector<dvec3>(162, dvec3(0.0))};
+  const reference::ReferenceBody body(world.model(0), scene);
+  reference::BodyState s{world.model(0).start, std::vector<dvec3>(162, dvec3(0.0))};
   for (dvec3& p : s.x) p += 1000.0;
   EXPECT_LT(reference::deformation_speed(reference::integrate(body, s, 0.5, {.seconds = 1e-3}).end), 1e-3);
 }
@@ -164,10 +164,10 @@ TEST(UnsettledSpeed, CountsAllMotionUnlessTheBodyIsFree) {
   Pair pair(100, 5);
   EXPECT_LT(reference::unsettled_speed(pair.body, falling), 1e-12) << "without gravity it may keep flying";
   pair.scene.gravity = {0, -9.81, 0};
-  EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.prototype, pair.scene}, falling), 1);
+  EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.model, pair.scene}, falling), 1);
   pair.scene.gravity = {};
   pair.scene.ground = softbody::Ground{};
-  EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.prototype, pair.scene}, falling), 1) << "it touches the ground";
+  EXPECT_DOUBLE_EQ(reference::unsettled_speed({pair.model, pair.scene}, falling), 1) << "it touches the ground";
 }
 
 TEST(BodyShape, SeparatesRigidMotionFromDeformation) {

@@ -47,7 +47,7 @@ TEST_F(SolverReport, HasEveryIntegratorAndItsFigures) {
     if (!i.automatic && number(last["error"]) > known) cut_short = true;
     if (!i.automatic) {
       EXPECT_EQ(first["substeps"], "1");
-      EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps, 1e-6);
+      EXPECT_NEAR(number(first["steps_per_second"]), 60 * i.substeps_per_step, 1e-6);
     }
     EXPECT_EQ(last["blew_up"], "0") << i.key;
     EXPECT_LT(number(last["error"]), i.automatic ? 5e-2 : 1e-2) << i.key << ", which may stay with the bound's steps";

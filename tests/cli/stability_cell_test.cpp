@@ -56,7 +56,7 @@ TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
   }
 }
 
-/// Returns a ball with a stiff shield, and a second ball that joins.
+/// Returns a ball with stiff penalty contact, and a second ball that joins.
 softbody::Scene joined_by(const softbody::BodySource& second) {
   softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
   scene.materials[0].contact_stiffness = 1e8;
@@ -70,7 +70,8 @@ TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
   EXPECT_LE(run(scene, "auto", 12).energy, reference::stability_bounds.energy);
 }
 
-/// It flies into the other ball from afar. In that frame no shield has acted, and explicit Euler adds 1/2 m (g dt)^2.
+/// It flies into the other ball from afar. In that frame no penalty contact has acted, and explicit Euler adds 1/2 m (g
+/// dt)^2.
 TEST(StabilityCell, DoesNotCreditWhatAJoinersFirstFrameCarriesItInto) {
   constexpr int appear = 3;
   constexpr double speed = 100, g = speed / dt;  // m/s, m/s^2

@@ -16,7 +16,7 @@
 #include "softbody/world/measures.h"
 #include "tests/soak/actions.h"
 #include "tests/soak/resources.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 #include "tests/temporary_folder.h"
 
 namespace soak {
@@ -57,7 +57,7 @@ class Soak {
         frame(i % picture_every == 0);
         const softbody::World& world = demo_.session.world();
         if (world.frame() == before) continue;
-        const softbody::Dynamics& dynamics = softbody::WorldInsides::dynamics(world);
+        const softbody::Dynamics& dynamics = softbody::WorldTestAccess::dynamics(world);
         const auto candidates = int(dynamics.surface_contact().search().features().size());
         const int weight = dynamics.used_integrator().implicit ? implicit_substeps : 1;
         substeps += world.last_step().substeps * (weight + candidates / candidates_of_substep);
@@ -92,7 +92,7 @@ class Soak {
   void print_slow_frame(double seconds) const {
     const softbody::World& world = demo_.session.world();
     const softbody::StepReport& p = world.last_step();
-    const softbody::SurfaceContact& surface = softbody::WorldInsides::dynamics(world).surface_contact();
+    const softbody::SurfaceContact& surface = softbody::WorldTestAccess::dynamics(world).surface_contact();
     std::printf(
         "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %d substeps of %s, %.5f s "
         "simulated, %.0f ms to detect, %.0f ms to solve, with surface contact of %.3g a search and %.3g a substep\n",

@@ -7,7 +7,7 @@
 
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -176,7 +176,7 @@ INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
                          [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
 
 int width_of(const World& world, BodyId body) {
-  const DynamicsState state = WorldInsides::dynamics(world).save();
+  const DynamicsState state = WorldTestAccess::dynamics(world).save();
   return state.batches[state.bodies[body].batch].width;
 }
 
@@ -283,7 +283,7 @@ TEST(LargeBody, MovesTheSameAmongOthers) {
     }
     World many(more, {.integrator = {.substeps = 100}});
     const auto last = static_cast<BodyId>(others);
-    EXPECT_EQ(std::pair(width_of(many, last), WorldInsides::dynamics(many).body(last).lane),
+    EXPECT_EQ(std::pair(width_of(many, last), WorldTestAccess::dynamics(many).body(last).lane),
               std::pair(lanes, others % lanes));
     run(many, 24);
     for (Index i = 0; i < alone.bodies().vertex_count(); ++i) {
@@ -307,7 +307,7 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
     run(*world, 4);
     world->grab({});
     std::vector<Particle> moved;
-    for (Index i = 0; i < world->prototype(0).mesh.vertices.size(); ++i) {
+    for (Index i = 0; i < world->model(0).mesh.vertices.size(); ++i) {
       moved.push_back(world->particle(0, i));
       moved.back().position += glm::dvec3(30, 0, 0);
     }
@@ -339,7 +339,7 @@ TEST(LargeBody, ComesToAPlaceThatOneLeft) {
   EXPECT_EQ(std::pair(width_of(world, 0), width_of(world, 1)), std::pair(lanes, one_lane));
   world.remove(1);
   EXPECT_EQ(width_of(world, world.add(scene.bodies[1])), one_lane);
-  EXPECT_EQ(WorldInsides::dynamics(world).save().batches.size(), 2u);
+  EXPECT_EQ(WorldTestAccess::dynamics(world).save().batches.size(), 2u);
 }
 
 TEST(SmallBody, IsSolvedInLanes) {  // as implicit steps take it

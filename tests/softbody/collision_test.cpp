@@ -5,10 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/shield.h"
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -38,7 +38,7 @@ TEST(Collision, ConservesLinearMomentum) {
   EXPECT_LT(motion(world, 0).velocity.x, motion(world, 1).velocity.x) << "they part";
 }
 
-TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanTheShieldAllows) {
+TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanPenaltyContactAllows) {
   World world(collision(), {});
   const double before = measure(world).energy;
   run(world, 90);
@@ -46,7 +46,7 @@ TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanTheShieldAllows) {
   EXPECT_LT(measure(world).energy, before);
   const double apart = motion(world, 1).velocity.x - motion(world, 0).velocity.x;
   EXPECT_GT(apart, 0);
-  EXPECT_LT(apart, double(Shield::rebound_speed) + 1);
+  EXPECT_LT(apart, double(PenaltyContact::rebound_speed) + 1);
 }
 
 TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
@@ -57,7 +57,7 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     World world(scene, {.frame_time = 1e-4, .integrator = {integrator, 1}});
     run(world, 10);
     double sum = 0;
-    for (const ShieldPair& pair : WorldInsides::dynamics(world).save().shield_pairs)
+    for (const PenaltyPair& pair : WorldTestAccess::dynamics(world).save().penalty_pairs)
       sum += double(glm::length(pair.stretch));
     EXPECT_GT(sum, 5e-5) << integrator;
     return sum;
@@ -88,12 +88,12 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     };
     EXPECT_GT(std::erase_if(contacts, both_held), 0u);
     world.step();
-    const std::vector<ShieldPair> pairs = WorldInsides::dynamics(world).save().shield_pairs;
+    const std::vector<PenaltyPair> pairs = WorldTestAccess::dynamics(world).save().penalty_pairs;
     ASSERT_EQ(pairs.size(), contacts.size());
     std::vector<int> count(world.bodies().vertex_count(), 0);
     for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
     int more_at_a = 0, more_at_b = 0;
-    for (const ShieldPair& pair : pairs) {
+    for (const PenaltyPair& pair : pairs) {
       const int a = count[pair.contact.a], b = count[pair.contact.b];
       more_at_a += a > b, more_at_b += b > a;
       EXPECT_FLOAT_EQ(pair.stiffness, 40.0f / float(std::max(a, b)));
@@ -110,7 +110,7 @@ glm::dvec3 vertex_normal(const World& world, Index vertex) {
   const std::vector<Particle> x = particles_of(world, body);
   const Index own = vertex - world.bodies().first[body];
   glm::dvec3 sum(0.0);
-  for (const auto& [a, b, c] : world.prototype(body).mesh.triangles)
+  for (const auto& [a, b, c] : world.model(body).mesh.triangles)
     if (a == own || b == own || c == own)
       sum += glm::cross(x[b].position - x[a].position, x[c].position - x[a].position);
   return glm::normalize(sum);
@@ -138,7 +138,7 @@ TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
         ++(facing ? by_surfaces : by_line);
       }
       world.step();
-      const std::vector<ShieldPair> pairs = WorldInsides::dynamics(world).save().shield_pairs;
+      const std::vector<PenaltyPair> pairs = WorldTestAccess::dynamics(world).save().penalty_pairs;
       ASSERT_EQ(pairs.size(), expected.size());
       for (std::size_t i = 0; i < pairs.size(); ++i)
         EXPECT_LT(glm::distance(glm::dvec3(pairs[i].normal), expected[i]), 1e-3) << i;
@@ -203,7 +203,7 @@ TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
     scene.collision.tolerance = 0.1f;
     World world(scene, {.frame_time = 1.0 / 240});
     std::vector<Particle> flat;
-    for (const glm::dvec3& x : world.prototype(0).start) {
+    for (const glm::dvec3& x : world.model(0).start) {
       const glm::dvec3 place(x.x, 0.1 * x.y, x.z);
       flat.push_back(
           {place, glm::dvec3(1, 2, 3) + glm::cross(glm::dvec3(0.5, 2, -0.5), place) - glm::dvec3(0, x.y, 0)});

@@ -25,30 +25,30 @@ const std::vector<double> gaps{10, 1, 0.5, 1e-3, 1e-9, 0, -1e-9, -1e-4, -1e-3, -
 TEST(ContactLaw, LetsAGapCloseButNoFurther) {
   for (const double gap : gaps)
     if (gap > 0) {
-      EXPECT_EQ(law::least_move(gap, h), -gap);
-      EXPECT_EQ(law::least_speed(gap, 1 / h), -gap / h);
+      EXPECT_EQ(law::min_move(gap, h), -gap);
+      EXPECT_EQ(law::min_speed(gap, 1 / h), -gap / h);
     }
 }
 
 TEST(ContactLaw, PushesOutAShareOfTheDepthAtABoundedSpeed) {
   for (const double gap : gaps)
     if (gap <= 0) {
-      EXPECT_DOUBLE_EQ(law::least_move(gap, h), std::min(-gap / 10, h));
-      EXPECT_DOUBLE_EQ(law::least_speed(gap, 1 / h), std::min(-gap / (10 * h), 1.0));
+      EXPECT_DOUBLE_EQ(law::min_move(gap, h), std::min(-gap / 10, h));
+      EXPECT_DOUBLE_EQ(law::min_speed(gap, 1 / h), std::min(-gap / (10 * h), 1.0));
     }
 }
 
 TEST(ContactLaw, AsksForMoreTheSmallerTheGap) {
   for (std::size_t i = 1; i < gaps.size(); ++i) {
-    EXPECT_LE(law::least_move(gaps[i - 1], h), law::least_move(gaps[i], h)) << gaps[i];
-    EXPECT_LE(law::least_speed(gaps[i - 1], 1 / h), law::least_speed(gaps[i], 1 / h)) << gaps[i];
+    EXPECT_LE(law::min_move(gaps[i - 1], h), law::min_move(gaps[i], h)) << gaps[i];
+    EXPECT_LE(law::min_speed(gaps[i - 1], 1 / h), law::min_speed(gaps[i], 1 / h)) << gaps[i];
   }
 }
 
 TEST(ContactLaw, AsksForTheSameAsLengthAndAsSpeed) {
   for (const double length : {1e-5, 1e-3, 1.0 / 60})
     for (const double gap : gaps)
-      EXPECT_DOUBLE_EQ(law::least_move(gap, length) / length, law::least_speed(gap, 1 / length));
+      EXPECT_DOUBLE_EQ(law::min_move(gap, length) / length, law::min_speed(gap, 1 / length));
 }
 
 TEST(ContactLaw, ThrowsBackImpactsOnly) {
@@ -102,17 +102,17 @@ TEST(ContactLaw, IsTheSameInFloatLanesAndDouble) {
   constexpr float step = 0.003f, e = 0.7f;
   const auto gap = each([](int l) { return 0.002f * float(3 - l); }),
              speed = each([](int l) { return 0.3f * float(l - 3); });
-  const V move = law::least_move(load(gap), step), least = law::least_speed(load(gap), 1 / step),
+  const V move = law::min_move(load(gap), step), least = law::min_speed(load(gap), 1 / step),
           thrown = law::rebound(load(speed), e), limit = load(each([](int l) { return 0.25f * float(l % 4); }));
   const Vec<V> drag{load(speed), load(gap), load(each([](int l) { return l == 3 ? 0 : 0.2f; }))};
   const Vec<V> held = law::within_cone(drag, limit);
   for (int l = 0; l < lanes; ++l) {
     const float g = gap[std::size_t(l)], s = speed[std::size_t(l)];
-    EXPECT_EQ(move[l], law::least_move(g, step));
-    EXPECT_EQ(least[l], law::least_speed(g, 1 / step));
+    EXPECT_EQ(move[l], law::min_move(g, step));
+    EXPECT_EQ(least[l], law::min_speed(g, 1 / step));
     EXPECT_EQ(thrown[l], law::rebound(s, e));
-    EXPECT_FLOAT_EQ(move[l], float(law::least_move(double(g), double(step))));
-    EXPECT_FLOAT_EQ(least[l], float(law::least_speed(double(g), 1 / double(step))));
+    EXPECT_FLOAT_EQ(move[l], float(law::min_move(double(g), double(step))));
+    EXPECT_FLOAT_EQ(least[l], float(law::min_speed(double(g), 1 / double(step))));
     EXPECT_FLOAT_EQ(thrown[l], float(law::rebound(double(s), double(e))));
     const glm::vec3 d(drag.x[l], drag.y[l], drag.z[l]), one = law::within_cone(d, float(limit[l]));
     const Vec<float> same = law::within_cone(Vec<float>{d.x, d.y, d.z}, float(limit[l]));

@@ -22,7 +22,7 @@ TEST(Equilibrium, LeavesNoForceBehind) {
   for (const double pressure : {101325.0, 103000.0, 113000.0, 90000.0}) {
     Material m = gas_ball();
     m.gas_pressure = pressure;
-    const auto p = make_prototype({}, m);
+    const auto p = make_body_model({}, m);
     const double weight = p->particle_mass * 9.81;
     EXPECT_LT(largest(forces(*p, p->start)), 1e-3 * weight) << pressure << " Pa";
     if (pressure != 101325) {
@@ -40,7 +40,7 @@ TEST(Equilibrium, OfAnIcosahedronHasTheRadiusOfTheForceBalance) {
   MeshSource source;
   source.subdivisions = 0;
   source.radius = 0.5;
-  const auto p = make_prototype(source, m);
+  const auto p = make_body_model(source, m);
   const double edge = std::sqrt(50 - 10 * std::sqrt(5.0)) / 5;  // of the unit radius
   const double golden = (1 + std::sqrt(5.0)) / 2;               // a bend pair is that many edges apart
   const double unit_volume = 5 * (3 + std::sqrt(5.0)) / 12 * std::pow(edge, 3);
@@ -77,7 +77,7 @@ TEST(Equilibrium, ABodyThatStartsInItStaysAtRest) {
 TEST(Equilibrium, IsNotLookedForWhenTheSceneSaysSo) {
   Material m = gas_ball();
   m.start_in_equilibrium = false;
-  const auto p = make_prototype({}, m);
+  const auto p = make_body_model({}, m);
   EXPECT_EQ(p->start, p->mesh.vertices);
   World world(lone_body(m), {});
   world.step();
@@ -92,14 +92,14 @@ TEST(Equilibrium, OfASoftSkinIsNearlyTheVolumeAtAmbientPressure) {
       m.structural.stiffness = stiffness;
       m.bend.stiffness = stiffness / 4;
       m.gas_pressure = pressure;
-      const auto p = make_prototype({}, m);
+      const auto p = make_body_model({}, m);
       EXPECT_NEAR(p->start_volume / p->gas.rest_volume, pressure / 101325, 1e-3) << stiffness << " N/m";
       EXPECT_LT(largest(forces(*p, p->start)), 1e-4);
     }
 }
 
 TEST(Equilibrium, IsNeverNotANumber) {
-  Prototype broken = *make_prototype({}, gas_ball());
+  BodyModel broken = *make_body_model({}, gas_ball());
   broken.mesh.vertices[7].y = std::nan("");
   EXPECT_THROW(find_equilibrium(broken, broken.mesh.vertices), SceneError);
 }
@@ -110,7 +110,7 @@ TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {
   m.structural.stiffness = m.bend.stiffness = 1e-6;
   m.ambient_pressure = 0;  // nothing holds the gas back but these springs
   try {
-    make_prototype({}, m);
+    make_body_model({}, m);
     FAIL() << "found one";
   } catch (const SceneError& e) {
     EXPECT_NE(std::string(e.what()).find("'balloon'"), std::string::npos) << e.what();

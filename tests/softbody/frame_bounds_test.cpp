@@ -4,12 +4,12 @@
 
 #include "softbody/world/snapshot.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
 
-TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
+TEST(StepController, CutsAFrameShortAtTheMaximumOfSubsteps) {
   World world(lone_body(gas_ball()), {.integrator = {"semi-implicit-euler"}});
   world.step();
   EXPECT_EQ(world.last_step().seconds, world.frame_time());
@@ -27,7 +27,7 @@ TEST(Substeps, OfAFrameAreBoundAndTheRestOfItIsLeftOut) {
 }
 
 /// A world of twice the particles gets half the substeps.
-TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
+TEST(StepController, TakesFewerSubstepsInLargeWorldsOfAWindow) {
   const auto most = [](double particles) {
     World world(lone_body(gas_ball()),
                 {.integrator = {"semi-implicit-euler"}, .max_work = {.max_counted_particles = particles}});
@@ -41,7 +41,7 @@ TEST(Substeps, OfLargeWorldsAreFewerWhereSomebodyWaits) {
   EXPECT_EQ(most(0), 1);
 }
 
-TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
+TEST(StepController, LimitsTheWorkOfImplicitSteps) {
   Scene scene = lone_body(spring_ball());
   scene.ground.emplace();
   const auto step = [&](double work, std::optional<int> substeps) {
@@ -59,7 +59,7 @@ TEST(Substeps, ThatAreImplicitAreBoundByTheirWork) {
   EXPECT_EQ(step(1e4, whole.substeps).seconds, whole.seconds) << "who fixes them gets them";
 }
 
-TEST(Substeps, ThatAreImplicitAreFewer) {
+TEST(StepController, TakesFewerImplicitSteps) {
   Scene scene = lone_body(spring_ball());
   scene.bodies[0].mesh.subdivisions = 0;
   scene.ground.emplace();
@@ -72,14 +72,14 @@ TEST(Substeps, ThatAreImplicitAreFewer) {
   EXPECT_EQ(world.last_step().time, world.last_step().seconds);
 }
 
-/// One body in another of its kind: each pair of the shield is worked out for the bound of the first substeps, in the
+/// One body in another of its kind: each penalty pair is worked out for the bound of the first substeps, in the
 /// first of them, in the others for which that bound may be trusted, and so on.
-TEST(Substeps, OfManyContactsAreBoundByTheirWork) {
+TEST(StepController, LimitsTheWorkOfPenaltyPairs) {
   Scene scene = lone_body(gas_ball(), {0, 5, 0});
   add_body(scene, {0.3, 0, 0}, {});
   scene.gravity = {};
   const auto of_work = [&](double pairs, std::optional<int> substeps) {
-    World world(scene, {.integrator = {"semi-implicit-euler", substeps}, .max_work = {.shield = pairs}});
+    World world(scene, {.integrator = {"semi-implicit-euler", substeps}, .max_work = {.penalty = pairs}});
     world.step();
     EXPECT_TRUE(measure(world).finite);
     return world;
@@ -112,7 +112,7 @@ Scene touching_surfaces() {
   return scene;
 }
 
-TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
+TEST(StepController, LimitsTheWorkOfSurfaceContact) {
   const std::string integrator = "semi-implicit-euler";
   World whole(touching_surfaces(), {.integrator = {integrator}});
   whole.step();
@@ -127,13 +127,13 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
   };
   const auto of_substep = [](const World& world) {
     const StepReport& p = world.last_step();
-    return WorldInsides::dynamics(world).surface_contact().work_of_substep(float(p.seconds / p.substeps));
+    return WorldTestAccess::dynamics(world).surface_contact().work_of_substep(float(p.seconds / p.substeps));
   };
   // Candidates are found once, and looked at in one substep after the other; four are taken at a time, first one of
   // them.
   const World one = of_work(0);
   EXPECT_EQ(one.last_step().substeps, 1);
-  const collide::surface::SurfaceSearch& search = WorldInsides::dynamics(one).surface_contact().search();
+  const collide::surface::SurfaceSearch& search = WorldTestAccess::dynamics(one).surface_contact().search();
   const double half = 0.5 * double(search.features().size()), least = of_substep(one);
   ASSERT_GT(half, 0);
   EXPECT_GT(double(search.work()), 2 * half);
@@ -153,7 +153,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByTheirWork) {
 
 /// Surfaces that pass each other fast have their candidates found anew many times in a frame, which shows in what it
 /// took; where that is exactly what it took before, it is missed here.
-TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
+TEST(StepController, LimitsTheWorkOfSearchesForSurfaceContact) {
   Scene scene = lone_body(gas_ball(), {50, 0, 0});
   add_body(scene, {1.5, 0, 0}, {-50, 0, 0});
   scene.contact_surface = ContactSurface::surfaces;
@@ -163,7 +163,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
   };
   const auto work = [&](double bound, double h) {  // h: of a substep, s
     World world(scene, {.integrator = {"semi-implicit-euler"}, .max_work = {.surface = bound}});
-    const SurfaceContact& contact = WorldInsides::dynamics(world).surface_contact();
+    const SurfaceContact& contact = WorldTestAccess::dynamics(world).surface_contact();
     Work result;
     std::size_t last = 0;
     world.step([&] {
@@ -188,7 +188,7 @@ TEST(Substeps, OfSurfaceContactAreBoundByWhatIsFoundAnewToo) {
 }
 
 /// The bounds are those of a world of 10,000 particles. Who is held is not stepped, but is one of them.
-TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
+TEST(StepController, AllowsWorkInProportionToTheWorld) {
   const auto substeps = [](Scene scene, std::size_t held, const World::Options& options) {
     BodySource body = scene.bodies[0];
     body.mesh.subdivisions = 3;  // 642 particles
@@ -222,14 +222,14 @@ TEST(Substeps, OfALargerWorldMayBeMoreWorkInProportion) {
 }
 
 /// In none of them do surfaces pass each other by more than 0.15 edges.
-TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
+TEST(StepController, TakesSubstepsForBodiesThatPass) {
   constexpr double speed = 100;  // m/s, towards each other
   Scene scene = lone_body(gas_ball(), {speed / 2, 0, 0});
   add_body(scene, {2, 0, 0}, {-speed / 2, 0, 0});
   scene.contact_surface = ContactSurface::surfaces;
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  EXPECT_GE(world.last_step().substeps, speed * world.frame_time() / (0.15 * world.prototype(0).mean_edge));
+  EXPECT_GE(world.last_step().substeps, speed * world.frame_time() / (0.15 * world.model(0).mean_edge));
   scene.contact_surface = ContactSurface::vertices;
   World without(scene, {.integrator = {"semi-implicit-euler"}});
   without.step();
@@ -237,7 +237,7 @@ TEST(Substeps, OfSurfaceContactKeepUpWithWhatPasses) {
 }
 
 /// Of 96 bytes each: what a world may hold must not grow beyond what a machine does.
-TEST(Substeps, CandidatesAtOnceAreMoreInLargerWorldsUpToABound) {
+TEST(StepController, AllowsMoreCandidatesInLargerWorldsUpToALimit) {
   const MaxWork work;
   EXPECT_EQ(work.candidates(1000), std::size_t{1} << 24);
   EXPECT_EQ(work.candidates(400'000), 64u * 400'000);
@@ -245,9 +245,9 @@ TEST(Substeps, CandidatesAtOnceAreMoreInLargerWorldsUpToABound) {
 }
 
 /// Those that were found before belong to another moment: nothing may look at them.
-TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
+TEST(StepController, EndsTheFrameAtTooManyCandidates) {
   const auto candidates = [](const World& world) {
-    return double(WorldInsides::dynamics(world).surface_contact().search().features().size());
+    return double(WorldTestAccess::dynamics(world).surface_contact().search().features().size());
   };
   World touching(touching_surfaces(), {});
   touching.step();
@@ -268,7 +268,7 @@ TEST(Substeps, TooManyCandidatesAtOnceEndTheFrameAndTheWorldCanGoOn) {
   EXPECT_EQ(world.last_step().seconds, world.frame_time());
 }
 
-TEST(Shield, GrowsInAFrameThatIsCutShortByWhatItsSecondsBring) {
+TEST(PenaltyContact, GrowsByTheSimulatedSecondsOfAShortFrame) {
   Scene scene = lone_body(gas_ball());
   add_body(scene, {5, 0, 0}, {});
   World world(scene, {.integrator = {"semi-implicit-euler"}});
@@ -281,7 +281,7 @@ TEST(Shield, GrowsInAFrameThatIsCutShortByWhatItsSecondsBring) {
     world.step();
     ASSERT_LT(world.last_step().seconds, 0.5 * world.frame_time());
     grown += 0.05 * world.last_step().seconds;
-    EXPECT_NEAR(double(WorldInsides::penalty_thickness(world)), grown, 1e-5 * grown) << frame;
+    EXPECT_NEAR(double(WorldTestAccess::penalty_thickness(world)), grown, 1e-5 * grown) << frame;
   }
 }
 

@@ -156,9 +156,9 @@ TEST(GasLaw, AnInvertedBodyFeelsAFiniteOutwardPressureThatGrows) {
 }
 
 TEST(GasLaw, WhatIsAroundPressesOnTheOuterSideOfAnInvertedBodyToo) {
-  for (const double v : {0.05, 0.5, 3.0}) EXPECT_NEAR(gas.outside(v), 101325, 1e-9);
-  for (const double v : {-0.05, -0.5, -3.0}) EXPECT_NEAR(gas.outside(v), -101325, 1e-9);
-  for (const double v : {-0.04, 0.0, 0.01}) EXPECT_NEAR(gas.outside(v), 101325 * v / 0.05, 1e-9);
+  for (const double v : {0.05, 0.5, 3.0}) EXPECT_NEAR(gas.ambient_pressure(v), 101325, 1e-9);
+  for (const double v : {-0.05, -0.5, -3.0}) EXPECT_NEAR(gas.ambient_pressure(v), -101325, 1e-9);
+  for (const double v : {-0.04, 0.0, 0.01}) EXPECT_NEAR(gas.ambient_pressure(v), 101325 * v / 0.05, 1e-9);
 }
 
 TEST(GasLaw, SlopeIsTheGaugesAndNeverPositive) {

@@ -9,19 +9,19 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody {
 namespace {
 
 /// On the first face of body 0, not at its middle.
 Grab on_first_face(const World& world) {
-  return {.corners = world.prototype(0).mesh.triangles[0], .weights = {0.5, 0.3, 0.2}};
+  return {.corners = world.model(0).mesh.triangles[0], .weights = {0.5, 0.3, 0.2}};
 }
 
 /// At the middle of the highest face, under which it does not swing.
 Grab on_top(const World& world) {
-  const Mesh& mesh = world.prototype(0).mesh;
+  const Mesh& mesh = world.model(0).mesh;
   const auto height = [&](const Triangle& t) {
     return mesh.vertices[t[0]].y + mesh.vertices[t[1]].y + mesh.vertices[t[2]].y;
   };
@@ -32,7 +32,7 @@ Grab on_top(const World& world) {
 /// Takes body 0 where it is and pulls by `stretch`.
 glm::dvec3 take(World& world, Grab grab, const glm::dvec3& stretch) {
   world.grab(grab);
-  const glm::dvec3 from = WorldInsides::dynamics(world).grabbed_point();
+  const glm::dvec3 from = WorldTestAccess::dynamics(world).grabbed_point();
   grab.target = from + stretch;
   world.grab(grab);
   return from;
@@ -60,7 +60,7 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
   grab.damping_ratio = 0.05;
   const double stretch = 0.1;
   const glm::dvec3 from = take(world, grab, {stretch, 0, 0});
-  const double mass = world.prototype(0).particle_mass / glm::dot(grab.weights, grab.weights);
+  const double mass = world.model(0).particle_mass / glm::dot(grab.weights, grab.weights);
   const double rate = 2 * std::numbers::pi * grab.frequency, k = dust.mass * rate * rate;
   const double decay = grab.damping_ratio * dust.mass * rate / mass;
   const double swing = std::sqrt(k / mass - decay * decay);
@@ -68,7 +68,7 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
     world.step();
     const double t = frame * world.frame_time();
     const double left = stretch * std::exp(-decay * t) * (std::cos(swing * t) + decay / swing * std::sin(swing * t));
-    const glm::dvec3 moved = WorldInsides::dynamics(world).grabbed_point() - from;
+    const glm::dvec3 moved = WorldTestAccess::dynamics(world).grabbed_point() - from;
     ASSERT_NEAR(moved.x, stretch - left, 1e-3 * stretch) << frame;
     ASSERT_NEAR(moved.y, 0, 1e-6);
   }
@@ -88,7 +88,7 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
       const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
       test::run(world, 180);
       const double rate = 2 * std::numbers::pi * grab.frequency;
-      const glm::dvec3 sag = hand - WorldInsides::dynamics(world).grabbed_point();
+      const glm::dvec3 sag = hand - WorldTestAccess::dynamics(world).grabbed_point();
       EXPECT_NEAR(sag.y, 9.81 / (rate * rate), 1e-3) << integrator.key << ", " << mass << " kg";
       EXPECT_LT(glm::length(glm::dvec2(sag.x, sag.z)), 5e-3);  // it may still swing a little
     }
@@ -105,7 +105,7 @@ TEST(Grab, ABodySagsByItsWeightInLongSubstepsToo) {
   const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
   test::run(world, 180);
   const double rate = 2 * std::numbers::pi * grab.frequency;
-  EXPECT_NEAR(hand.y - WorldInsides::dynamics(world).grabbed_point().y, 9.81 / (rate * rate), 1e-3);
+  EXPECT_NEAR(hand.y - WorldTestAccess::dynamics(world).grabbed_point().y, 9.81 / (rate * rate), 1e-3);
 }
 
 TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
@@ -124,7 +124,8 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
         EXPECT_TRUE(m.finite) << frequency << " Hz, " << mass << " kg";
         EXPECT_LT(m.max_speed, 200) << frequency << " Hz, " << mass << " kg";
         if (frequency < 1e3 || ratio > 0) continue;
-        EXPECT_LT(glm::distance(WorldInsides::dynamics(world).grabbed_point(), from + glm::dvec3(0.5, 0.5, 0)), 0.01);
+        EXPECT_LT(glm::distance(WorldTestAccess::dynamics(world).grabbed_point(), from + glm::dvec3(0.5, 0.5, 0)),
+                  0.01);
       }
     }
   }
@@ -148,9 +149,9 @@ TEST(Grab, WakesASleeperKeepsItAwakeAndFreesAHeldBody) {
   scene.sleep = {0.05, 5};
   scene.bodies[0].release = 1000;
   World world(scene, {});
-  ASSERT_TRUE(world.body(0).held);
+  ASSERT_TRUE(world.body(0).pinned);
   take(world, on_first_face(world), glm::dvec3(0.0));
-  EXPECT_FALSE(world.body(0).held);
+  EXPECT_FALSE(world.body(0).pinned);
   world.grab({});
   test::run(world, 10);
   ASSERT_TRUE(world.body(0).asleep);

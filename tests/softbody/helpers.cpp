@@ -70,18 +70,18 @@ void run(World& world, int frames) {
 
 std::vector<Particle> particles_of(const World& world, BodyId body) {
   std::vector<Particle> all;
-  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i) all.push_back(world.particle(body, i));
+  for (Index i = 0; i < world.model(body).mesh.vertices.size(); ++i) all.push_back(world.particle(body, i));
   return all;
 }
 
 void place(World& world, const glm::dvec3& scale, double rate) {
   std::vector<Particle> particles;
-  for (const glm::dvec3& x : world.prototype(0).start) particles.push_back({scale * x, rate * x});
+  for (const glm::dvec3& x : world.model(0).start) particles.push_back({scale * x, rate * x});
   world.set_particles(0, particles);
 }
 
 Motion motion(const World& world, BodyId body) {
-  const Prototype& p = world.prototype(body);
+  const BodyModel& p = world.model(body);
   const auto count = static_cast<Index>(p.mesh.vertices.size());
   Motion m{p.material.mass, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
   for (Index i = 0; i < count; ++i) {
@@ -105,7 +105,7 @@ glm::dvec3 angular_momentum(const World& world) {
   return total;
 }
 
-std::vector<glm::dvec3> forces(const Prototype& p, const std::vector<glm::dvec3>& x) {
+std::vector<glm::dvec3> forces(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   std::vector<glm::dvec3> f(x.size(), glm::dvec3(0.0));
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) {

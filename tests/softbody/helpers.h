@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <random>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"
 #include "tests/temporary_folder.h"
@@ -40,7 +40,7 @@ struct Motion {
 Motion motion(const World& world, BodyId body);
 glm::dvec3 angular_momentum(const World& world);  // about the world's origin
 /// Forces of springs and gas at rest, by plain loops.
-std::vector<glm::dvec3> forces(const Prototype& prototype, const std::vector<glm::dvec3>& x);
+std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 /// The instruction sets that this processor has.
 std::vector<Isa> isas();

@@ -49,8 +49,8 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
   constexpr double nearly = 0.01;  // how near the frame's spin comes to the body's
   const Flight f;
   const ImplicitFrames frames = f.frames();
-  Lanes x = f.x, v = f.v, carried(x.size()), a(x.size());
-  frames.enter(x, v, carried);
+  Lanes x = f.x, v = f.v, frame_displacement(x.size()), a(x.size());
+  frames.enter(x, v, frame_displacement);
   frames.accelerations(x, v, a);
   Lanes end_x = x, end_v = v;
   frames.leave(end_x, end_v);
@@ -65,10 +65,10 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
     EXPECT_LT(glm::distance(at(end_x, i, 2), f.centre + f.h * f.velocity + f.fall + place), 1e-12);
     EXPECT_LT(glm::distance(at(end_v, i, 2), f.velocity + f.h * f.gravity + frames.leave(2, round)), 1e-12);
     // In the frame it is so far from where it was in the world.
-    EXPECT_NEAR(glm::length(at(carried, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
+    EXPECT_NEAR(glm::length(at(frame_displacement, i, 2)), glm::distance(at(end_x, i, 2), at(f.x, i, 2)), 1e-12);
     EXPECT_EQ(at(x, i, 5), at(f.x, i, 5));
     EXPECT_EQ(at(a, i, 5), f.gravity);
-    EXPECT_EQ(at(carried, i, 5), glm::dvec3(0.0));
+    EXPECT_EQ(at(frame_displacement, i, 5), glm::dvec3(0.0));
     EXPECT_EQ(at(end_x, i, 5), at(f.x, i, 5));
   }
 }
@@ -76,13 +76,13 @@ TEST(ImplicitFrames, TakeARigidMotionAlong) {
 TEST(ImplicitFrames, TurnDirectionsAndForcesAlike) {
   const Flight f;
   const ImplicitFrames frames = f.frames();
-  Lanes x = f.x, v = f.v, carried(x.size());
-  frames.enter(x, v, carried);
+  Lanes x = f.x, v = f.v, frame_displacement(x.size());
+  frames.enter(x, v, frame_displacement);
   const glm::dvec3 normal = glm::normalize(glm::dvec3(1, 2, -1));
   Lanes end_x = x, end_v = v;
   frames.leave(end_x, end_v);
   const glm::dvec3 moved = at(end_x, 3, 2) - at(f.x, 3, 2);
-  EXPECT_NEAR(glm::dot(at(carried, 3, 2), frames.enter(2, normal)), glm::dot(moved, normal), 1e-12);
+  EXPECT_NEAR(glm::dot(at(frame_displacement, 3, 2), frames.enter(2, normal)), glm::dot(moved, normal), 1e-12);
   EXPECT_LT(glm::distance(frames.leave(2, frames.enter(2, normal)), normal), 1e-12);
 }
 
@@ -96,16 +96,16 @@ TEST(Rotation, IsTheOneOfItsVector) {
   }
 }
 
-TEST(ImplicitFrames, TurnShields) {
+TEST(ImplicitFrames, TurnPenaltyPairs) {
   const Flight f;
   const ImplicitFrames frames = f.frames();
-  LinearShield shield{.at = 2, .normal = glm::normalize(glm::dvec3(1, 2, -1)), .slopes = {}, .force = {3, 5, -4}};
-  shield.slopes.spring = 10, shield.slopes.damper = 2, shield.slopes.across_spring = 7, shield.slopes.across_damper = 1;
-  shield.friction = 0.5, shield.partner = {0.1, 0.2, 0.3}, shield.as_now = {-0.1, 0.2, 0.1};
-  const LinearShield turned = frames.enter(shield);
+  LinearPenaltyPair pair{.at = 2, .normal = glm::normalize(glm::dvec3(1, 2, -1)), .slopes = {}, .force = {3, 5, -4}};
+  pair.slopes.spring = 10, pair.slopes.damper = 2, pair.slopes.across_spring = 7, pair.slopes.across_damper = 1;
+  pair.friction = 0.5, pair.partner = {0.1, 0.2, 0.3}, pair.start_separation = {-0.1, 0.2, 0.1};
+  const LinearPenaltyPair turned = frames.enter(pair);
   const glm::dvec3 moved(0.2, -0.1, 0.05);
-  ASSERT_GT(glm::length(shield.after(moved)), 1);
-  EXPECT_LT(glm::distance(frames.leave(2, turned.after(frames.enter(2, moved))), shield.after(moved)), 1e-10);
+  ASSERT_GT(glm::length(pair.force_after(moved)), 1);
+  EXPECT_LT(glm::distance(frames.leave(2, turned.force_after(frames.enter(2, moved))), pair.force_after(moved)), 1e-10);
 }
 
 /// Along an axis to which all is near, what swings looks like a fast spin.
@@ -124,13 +124,13 @@ TEST(ImplicitFrames, DoNotFollowATremor) {
 
 /// One lane's work of a step in which a ball's particles all move with 2 m/s.
 struct Moving {
-  std::shared_ptr<const Prototype> prototype = make_prototype({}, gas_ball(1e4));
-  ImplicitWork work{*prototype, implicit_kernels(best_isa())};
-  double kinetic = 0.5 * prototype->material.mass * 4;  // J
+  std::shared_ptr<const BodyModel> model = make_body_model({}, gas_ball(1e4));
+  ImplicitWork work{*model, implicit_kernels(best_isa())};
+  double kinetic = 0.5 * model->material.mass * 4;  // J
   Moving() {
     work.end_x = work.x;
-    for (std::size_t i = 0; i < prototype->mesh.vertices.size(); ++i) {
-      put(work.x, i, 1, prototype->start[i]);
+    for (std::size_t i = 0; i < model->mesh.vertices.size(); ++i) {
+      put(work.x, i, 1, model->start[i]);
       put(work.v, i, 1, {2, 0, 0});
     }
     work.end_x = work.x, work.end_v = work.v;
@@ -138,70 +138,71 @@ struct Moving {
 };
 
 /// Smooth, and what meets it stays there.
-PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double need,
+PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double min_displacement,
                    const glm::dvec3& force = glm::dvec3(0.0)) {
   return {.at = particle * lanes + lane,
           .friction = 0,
           .restitution = 0,
           .normal = normal,
-          .need = need,
+          .min_displacement = min_displacement,
           .out = 0,
           .force = force};
 }
 
-TEST(ImplicitEnergy, TakesBackWhatIsUndue) {
+TEST(Dissipate, RemovesTheEnergyGain) {
   for (const bool pushed : {false, true}) {
     Moving m;
-    EXPECT_EQ(undue_energy(*m.prototype, m.work, 1, glm::dvec3(0.0), pushed), 0);
+    EXPECT_EQ(energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed), 0);
     std::mt19937 random(1);
     glm::dvec3 momentum(0.0);
     double gain = 0;  // J
-    const std::size_t n = m.prototype->mesh.vertices.size();
+    const std::size_t n = m.model->mesh.vertices.size();
     for (std::size_t i = 0; i < n; ++i) {
       const glm::dvec3 more = random_vector(random, 1);
       put(m.work.v, i, 1, at(m.work.v, i, 1) + more);
       put(m.work.end_v, i, 1, at(m.work.end_v, i, 1) + 1.01 * more);
       momentum += at(m.work.end_v, i, 1);
       gain +=
-          m.prototype->particle_mass / 2 *
+          m.model->particle_mass / 2 *
           (glm::dot(at(m.work.end_v, i, 1), at(m.work.end_v, i, 1)) - glm::dot(at(m.work.v, i, 1), at(m.work.v, i, 1)));
     }
-    const double undue = undue_energy(*m.prototype, m.work, 1, glm::dvec3(0.0), pushed);
+    const double undue = energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed);
     EXPECT_NEAR(undue, gain, 1e-9) << "J";
-    EXPECT_TRUE(take_back(*m.prototype, m.work, 1, undue, pushed));
-    EXPECT_EQ(undue_energy(*m.prototype, m.work, 1, glm::dvec3(0.0), pushed), 0);
+    EXPECT_TRUE(dissipate(*m.model, m.work, 1, undue, pushed));
+    EXPECT_EQ(energy_gain(*m.model, m.work, 1, glm::dvec3(0.0), pushed), 0);
     glm::dvec3 left(0.0);
     for (std::size_t i = 0; i < n; ++i) left += at(m.work.end_v, i, 1);
     if (!pushed) {
       EXPECT_LT(glm::distance(left, momentum), 1e-9);
     }
     const Lanes before = m.work.end_v;
-    EXPECT_FALSE(take_back(*m.prototype, m.work, 1, 2 * m.kinetic, pushed));
-    EXPECT_FALSE(take_back(*m.prototype, m.work, 1, std::numeric_limits<double>::infinity(), pushed));
+    EXPECT_FALSE(dissipate(*m.model, m.work, 1, 2 * m.kinetic, pushed));
+    EXPECT_FALSE(dissipate(*m.model, m.work, 1, std::numeric_limits<double>::infinity(), pushed));
     EXPECT_EQ(m.work.end_v, before);
   }
 }
 
 /// With the force `force` whatever moves.
-LinearShield shield(std::size_t particle, std::size_t lane, const glm::dvec3& normal, const glm::dvec3& force) {
+LinearPenaltyPair penalty_pair(std::size_t particle, std::size_t lane, const glm::dvec3& normal,
+                               const glm::dvec3& force) {
   return {.at = particle * lanes + lane, .normal = normal, .slopes = {}, .force = force};
 }
 
-/// A plane, a shield and gravity act on a ball; what lanes beside it feel has no part in it.
-TEST(KeepsBalance, WeighsMomentumAgainstTheForces) {
+/// A plane, a penalty pair and gravity act on a ball; what lanes beside it feel has no part in it.
+TEST(SatisfiesMomentumBalance, ComparesMomentumWithTheForces) {
   constexpr double h = 0.01;
-  const glm::dvec3 gravity(0, -9.81, 0), by_plane(30, 200, -10), by_shield(0, 0, 150);  // N
+  const glm::dvec3 gravity(0, -9.81, 0), by_plane(30, 200, -10), by_pair(0, 0, 150);  // N
   Moving m;
   m.work.planes = {plane(3, 1, {0, 1, 0}, 0, by_plane), plane(3, 2, {0, 1, 0}, 0, {1e3, 1e3, 1e3})};
-  m.work.shields = {shield(5, 1, {0, 0, 1}, by_shield), shield(5, 2, {0, 0, 1}, {0, 0, 1e3})};
-  const glm::dvec3 given = h * (by_plane + by_shield);
-  const double tenth = 0.1 * (glm::length(given) + h * m.prototype->material.mass * glm::length(gravity));
+  m.work.penalty_pairs = {penalty_pair(5, 1, {0, 0, 1}, by_pair), penalty_pair(5, 2, {0, 0, 1}, {0, 0, 1e3})};
+  const glm::dvec3 given = h * (by_plane + by_pair);
+  const double tenth = 0.1 * (glm::length(given) + h * m.model->material.mass * glm::length(gravity));
   const auto ends_with = [&](const glm::dvec3& momentum) {  // kg m/s, more than it started with
-    for (std::size_t i = 0; i < m.prototype->mesh.vertices.size(); ++i)
-      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.prototype->material.mass);
-    return keeps_balance(*m.prototype, m.work, 1, h, gravity);
+    for (std::size_t i = 0; i < m.model->mesh.vertices.size(); ++i)
+      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.model->material.mass);
+    return satisfies_momentum_balance(*m.model, m.work, 1, h, gravity);
   };
-  const glm::dvec3 due = given + h * m.prototype->material.mass * gravity;
+  const glm::dvec3 due = given + h * m.model->material.mass * gravity;
   for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
     for (const double sign : {-1.0, 1.0}) {
       EXPECT_TRUE(ends_with(due + 0.99 * sign * tenth * way));
@@ -227,14 +228,14 @@ TEST(ClearPlanes, LeavesNoParticleBehind) {
   EXPECT_EQ(at(m.work.end_x, 4, 1), at(before_x, 4, 1));
 }
 
-TEST(GoOnAsOne, LeavesARigidMotionAsItIs) {
+TEST(RigidFallbackStep, LeavesARigidMotionAsItIs) {
   std::mt19937 random(1);
   for (int i = 0; i < 50; ++i) {
     Moving m;
     const glm::dvec3 velocity = random_vector(random, 5), spin = random_vector(random, 5);
-    const std::size_t n = m.prototype->mesh.vertices.size();
-    for (std::size_t k = 0; k < n; ++k) put(m.work.v, k, 1, velocity + glm::cross(spin, m.prototype->start[k]));
-    go_on_as_one(m.work, 1, 0.01, glm::dvec3(0.0));
+    const std::size_t n = m.model->mesh.vertices.size();
+    for (std::size_t k = 0; k < n; ++k) put(m.work.v, k, 1, velocity + glm::cross(spin, m.model->start[k]));
+    rigid_fallback_step(m.work, 1, 0.01, glm::dvec3(0.0));
     const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
     const RigidMotion start = rigid_motion(n, LaneView{m.work.x, 1}, LaneView{m.work.v, 1});
     ASSERT_LT(glm::distance(end.momentum, start.momentum), 1e-3 * glm::length(start.momentum)) << "rest: energy";
@@ -242,26 +243,25 @@ TEST(GoOnAsOne, LeavesARigidMotionAsItIs) {
   }
 }
 
-TEST(GoOnAsOne, KeepsItsSpinWhileItFalls) {
+TEST(RigidFallbackStep, KeepsItsSpinWhileItFalls) {
   Moving m;
-  const std::size_t n = m.prototype->mesh.vertices.size();
+  const std::size_t n = m.model->mesh.vertices.size();
   const glm::dvec3 velocity(1, -2, 0), spin(0, 3, 0), gravity(0, -9.81, 0);
-  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, velocity + glm::cross(spin, m.prototype->start[i]));
-  go_on_as_one(m.work, 1, 0.01, gravity);
+  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, velocity + glm::cross(spin, m.model->start[i]));
+  rigid_fallback_step(m.work, 1, 0.01, gravity);
   const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
   EXPECT_LT(glm::distance(end.spin, spin), 0.01);
   EXPECT_LT(glm::distance(end.velocity, velocity + 0.01 * gravity), 1e-9);
 }
 
 /// Its planes stop it, its spin goes on.
-TEST(GoOnAsOne, KeepsSpinAndStopsAtPlanes) {
+TEST(RigidFallbackStep, KeepsSpinAndStopsAtPlanes) {
   Moving m;
-  const std::size_t n = m.prototype->mesh.vertices.size();
+  const std::size_t n = m.model->mesh.vertices.size();
   const glm::dvec3 spin(0, 3, 0);
-  for (std::size_t i = 0; i < n; ++i)
-    put(m.work.v, i, 1, glm::dvec3(2, -1, 0) + glm::cross(spin, m.prototype->start[i]));
+  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, glm::dvec3(2, -1, 0) + glm::cross(spin, m.model->start[i]));
   for (std::size_t i = 0; i < n; ++i) m.work.planes.push_back(plane(i, 1, {0, 1, 0}, 0, {1, 1, 1}));
-  go_on_as_one(m.work, 1, 0.01, glm::dvec3(0.0));
+  rigid_fallback_step(m.work, 1, 0.01, glm::dvec3(0.0));
   const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
   EXPECT_LT(glm::distance(end.spin, spin), 0.01);
   EXPECT_LT(glm::distance(end.velocity, glm::dvec3(2, 0, 0)), 1e-9);

@@ -45,10 +45,10 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
     if (!closed) source.kind = "grid", source.columns = source.rows = 6;
     Material m = gas_ball();
     m.shear = {50, 0.1};
-    const auto p = make_prototype(source, m);
+    const auto p = make_body_model(source, m);
     const ImplicitMatrix a(*p, 1e-2);
     const auto n = static_cast<Index>(p->mesh.vertices.size());
-    ASSERT_EQ(a.turns(), closed);
+    ASSERT_EQ(a.rotates(), closed);
     // A unit force on one particle, through the factor and Sherman-Morrison, as a solve has it.
     const Index j = n / 2;
     Lanes x((closed ? 3 : 1) * n * lanes);
@@ -72,7 +72,7 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
   m.structural = {1e4, 0};
   m.bend = {2e3, 0};
   m.start_in_equilibrium = false;  // it finds the balance itself
-  const auto p = make_prototype({}, m);
+  const auto p = make_body_model({}, m);
   const ImplicitMatrix a(*p, h);
   const std::size_t n = p->mesh.vertices.size();
   std::vector<glm::dvec3> ahead = a.shape(), back = ahead, d(n);
@@ -95,7 +95,7 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
 TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
   Material m = gas_ball();
   m.start_in_equilibrium = false;  // so that the shape in balance is not the one of the start
-  const auto p = make_prototype({}, m);
+  const auto p = make_body_model({}, m);
   const ImplicitMatrix other(*p, 1e-2), again(*p, 2e-3, &other), fresh(*p, 2e-3);
   EXPECT_GT(glm::distance(fresh.shape()[0], p->start[0]), 1e-3);
   EXPECT_EQ(again.shape(), fresh.shape());
@@ -117,28 +117,28 @@ TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
   Material m = gas_ball();
   m.structural = {1e9, 0.1};
   m.mass = 1e-12;
-  const ImplicitMatrix a(*make_prototype({}, m), 0.5);
+  const ImplicitMatrix a(*make_body_model({}, m), 0.5);
   EXPECT_TRUE(std::isfinite(glm::determinant(a.compliance(1, 1))));
 }
 
 /// Between planes that leave it no place there are no contact forces to be found.
 TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
-  const auto p = make_prototype({}, gas_ball());
+  const auto p = make_body_model({}, gas_ball());
   const double h = 1.0 / 60, r = p->radius;
   const ImplicitMatrix matrix(*p, h);
   ImplicitWork work(*p, implicit_kernels(best_isa()));
   work.moves[0] = 1;
-  const std::size_t n = p->mesh.vertices.size(), most_contacts = 300;
+  const std::size_t n = p->mesh.vertices.size(), max_contacts = 300;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) work.x[(k * n + i) * lanes] = matrix.shape()[i][int(k)];
-  for (std::size_t i = 0; i < std::min(n, most_contacts / 2); ++i)
+  for (std::size_t i = 0; i < std::min(n, max_contacts / 2); ++i)
     for (const double side : {1.0, -1.0}) work.planes.push_back({i * lanes, 0.5, 0, {side, 0, 0}, r, r});
-  work.own_v.resize(work.x.size());
-  const Lanes& end = work.solver.solve(
-      {*p, matrix, h, work.moves.data(), &work.x, &work.own_v, &work.a, &work.carried, &work.planes, &work.shields});
+  work.local_v.resize(work.x.size());
+  const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.local_v, &work.a,
+                                        &work.frame_displacement, &work.planes, &work.penalty_pairs});
   EXPECT_TRUE(std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); }));
   const double iterations = (30 + 8) * 12, sweeps = 2 * 4e6 / 256;
-  const double done = work.solver.take_work(), last_sweeps = 2 * double(most_contacts * most_contacts) / 256;
+  const double done = work.solver.take_work(), last_sweeps = 2 * double(max_contacts * max_contacts) / 256;
   EXPECT_GE(done, sweeps) << "they count";
   EXPECT_LE(done, iterations * double(n) + sweeps + last_sweeps);
   EXPECT_EQ(work.solver.take_work(), 0);
@@ -161,8 +161,8 @@ TEST(Implicit, StandsAnyStiffnessAtSixtyFramesASecond) {
   }
 }
 
-/// J, the most that a world gains over where it starts, its shields' energy counted.
-double most_gained(World& world, int frames) {
+/// J, the most that a world gains over where it starts, the energy of its penalty pairs counted.
+double max_gained(World& world, int frames) {
   const auto energy = [&] { return measure(world).energy + total(world.pair_energies().next); };
   const double start = energy();
   double most = 0;
@@ -181,7 +181,7 @@ TEST(Implicit, ABodyThatKeepsItsShapeGainsNoEnergy) {
     m.shape_frequency = frequency;
     World world(lone_body(m), {.integrator = {"implicit"}});
     place(world, {1.5, 0.8, 0.8});
-    const double rest = starting_energy(world.prototype(0)).deformation(), start = measure(world).energy - rest;
+    const double rest = starting_energy(world.model(0)).deformation(), start = measure(world).energy - rest;
     for (int frame = 0; frame < 120; ++frame) {
       world.step();
       ASSERT_LT(measure(world).energy - rest, 1.001 * start) << frequency << " Hz, frame " << frame;
@@ -195,17 +195,17 @@ TEST(Implicit, ContactWithSolidsGivesAStiffBodyNoEnergy) {
     scene.spheres.push_back({.centre = {0.1, -0.3, 0}, .radius = 0.5});  // it rolls off this one
     scene.bodies[0].velocity = {0, -20, 0};
     World world(scene, {.frame_time = frame_time, .integrator = {"implicit", 1}});
-    EXPECT_LT(most_gained(world, int(0.7 / frame_time)), 0.1) << frame_time;
+    EXPECT_LT(max_gained(world, int(0.7 / frame_time)), 0.1) << frame_time;
   }
 }
 
-/// What the shields do in a step is not known at its start: particles end behind planes that looked far.
+/// What penalty contacts do in a step is not known at its start: particles end behind planes that looked far.
 TEST(Implicit, BodiesThatPushEachOtherIntoASolidGainNoEnergy) {
   Scene scene = ball_above_ground(1e7, 1.6);
   scene.spheres.push_back({.centre = {0, 0.5, 0}, .radius = 0.5});
   add_body(scene, {0.1, 2.7, 0.05}, {0, -3, 0});
   World world(scene, {.frame_time = 1.0 / 120, .integrator = {"implicit", 1}});
-  EXPECT_LT(most_gained(world, 120), 0.1);
+  EXPECT_LT(max_gained(world, 120), 0.1);
 }
 
 TEST(Implicit, RestsWhereExplicitStepsRest) {

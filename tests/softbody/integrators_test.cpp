@@ -26,7 +26,7 @@ std::vector<glm::dvec3> flight(const Scene& scene, std::string_view integrator, 
   World world(scene, {.integrator = {std::string(integrator), substeps}});
   run(world, frames);
   std::vector<glm::dvec3> list;
-  for (Index i = 0; i < world.prototype(0).mesh.vertices.size(); ++i) list.push_back(world.particle(0, i).position);
+  for (Index i = 0; i < world.model(0).mesh.vertices.size(); ++i) list.push_back(world.particle(0, i).position);
   return list;
 }
 
@@ -38,7 +38,7 @@ double rms(const std::vector<glm::dvec3>& a, const std::vector<glm::dvec3>& b) {
 
 /// Substeps worth about as many of an explicit integrator's. Auto makes implicit steps of what is asked for.
 int about(const Integrator& i, int substeps) {
-  return std::max(1, substeps / (i.implicit || i.automatic ? 50 : i.substeps));
+  return std::max(1, substeps / (i.implicit || i.automatic ? 50 : i.substeps_per_step));
 }
 
 class Integrators : public testing::TestWithParam<Integrator> {};
@@ -50,7 +50,7 @@ TEST_P(Integrators, ConvergeWithTheirOrder) {
   scene.materials[0].start_in_equilibrium = false;
   const auto reference = flight(scene, "rk4", 256, 6);
   // Coarse enough for the error to be far above a float's.
-  const int coarse = i.order == 4 ? 6 : std::max(48 / i.substeps, 3);
+  const int coarse = i.order == 4 ? 6 : std::max(48 / i.substeps_per_step, 3);
   const double before = rms(flight(scene, i.key, coarse, 6), reference);
   const double after = rms(flight(scene, i.key, 2 * coarse, 6), reference);
   RecordProperty("before", std::to_string(before));
@@ -126,7 +126,7 @@ TEST(Integrator, CanBeChangedWhileItRuns) {
     world.set_integrator({std::string(i.key), about(i, 60)});
     run(world, 3);
     EXPECT_EQ(world.integrator_choice().key, i.key);
-    EXPECT_EQ(world.last_step().substeps, about(i, 60) * i.substeps) << i.key;
+    EXPECT_EQ(world.last_step().substeps, about(i, 60) * i.substeps_per_step) << i.key;
     EXPECT_TRUE(measure(world).finite) << i.key;
   }
   world.set_integrator({});

@@ -58,7 +58,7 @@ TEST_P(LineLengths, ComeJoined) {
 
 INSTANTIATE_TEST_SUITE_P(LineReader, LineLengths,
                          testing::Values(0, 1, 65'529, 65'530, 65'535, 65'536, 65'537, 131'072, 200'000, 524'288,
-                                         LineReader::longest_line - 8));
+                                         LineReader::max_line_length - 8));
 
 using Lines = std::vector<std::string>;
 
@@ -88,7 +88,7 @@ TEST(LineReader, LeavesOutPaddingAtTheEndOnly) {
 
 TEST(LineReader, RefusesALineThatIsTooLong) {
   const tests::TemporaryFolder folder;
-  LineReader lines(folder.write("lines", "first\n" + std::string(LineReader::longest_line + 1, 'x') + "\n"));
+  LineReader lines(folder.write("lines", "first\n" + std::string(LineReader::max_line_length + 1, 'x') + "\n"));
   std::string_view line;
   ASSERT_TRUE(lines.next(line));
   EXPECT_THROW(lines.next(line), std::length_error);

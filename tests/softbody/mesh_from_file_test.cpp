@@ -62,9 +62,9 @@ position = [0.9, 2.6, 0.1]
 
 /// Root mean square distance of the particles from the mesh's own shape, in m.
 double distortion(const World& world) {
-  Material m = world.prototype(0).material;
+  Material m = world.model(0).material;
   m.shape_frequency = 1;
-  const auto p = make_prototype(world.scene().bodies[0].mesh, m);
+  const auto p = make_body_model(world.scene().bodies[0].mesh, m);
   std::vector<glm::dvec3> x;
   for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.particle(0, i).position);
   return std::sqrt(2 * shape_energy(*p, x) / (shape_stiffness(*p) * double(x.size())));
@@ -143,7 +143,7 @@ TEST(MeshFromFile, AFanIsNoStifferThanARegularNet) {
     fan += face({1, b, a}) + face({2, a, b});
   }
   const TemporaryFolder folder;
-  const auto p = make_prototype(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), spring_ball());
+  const auto p = make_body_model(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), spring_ball());
   EXPECT_LE(p->spring_stiffness_bound, 6 * (300 + 75) + 1e-9);
   EXPECT_EQ(p->largest_degree, count);
 }

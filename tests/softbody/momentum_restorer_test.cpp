@@ -14,12 +14,12 @@ namespace {
 class MomentumRestorerOfABatch : public testing::Test {
  protected:
   MomentumRestorerOfABatch() {
-    batch.prototype = make_unbalanced_prototype({}, spring_ball());
+    batch.model = make_unbalanced_body_model({}, spring_ball());
     batch.used = 3;
     batch.moves = {1, 1};
     x = v = LaneField(batch.particles());
     for (std::size_t i = 0; i < batch.particles(); ++i)
-      for (int l = 0; l < batch.used; ++l) x.set(i, l, batch.prototype->start[i]);
+      for (int l = 0; l < batch.used; ++l) x.set(i, l, batch.model->start[i]);
     v.randomise(random, 1);
   }
   BatchView view() { return {batch, kernels(best_isa()), x.field(), v.field()}; }
@@ -66,7 +66,7 @@ TEST_F(MomentumRestorerOfABatch, LeavesAloneWhatIsTouchedOrDoesNotMove) {
   MomentumRestorer restorer;
   restorer.note(view());
   disturb();
-  batch.touched = 1u << 1;
+  batch.contacted = 1u << 1;
   const LaneField disturbed = v;
   restorer.restore(glm::dvec3(1, 2, 3), true);
   EXPECT_NE(v.at(0, 0), disturbed.at(0, 0));

@@ -36,7 +36,7 @@ TEST(FreeFall, DoesNotDeformABody) {
   const Motion motion_of = motion(world, 0);
   for (Index i = 0; i < 162; ++i) {
     const glm::dvec3 r = world.particle(0, i).position - motion_of.centre;
-    EXPECT_LT(glm::distance(r, world.prototype(0).start[i]), 1e-4);
+    EXPECT_LT(glm::distance(r, world.model(0).start[i]), 1e-4);
   }
 }
 

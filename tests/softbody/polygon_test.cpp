@@ -96,7 +96,7 @@ Polygons polygons(const std::vector<std::vector<Index>>& each) {
   return all;
 }
 
-std::size_t most_faces_at_an_edge(const std::vector<Triangle>& triangles) {
+std::size_t max_faces_at_an_edge(const std::vector<Triangle>& triangles) {
   std::map<Edge, std::size_t> faces;
   std::size_t most = 0;
   for (const Triangle& t : triangles)
@@ -105,10 +105,10 @@ std::size_t most_faces_at_an_edge(const std::vector<Triangle>& triangles) {
 }
 
 /// That the triangles of each polygon are as many as they have to be, and have its sides.
-void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vertices, std::size_t most_faces = 2) {
+void expect_cut(const std::vector<std::vector<Index>>& each, const Polygon& vertices, std::size_t max_faces = 2) {
   const auto [triangles, polygon] = triangulate(polygons(each), vertices);
   ASSERT_EQ(triangles.size(), polygon.size());
-  EXPECT_EQ(most_faces_at_an_edge(triangles), most_faces);
+  EXPECT_EQ(max_faces_at_an_edge(triangles), max_faces);
   for (std::size_t p = 0; p < each.size(); ++p) {
     EXPECT_EQ(std::count(polygon.begin(), polygon.end(), p), std::ptrdiff_t(each[p].size() - 2));
     for (std::size_t i = 0; i < each[p].size(); ++i) {

@@ -17,7 +17,7 @@ namespace {
 /// Kinetic energy that is not the rigid motion's, in J.
 double vibration(const World& world) {
   const Motion m = motion(world, 0);
-  const double mass = world.prototype(0).particle_mass;
+  const double mass = world.model(0).particle_mass;
   glm::dmat3 inertia(0.0);
   double kinetic = 0;
   for (Index i = 0; i < 162; ++i) {
@@ -179,50 +179,50 @@ class ResistanceOfABody : public testing::Test {
     material.internal_damping = 5;
     material.rolling_resistance = 0.1;
     material.rebound_speed = 4;
-    prototype = make_unbalanced_prototype({}, material);
-    x = v = LaneField(prototype->start.size());
-    for (std::size_t i = 0; i < prototype->start.size(); ++i) {
-      x.set(i, lane, prototype->start[i]);
+    model = make_unbalanced_body_model({}, material);
+    x = v = LaneField(model->start.size());
+    for (std::size_t i = 0; i < model->start.size(); ++i) {
+      x.set(i, lane, model->start[i]);
       v.set(i, lane,
-            glm::dvec3(0, 2, 0) + glm::cross(glm::dvec3(1, 2, 3), prototype->start[i]) + random_vector(random, 0.1));
+            glm::dvec3(0, 2, 0) + glm::cross(glm::dvec3(1, 2, 3), model->start[i]) + random_vector(random, 0.1));
     }
   }
-  RigidMotion motion() { return rigid_motion(prototype->start.size(), of(x), of(v)); }
+  RigidMotion motion() { return rigid_motion(model->start.size(), of(x), of(v)); }
   /// J/kg, of one particle, in all that is not rigid motion.
   double wobble() {
     const RigidMotion m = motion();
     double sum = 0;
-    for (std::size_t i = 0; i < prototype->start.size(); ++i) {
+    for (std::size_t i = 0; i < model->start.size(); ++i) {
       const glm::dvec3 own = of(v)(i) - m.velocity - glm::cross(m.spin, of(x)(i) - m.centre);
       sum += 0.5 * glm::dot(own, own);
     }
     return sum;
   }
-  void resist(Stage stage, const SolidPush& push = {}) {
+  void apply(Stage stage, const SolidPush& push = {}) {
     Resistance resistance;
     resistance.set_plan({{stage}, {}});
-    resistance.resist(*prototype, of(x), of(v), push, 0.02, impact);
+    resistance.apply(*model, of(x), of(v), push, 0.02, impact);
   }
   static BodyField of(LaneField& f) { return {f.field(), lane, lanes}; }
 
   static constexpr int lane = 3;
   std::mt19937 random{7};
   Material material = spring_ball();
-  std::shared_ptr<const Prototype> prototype;
+  std::shared_ptr<const BodyModel> model;
   LaneField x{0}, v{0};
   double impact = 0;  // m/s
 };
 
 TEST_F(ResistanceOfABody, ActsOnlyIfThePlanHasIt) {
   const LaneField before = v;
-  resist(Stage::gravity, {{0, 1, 0}, 0});
+  apply(Stage::gravity, {{0, 1, 0}, 0});
   EXPECT_EQ(v, before);
 }
 
 TEST_F(ResistanceOfABody, InternallyDampsAllButRigidMotion) {
   const RigidMotion before = motion();
   const double wobble_before = wobble();
-  resist(Stage::internal_damping);
+  apply(Stage::internal_damping);
   EXPECT_LT(glm::distance(motion().velocity, before.velocity), 1e-6);
   EXPECT_LT(glm::distance(motion().momentum, before.momentum), 1e-5 * glm::length(before.momentum));
   EXPECT_NEAR(wobble(), wobble_before / (1.1 * 1.1), 1e-4 * wobble_before);  // 5/s for 0.02 s
@@ -230,30 +230,30 @@ TEST_F(ResistanceOfABody, InternallyDampsAllButRigidMotion) {
 
 TEST_F(ResistanceOfABody, RollsByTheNormalImpulse) {
   const RigidMotion before = motion();
-  resist(Stage::rolling_resistance);
+  apply(Stage::rolling_resistance);
   EXPECT_EQ(motion().momentum, before.momentum) << "nothing touches it";
-  resist(Stage::rolling_resistance, {{0, 0.01, 0}, 0});
-  const double lost = prototype->particle_mass * (glm::length(before.momentum) - glm::length(motion().momentum));
-  EXPECT_NEAR(lost, 0.1 * prototype->radius * 0.01, 1e-3 * lost);
+  apply(Stage::rolling_resistance, {{0, 0.01, 0}, 0});
+  const double lost = model->particle_mass * (glm::length(before.momentum) - glm::length(motion().momentum));
+  EXPECT_NEAR(lost, 0.1 * model->radius * 0.01, 1e-3 * lost);
   EXPECT_LT(glm::distance(motion().velocity, before.velocity), 1e-6);
-  resist(Stage::rolling_resistance, {{0, 1e6, 0}, 0});
+  apply(Stage::rolling_resistance, {{0, 1e6, 0}, 0});
   EXPECT_LT(glm::length(motion().momentum), 1e-5 * glm::length(before.momentum)) << "it stops, and does not turn back";
 }
 
 TEST_F(ResistanceOfABody, DampsARebound) {
   const glm::dvec3 before = motion().velocity;
   const double impulse = 0.5 * material.mass * material.rebound_speed;
-  resist(Stage::rebound_damping, {{0, impulse, 0}, 0});
+  apply(Stage::rebound_damping, {{0, impulse, 0}, 0});
   EXPECT_NEAR(motion().velocity.y, 0.5 * before.y, 1e-5);
   EXPECT_NEAR(motion().velocity.x, before.x, 1e-6);
 }
 
 TEST_F(ResistanceOfABody, KeepsWhatRestitutionGivesBackOfARebound) {
   const double out = motion().velocity.y, in = 3, impulse = material.mass * (in + out);
-  resist(Stage::rebound_damping, {{0, impulse, 0}, 0.5 * impulse});
+  apply(Stage::rebound_damping, {{0, impulse, 0}, 0.5 * impulse});
   EXPECT_NEAR(impact, in, 1e-5);
   EXPECT_NEAR(motion().velocity.y, 0.5 * in, 1e-5) << "all that is faster is lost: the impulse is large";
-  resist(Stage::rebound_damping);
+  apply(Stage::rebound_damping);
   EXPECT_EQ(impact, 0) << "it has left";
 }
 

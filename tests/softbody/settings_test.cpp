@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -13,8 +13,8 @@ namespace {
 /// m/s, of the body that is fastest as a whole.
 double fastest_body(const World& world) {
   double fastest = 0;
-  for (BodyId body = 0; body < WorldInsides::dynamics(world).body_count(); ++body) {
-    const auto count = static_cast<Index>(world.prototype(body).mesh.vertices.size());
+  for (BodyId body = 0; body < WorldTestAccess::dynamics(world).body_count(); ++body) {
+    const auto count = static_cast<Index>(world.model(body).mesh.vertices.size());
     glm::dvec3 sum(0.0);
     for (Index v = 0; v < count; ++v) sum += world.particle(body, v).velocity;
     fastest = std::max(fastest, glm::length(sum) / double(count));
@@ -44,7 +44,7 @@ TEST(Settings, AWideToleranceAllOfASuddenDoesNotThrowBodiesAbout) {
       fastest_particle = std::max(fastest_particle, m.max_speed);
       fastest = std::max(fastest, fastest_body(world));
     }
-    EXPECT_GT(fastest_particle, 0.01) << "the shield does grow";
+    EXPECT_GT(fastest_particle, 0.01) << "the contact layer does grow";
     EXPECT_LT(fastest_particle, 10) << shift;
     EXPECT_LT(fastest, 0.5) << shift;
   }
@@ -69,7 +69,7 @@ TEST(Settings, SelfCollisionOfALoneBodyComesAndGoes) {
   EXPECT_GT(again.detection().self_contacts, 0u);
 }
 
-TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheShieldGrows) {
+TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheContactLayerGrows) {
   World world(drop_scene(), {});
   run(world, 800);
   ASSERT_TRUE(world.all_at_rest());
@@ -80,7 +80,7 @@ TEST(Settings, AWiderToleranceWakesAPileThatStaysAwakeWhileTheShieldGrows) {
   run(world, 110);  // 0.1 m at 5 cm a second
   EXPECT_FALSE(world.all_at_rest());
   run(world, 110);
-  EXPECT_LT(world.detection().contacts.size(), before) << "the shield pushed bodies apart";
+  EXPECT_LT(world.detection().contacts.size(), before) << "penalty contact pushed bodies apart";
 }
 
 struct End {
@@ -116,7 +116,7 @@ TEST_P(SliderEnd, KeepsTheRunningSceneWhole) {
 
 const End ends[]{
     {"levels_0", 0, 1001, 0, 0.1f},         {"levels_15", 15, 1001, 0, 0.1f},
-    {"one_bucket", 3, 1, 0, 0.1f},          {"most_buckets", 3, collide::max_buckets, 0, 0.1f},
+    {"one_bucket", 3, 1, 0, 0.1f},          {"max_buckets", 3, collide::max_buckets, 0, 0.1f},
     {"tiny_cell", 3, 1001, 0.005f, 0.1f},   {"huge_cell", 3, 1001, 1e6f, 0.1f},
     {"tiny_tolerance", 3, 1001, 0, 0.001f}, {"wide_tolerance", 3, 1001, 0, 1.0f},
 };

@@ -64,7 +64,7 @@ Material shape_only() {
 
 TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
   std::mt19937 random(2);
-  const auto p = make_prototype({.subdivisions = 1}, shape_only());
+  const auto p = make_body_model({.subdivisions = 1}, shape_only());
   std::vector<glm::dvec3> x;
   const glm::dmat3 r = rotation({1, 2, 3}, 2);
   for (const glm::dvec3& v : p->mesh.vertices)
@@ -101,7 +101,7 @@ TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
 }
 
 TEST(ShapeMatching, ARigidMotionCostsNothing) {
-  const auto p = make_prototype({}, shape_only());
+  const auto p = make_body_model({}, shape_only());
   std::vector<glm::dvec3> x;
   for (const glm::dvec3& v : p->mesh.vertices) x.push_back(rotation({3, -1, 2}, 3) * v + glm::dvec3(5, 6, 7));
   EXPECT_LT(shape_energy(*p, x), 1e-20);
@@ -113,11 +113,11 @@ TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
   const auto file = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const MeshSource source = MeshSource::from_file({.path = file});
   Material m = spring_ball();
-  EXPECT_EQ(make_prototype({}, m)->shape_rate, 0);
-  EXPECT_NEAR(make_prototype(source, m)->shape_rate, 2 * 3.14159265358979 * mesh_file_shape_frequency, 1e-9);
+  EXPECT_EQ(make_body_model({}, m)->shape_rate, 0);
+  EXPECT_NEAR(make_body_model(source, m)->shape_rate, 2 * 3.14159265358979 * mesh_file_shape_frequency, 1e-9);
   m.shape_frequency = 0;
-  EXPECT_EQ(make_prototype(source, m)->shape_rate, 0);
-  EXPECT_TRUE(make_prototype(source, m)->goal.empty());
+  EXPECT_EQ(make_body_model(source, m)->shape_rate, 0);
+  EXPECT_TRUE(make_body_model(source, m)->goal.empty());
 }
 
 }  // namespace

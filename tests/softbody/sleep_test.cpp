@@ -8,7 +8,7 @@
 
 #include "softbody/integrate/equilibrium.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -17,8 +17,8 @@ namespace {
 class SleepRules : public testing::Test {
  protected:
   SleepRules() {
-    const auto prototype = make_prototype({}, spring_ball());
-    for (const double speed : {0.0, 0.5, 0.02}) dynamics.add(prototype, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
+    const auto model = make_body_model({}, spring_ball());
+    for (const double speed : {0.0, 0.5, 0.02}) dynamics.add(model, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
     for (BodyId b = 0; b < 3; ++b) vertex_body.insert(vertex_body.end(), 162, b);
   }
   void settle(int frames, const std::vector<collide::Contact>& contacts) {
@@ -41,7 +41,7 @@ TEST_F(SleepRules, CalmBodiesSleepAfterTheFramesOfTheRule) {
   EXPECT_TRUE(asleep(0));
   EXPECT_FALSE(asleep(1)) << "too fast";
   EXPECT_TRUE(asleep(2));
-  EXPECT_EQ(dynamics.fastest(2), 0) << "a sleeper stands still";
+  EXPECT_EQ(dynamics.max_particle_speed(2), 0) << "a sleeper stands still";
 }
 
 TEST_F(SleepRules, AnIslandSleepsTogetherOrNotAtAll) {
@@ -168,10 +168,10 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   for (int i = 0; i < 60; ++i) {
     world.step();
     ASSERT_TRUE(world.detection().contacts.empty());
-    ASSERT_GT(WorldInsides::dynamics(world).fastest(0), 0.2) << "it slides";
+    ASSERT_GT(WorldTestAccess::dynamics(world).max_particle_speed(0), 0.2) << "it slides";
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
-  EXPECT_LT(WorldInsides::dynamics(world).fastest(1), 0.1) << "calm enough to sleep";
+  EXPECT_LT(WorldTestAccess::dynamics(world).max_particle_speed(1), 0.1) << "calm enough to sleep";
 }
 
 TEST(SleepWhereABodyIsRemoved, EndsForWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {

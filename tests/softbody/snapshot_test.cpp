@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -158,7 +158,7 @@ TEST(Snapshot, BringsTheSleepRuleOfItsScene) {
   EXPECT_TRUE(world.all_at_rest());
 }
 
-/// After surfaces the shield grows from nothing, so that at first no tolerance is too wide.
+/// After surfaces the contact layer grows from nothing, so that at first no tolerance is too wide.
 TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].contact_stiffness = 2e4;
@@ -193,7 +193,7 @@ TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
     Scene scene = lone_body(spring_ball());
     for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
     const World world(scene, {});
-    return WorldInsides::dynamics(world).save().bytes();
+    return WorldTestAccess::dynamics(world).save().bytes();
   };
   EXPECT_EQ(bytes(8) - bytes(7), sizeof(Body));
 }

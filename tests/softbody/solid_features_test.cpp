@@ -15,11 +15,11 @@ namespace softbody::test {
 namespace {
 
 /// Of the points of all faces, on a grid over each, to the solids; m.
-double least_distance(const World& world) {
+double min_distance(const World& world) {
   constexpr int cuts = 12;
   double least = std::numeric_limits<double>::infinity();
   for (BodyId body = 0; body < world.bodies().count(); ++body) {
-    for (const Triangle& t : world.prototype(body).mesh.triangles) {
+    for (const Triangle& t : world.model(body).mesh.triangles) {
       std::array<glm::dvec3, 3> c;
       for (std::size_t k = 0; k < 3; ++k) c[k] = world.particle(body, t[k]).position;
       for (int i = 0; i <= cuts; ++i) {
@@ -51,7 +51,7 @@ class SolidFeatures : public testing::TestWithParam<Case> {
     double least = std::numeric_limits<double>::infinity();
     for (int frame = 0; frame < 60; ++frame) {
       world.step();
-      least = std::min(least, least_distance(world));
+      least = std::min(least, min_distance(world));
     }
     EXPECT_TRUE(measure(world).finite);
     return -least;
@@ -104,27 +104,27 @@ const Case cases[]{
 INSTANTIATE_TEST_SUITE_P(All, SolidFeatures, testing::ValuesIn(cases),
                          [](const auto& c) { return std::string(c.param.name); });
 
-TEST(SolidBones, OfABoxAreItsCornersAndEdges) {
+TEST(CoresOf, AreTheCornersAndEdgesOfABox) {
   SolidBox b = box({0.7, 0.2, 0.4}, {1, 1.4, 0}, {-1, 1, 1});
   b.centre = {0.5, 0.25, -0.5};
   std::vector<glm::dvec3> corners;
   int edges = 0;
-  for (const SolidBone& bone : bones_of(b)) {
+  for (const SolidCore& core : cores_of(b)) {
     int across = 0;
     for (int axis = 0; axis < 3; ++axis) {
       const auto along = [&](const glm::dvec3& v) { return glm::dot(v, b.axes[axis]); };
-      const double from = along(bone.from - b.centre), to = along(bone.to - b.centre);
+      const double from = along(core.from - b.centre), to = along(core.to - b.centre);
       EXPECT_NEAR(std::abs(from), b.half_size[axis], 1e-12);
       EXPECT_NEAR(std::abs(to), b.half_size[axis], 1e-12);
-      EXPECT_NEAR(along(bone.out), (from > 0) - (to < 0), 1e-12) << "0 along an edge";
+      EXPECT_NEAR(along(core.out), (from > 0) - (to < 0), 1e-12) << "0 along an edge";
       across += (from > 0) != (to > 0);
     }
-    EXPECT_EQ(across, bone.point() ? 0 : 1);
-    if (bone.point()) {
-      for (const glm::dvec3& other : corners) EXPECT_GT(glm::distance(bone.from, other), 0.3);
-      corners.push_back(bone.from);
+    EXPECT_EQ(across, core.point() ? 0 : 1);
+    if (core.point()) {
+      for (const glm::dvec3& other : corners) EXPECT_GT(glm::distance(core.from, other), 0.3);
+      corners.push_back(core.from);
     }
-    edges += !bone.point();
+    edges += !core.point();
   }
   EXPECT_EQ(corners.size(), 8u);
   EXPECT_EQ(edges, 12);

@@ -118,7 +118,7 @@ TEST(Restitution, OfASoftBallForgetsAnImpactOnceTheBallHasLeft) {
       run(world, 40);
       EXPECT_GT(motion(world, 0).velocity.y, 2) << "it has left";
       std::vector<Particle> again;
-      for (const glm::dvec3& x : world.prototype(0).start) again.push_back({x + glm::dvec3(0, 1, 0), {0, -speed, 0}});
+      for (const glm::dvec3& x : world.model(0).start) again.push_back({x + glm::dvec3(0, 1, 0), {0, -speed, 0}});
       world.set_particles(0, again);
     }
     run(world, 40);

@@ -51,7 +51,7 @@ TEST(StableStep, ShrinksWithStiffnessAndWithDamping) {
 
 /// Largest eigenvalue of -dF/dx over the particle mass at x, by power iteration; the shift makes it the one of largest
 /// size, even where squeezed springs bring negative ones.
-double largest_eigenvalue(const Prototype& p, const std::vector<glm::dvec3>& x, double shift) {
+double largest_eigenvalue(const BodyModel& p, const std::vector<glm::dvec3>& x, double shift) {
   std::mt19937 random(7);
   std::vector<glm::dvec3> mode(x.size());
   for (auto& m : mode) m = random_vector(random, 1);
@@ -78,7 +78,7 @@ double largest_eigenvalue(const Prototype& p, const std::vector<glm::dvec3>& x, 
 }
 
 TEST(StiffnessBound, HoldsTheLargestEigenvalueOfTheSprings) {
-  const auto p = make_prototype({}, spring_ball());
+  const auto p = make_body_model({}, spring_ball());
   const double bound = 2 * p->spring_stiffness_bound / p->particle_mass;
   const double eigenvalue = largest_eigenvalue(*p, p->mesh.vertices, 0);
   EXPECT_LE(eigenvalue, bound);
@@ -93,7 +93,7 @@ TEST(StiffnessBound, HoldsSpringsAndGasTogetherAtEverySize) {
       m.structural.stiffness = stiffness;
       m.bend.stiffness = stiffness / 4;
       m.gas_pressure = 103000;
-      const auto p = make_prototype({}, m);
+      const auto p = make_body_model({}, m);
       auto x = p->start;
       for (auto& v : x) v *= size;
       const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
@@ -112,14 +112,14 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       m.gas_pressure = gas;
       m.ambient_pressure = gas > 0 ? 0.9 * gas : 200;
       m.start_in_equilibrium = false;
-      const auto p = make_prototype({}, m);
+      const auto p = make_body_model({}, m);
       auto x = p->start;
       for (auto& v : x) v += rough * p->radius * random_vector(random, 1);
       const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
       EXPECT_LE(largest_eigenvalue(*p, x, bound / 2), bound) << "gas " << gas << ", rough " << rough;
       Material without = m;
       without.gas_pressure = without.ambient_pressure = 0;
-      const double springs = 2 * stiffness_per_mass(*make_prototype({}, without), {});
+      const double springs = 2 * stiffness_per_mass(*make_body_model({}, without), {});
       EXPECT_GE(bound, springs);
       const SurfaceShape s = measure_surface(*p, x);
       const double norm = -p->gas.slope(s.volume) * s.area2 / p->particle_mass;
@@ -130,7 +130,7 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
 }
 
 TEST(StiffnessBound, HoldsAFlattenedAndAnInvertedBody) {
-  const auto p = make_prototype({}, gas_ball());
+  const auto p = make_body_model({}, gas_ball());
   for (const double height : {0.3, 0.05, -0.2, -1.0}) {
     auto x = p->start;
     for (auto& v : x) v.y *= height;

@@ -5,12 +5,12 @@
 #include <glm/geometric.hpp>
 
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
 
-TEST(Substeps, AreThoseOfTheBodyThatNeedsMost) {
+TEST(StepController, TakesTheSubstepsOfTheBodyThatNeedsMost) {
   Scene scene = lone_body(gas_ball());
   for (int i = 1; i < 3; ++i) {
     scene.bodies.push_back(scene.bodies[0]);
@@ -22,24 +22,24 @@ TEST(Substeps, AreThoseOfTheBodyThatNeedsMost) {
     for (BodyId body = 0; body < 3; ++body) {
       std::vector<Particle> particles;
       std::vector<glm::dvec3> x;
-      for (Index v = 0; v < world.prototype(body).mesh.vertices.size(); ++v) {
+      for (Index v = 0; v < world.model(body).mesh.vertices.size(); ++v) {
         particles.push_back(world.particle(body, v));
         if (body == 1)
           particles.back().position = world.body(1).origin + size * (particles.back().position - world.body(1).origin);
         x.push_back(particles.back().position);
       }
       world.set_particles(body, particles);
-      const Prototype& p = world.prototype(body);
+      const BodyModel& p = world.model(body);
       const double step = world.integrator_choice().integrator().stable_step(
           stiffness_per_mass(p, measure_surface(p, x)), p.spring_damping_bound / p.particle_mass);
       most = std::max(most, world.frame_time() / step);
     }
-    EXPECT_NEAR(WorldInsides::dynamics(world).substeps(100 * world.frame_time()), 100 * most, 1) << size;
+    EXPECT_NEAR(WorldTestAccess::dynamics(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
   }
 }
 
 /// What damps their contact is the most for the lighter one.
-TEST(Substeps, AreThoseOfTheLighterBodyOfAPairWhicheverComesFirst) {
+TEST(StepController, TakesTheSubstepsOfTheLighterBodyInEitherOrder) {
   const auto substeps = [](double first, double second) {
     Scene scene = lone_body(spring_ball());
     scene.materials.push_back(scene.materials[0]);
@@ -56,28 +56,28 @@ TEST(Substeps, AreThoseOfTheLighterBodyOfAPairWhicheverComesFirst) {
   EXPECT_NEAR(substeps(50, 0.5), lighter_first, 0.05 * lighter_first);
 }
 
-/// The thinner a shield, the less of its bound is damping, and the more its stiffness.
-TEST(Substeps, CountTheStiffnessOfContacts) {
+/// The thinner a contact layer, the less of its bound is damping, and the more its stiffness.
+TEST(StepController, CountsTheStiffnessOfContacts) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].contact_stiffness = 1e4;
   scene.collision.tolerance = 1e-4f;
-  const std::vector<glm::dvec3> start = World(scene, {}).prototype(0).start;
+  const std::vector<glm::dvec3> start = World(scene, {}).model(0).start;
   const auto above = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
   const glm::dvec3 top = *std::max_element(start.begin(), start.end(), above);
   const glm::dvec3 bottom = *std::min_element(start.begin(), start.end(), above);
   add_body(scene, top - bottom + glm::dvec3(0, 5e-5, 0), glm::dvec3(0.0));
   World world(scene, {.integrator = {"semi-implicit-euler"}});
   world.step();
-  const Prototype& p = world.prototype(0);
-  const double own = stiffness_per_mass(p, {}), shield = Shield::stiffness_bound(1e4) / p.particle_mass;
-  ASSERT_GT(shield, 4 * own);
+  const BodyModel& p = world.model(0);
+  const double own = stiffness_per_mass(p, {}), penalty = PenaltyContact::stiffness_bound(1e4) / p.particle_mass;
+  ASSERT_GT(penalty, 4 * own);
   EXPECT_GE(world.last_step().substeps,
             world.frame_time() / world.integrator_choice().integrator().stable_step(
-                                     own + shield, p.spring_damping_bound / p.particle_mass));
+                                     own + penalty, p.spring_damping_bound / p.particle_mass));
 }
 
 /// A tenth of its radius in a substep, at most.
-TEST(Substeps, KeepUpWithABodyNearASolidHoweverSoftItIs) {
+TEST(StepController, KeepsUpWithASoftBodyNearASolid) {
   Material soft = spring_ball();
   soft.structural.stiffness = soft.bend.stiffness = 0.1;
   const auto substeps = [&](double height) {
@@ -92,7 +92,7 @@ TEST(Substeps, KeepUpWithABodyNearASolidHoweverSoftItIs) {
   EXPECT_LT(substeps(60), 5);
 }
 
-TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
+TEST(StepController, FollowsABodyThatIsCrushedWithinAFrame) {
   for (const double speed : {30.0, 100.0, 300.0, 1000.0}) {
     Scene scene = lone_body(gas_ball(), {0, -speed, 0});
     scene.bodies[0].position = {0, 1, 0};
@@ -111,7 +111,7 @@ TEST(Substeps, FollowABodyThatIsCrushedWithinAFrame) {
 
 /// At rest, but far from its balance: no speed tells yet how soon it will have another shape, and another bound. Then
 /// it is fast: a step by the bound of its present shape would lead right through its own far side.
-TEST(Substeps, FollowABodyThatSnapsBack) {
+TEST(StepController, FollowsABodyThatSnapsBack) {
   for (const double stretch : {2.0, 3.0, 5.0, 10.0, 20.0, 50.0})
     for (const double stiffness : {1e1, 1e2, 1e3, 1e4})
       for (const double frame_time : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
@@ -133,7 +133,7 @@ TEST(Substeps, FollowABodyThatSnapsBack) {
 
 /// As small as a scene file may have it: a frame in which it keeps up with the ground takes more than 1e9 substeps. One
 /// of the whole frame, in their place, threw all others apart.
-TEST(Substeps, AreNotTooLongForAnyBodyWhereOneAsksForMoreThanCanBe) {
+TEST(StepController, KeepsOtherBodiesStableWhereOneNeedsTooMany) {
   Scene scene = lone_body(gas_ball());
   scene.gravity = {0, -9.81, 0};
   scene.ground = Ground{};
@@ -150,12 +150,12 @@ TEST(Substeps, AreNotTooLongForAnyBodyWhereOneAsksForMoreThanCanBe) {
   }
 }
 
-TEST(Substeps, FollowTheBound) {
+TEST(StepController, FollowsTheBound) {
   Scene scene = lone_body(spring_ball());
   for (const double stiffness : {10.0, 300.0, 30000.0}) {
     scene.materials[0].structural.stiffness = stiffness;
     World world(scene, {});
-    const Prototype& p = world.prototype(0);
+    const BodyModel& p = world.model(0);
     world.step();
     const double h = stable_step(p.spring_stiffness_bound / p.particle_mass, p.spring_damping_bound / p.particle_mass);
     EXPECT_EQ(world.last_step().substeps, int(std::ceil(1.0 / 60 / h)));
@@ -163,9 +163,9 @@ TEST(Substeps, FollowTheBound) {
 }
 
 /// However soft the body and stable the integrator.
-TEST(Substeps, AreNoLongerThanASixtiethOfASecondUnlessTheyAreFixed) {
+TEST(StepController, LimitsStepsToASixtiethOfASecondUnlessFixed) {
   for (const std::string integrator : {"semi-implicit-euler", "implicit", "xpbd"}) {
-    const int each = find_integrator(integrator)->substeps;
+    const int each = find_integrator(integrator)->substeps_per_step;
     Material soft = spring_ball();
     soft.structural.stiffness = soft.bend.stiffness = 0.01;
     const auto substeps = [&](double frame_time, std::optional<int> fixed) {
@@ -180,7 +180,7 @@ TEST(Substeps, AreNoLongerThanASixtiethOfASecondUnlessTheyAreFixed) {
   }
 }
 
-TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
+TEST(StepController, RefusesAMaterialThatNeedsTooMany) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].structural.stiffness = 1e9;
   try {
@@ -193,7 +193,7 @@ TEST(Substeps, AFrameThatWouldNeedTooManyIsAnError) {
 }
 
 /// A hard throw against a solid: however it deforms, the step that was chosen has to carry it.
-TEST(Substeps, KeepABodyThatIsCrushedInOnePiece) {
+TEST(StepController, KeepsACrushedBodyInOnePiece) {
   for (const double speed : {3.0, 10.0, 30.0}) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(0, -speed, 0));
     scene.bodies[0].position = {0, 1, 0};

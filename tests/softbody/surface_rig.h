@@ -27,7 +27,7 @@ inline Scene ball_in_space(const Material& material, const glm::dvec3& velocity 
 class Judge {
  public:
   explicit Judge(const World& world) : world_(world) {
-    for (BodyId b = 0; b < world.bodies().count(); ++b) surfaces_.push_back(world.prototype(b).surface);
+    for (BodyId b = 0; b < world.bodies().count(); ++b) surfaces_.push_back(world.model(b).surface);
   }
   /// What overlaps now.
   collide::oracle::SurfaceFigures look() {

@@ -30,7 +30,7 @@ class OneRow {
     place(1, {{-1, 0, -1}, {1, 0, -1}, {0, 0, 2}}, glm::vec3(0));
     before_ = v;
     find();
-    contact_.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
+    contact_.make_rows(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, h);
     EXPECT_LE(contact_.rows(), 1u);
     solve(h);
   }
@@ -50,7 +50,7 @@ class OneRow {
   }
   /// The row with the impulses that it starts another substep of `seconds` from.
   ContactRow prepare(float seconds) {
-    contact_.prepare(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, seconds);
+    contact_.make_rows(0, 1, std::as_const(x).field(), std::as_const(v).field(), 0, seconds);
     EXPECT_EQ(contact_.rows(), 1u);
     return contact_.save().rows.at(0);
   }
@@ -159,14 +159,14 @@ TEST(SurfaceContactRow, StartsFromTheLastImpulses) {
   for (const bool overlaps : {false, true}) {
     OneRow row({.gap = overlaps ? -0.003f : 0.0001f, .velocity = {3, -5, 4}, .friction = 0.5f});
     const ContactRow last = row.row();
-    ASSERT_GT(glm::length(last.drag), 0);
+    ASSERT_GT(glm::length(last.friction_impulse), 0);
     for (std::size_t i = 0; i < 3; ++i) row.x.set(i, 1, row.x.at(i, 1) + glm::dvec3(0, 0.2 * row.x.at(i, 1).x, 0));
     const ContactRow next = row.prepare(OneRow::h / 2);
     ASSERT_LT(next.normal.x, -0.1f);
     const float share = 0.5f * (overlaps ? 0.8f : 1.0f);  // what pushes out is handed on in part
-    EXPECT_NEAR(next.pressed, share * last.pressed, 1e-6);
-    const glm::vec3 across = last.drag - glm::dot(last.drag, next.normal) * next.normal;
-    EXPECT_LT(glm::length(next.drag - share * across), 1e-6);
+    EXPECT_NEAR(next.normal_impulse, share * last.normal_impulse, 1e-6);
+    const glm::vec3 across = last.friction_impulse - glm::dot(last.friction_impulse, next.normal) * next.normal;
+    EXPECT_LT(glm::length(next.friction_impulse - share * across), 1e-6);
   }
 }
 

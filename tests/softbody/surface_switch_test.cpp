@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/softbody/surface_rig.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody::test {
 namespace {
@@ -19,7 +19,7 @@ Scene crowd() {
   return scene;
 }
 
-/// Balls of several sizes that meet, each with a prototype of its own: there is something for each thread.
+/// Balls of several sizes that meet, each with a body model of its own: there is something for each thread.
 Scene sizes() {
   Scene scene = crowd();
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) scene.bodies[i].mesh.radius -= 0.02 * double(i);
@@ -41,7 +41,7 @@ Scene sheets() {
 }
 
 TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
-  std::size_t most_rows = 0;
+  std::size_t max_rows = 0;
   const auto hash = [&](const Scene& scene, int frames, int threads, Isa isa) {
     World::Options options;
     options.threads = threads;
@@ -50,7 +50,7 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
       world.step();
-      most_rows = std::max(most_rows, WorldInsides::dynamics(world).surface_contact().rows());
+      max_rows = std::max(max_rows, WorldTestAccess::dynamics(world).surface_contact().rows());
     }
     return world.state_hash();
   };
@@ -59,7 +59,7 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     for (const Isa isa : isas())
       for (const int threads : {1, 2}) EXPECT_EQ(hash(scene, frames, threads, isa), expected) << threads;
   }
-  EXPECT_GT(most_rows, 2000u);
+  EXPECT_GT(max_rows, 2000u);
 }
 
 TEST(SurfaceContact, MayBeTurnedOnAndOffAtAnyTime) {

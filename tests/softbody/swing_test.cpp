@@ -129,7 +129,7 @@ TEST(ImplicitSteps, CountWhereTheIntegratorIsChosen) {
 }
 
 /// Squeezed for a frame and put back: nothing but memory asks for more substeps than before.
-class HeldSubsteps : public testing::Test {
+class HysteresisOfSubsteps : public testing::Test {
  protected:
   void squeeze() {
     const std::vector<Particle> before = particles_of(world);
@@ -144,7 +144,7 @@ class HeldSubsteps : public testing::Test {
   int squeezed = 0;  // substeps of the frame after
 };
 
-TEST_F(HeldSubsteps, StayForHalfASecondAndAreGoneAfterOne) {
+TEST_F(HysteresisOfSubsteps, KeepsTheRateForHalfASecondToOne) {
   run(world, 5);
   const int own = world.last_step().substeps;
   squeeze();
@@ -157,7 +157,7 @@ TEST_F(HeldSubsteps, StayForHalfASecondAndAreGoneAfterOne) {
   EXPECT_EQ(world.last_step().substeps, own);
 }
 
-TEST_F(HeldSubsteps, GoOnAfterGoingBack) {
+TEST_F(HysteresisOfSubsteps, IsRestoredWithASnapshot) {
   run(world, 5);
   squeeze();
   const Snapshot then = world.snapshot();
@@ -172,7 +172,7 @@ TEST_F(HeldSubsteps, GoOnAfterGoingBack) {
   EXPECT_EQ(world.state_hash(), hash);
 }
 
-TEST_F(HeldSubsteps, AreForgottenWhileEverybodySleeps) {
+TEST_F(HysteresisOfSubsteps, EndsWhileAllBodiesSleep) {
   Scene scene = world.scene();
   scene.sleep = {.speed = 1e6, .frames = 2};
   World sleeper(scene, {.integrator = {"semi-implicit-euler"}});
@@ -190,7 +190,7 @@ TEST_F(HeldSubsteps, AreForgottenWhileEverybodySleeps) {
 }
 
 /// They come and go, and are damped.
-TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
+TEST_F(HysteresisOfSubsteps, IgnoresContacts) {
   Scene scene = lone_body(spring_ball());
   scene.materials[0].contact_stiffness = 1e4;
   add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
@@ -206,7 +206,7 @@ TEST_F(HeldSubsteps, AreNotThoseOfContacts) {
 
 /// A body that no number of substeps carries must not have its next frames cut short too; nor one that has too many
 /// particles to be moved by implicit steps instead.
-TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
+TEST_F(HysteresisOfSubsteps, IsLimitedToTheSubstepsOfAFrame) {
   Scene large = world.scene();
   large.bodies[0].mesh.subdivisions = 4;
   World automatic(large, {.integrator = {"auto"}});
@@ -226,7 +226,7 @@ TEST_F(HeldSubsteps, AreNoMoreThanAFrameMayHave) {
 }
 
 /// Else a body that swings would be moved in another way with every swing.
-TEST_F(HeldSubsteps, CountWhereTheIntegratorIsChosen) {
+TEST_F(HysteresisOfSubsteps, CountsWhenTheIntegratorIsChosen) {
   world = World(lone_body(swinging_ball(3000, 0.1)), {.integrator = {"auto"}});
   const auto chosen = [&] { return world.last_step().integrator->key; };
   run(world, 5);

@@ -6,7 +6,7 @@
 
 #include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
-#include "tests/support/world_insides.h"
+#include "tests/support/world_test_access.h"
 
 namespace softbody {
 namespace {
@@ -28,15 +28,14 @@ Scene pile(int number) {
 
 std::vector<glm::dvec3> positions(const World& world, BodyId body) {
   std::vector<glm::dvec3> list;
-  for (Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    list.push_back(world.particle(body, i).position);
+  for (Index i = 0; i < world.model(body).mesh.vertices.size(); ++i) list.push_back(world.particle(body, i).position);
   return list;
 }
 
 void expect_consistent(const World& world) {
   const collide::Bodies& bodies = world.bodies();
   ASSERT_EQ(world.vertex_body().size(), bodies.vertex_count());
-  ASSERT_EQ(WorldInsides::dynamics(world).body_count(), bodies.count());
+  ASSERT_EQ(WorldTestAccess::dynamics(world).body_count(), bodies.count());
   const collide::Frame frame = world.positions();
   for (BodyId b = 0; b < bodies.count(); ++b) {
     ASSERT_EQ(world.vertex_body()[bodies.first[b]], b);
@@ -262,7 +261,7 @@ TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   EXPECT_TRUE(world.plan().has(Stage::internal_damping));
   EXPECT_NEAR(glm::length(measure(world).momentum), 5, 1e-4);
   world.drop();
-  EXPECT_EQ(&world.prototype(0), &world.prototype(1));
+  EXPECT_EQ(&world.model(0), &world.model(1));
   test::run(world, 30);
   EXPECT_TRUE(measure(world).finite);
 }
@@ -280,8 +279,8 @@ TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
     Material heavy = world.scene().materials[changed];
     heavy.mass = 3 * mass;
     world.set_material(changed, heavy);
-    EXPECT_EQ(world.prototype(0).material.mass, 3 * mass);
-    EXPECT_EQ(world.prototype(1).material.mass, changed == 0 ? mass : 3 * mass);
+    EXPECT_EQ(world.model(0).material.mass, 3 * mass);
+    EXPECT_EQ(world.model(1).material.mass, changed == 0 ? mass : 3 * mass);
   }
 }
 
@@ -292,7 +291,7 @@ TEST(Changes, AMaterialThatIsTooStiffIsRefusedAndNothingChanges) {
   stiff.structural.stiffness = 1e9;
   EXPECT_THROW(world.set_material(0, stiff), SceneError);
   EXPECT_EQ(world.scene().materials[0].structural.stiffness, test::spring_ball().structural.stiffness);
-  EXPECT_EQ(world.prototype(0).material.structural.stiffness, test::spring_ball().structural.stiffness);
+  EXPECT_EQ(world.model(0).material.structural.stiffness, test::spring_ball().structural.stiffness);
   EXPECT_EQ(world.plan().stages, stages);
 }
 
@@ -317,7 +316,7 @@ TEST(Changes, SolidsMoveComeAndGo) {
 }
 
 /// Alone the body takes implicit steps, which contact of the surfaces would deny to it.
-TEST(Changes, RefuseCompanyToABodyTooStiffForSurfaceContact) {
+TEST(Changes, RefuseASecondBodyIfOneIsTooStiffForSurfaceContact) {
   Material stiff = test::gas_ball();
   stiff.structural = {1e10, 0.1};
   Scene scene = test::lone_body(stiff);
@@ -362,7 +361,7 @@ TEST(Changes, MoreParticlesThanAMachineHoldsAreRefusedAndTheWorldGoesOn) {
   World world(pile(10), {});
   const auto before = world.bodies().count();
   try {
-    world.drop(1 + int(max_particles / world.prototype(0).mesh.vertices.size()));
+    world.drop(1 + int(max_particles / world.model(0).mesh.vertices.size()));
     FAIL() << "they have joined";
   } catch (const SceneError& error) {
     EXPECT_NE(std::string(error.what()).find("at most 4000000"), std::string::npos) << error.what();

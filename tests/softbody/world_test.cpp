@@ -24,7 +24,7 @@ TEST(Arrival, ABodyAppearsIsHeldAndIsReleasedAtItsFrames) {
     if (frame <= 4) continue;
     const double flown = std::max(0, frame - 7) / 60.0;
     EXPECT_NEAR(motion(world, 1).centre.x, 3 + flown, 1e-5) << "frame " << frame;
-    EXPECT_EQ(world.body(1).held, frame <= 7);
+    EXPECT_EQ(world.body(1).pinned, frame <= 7);
   }
   EXPECT_EQ(world.frame(), 9);
 }
@@ -152,7 +152,7 @@ TEST(World, ParticlesGoWhereTheyAreTold) {
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
   World world(scene, {});
   std::vector<Particle> told;
-  for (Index i = 0; i < world.prototype(1).mesh.vertices.size(); ++i) {
+  for (Index i = 0; i < world.model(1).mesh.vertices.size(); ++i) {
     Particle p = world.particle(1, i);
     told.push_back({glm::dvec3(1000, 0, -2000) + 10.0 * p.position, {0.5, 0, double(i)}});
   }

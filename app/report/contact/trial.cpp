@@ -14,7 +14,7 @@
 #include "app/files/scene_folder.h"
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {
@@ -23,7 +23,7 @@ namespace {
 double smallest_closed_radius(const softbody::World& world) {
   double radius = 0;
   for (collide::Index b = 0; b < world.bodies().count(); ++b) {
-    const softbody::Prototype& p = world.prototype(b);
+    const softbody::BodyModel& p = world.model(b);
     if (p.mesh.closed && (radius == 0 || p.radius < radius)) radius = p.radius;
   }
   return radius;
@@ -110,7 +110,7 @@ class Trial {
     for (const collide::oracle::Crossing& c : crossings) {
       if (c.kind != collide::oracle::Crossing::Kind::vertex_face) continue;
       if (glm::distance(way_of(c.body), way_of(c.other)) > result_.radius) vertices.insert(c.feature[0]);
-      if (!world_.prototype(c.other).mesh.closed || c.body == c.other)
+      if (!world_.model(c.other).mesh.closed || c.body == c.other)
         balance[{c.feature[0], c.other}] += c.inward ? 1 : -1;
       else if (oracle_.entered_body(c))
         vertices.insert(c.feature[0]);

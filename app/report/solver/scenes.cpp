@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 #include "app/report/steps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::report {
 namespace {
@@ -80,8 +80,7 @@ softbody::Scene lone_scene(const softbody::Material& material) {
 
 Particles particles_of(const softbody::World& world, softbody::BodyId body) {
   Particles list;
-  for (softbody::Index i = 0; i < world.prototype(body).mesh.vertices.size(); ++i)
-    list.push_back(world.particle(body, i));
+  for (softbody::Index i = 0; i < world.model(body).mesh.vertices.size(); ++i) list.push_back(world.particle(body, i));
   return list;
 }
 

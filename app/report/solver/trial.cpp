@@ -7,7 +7,7 @@
 
 #include "app/base/timings.h"
 #include "app/report/steps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {
@@ -57,7 +57,7 @@ double error_of(const std::vector<reference::BodyState>& a, const std::vector<re
                 const World& world) {
   double square_sum = 0;
   for (BodyId id = 0; id < b.size(); ++id) {
-    const double e = reference::rms_distance(a[id].x, b[id].x) / world.prototype(id).radius;
+    const double e = reference::rms_distance(a[id].x, b[id].x) / world.model(id).radius;
     square_sum += e * e / double(b.size());
   }
   return std::sqrt(square_sum);
@@ -86,8 +86,8 @@ SolverReference world_reference(const SolverScene& scene, const SolverRun& run, 
     if (scene.start.empty()) shifted.start.push_back(particles_of(world, b));
     for (std::size_t i = 0; i < shifted.start[b].size(); i += 2) shifted.start[b][i].position.x += shift;
   }
-  t.growth = error_of(outcome(shifted, substeps).bodies, best.bodies, world) * world.prototype(0).radius /
-             (shift / std::sqrt(2));
+  t.growth =
+      error_of(outcome(shifted, substeps).bodies, best.bodies, world) * world.model(0).radius / (shift / std::sqrt(2));
   t.bodies = std::move(best.bodies);
   t.energy = best.energy;
   t.step = run.frame_time / substeps;
@@ -96,7 +96,7 @@ SolverReference world_reference(const SolverScene& scene, const SolverRun& run, 
 }
 
 SolverReference body_reference(const World& world, const SolverRun& run, double bound, std::uint64_t steps) {
-  const reference::ReferenceBody body(world.prototype(0), world.scene());
+  const reference::ReferenceBody body(world.model(0), world.scene());
   reference::Reference r =
       find_reference(body, reference::state_of(world, 0), bound, {.seconds = run.seconds(), .steps = steps});
   SolverReference t{};
@@ -119,7 +119,7 @@ Outcome run_solver(const SolverScene& scene, const SolverRun& run, const softbod
 }
 
 double energy_scale(const World& world, BodyId id) {
-  const softbody::Prototype& p = world.prototype(id);
+  const softbody::BodyModel& p = world.model(id);
   const reference::ReferenceBody body(p, world.scene());
   reference::BodyState now = reference::state_of(world, id);
   const reference::RigidMotion motion = reference::rigid_motion(now);
@@ -153,7 +153,7 @@ WorkPoint judge(const SolverScene& scene, const Outcome& o, const SolverReferenc
   double square_sum = 0, volume = 0;
   bool closed = false;
   for (BodyId b = 0; b < o.bodies.size(); ++b) {
-    const auto& mesh = world.prototype(b).mesh;
+    const auto& mesh = world.model(b).mesh;
     const double speed = reference::deformation_speed(o.bodies[b]);
     square_sum += speed * speed / double(o.bodies.size());
     if (!mesh.closed) continue;

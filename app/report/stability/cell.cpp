@@ -12,7 +12,7 @@
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
 #include "softbody/contact/law.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 
@@ -23,7 +23,7 @@ using glm::dvec3;
 using softbody::BodyId;
 using softbody::World;
 
-double gas_energy(const softbody::Prototype& p, const Particles& particles) {
+double gas_energy(const softbody::BodyModel& p, const Particles& particles) {
   if (!p.has_gas) return 0;
   std::vector<dvec3> x;
   for (const softbody::Particle& q : particles) x.push_back(q.position);
@@ -93,7 +93,7 @@ class Run {
     for (BodyId b = 0; b < world.bodies().count(); ++b) {
       const Particles particles = particles_of(world, b);
       available -= height_energy(world, particles, b);
-      gas += gas_energy(world.prototype(b), particles);
+      gas += gas_energy(world.model(b), particles);
       extents.push_back(extent_of(particles));
     }
     const double min_energy = 1e-9 * s.scale;  // what has flown away has lost all to gravity
@@ -153,7 +153,7 @@ class Run {
 };
 
 reference::ReferenceDeviation compare(const World& world, const StabilityStart& start) {
-  const softbody::Prototype& p = world.prototype(0);
+  const softbody::BodyModel& p = world.model(0);
   const reference::BodyState end = reference::state_of(world, 0);
   reference::ReferenceDeviation r{
       .shape = reference::shape_distance(end.x, start.reference.x) / p.radius,

@@ -9,9 +9,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/steps.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
+#include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/prototype_set.h"
 #include "softbody/world/snapshot.h"
 
 namespace app::report {
@@ -25,7 +25,7 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Returns how many springs at most join any two particles: twice as many as join one particle and the farthest.
 /// Returns nothing if springs do not join all particles.
-std::optional<int> longest_chain(const softbody::Prototype& p) {
+std::optional<int> longest_chain(const softbody::BodyModel& p) {
   std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
   for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
   std::vector<int> distance(next.size(), -1);
@@ -41,7 +41,7 @@ std::optional<int> longest_chain(const softbody::Prototype& p) {
   return min < 0 ? std::nullopt : std::optional(2 * max);
 }
 
-StabilityStart::SpringChain spring_chain_of(const softbody::Prototype& p) {
+StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& p) {
   const auto chain = longest_chain(p);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
@@ -58,7 +58,7 @@ World placed(const StabilityScene& from) {
 }
 
 /// Returns the body as it starts or joins: in its starting shape.
-StabilityStart::Member member_of(const softbody::Prototype& p, const softbody::BodySource& source,
+StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::BodySource& source,
                                  const dvec3& gravity) {
   StabilityStart::Member m{.chain = spring_chain_of(p),
                            .radius = p.radius,
@@ -84,7 +84,7 @@ reference::StabilityLimits limits_of(const World& world, const StabilityStart& s
 /// True if shape and volume agree.
 bool alike(const reference::ReferenceBody& body, const reference::BodyState& a, const reference::BodyState& b) {
   constexpr double close = 1e-3;  // R; of the volume. A tenth of what solvers are allowed
-  const softbody::Prototype& p = body.prototype();
+  const softbody::BodyModel& p = body.model();
   if (!(reference::shape_distance(a.x, b.x) <= close * p.radius)) return false;
   return !p.mesh.closed ||
          std::abs(reference::volume_of(a.x, p.mesh.triangles) / reference::volume_of(b.x, p.mesh.triangles) - 1) <=
@@ -96,7 +96,7 @@ bool alike(const reference::ReferenceBody& body, const reference::BodyState& a, 
 double height_energy(const World& world, const Particles& particles, BodyId body) {
   double energy = 0;
   for (const softbody::Particle& p : particles)
-    energy -= world.prototype(body).particle_mass * glm::dot(world.scene().gravity, p.position);
+    energy -= world.model(body).particle_mass * glm::dot(world.scene().gravity, p.position);
   return energy;
 }
 
@@ -111,14 +111,14 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   StabilityStart s{.scene = from.scene, .particles = all_particles(world), .first_frame = from.first_frame};
   std::ranges::stable_sort(s.scene.bodies, {}, &softbody::BodySource::appear);
   for (const softbody::BodySource& source : s.scene.bodies) {
-    const auto prototype =
-        softbody::shared_prototype(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
-    s.members.push_back(member_of(*prototype, source, s.scene.gravity));
+    const auto model =
+        softbody::shared_body_model(source.mesh, s.scene.materials[static_cast<std::size_t>(source.material)]);
+    s.members.push_back(member_of(*model, source, s.scene.gravity));
   }
   s.above_balance = softbody::measure(world).energy;
   for (BodyId b = 0; b < s.particles.size(); ++b)
     s.above_balance -= height_energy(world, s.particles[b], b) + s.members[b].balance;
-  if (!s.particles.empty()) s.balance_shape = world.prototype(0).start;
+  if (!s.particles.empty()) s.balance_shape = world.model(0).start;
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start. So no cell has to find their balance again, unless some join later.
   if (s.particles.size() == from.scene.bodies.size())
@@ -132,7 +132,7 @@ void find_reference(StabilityStart& start, std::uint64_t steps) {
   if (const std::string missing = reference::ReferenceBody::unsupported_stage(world); !missing.empty())
     return no(fmt::format("does not model {}", missing));
   world.set_particles(0, start.particles[0]);
-  const reference::ReferenceBody body(world.prototype(0), world.scene());
+  const reference::ReferenceBody body(world.model(0), world.scene());
   const auto flown = [&](const reference::BodyState& from, double fraction, std::uint64_t max_steps) {
     return reference::integrate(body, from, fraction,
                                 {.seconds = start.limits.seconds, .steps = max_steps, .settled_speed = 1e-4});
@@ -147,14 +147,13 @@ void find_reference(StabilityStart& start, std::uint64_t steps) {
   if (!settled(flight)) return no("has not settled by then");
   const bool free = world.scene().gravity == dvec3(0.0);
   if (free && reference::shape_distance(flight.end.x, start.balance_shape) >
-                  reference::stability_bounds.shape * body.prototype().radius)
+                  reference::stability_bounds.shape * body.model().radius)
     return no("does not recover");
   reference::Trajectory finer = flown(first, 0.25, 2 * steps);
   if (!finer.complete || !alike(body, flight.end, finer.end)) return no("does not converge");
   // Solvers in single precision start with such a disturbance. A body that turns back from inside out, for example, may
   // then come to rest elsewhere.
-  const reference::Trajectory beside =
-      flown(reference::perturbed(first, 1e-7 * body.prototype().radius), 0.5, 2 * steps);
+  const reference::Trajectory beside = flown(reference::perturbed(first, 1e-7 * body.model().radius), 0.5, 2 * steps);
   if (!beside.complete || !settled(beside) || !alike(body, beside.end, finer.end))
     return no("comes to rest later or elsewhere after a disturbance by the last digits of a float");
   start.reference = std::move(finer.end);

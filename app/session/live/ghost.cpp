@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/snapshot.h"
 
 namespace app::session {
@@ -44,7 +44,7 @@ double Ghost::distance(const softbody::World& of) const {
       const glm::dvec3 d(here.x[i] - there.x[i], here.y[i] - there.y[i], here.z[i] - there.z[i]);
       body += d.x * d.x + d.y * d.y + d.z * d.z;
     }
-    const double radius = of.prototype(b).radius;
+    const double radius = of.model(b).radius;
     sum += body / (radius * radius);
   }
   return bodies.vertex_count() == 0 ? 0 : std::sqrt(sum / bodies.vertex_count());

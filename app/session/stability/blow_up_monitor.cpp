@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::session {
 
@@ -20,9 +20,9 @@ void BlowUpMonitor::begin(const softbody::World& world, std::size_t bodies) {
   max_depth_.clear();
   fall_energy_ = 0;
   const double g = glm::length(world.scene().gravity);
-  const softbody::Prototype* last = nullptr;
+  const softbody::BodyModel* last = nullptr;
   for (softbody::BodyId b = 0; b < bodies; ++b) {
-    const softbody::Prototype& p = world.prototype(b);
+    const softbody::BodyModel& p = world.model(b);
     rest_energy_.push_back(&p == last ? rest_energy_.back() : softbody::starting_energy(p).deformation());
     mass_.push_back(p.material.mass);
     max_depth_.push_back(max_depth * p.radius);
@@ -111,7 +111,7 @@ std::optional<BlowUp> BlowUpMonitor::check(const softbody::World& world,
     return BlowUp{body, world.frame(), fmt::format("Body {} is no longer finite", body)};
   }
   std::size_t held = 0;
-  for (softbody::BodyId b = 0; b < bodies.size(); ++b) held += world.body(b).held;
+  for (softbody::BodyId b = 0; b < bodies.size(); ++b) held += world.body(b).pinned;
   if (bodies.size() != mass_.size() || held != held_count_ || recent_.empty()) begin(world, bodies.size());
   held_count_ = held;
   FrameTotals now = totals_of(bodies);

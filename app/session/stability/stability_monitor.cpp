@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::session {
 namespace {
@@ -11,9 +11,9 @@ namespace {
 /// Returns the energy of springs and gas in the starting shapes of all bodies.
 softbody::Energy energy_at_start(const softbody::World& world) {
   softbody::Energy sum, one;
-  const softbody::Prototype* last = nullptr;
+  const softbody::BodyModel* last = nullptr;
   for (softbody::BodyId b = 0; b < world.bodies().count(); ++b) {
-    const softbody::Prototype* p = &world.prototype(b);
+    const softbody::BodyModel* p = &world.model(b);
     if (p != last) one = softbody::starting_energy(*p);
     last = p;
     sum += one;

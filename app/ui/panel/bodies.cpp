@@ -5,7 +5,7 @@
 
 #include "app/render/palette.h"
 #include "app/ui/panel/panel.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace app::ui {
@@ -34,7 +34,7 @@ void draw_drop_and_throw(Widgets& w, Session& session, UiState& ui) {
 
 const char* state_text(const softbody::World& world, softbody::BodyId id) {
   if (const auto& grab = world.grabbed(); grab && grab->body == id) return "in your hand";
-  if (world.body(id).held) return "held in place";
+  if (world.body(id).pinned) return "held in place";
   return world.body(id).asleep ? "asleep" : "awake";
 }
 
@@ -46,7 +46,7 @@ void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id
   ImGui::SameLine();
   w.right_text(state_text(world, id));
   w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
-  const double speed = glm::length(m.momentum) / world.prototype(id).material.mass;
+  const double speed = glm::length(m.momentum) / world.model(id).material.mass;
   const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
   w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
            "Of its centre of mass; of the volume that it started with.");

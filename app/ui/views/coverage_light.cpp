@@ -7,7 +7,7 @@
 #include <glm/common.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 namespace app::ui {
 namespace {
@@ -40,7 +40,7 @@ void draw_meaning(Widgets& w, collide::Coverage coverage, bool active) {
 double safe_vertex_tolerance(const softbody::World& world) {
   double widest = 0;
   for (softbody::BodyId body = 0; body < world.bodies().count(); ++body)
-    widest = std::max(widest, world.prototype(body).mean_edge);
+    widest = std::max(widest, world.model(body).mean_edge);
   return widest / std::numbers::sqrt3;
 }
 

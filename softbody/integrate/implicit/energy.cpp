@@ -13,13 +13,13 @@
 namespace softbody {
 namespace {
 
-std::vector<glm::dvec3> places(const Prototype& p, const LaneView& x) {
+std::vector<glm::dvec3> places(const BodyModel& p, const LaneView& x) {
   std::vector<glm::dvec3> list;
   for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) list.push_back(x(i));
   return list;
 }
 
-double kinetic_energy(const Prototype& p, const LaneView& v) {
+double kinetic_energy(const BodyModel& p, const LaneView& v) {
   double square = 0;
   for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v(i), v(i));
   return p.particle_mass / 2 * square;
@@ -29,27 +29,27 @@ double kinetic_energy(const Prototype& p, const LaneView& v) {
 /// processors.
 double gas_work(const Gas& gas, double from, double to) {
   const double by_gas = (to - from) / 6 * (gas.pressure(from) + 4 * gas.pressure((from + to) / 2) + gas.pressure(to));
-  return by_gas - (gas.outside_energy(to) - gas.outside_energy(from));
+  return by_gas - (gas.ambient_energy(to) - gas.ambient_energy(from));
 }
 
-/// J that solids and shields may have done on the body in the step that ends at work.end_x.
+/// J that solids and penalty contacts may have done on the body in the step that ends at work.end_x.
 double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
     if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
-  for (const LinearShield& s : work.shields) {
+  for (const LinearPenaltyPair& s : work.penalty_pairs) {
     if (s.at % lanes != lane) continue;
     const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
-    sum += std::clamp(glm::dot(s.after(moved), moved), 0.0, s.most_work);
+    sum += std::clamp(glm::dot(s.force_after(moved), moved), 0.0, s.max_work);
   }
   return sum;
 }
 
 }  // namespace
 
-double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
-                    bool pushed) {
+double energy_gain(const BodyModel& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,
+                   bool pushed) {
   constexpr double share = 5e-5, rounding = 1e-12;  // of the motion's energy, and of the springs'
   const std::size_t n = p.mesh.vertices.size();
   const LaneView x{work.x, lane}, v{work.v, lane}, end_x{work.end_x, lane}, end_v{work.end_v, lane};
@@ -70,7 +70,7 @@ double undue_energy(const Prototype& p, const ImplicitWork& work, std::size_t la
   return gain > share * motion + rounding * (elastic + before) ? gain : 0;
 }
 
-bool take_back(const Prototype& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {
+bool dissipate(const BodyModel& p, ImplicitWork& work, std::size_t lane, double energy, bool pushed) {
   constexpr double most = 0.05;  // of the energy of what is slowed
   const std::size_t n = p.mesh.vertices.size();
   if (energy <= 0) return true;

@@ -13,7 +13,7 @@ ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<
   }
 }
 
-ImplicitFrames ImplicitFrames::some(const std::array<bool, lanes>& which) const {
+ImplicitFrames ImplicitFrames::subset(const std::array<bool, lanes>& which) const {
   ImplicitFrames result = *this;
   for (std::size_t l = 0; l < lanes; ++l)
     if (!which[l]) result.frames_[l] = {};
@@ -28,7 +28,7 @@ ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
 
 std::array<float, lanes> ImplicitFrames::moves() const {
   std::array<float, lanes> moves{};
-  for (std::size_t l = 0; l < lanes; ++l) moves[l] = frames_[l].own ? 1.0f : 0.0f;
+  for (std::size_t l = 0; l < lanes; ++l) moves[l] = frames_[l].active ? 1.0f : 0.0f;
   return moves;
 }
 
@@ -41,7 +41,7 @@ glm::dvec3 ImplicitFrames::turn(std::size_t lane, const glm::dvec3& x) const {
   return f.turned * (x - f.body.centre) - (x - f.body.centre);
 }
 
-glm::dvec3 ImplicitFrames::way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
+glm::dvec3 ImplicitFrames::free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
   const Frame& f = frames_[lane];
   const glm::dvec3 own = velocity_without_spin(lane, x, v) - f.body.velocity;
   return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
@@ -51,7 +51,7 @@ glm::dvec3 ImplicitFrames::way(std::size_t lane, const glm::dvec3& x, const glm:
 template <class Change>
 void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
   for (std::size_t l = 0; l < lanes; ++l) {
-    if (!frames_[l].own) continue;
+    if (!frames_[l].active) continue;
     for (std::size_t at = l; at < x.size() / 3; at += lanes) {
       glm::dvec3 place = read(x, at), velocity = read(v, at);
       change(frames_[l], place, velocity, at);
@@ -61,18 +61,18 @@ void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
   }
 }
 
-void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& carried) const {
-  std::fill(carried.begin(), carried.end(), 0.0);
+void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const {
+  std::fill(frame_displacement.begin(), frame_displacement.end(), 0.0);
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     place -= f.body.centre;
     velocity -= f.body.velocity + glm::cross(f.spin, place);
-    write(carried, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
+    write(frame_displacement, at, place - glm::transpose(f.turned) * (place - h_ * f.body.velocity - fall_));
   });
 }
 
-LinearShield ImplicitFrames::enter(const LinearShield& shield) const {
-  LinearShield s = shield;
-  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.as_now}) *v = enter(s.at % lanes, *v);
+LinearPenaltyPair ImplicitFrames::enter(const LinearPenaltyPair& pair) const {
+  LinearPenaltyPair s = pair;
+  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.start_separation}) *v = enter(s.at % lanes, *v);
   return s;
 }
 
@@ -82,7 +82,7 @@ void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) con
     std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::dvec3 spin = frames_[l].spin;
-    if (!frames_[l].own) continue;
+    if (!frames_[l].active) continue;
     for (std::size_t at = l; at < stride; at += lanes)
       write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
   }

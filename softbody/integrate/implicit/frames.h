@@ -16,7 +16,7 @@ class ImplicitFrames {
   ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
                  const glm::dvec3& gravity);
   /// Those of some of its lanes.
-  ImplicitFrames some(const std::array<bool, lanes>& which) const;
+  ImplicitFrames subset(const std::array<bool, lanes>& which) const;
   /// The same with origins that fall by so many m.
   ImplicitFrames falling(const glm::dvec3& fall) const;
   /// 1 for lanes that have a frame of their own, else 0.
@@ -24,12 +24,13 @@ class ImplicitFrames {
   /// How the body in a lane that has a frame moves in the world at the start.
   const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
-  /// Takes positions and velocities of the start into the frames. carried: m, how far the frame takes a particle along.
-  void enter(Lanes& x, Lanes& v, Lanes& carried) const;
+  /// Takes positions and velocities of the start into the frames. frame_displacement: m, how far the frame takes a
+  /// particle along.
+  void enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const;
   /// Turns what is told in the world's directions, and back.
   glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(frames_[lane].turned) * v; }
   glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return frames_[lane].turned * v; }
-  LinearShield enter(const LinearShield& shield) const;
+  LinearPenaltyPair enter(const LinearPenaltyPair& pair) const;
   /// m/s^2, what each particle feels there.
   void accelerations(const Lanes& x, const Lanes& v, Lanes& a) const;
   /// Takes positions and velocities of the end back into the world.
@@ -39,11 +40,11 @@ class ImplicitFrames {
   // the step if nothing acts on it, and what of that is the turning's.
   glm::dvec3 velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
   glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
-  glm::dvec3 way(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
+  glm::dvec3 free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
 
  private:
   struct Frame {
-    bool own = false;
+    bool active = false;
     RigidMotion body;        // at the start
     glm::dvec3 spin{0.0};    // rad/s, of the frame
     glm::dmat3 turned{1.0};  // by the end

@@ -8,7 +8,7 @@
 namespace softbody::body {
 
 /// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
-SB_INLINE void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+SB_INLINE void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
   using V = Lane<double, lanes>;
   const std::size_t w = run.columns;
   const double* v = f.value.data() + run.value;
@@ -38,7 +38,7 @@ SB_INLINE void substitute_forward(const CholeskyFactor& f, const CholeskyFactor:
 }
 
 /// Likewise for the transpose, once what stands after the run is known.
-SB_INLINE void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Run& run, double* z) {
+SB_INLINE void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
   using V = Lane<double, lanes>;
   const std::size_t w = run.columns;
   const double *diagonal = f.value.data() + run.value, *below = diagonal + w * w;
@@ -72,8 +72,8 @@ SB_INLINE void substitute(const CholeskyFactor& f, double* x, double* z) {
   using V = Lane<double, lanes>;
   const std::size_t n = f.place.size();
   for (std::size_t i = 0; i < n; ++i) store(z + f.place[i] * lanes, load<V>(x + i * lanes));
-  for (const CholeskyFactor::Run& run : f.runs) substitute_forward(f, run, z);
-  for (std::size_t i = f.runs.size(); i-- > 0;) substitute_back(f, f.runs[i], z);
+  for (const CholeskyFactor::Supernode& run : f.supernodes) substitute_forward(f, run, z);
+  for (std::size_t i = f.supernodes.size(); i-- > 0;) substitute_back(f, f.supernodes[i], z);
   for (std::size_t i = 0; i < n; ++i) store(x + i * lanes, load<V>(z + f.place[i] * lanes));
 }
 

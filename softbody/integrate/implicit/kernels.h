@@ -13,13 +13,13 @@ namespace softbody {
 /// Of a matrix A with P A P^T = L L^T: L by runs of columns whose entries below the run lie in the same rows, each run
 /// a dense block, so that nothing is looked up for each entry.
 struct CholeskyFactor {
-  struct Run {
+  struct Supernode {
     std::uint32_t first, columns;  // the unknowns first, first + 1, ...
     std::uint32_t below, rows;     // its rows below it: so many, from row[below] on
     std::size_t value;             // its entries: (columns + rows) rows of `columns` each, from value[value] on
   };
   std::vector<std::uint32_t> place;  // of unknown i in the factor's order
-  std::vector<Run> runs;
+  std::vector<Supernode> supernodes;
   std::vector<std::uint32_t> row;
   std::vector<double> value;  // of the diagonal the inverse
 };
@@ -31,7 +31,7 @@ struct ImplicitKernels {
   void (*volume)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
   void (*pressure)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
                    Field<double> f);
-  void (*substitute)(const CholeskyFactor&, double* x, double* room);
+  void (*substitute)(const CholeskyFactor&, double* x, double* scratch);
   void (*turn)(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);
   void (*inner_product_shared)(std::size_t count, const double* shared, const double* b, double* result);

@@ -24,7 +24,7 @@ using Shape = std::vector<glm::dvec3>;
 enum class Tension { exact, pulling };
 
 /// Where the body is most of the time, if it is to be found at all.
-Shape balanced_shape(const Prototype& p) {
+Shape balanced_shape(const BodyModel& p) {
   if (!p.has_gas) return p.start;
   try {
     return find_equilibrium(p, p.start);
@@ -34,18 +34,18 @@ Shape balanced_shape(const Prototype& p) {
 }
 
 /// What a spring adds to the diagonal of its two particles, and takes from beside it.
-glm::dmat3 block(const Shape& x, const Spring& s, double h, bool turns, Tension tension) {
+glm::dmat3 block(const Shape& x, const Spring& s, double h, bool rotates, Tension tension) {
   const double along = s.stiffness + s.damping / h;
   const glm::dvec3 d = x[s.j] - x[s.i];
   const double length = glm::length(d);
-  if (!turns || length <= 0) return glm::dmat3(along);
+  if (!rotates || length <= 0) return glm::dmat3(along);
   const glm::dmat3 direction = glm::outerProduct(d / length, d / length);
   const double across = tension == Tension::exact ? 1 - s.rest / length : std::max(0.0, 1 - s.rest / length);
   return along * direction + s.stiffness * across * (glm::dmat3(1) - direction);
 }
 
 /// -P d2V/dx2, P being the gauge pressure: a corner's gradient is a sixth of the cross product of the two others.
-void add_gas(const Prototype& p, const Shape& x, Entries& entries) {
+void add_gas(const BodyModel& p, const Shape& x, Entries& entries) {
   const int n = int(x.size());
   const double sixth = p.gas.gauge(volume(x, p.mesh.triangles)) / 6;
   for (const auto& triangle : p.mesh.triangles)
@@ -62,12 +62,12 @@ void add_gas(const Prototype& p, const Shape& x, Entries& entries) {
     }
 }
 
-Sparse assemble(const Prototype& p, const Shape& x, double h, bool turns, Tension tension) {
-  const int n = int(x.size()), axes = turns ? 3 : 1;
+Sparse assemble(const BodyModel& p, const Shape& x, double h, bool rotates, Tension tension) {
+  const int n = int(x.size()), axes = rotates ? 3 : 1;
   Entries entries;
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) {
-      const glm::dmat3 b = block(x, s, h, turns, tension);
+      const glm::dmat3 b = block(x, s, h, rotates, tension);
       for (int r = 0; r < axes; ++r)
         for (int c = 0; c < axes; ++c) {
           const int i = int(s.i), j = int(s.j);
@@ -95,11 +95,11 @@ bool goes_on(const Sparse& l, Eigen::Index c) {
 void copy_run(const Sparse& l, Eigen::Index first, Eigen::Index end, CholeskyFactor& f) {
   const auto *start = l.outerIndexPtr(), *rows = l.innerIndexPtr();
   const auto w = std::size_t(end - first), all = std::size_t(start[first + 1] - start[first]);
-  f.runs.push_back(
+  f.supernodes.push_back(
       {std::uint32_t(first), std::uint32_t(w), std::uint32_t(f.row.size()), std::uint32_t(all - w), f.value.size()});
   f.row.insert(f.row.end(), rows + start[first] + w, rows + start[first + 1]);
   f.value.resize(f.value.size() + all * w);
-  double* value = f.value.data() + f.runs.back().value;
+  double* value = f.value.data() + f.supernodes.back().value;
   for (std::size_t c = 0; c < w; ++c) {
     const double* column = l.valuePtr() + start[first + Eigen::Index(c)];
     value[c * w + c] = 1 / column[0];
@@ -122,7 +122,7 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
 }
 
 /// dV/dx
-Eigen::VectorXd volume_gradient(const Prototype& p, const Shape& x) {
+Eigen::VectorXd volume_gradient(const BodyModel& p, const Shape& x) {
   const auto n = static_cast<Eigen::Index>(p.mesh.vertices.size());
   Eigen::VectorXd g = Eigen::VectorXd::Zero(3 * n);
   for (const auto& [i, j, k] : p.mesh.triangles) {
@@ -142,13 +142,13 @@ struct ImplicitMatrix::Factored {
   std::vector<std::vector<double>> columns;  // of particle j: its three columns, or its one
 };
 
-ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h, const ImplicitMatrix* other)
-    : turns_(p.mesh.closed),
+ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatrix* other)
+    : rotates_(p.mesh.closed),
       balanced_(other ? other->balanced_ : std::make_shared<const Shape>(balanced_shape(p))),
       factored_(std::make_unique<Factored>()) {
   const Shape& x = *balanced_;
   for (const Tension tension : {Tension::exact, Tension::pulling}) {
-    Sparse a = assemble(p, x, h, turns_, tension);
+    Sparse a = assemble(p, x, h, rotates_, tension);
     // So little mass that rounding hides it: directions need not be that exact.
     if (tension == Tension::pulling) a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff();
     // A body's own springs set the scale, but as a whole it has to feel no more than the solver can bring to rest.
@@ -165,7 +165,7 @@ ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h, const ImplicitMatri
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& place : x) mean += place / double(x.size());
   for (const glm::dvec3& place : x) shape_.push_back(place - mean);
-  if (!p.has_gas || !turns_) return;
+  if (!p.has_gas || !rotates_) return;
   const Eigen::VectorXd g = volume_gradient(p, x), response = factored_->llt.solve(g);
   const double slope = -p.gas.slope(volume(x, p.mesh.triangles));
   gas_.assign(g.begin(), g.end());
@@ -176,7 +176,7 @@ ImplicitMatrix::ImplicitMatrix(const Prototype& p, double h, const ImplicitMatri
 ImplicitMatrix::~ImplicitMatrix() = default;
 
 void ImplicitMatrix::solve_columns(Index j) const {
-  const std::size_t n = shape_.size(), axes = turns_ ? 3 : 1;
+  const std::size_t n = shape_.size(), axes = rotates_ ? 3 : 1;
   std::vector<double> columns;
   for (std::size_t axis = 0; axis < axes; ++axis) {
     const std::size_t unknown = axis * n + j;
@@ -192,7 +192,7 @@ void ImplicitMatrix::solve_columns(Index j) const {
 glm::dmat3 ImplicitMatrix::compliance(Index i, Index j) const {
   std::call_once(factored_->once[j], [&] { solve_columns(j); });
   const std::vector<double>& column = factored_->columns[j];
-  if (!turns_) return glm::dmat3(column[i]);
+  if (!rotates_) return glm::dmat3(column[i]);
   const std::size_t n = shape_.size();
   glm::dmat3 block;
   for (std::size_t c = 0; c < 3; ++c)

@@ -1,6 +1,6 @@
 #pragma once
-// The matrix that implicit steps share: mass over h^2 plus the stiffness and damping of a prototype at its shape in
-// balance, factored once for a step length and used by all bodies of the prototype.
+// The matrix that implicit steps share: mass over h^2 plus the stiffness and damping of a body model at its shape in
+// balance, factored once for a step length and used by all bodies of the model.
 //
 // A closed body deforms little where it is stiff, so its matrix, turned with it, is nearly the true one, or if that is
 // not positive definite, its springs along their directions and pulling across them. An open sheet folds; there each
@@ -13,20 +13,20 @@
 #include <glm/mat3x3.hpp>
 
 #include "softbody/integrate/implicit/kernels.h"
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
 
 class ImplicitMatrix {
  public:
-  /// h in s; `other`: one of the same prototype, whose shape in balance need not be looked for a second time. Throws
+  /// h in s; `other`: one of the same body model, whose shape in balance need not be looked for a second time. Throws
   /// SceneError if the matrix cannot be factored.
-  ImplicitMatrix(const Prototype& prototype, double h, const ImplicitMatrix* other = nullptr);
+  ImplicitMatrix(const BodyModel& model, double h, const ImplicitMatrix* other = nullptr);
   ~ImplicitMatrix();
 
   /// Coupled components (unknown k * particles + i), in the frame of the starting shape; else one factor serves each.
-  bool turns() const { return turns_; }
+  bool rotates() const { return rotates_; }
   const CholeskyFactor& factor() const { return factor_; }
   const std::vector<glm::dvec3>& shape() const { return shape_; }  // m, the starting shape from its mean
   // The gas, empty without: gradient g of the volume in m^2, A^-1 g, and s / (1 + s g . A^-1 g), s = -dP/dV in Pa/m^3.
@@ -44,7 +44,7 @@ class ImplicitMatrix {
   struct Factored;
   void solve_columns(Index j) const;
 
-  bool turns_;
+  bool rotates_;
   std::shared_ptr<const std::vector<glm::dvec3>> balanced_;  // where the mesh's vertices are in balance
   CholeskyFactor factor_;
   std::vector<glm::dvec3> shape_;

@@ -14,7 +14,7 @@ namespace {
 
 /// m, by which a particle's end is short of what its plane needs.
 double missing(const ImplicitWork& work, const PlaneContact& c) {
-  return c.need - glm::dot(read(work.end_x, c.at) - read(work.x, c.at), c.normal);
+  return c.min_displacement - glm::dot(read(work.end_x, c.at) - read(work.x, c.at), c.normal);
 }
 
 }  // namespace
@@ -39,21 +39,21 @@ void clear_planes(ImplicitWork& work, double h) {
   }
 }
 
-bool keeps_balance(const Prototype& p, const ImplicitWork& work, std::size_t lane, double h,
-                   const glm::dvec3& gravity) {
+bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, std::size_t lane, double h,
+                                const glm::dvec3& gravity) {
   constexpr double share = 0.1;
   glm::dvec3 gained(0.0), given(0.0);
   for (std::size_t at = lane; at < work.x.size() / 3; at += lanes)
     gained += p.particle_mass * (read(work.end_v, at) - read(work.v, at) - h * gravity);
   for (const PlaneContact& c : work.planes)
     if (c.at % lanes == lane) given += h * c.force;
-  for (const LinearShield& s : work.shields)
-    if (s.at % lanes == lane) given += h * s.after(read(work.end_x, s.at) - read(work.x, s.at));
+  for (const LinearPenaltyPair& s : work.penalty_pairs)
+    if (s.at % lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
   return glm::distance(gained, given) <=
          share * (glm::length(given) + h * p.material.mass * glm::length(gravity)) + 1e-6 * p.material.mass;
 }
 
-void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
+void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
   const std::size_t particles = work.x.size() / (3 * lanes);
   const LaneView x{work.x, lane}, v{work.v, lane};
   const RigidMotion m = rigid_motion(particles, x, v);
@@ -62,7 +62,7 @@ void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dve
     const glm::dmat3 turned = rotation(share * h * turning);
     const glm::dvec3 spin = share * (turned * m.spin_of(glm::transpose(turned) * m.momentum));
     const auto aside = [&](std::size_t i) { return turned * (x(i) - m.centre) - (x(i) - m.centre); };
-    const glm::dvec3 shift = stopped(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
+    const glm::dvec3 shift = stop_at(work.planes, lane, h, h * (m.velocity + h * gravity), aside);
     double gain = -2 * glm::dot(gravity, shift) * double(particles), before = 0, spinning = 0;
     for (std::size_t i = 0; i < particles; ++i) {
       const glm::dvec3 place = x(i) + aside(i) + shift, round = glm::cross(spin, turned * (x(i) - m.centre)),

@@ -16,23 +16,23 @@ inline constexpr int plane_passes = 8;  // over planes that stand in each other'
 /// How far a lane's body shifts as one in a step of h, in m, if its planes stop what is meant. aside(i): m, by which
 /// particle i moves besides.
 template <class Aside>
-glm::dvec3 stopped(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
+glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
                    const Aside& aside) {
-  const double reach = glm::length(meant) + h * law::max_separation_speed;
+  const double max_shift = glm::length(meant) + h * law::max_separation_speed;
   glm::dvec3 shift = meant;
   bool stands = false;
   for (int pass = 0; !stands && pass < plane_passes; ++pass) {
     stands = true;
     for (const PlaneContact& c : planes) {
       if (c.at % lanes != lane) continue;
-      const double more = c.need - glm::dot(shift + aside(c.at / lanes), c.normal);
+      const double more = c.min_displacement - glm::dot(shift + aside(c.at / lanes), c.normal);
       if (!(more > 0)) continue;
       shift += more * c.normal;
       stands = false;
     }
   }
   // Planes that face each other have no place for it.
-  if (const double length = glm::length(shift); length > reach) shift *= reach / length;
+  if (const double length = glm::length(shift); length > max_shift) shift *= max_shift / length;
   return shift;
 }
 
@@ -45,12 +45,12 @@ void clear_planes(ImplicitWork& work, double h);
 
 /// Whether a step of h has changed the momentum of a lane's body by what gravity and contact forces give, but for a
 /// tenth.
-bool keeps_balance(const Prototype& prototype, const ImplicitWork& work, std::size_t lane, double h,
-                   const glm::dvec3& gravity);
+bool satisfies_momentum_balance(const BodyModel& model, const ImplicitWork& work, std::size_t lane, double h,
+                                const glm::dvec3& gravity);
 
 /// The end of a step of h whose solve is not to be trusted: the body in the lane flies and spins on as one and stops at
 /// its planes. If that would give it energy, it turns about its angular momentum instead, and if that does, with less
 /// spin or none. Its shape stays, what moves within it is lost.
-void go_on_as_one(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
+void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
 
 }  // namespace softbody

@@ -13,21 +13,21 @@
 
 namespace softbody {
 
-ImplicitSolver::ImplicitSolver(const Prototype& p, const ImplicitKernels& kernels)
+ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
     : kernels_(kernels), particles_(p.mesh.vertices.size()), stride_(particles_ * lanes) {
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
     for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
   if (p.has_gas)
     for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
-  for (Lanes* v : {&target_, &goal_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &room_})
+  for (Lanes* v : {&target_, &goal_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &scratch_})
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * stride_);
 }
 
-ImplicitWork::ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels) : solver(prototype, kernels) {
-  for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a, &carried})
-    lane_field->resize(3 * prototype.mesh.vertices.size() * lanes);
+ImplicitWork::ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels) {
+  for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a, &frame_displacement})
+    lane_field->resize(3 * model.mesh.vertices.size() * lanes);
 }
 
 ImplicitSolver::PerLane ImplicitSolver::product(const Lanes& a, const Lanes& b) const {
@@ -45,9 +45,9 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   for (std::size_t i = 0; i < 3 * stride_; ++i) target_[i] = (*p.x)[i] + p.h * (*p.v)[i] + p.h * p.h * (*p.a)[i];
   x_ = *p.x;
   stop_at_planes(p);
-  reach_.fill(0);
-  for (std::size_t i = 0; i < 3 * stride_; ++i) reach_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
-  for (double& r : reach_) r = p.prototype.radius + std::sqrt(r / double(particles_));
+  max_step_.fill(0);
+  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
+  for (double& r : max_step_) r = p.model.radius + std::sqrt(r / double(particles_));
 }
 
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
@@ -63,7 +63,7 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 
 /// Where the shape that the body keeps would have its particles, were it as predicted.
 void ImplicitSolver::place_goal(const ImplicitProblem& p) {
-  const std::vector<glm::dvec3>& shape = p.prototype.goal;
+  const std::vector<glm::dvec3>& shape = p.model.goal;
   for (std::size_t l = 0; l < lanes; ++l) {
     const LaneView x{x_, l};
     glm::dvec3 centre(0.0);
@@ -78,18 +78,18 @@ void ImplicitSolver::place_goal(const ImplicitProblem& p) {
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
   kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
-  if (p.prototype.has_gas) {
+  if (p.model.has_gas) {
     alignas(64) double volume[lanes], gauge[lanes];
     kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.prototype.gas.gauge(volume[l]);
+    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
     kernels_.pressure(faces_, field(x), gauge, field(g));
   }
-  if (!p.prototype.goal.empty()) {
-    const double pull = shape_stiffness(p.prototype);
+  if (!p.model.goal.empty()) {
+    const double pull = shape_stiffness(p.model);
     for (std::size_t i = 0; i < 3 * stride_; ++i) g[i] += pull * (goal_[i] - x[i]);
   }
   add_contact_forces(p, x, g);
-  const double inertia = p.prototype.particle_mass / (p.h * p.h);
+  const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += lanes)
     for (std::size_t l = 0; l < lanes; ++l)
       g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
@@ -97,30 +97,30 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
-  work_ += double(p.planes->size() + p.shields->size()) * work_of_a_force;
+  work_ += double(p.planes->size() + p.penalty_pairs->size()) * work_of_a_force;
   for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, moved(p, x, c.at)));
-  for (const LinearShield& s : *p.shields) add(f, s.at, s.after(moved(p, x, s.at)));
+  for (const LinearPenaltyPair& s : *p.penalty_pairs) add(f, s.at, s.force_after(moved(p, x, s.at)));
 }
 
-glm::dvec3 LinearShield::after(const glm::dvec3& moved) const {
-  const glm::dvec3 apart = moved - partner, faster = apart - as_now;
+glm::dvec3 LinearPenaltyPair::force_after(const glm::dvec3& moved) const {
+  const glm::dvec3 apart = moved - partner, faster = apart - start_separation;
   const double push = glm::dot(force, normal);
   const double press = std::max(
       0.0, push - double(slopes.spring) * glm::dot(apart, normal) - double(slopes.damper) * glm::dot(faster, normal));
   const auto across = [this](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
-  // The friction spring of the start has slipped for this step already, see Shield::evaluate().
+  // The friction spring of the start has slipped for this step already, see PenaltyContact::evaluate().
   const glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
   return press * normal + law::within_cone(drag, friction * press);
 }
 
 /// q = A^-1 q
 void ImplicitSolver::apply_matrix(const ImplicitProblem& p, Lanes& q) {
-  if (!p.matrix.turns()) {
-    for (std::size_t k = 0; k < 3; ++k) kernels_.substitute(p.matrix.factor(), q.data() + k * stride_, room_.data());
+  if (!p.matrix.rotates()) {
+    for (std::size_t k = 0; k < 3; ++k) kernels_.substitute(p.matrix.factor(), q.data() + k * stride_, scratch_.data());
     return;
   }
   kernels_.turn(particles_, rotation_, true, field(q));
-  kernels_.substitute(p.matrix.factor(), q.data(), room_.data());
+  kernels_.substitute(p.matrix.factor(), q.data(), scratch_.data());
   if (!p.matrix.gas().empty()) {
     PerLane along;
     kernels_.inner_product_shared(3 * particles_, p.matrix.gas().data(), q.data(), along.data());
@@ -158,7 +158,7 @@ void ImplicitSolver::line_search(const ImplicitProblem& p) {
   for (std::size_t l = 0; l < lanes; ++l) {
     // No particle is to leap over its body: beyond lie other slopes. A slope upwards: at the minimum, or lost. What has
     // converged stays, whatever the others in the batch still need.
-    step_[l] = std::min(1.0, reach_[l] / std::sqrt(length2[l] / double(particles_)));
+    step_[l] = std::min(1.0, max_step_[l] / std::sqrt(length2[l] / double(particles_)));
     if (!(slope[l] < 0) || !std::isfinite(slope[l]) || converged_[l]) step_[l] = 0;
   }
   for (int halving = 0;; ++halving) {
@@ -173,7 +173,7 @@ void ImplicitSolver::line_search(const ImplicitProblem& p) {
       step_[l] *= std::isfinite(secant) ? std::clamp(secant, 0.1, 0.6) : 0.1;
       all = false;
     }
-    if (!all && halving < most_halvings) continue;
+    if (!all && halving < max_halvings) continue;
     for (std::size_t l = 0; l < lanes; ++l)
       if (!std::isfinite(end[l])) stay(l);
     return;
@@ -204,7 +204,7 @@ void ImplicitSolver::remember() {
 
 /// Whether all lanes have converged.
 bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
-  const double enough = 1e-9 * p.prototype.radius;
+  const double enough = 1e-9 * p.model.radius;
   gradient(p, x_, gradient_);
   converged_.fill(false);
   for (int i = 0; i < iterations; ++i) {
@@ -228,19 +228,19 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
 const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   remembered_ = 0;
   predict(p);
-  if (p.matrix.turns()) fit_rotation(p);
-  if (!p.prototype.goal.empty()) place_goal(p);
+  if (p.matrix.rotates()) fit_rotation(p);
+  if (!p.model.goal.empty()) place_goal(p);
   if (p.planes->empty()) {
-    minimise(p, most_iterations);
+    minimise(p, max_iterations);
     return x_;
   }
-  const std::array<bool, lanes> held = hold_forces(p);
+  const std::array<bool, lanes> held = solve_contact_forces(p);
   if (std::ranges::find(held, false) == held.end()) return x_;
   const Lanes found = x_;
   const std::vector<PlaneContact> planes_before = *p.planes;
   for (PlaneContact& c : *p.planes) c.force = glm::dvec3(0.0);
   predict(p);
-  lead_by_springs(p);
+  solve_penalty(p);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (held[i % lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)

@@ -1,5 +1,5 @@
 #pragma once
-// One implicit step of up to eight bodies of one prototype, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
+// One implicit step of up to eight bodies of one model, in double: a quasi-Newton solve (Liu, Bouaziz and Kavan
 // 2017, "Quasi-Newton methods for real-time simulation of hyperelastic materials") for the positions X with
 //
 //   m (X - y) / h^2 = f(X) + damping + contacts,   y = x + h v + h^2 a,
@@ -12,15 +12,15 @@
 // of it, is needed. Contact with solids is implicit, too (Otaduy et al. 2009, "Implicit contact handling for deformable
 // objects"): rounds of this solve with the contact forces held, and of projected Gauss-Seidel for these forces,
 // Coulomb's cone included, on the compliance that the matrix gives the touching particles. A body that is crushed is
-// not what the matrix says; there springs between particles and planes lead the rounds. Other bodies' shields enter to
-// first order.
+// not what the matrix says; there springs between particles and planes lead the rounds. Penalty contacts with other
+// bodies enter to first order.
 
 #include <array>
 #include <functional>
 #include <memory>
 #include <utility>
 
-#include "softbody/forces/shield.h"
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"
@@ -31,42 +31,42 @@ namespace softbody {
 struct PlaneContact {
   std::size_t at;  // particle * lanes + lane
   double friction, restitution;
-  glm::dvec3 normal;      // unit
-  double need;            // m, that the particle has to move along the normal in this step
-  double out;             // m, what of that takes it out of the solid
-  glm::dvec3 force{0.0};  // N
+  glm::dvec3 normal;        // unit
+  double min_displacement;  // m, that the particle has to move along the normal in this step
+  double out;               // m, what of that takes it out of the solid
+  glm::dvec3 force{0.0};    // N
 };
 
-/// The shield between a particle of the batch and one of another body, to first order.
-struct LinearShield {
+/// The penalty contact between a particle of the batch and one of another body, to first order.
+struct LinearPenaltyPair {
   std::size_t at;     // particle * lanes + lane
   glm::dvec3 normal;  // unit, towards the particle
-  Shield::Slopes slopes;
+  PenaltyContact::Slopes slopes;
   glm::dvec3 force{0.0};  // N, on it at the start
   double friction = 0;
-  glm::dvec3 partner{0.0};  // m, how far the other particle is taken to move
-  glm::dvec3 as_now{0.0};   // m, how far the two would move apart at the velocities of the start: `force` knows of it
-  double most_work = 0;     // J, that it can do in the step, whatever after() says
+  glm::dvec3 partner{0.0};           // m, how far the other particle is taken to move
+  glm::dvec3 start_separation{0.0};  // m, how far the two separate at the first velocities; in `force`
+  double max_work = 0;               // J, that it can do in the step, whatever force_after() says
 
   /// N, when the particle has moved by u. It never pulls, and friction keeps to its limit.
-  glm::dvec3 after(const glm::dvec3& u) const;
+  glm::dvec3 force_after(const glm::dvec3& u) const;
 };
 
 struct ImplicitProblem {
-  const Prototype& prototype;
+  const BodyModel& model;
   const ImplicitMatrix& matrix;
   double h;                           // s
   const float* moves;                 // lanes values
   const Lanes *x, *v;                 // at the start
   const Lanes* a;                     // m/s^2, what acts beside the forces
-  const Lanes* carried;               // m, what particles move without leaving their places here (implicit/frames.h)
+  const Lanes* frame_displacement;    // m, what particles move without leaving their places here (implicit/frames.h)
   std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
-  const std::vector<LinearShield>* shields;
+  const std::vector<LinearPenaltyPair>* penalty_pairs;
 };
 
 class ImplicitSolver {
  public:
-  ImplicitSolver(const Prototype& prototype, const ImplicitKernels& kernels);
+  ImplicitSolver(const BodyModel& model, const ImplicitKernels& kernels);
 
   /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
@@ -77,13 +77,13 @@ class ImplicitSolver {
  private:
   using PerLane = std::array<double, lanes>;
   static constexpr std::size_t history = 6;
-  static constexpr int most_iterations = 40, iterations_of_round = 12, most_halvings = 6;
+  static constexpr int max_iterations = 40, iterations_of_round = 12, max_halvings = 6;
 
   Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   /// m, in this step.
   glm::dvec3 moved(const ImplicitProblem& p, const Lanes& x, std::size_t at) const {
-    return read(x, at) - read(*p.x, at) + read(*p.carried, at);
+    return read(x, at) - read(*p.x, at) + read(*p.frame_displacement, at);
   }
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
@@ -92,10 +92,10 @@ class ImplicitSolver {
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
-  std::array<bool, lanes> hold_forces(const ImplicitProblem& p);
-  void lead_by_springs(const ImplicitProblem& p);
-  PerLane press(const ImplicitProblem& p);
-  double press_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
+  std::array<bool, lanes> solve_contact_forces(const ImplicitProblem& p);
+  void solve_penalty(const ImplicitProblem& p);
+  PerLane project_contacts(const ImplicitProblem& p);
+  double project_contacts_of_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
   bool minimise(const ImplicitProblem& p, int iterations);
   void direction(const ImplicitProblem& p);
   void apply_matrix(const ImplicitProblem& p, Lanes& q);
@@ -109,11 +109,11 @@ class ImplicitSolver {
   std::size_t particles_, stride_;  // stride: of a component
   KernelSpringsOf<double> springs_;
   std::vector<KernelTriangle> faces_;
-  Lanes target_, goal_, x_, trial_, gradient_, trial_gradient_, direction_, room_;
+  Lanes target_, goal_, x_, trial_, gradient_, trial_gradient_, direction_, scratch_;
   std::array<Lanes, history> steps_, changes_;
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;
-  PerLane step_{}, reach_{};  // reach: m, of one iteration, the root of the mean square
+  PerLane step_{}, max_step_{};  // max_step: m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][lanes];
   bool contact_springs_ = false;        // while they lead
   std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
@@ -122,16 +122,16 @@ class ImplicitSolver {
   double work_ = 0;
 };
 
-/// What a thread solves the batches of one prototype with.
+/// What a thread solves the batches of one body model with.
 struct ImplicitWork {
-  ImplicitWork(const Prototype& prototype, const ImplicitKernels& kernels);
+  ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels);
   ImplicitSolver solver;
-  Lanes x, v, end_x, end_v;              // in the world
-  Lanes own_x, own_v, stage_x, stage_v;  // in the lanes' frames
-  Lanes a, stage_a, carried;
+  Lanes x, v, end_x, end_v;                  // in the world
+  Lanes local_x, local_v, stage_x, stage_v;  // in the lanes' frames
+  Lanes a, stage_a, frame_displacement;
   std::array<float, lanes> moves{};
   std::vector<PlaneContact> planes;
-  std::vector<LinearShield> shields;
+  std::vector<LinearPenaltyPair> penalty_pairs;
 };
 
 }  // namespace softbody

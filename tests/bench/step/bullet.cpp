@@ -8,7 +8,7 @@
 
 #include <cmath>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "tests/bench/step/stepper.h"
 
 namespace bench {
@@ -93,7 +93,7 @@ class Bullet final : public Stepper {
     auto body = std::make_unique<btRigidBody>(0, nullptr, shape.get());
     body->setWorldTransform(btTransform(btQuaternion::getIdentity(), centre));
     // Bullet multiplies it by the soft body's.
-    body->setFriction(btScalar(friction / mirror_.prototype(0).material.friction));
+    body->setFriction(btScalar(friction / mirror_.model(0).material.friction));
     world_.addRigidBody(body.get());
     solids_.push_back({std::move(shape), std::move(body)});
   }
@@ -116,7 +116,7 @@ class Bullet final : public Stepper {
   }
 
   void add_body(BodyId b) {
-    const softbody::Prototype& p = mirror_.prototype(b);
+    const softbody::BodyModel& p = mirror_.model(b);
     std::vector<btVector3> x;
     for (const glm::dvec3& v : p.start) x.push_back(vector(mirror_.scene().bodies[b].position + v));
     const std::vector<btScalar> mass(x.size(), btScalar(p.particle_mass));
@@ -129,7 +129,7 @@ class Bullet final : public Stepper {
     world_.addSoftBody(soft_.back().get());
   }
 
-  void configure(btSoftBody& body, const softbody::Prototype& p) {
+  void configure(btSoftBody& body, const softbody::BodyModel& p) {
     constexpr btScalar margin = 0.02;  // m; two of them fit between bodies at the start
     constexpr int clusters = 16;
     body.getCollisionShape()->setMargin(margin);

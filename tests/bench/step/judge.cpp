@@ -6,7 +6,7 @@
 
 #include <fmt/core.h>
 
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 #include "softbody/world/measures.h"
 
 namespace bench {
@@ -34,7 +34,7 @@ std::vector<std::string> failures(const Figures& f) {
 Judge::Judge(const softbody::World& start) : energy_(energy_of(softbody::measure(start))) {
   radius_ = std::numeric_limits<double>::infinity();
   for (softbody::BodyId b = 0; b < start.bodies().count(); ++b) {
-    const softbody::Prototype& p = start.prototype(b);
+    const softbody::BodyModel& p = start.model(b);
     const double mass = p.particle_mass * double(p.mesh.vertices.size());
     mass_ += mass;
     scale_ += mass * 9.81 * p.radius;

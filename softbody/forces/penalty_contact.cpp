@@ -1,4 +1,4 @@
-#include "softbody/forces/shield.h"
+#include "softbody/forces/penalty_contact.h"
 
 #include <algorithm>
 #include <cmath>
@@ -9,10 +9,10 @@
 
 namespace softbody {
 
-void Shield::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
+void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
   const float h = thickness;
   for (std::size_t i = part.begin; i < part.end; ++i) {
-    ShieldPair& p = pairs[i];
+    PenaltyPair& p = pairs[i];
     force[i] = glm::vec3(0.0f);
     const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
     const float s = glm::dot(d, p.normal);
@@ -36,15 +36,16 @@ void Shield::evaluate(collide::Part part, Field<const float> x, Field<const floa
   }
 }
 
-void Shield::remove(BodyId body, collide::Index first, collide::Index count) {
-  std::erase_if(pairs, [body](const ShieldPair& p) { return p.body_a == body || p.body_b == body; });
-  for (ShieldPair& p : pairs) {
+void PenaltyContact::remove(BodyId body, collide::Index first, collide::Index count) {
+  std::erase_if(pairs, [body](const PenaltyPair& p) { return p.body_a == body || p.body_b == body; });
+  for (PenaltyPair& p : pairs) {
     for (BodyId* id : {&p.body_a, &p.body_b}) *id -= *id > body;
     for (collide::Index* vertex : {&p.contact.a, &p.contact.b}) *vertex -= *vertex > first ? count : 0;
   }
 }
 
-Shield::Slopes Shield::slopes(const ShieldPair& p, Field<const float> x, Field<const float> v, float seconds) const {
+PenaltyContact::Slopes PenaltyContact::slopes(const PenaltyPair& p, Field<const float> x, Field<const float> v,
+                                              float seconds) const {
   const float h = thickness;
   const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
   const float s = glm::dot(d, p.normal), beyond = std::min(s, 0.0f);
@@ -59,7 +60,8 @@ Shield::Slopes Shield::slopes(const ShieldPair& p, Field<const float> x, Field<c
   return {spring, damper, p.stiffness, sticking_damping * p.stiffness * h / (rebound_speed * seconds)};
 }
 
-float Shield::damping_ahead(const ShieldPair& p, Field<const float> x, Field<const float> v, float seconds) const {
+float PenaltyContact::predicted_damping(const PenaltyPair& p, Field<const float> x, Field<const float> v,
+                                        float seconds) const {
   const glm::vec3 d = read(x, p.slot_a) - read(x, p.slot_b) + p.offset;
   const glm::vec3 velocity = read(v, p.slot_a) - read(v, p.slot_b);
   const float s = glm::dot(d, p.normal), u = glm::dot(velocity, p.normal);
@@ -67,10 +69,10 @@ float Shield::damping_ahead(const ShieldPair& p, Field<const float> x, Field<con
   const float across = std::max(0.0f, glm::length(d - s * p.normal) - nearer) / thickness;
   const float along = std::max(0.0f, s + seconds * std::min(u, 0.0f)) / thickness;
   const float depth = std::max(0.0f, 1 - across * across - along * along) * std::max(0.0f, 1 - along);
-  return p.stiffness * thickness / rebound_speed * std::max(sticking_damping, most_damping(p.friction) * depth);
+  return p.stiffness * thickness / rebound_speed * std::max(sticking_damping, max_damping(p.friction) * depth);
 }
 
-double Shield::energy(const ShieldPair& p, Field<const float> x) const {
+double PenaltyContact::energy(const PenaltyPair& p, Field<const float> x) const {
   const double h = thickness;
   const glm::dvec3 d(read(x, p.slot_a) - read(x, p.slot_b) + p.offset);
   const double s = glm::dot(d, glm::dvec3(p.normal)), k = double(p.stiffness);
@@ -92,15 +94,15 @@ double total(std::span<const PairEnergy> pairs) {
   return sum;
 }
 
-std::vector<PairEnergy> Shield::energies(Field<const float> x) const {
+std::vector<PairEnergy> PenaltyContact::energies(Field<const float> x) const {
   std::vector<PairEnergy> list;
-  for (const ShieldPair& p : pairs) list.push_back({p.contact, energy(p, x)});
+  for (const PenaltyPair& p : pairs) list.push_back({p.contact, energy(p, x)});
   return list;
 }
 
-void Shield::inherit(std::span<const ShieldPair> before) {
+void PenaltyContact::carry_over(std::span<const PenaltyPair> before) {
   auto old = before.begin();
-  for (ShieldPair& p : pairs) {
+  for (PenaltyPair& p : pairs) {
     while (old != before.end() && old->contact < p.contact) ++old;
     if (old == before.end()) return;
     if (old->contact != p.contact) continue;

@@ -1,6 +1,6 @@
 // The law of the response to contacts, pair by pair.
 
-#include "softbody/forces/shield.h"
+#include "softbody/forces/penalty_contact.h"
 
 #include <gtest/gtest.h>
 
@@ -16,31 +16,31 @@ namespace {
 struct Pair {
   explicit Pair(const glm::dvec3& apart, double friction = 0, const glm::vec3& offset = glm::vec3(0.0f)) {
     x.set(0, 0, apart);
-    shield.thickness = 0.1f;
-    shield.pairs.push_back({.contact = {0, 1},
-                            .slot_a = 0,
-                            .slot_b = 1,
-                            .body_a = 0,
-                            .body_b = 1,
-                            .offset = offset,
-                            .normal = glm::vec3(0, 1, 0),
-                            .stiffness = 100,
-                            .friction = float(friction)});
-    shield.force.resize(1);
+    penalty.thickness = 0.1f;
+    penalty.pairs.push_back({.contact = {0, 1},
+                             .slot_a = 0,
+                             .slot_b = 1,
+                             .body_a = 0,
+                             .body_b = 1,
+                             .offset = offset,
+                             .normal = glm::vec3(0, 1, 0),
+                             .stiffness = 100,
+                             .friction = float(friction)});
+    penalty.force.resize(1);
   }
   /// The force on a after `seconds` at this velocity, which stretches the friction spring.
   glm::dvec3 force(const glm::dvec3& velocity, double seconds = 0) {
     v.set(0, 0, velocity);
-    shield.evaluate({0, 1}, std::as_const(x).field(), std::as_const(v).field(), float(seconds));
-    return glm::dvec3(shield.force[0]);
+    penalty.evaluate({0, 1}, std::as_const(x).field(), std::as_const(v).field(), float(seconds));
+    return glm::dvec3(penalty.force[0]);
   }
-  Shield shield;
+  PenaltyContact penalty;
   LaneField x{1}, v{1};
 };
 
 glm::dvec3 force(const glm::dvec3& apart, const glm::dvec3& velocity) { return Pair(apart).force(velocity); }
 
-TEST(Shield, PushesAwayAlongItsNormalByItsLaw) {
+TEST(PenaltyContact, PushesAwayAlongItsNormalByItsLaw) {
   const double k = 100, h = 0.1;
   for (const double s : {-0.05, 0.0, 0.02, 0.05, 0.09})
     for (const double across : {0.0, 0.03}) {
@@ -57,48 +57,49 @@ TEST(Shield, PushesAwayAlongItsNormalByItsLaw) {
     }
 }
 
-TEST(Shield, StoresTheWorkOfItsPush) {
+TEST(PenaltyContact, StoresTheWorkOfItsPush) {
   for (const double from : {-0.04, 0.0, 0.03})
     for (const double across : {0.0, 0.03}) {
       double work = 0;
       constexpr double step = 1e-5;
       for (double s = from + step / 2; s < 0.1; s += step) work += step * force({across, s, 0}, glm::dvec3(0.0)).y;
       const Pair pair({across, from, 0});
-      EXPECT_NEAR(pair.shield.energy(pair.shield.pairs[0], pair.x.field()), work, 1e-4 * work + 1e-9)
+      EXPECT_NEAR(pair.penalty.energy(pair.penalty.pairs[0], pair.x.field()), work, 1e-4 * work + 1e-9)
           << from << " " << across;
     }
   const Pair apart({0, 0.11, 0});
-  EXPECT_EQ(apart.shield.energy(apart.shield.pairs[0], apart.x.field()), 0);
+  EXPECT_EQ(apart.penalty.energy(apart.penalty.pairs[0], apart.x.field()), 0);
 }
 
-TEST(Shield, StoresWhatItsFrictionSpringsHold) {
+TEST(PenaltyContact, StoresWhatItsFrictionSpringsHold) {
   Pair pair({0, 0.05, 0}, 1);
-  const double before = pair.shield.energy(pair.shield.pairs[0], std::as_const(pair.x).field());
+  const double before = pair.penalty.energy(pair.penalty.pairs[0], std::as_const(pair.x).field());
   pair.force({0.01, 0, 0}, 0.1);  // a stretch of 1 mm
-  EXPECT_NEAR(pair.shield.energy(pair.shield.pairs[0], std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6, 1e-8);
+  EXPECT_NEAR(pair.penalty.energy(pair.penalty.pairs[0], std::as_const(pair.x).field()) - before, 0.5 * 100 * 1e-6,
+              1e-8);
 }
 
-TEST(Shield, FadesOutWhereTheDetectorLosesSight) {
+TEST(PenaltyContact, FadesOutWhereTheDetectorLosesSight) {
   EXPECT_NEAR(force({0, 0.0999, 0}, glm::dvec3(0.0)).y, 0, 1e-4);
   EXPECT_EQ(force({0, 0.1001, 0}, glm::dvec3(0.0)).y, 0);
   EXPECT_EQ(force({0.08, 0.08, 0}, glm::dvec3(0.0)).y, 0);
   EXPECT_GT(force({0, -0.3, 0}, glm::dvec3(0.0)).y, 5) << "but not behind the surface: it still pushes out";
 }
 
-TEST(Shield, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
+TEST(PenaltyContact, DampsByTheSpeedOfSeparationBetweenNothingAndThreeTimes) {
   const double still = force({0, 0.05, 0}, glm::dvec3(0.0)).y;
   EXPECT_NEAR(force({0, 0.05, 0}, {0, 1, 0}).y, 0.5 * still, 1e-4);
   EXPECT_NEAR(force({0, 0.05, 0}, {0, -1, 0}).y, 1.5 * still, 1e-4);
   EXPECT_NEAR(force({0, 0.05, 0}, {0, -40, 0}).y, 3 * still, 1e-4);
-  EXPECT_EQ(force({0, 0.05, 0}, {0, Shield::rebound_speed, 0}).y, 0) << "nothing is thrown back faster";
+  EXPECT_EQ(force({0, 0.05, 0}, {0, PenaltyContact::rebound_speed, 0}).y, 0) << "nothing is thrown back faster";
   EXPECT_EQ(force({0, 0.05, 0}, {0, 9, 0}).y, 0) << "and nothing is pulled back";
 }
 
-TEST(Shield, SeesPositionsFromTheirBodiesOrigins) {
+TEST(PenaltyContact, SeesPositionsFromTheirBodiesOrigins) {
   EXPECT_NEAR(Pair({0, 5.05, 0}, 0, {0, -5, 0}).force(glm::dvec3(0.0)).y, force({0, 0.05, 0}, glm::dvec3(0.0)).y, 1e-3);
 }
 
-TEST(Shield, FrictionIsADampedSpringUpToCoulombsLimit) {
+TEST(PenaltyContact, FrictionIsADampedSpringUpToCoulombsLimit) {
   const glm::dvec3 near(0, 0.05, 0);
   const double push = force(near, glm::dvec3(0.0)).y, viscous = 0.5 * 100 * 0.1 / 2;  // k h / (2 v)
   const glm::dvec3 fast = Pair(near, 0.5).force({3, 0, -4});
@@ -112,7 +113,7 @@ TEST(Shield, FrictionIsADampedSpringUpToCoulombsLimit) {
   EXPECT_NEAR(sticks.force(glm::dvec3(0.0), 0.1).x, -100 * 0.01, 1e-4) << "it holds at rest as well";
 }
 
-TEST(Shield, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
+TEST(PenaltyContact, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
   Pair pair({0, 0.05, 0}, 0.5);
   const double limit = 0.5 * force({0, 0.05, 0}, glm::dvec3(0.0)).y;
   for (int i = 0; i < 10; ++i) EXPECT_NEAR(pair.force({2, 0, 0}, 0.1).x, -limit, 1e-4);
@@ -120,10 +121,10 @@ TEST(Shield, AFrictionSpringThatSlipsIsStretchedNoFurtherThanItsLimit) {
   EXPECT_GT(pair.force({-0.1, 0, 0}, 2 * limit / 100 / 0.1).x, 0) << "and turns round at once";
 }
 
-TEST(Shield, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNormal) {
+TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNormal) {
   Pair pair({0, 0.05, 0}, 5);
   pair.force({0.2, 0, 0}, 0.1);
-  Shield next;
+  PenaltyContact next;
   for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}})
     next.pairs.push_back({.contact = c,
                           .slot_a = 0,
@@ -134,16 +135,16 @@ TEST(Shield, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNormal) {
                           .normal = glm::normalize(glm::vec3(1, 1, 0)),
                           .stiffness = 100,
                           .friction = 5});
-  next.inherit(pair.shield.pairs);
+  next.carry_over(pair.penalty.pairs);
   EXPECT_EQ(next.pairs[0].stretch, glm::vec3(0.0f));
   EXPECT_NEAR(glm::distance(next.pairs[1].stretch, glm::vec3(0.01f, -0.01f, 0)), 0, 1e-6);
   EXPECT_EQ(next.pairs[2].stretch, glm::vec3(0.0f));
 }
 
-TEST(Shield, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemoved) {
-  Shield shield;
+TEST(PenaltyContact, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemoved) {
+  PenaltyContact penalty;
   const auto add = [&](const collide::Contact& contact, BodyId a, BodyId b, float stretch) {
-    ShieldPair& pair = shield.pairs.emplace_back();
+    PenaltyPair& pair = penalty.pairs.emplace_back();
     pair.contact = contact, pair.body_a = a, pair.body_b = b, pair.stretch = glm::vec3(stretch, 0, 0);
   };
   // Bodies of five vertices, of which the second is removed.
@@ -151,40 +152,40 @@ TEST(Shield, FrictionSpringsStayWithTheirContactsWhenAnEarlierBodyIsRemoved) {
   add({3, 11}, 0, 2, 2);
   add({8, 12}, 1, 2, 3);
   add({10, 17}, 2, 3, 4);
-  shield.remove(1, 5, 5);
-  ASSERT_EQ(shield.pairs.size(), 2u);
-  EXPECT_EQ(std::pair(shield.pairs[0].body_a, shield.pairs[0].body_b), std::pair(BodyId{0}, BodyId{1}));
-  EXPECT_EQ(std::pair(shield.pairs[1].body_a, shield.pairs[1].body_b), std::pair(BodyId{1}, BodyId{2}));
-  Shield next;
+  penalty.remove(1, 5, 5);
+  ASSERT_EQ(penalty.pairs.size(), 2u);
+  EXPECT_EQ(std::pair(penalty.pairs[0].body_a, penalty.pairs[0].body_b), std::pair(BodyId{0}, BodyId{1}));
+  EXPECT_EQ(std::pair(penalty.pairs[1].body_a, penalty.pairs[1].body_b), std::pair(BodyId{1}, BodyId{2}));
+  PenaltyContact next;
   for (const collide::Contact c : {collide::Contact{3, 6}, {5, 12}}) {
     next.pairs.emplace_back().contact = c;
     next.pairs.back().normal = glm::vec3(0, 1, 0);
   }
-  next.inherit(shield.pairs);
+  next.carry_over(penalty.pairs);
   EXPECT_EQ(next.pairs[0].stretch, glm::vec3(2, 0, 0));
   EXPECT_EQ(next.pairs[1].stretch, glm::vec3(4, 0, 0));
 }
 
-TEST(Shield, ABoundHoldsItsStiffness) {
+TEST(PenaltyContact, ABoundHoldsItsStiffness) {
   double steepest = 0;
   for (double s = -0.05; s < 0.1; s += 0.002)
     for (double u = -8; u < 4; u += 0.25) {
       const double e = 1e-3;
       steepest = std::max(steepest, (force({0, s - e, 0}, {0, u, 0}).y - force({0, s + e, 0}, {0, u, 0}).y) / (2 * e));
     }
-  EXPECT_LE(steepest, 1.001 * double(Shield::stiffness_bound(100)));
+  EXPECT_LE(steepest, 1.001 * double(PenaltyContact::stiffness_bound(100)));
   EXPECT_GT(steepest, 100);
 }
 
-TEST(Shield, ItsSlopesAreNoLessThanItsForceFalls) {
+TEST(PenaltyContact, ItsSlopesAreNoLessThanItsForceFalls) {
   constexpr double e = 1e-4;
   for (const double across : {0.0, 0.02})
     for (double s = 0.002; s < 0.095; s += 0.004)
       for (const double u : {-3.0, 0.0, 1.0}) {
         Pair pair({across, s, 0});
         pair.force({0, u, 0});  // writes the velocity
-        const Shield::Slopes slopes = pair.shield.slopes(pair.shield.pairs[0], std::as_const(pair.x).field(),
-                                                         std::as_const(pair.v).field(), 0.01f);
+        const PenaltyContact::Slopes slopes = pair.penalty.slopes(pair.penalty.pairs[0], std::as_const(pair.x).field(),
+                                                                  std::as_const(pair.v).field(), 0.01f);
         const double steep =
             (force({across, s - e, 0}, {0, u, 0}).y - force({across, s + e, 0}, {0, u, 0}).y) / (2 * e);
         EXPECT_GE(double(slopes.spring), 0.99 * steep - 0.1) << "s " << s << " across " << across << " u " << u;
@@ -202,7 +203,7 @@ double damping(const glm::dvec3& apart, const glm::dvec3& velocity, double frict
   return most;
 }
 
-TEST(Shield, ABoundHoldsTheDampingOfWhereItIsAndWhereItGoes) {
+TEST(PenaltyContact, ABoundHoldsTheDampingOfWhereItIsAndWhereItGoes) {
   for (const double friction : {0.0, 0.5, 1.2})
     for (double s = -0.03; s < 0.1; s += 0.01)
       for (const double across : {0.0, 0.02, 0.06})
@@ -211,10 +212,10 @@ TEST(Shield, ABoundHoldsTheDampingOfWhereItIsAndWhereItGoes) {
           Pair pair(apart, friction);
           pair.force(u);  // writes the velocity
           const auto ahead = [&](double seconds) {
-            return double(pair.shield.damping_ahead(pair.shield.pairs[0], std::as_const(pair.x).field(),
-                                                    std::as_const(pair.v).field(), float(seconds)));
+            return double(pair.penalty.predicted_damping(pair.penalty.pairs[0], std::as_const(pair.x).field(),
+                                                         std::as_const(pair.v).field(), float(seconds)));
           };
-          const double all = double(Shield::damping_bound(100, float(friction), 0.1f));
+          const double all = double(PenaltyContact::damping_bound(100, float(friction), 0.1f));
           for (const double t : {0.0, 0.01, 0.02}) {
             EXPECT_LE(damping(apart + t * u, u, friction), 1.001 * ahead(0.02)) << "s " << s << " t " << t;
             EXPECT_LE(ahead(t), 1.001 * all);
@@ -222,15 +223,15 @@ TEST(Shield, ABoundHoldsTheDampingOfWhereItIsAndWhereItGoes) {
         }
   for (const double s : {0.1, 0.15, 10.0})
     for (const double across : {0.0, 0.2}) {
-      Pair out({across, s, 0}, 0.5);  // of sight: the shield may be thinner than the tolerance
-      EXPECT_LE(out.shield.damping_ahead(out.shield.pairs[0], std::as_const(out.x).field(),
-                                         std::as_const(out.v).field(), 0.01f),
-                0.5f * Shield::damping_bound(100, 0.5f, 0.1f));
+      Pair out({across, s, 0}, 0.5);  // of sight: the contact layer may be thinner than the tolerance
+      EXPECT_LE(out.penalty.predicted_damping(out.penalty.pairs[0], std::as_const(out.x).field(),
+                                              std::as_const(out.v).field(), 0.01f),
+                0.5f * PenaltyContact::damping_bound(100, 0.5f, 0.1f));
     }
   Pair far({0, 0.08, 0}, 0.5);
-  EXPECT_LT(
-      far.shield.damping_ahead(far.shield.pairs[0], std::as_const(far.x).field(), std::as_const(far.v).field(), 0.01f),
-      0.5f * Shield::damping_bound(100, 0.5f, 0.1f))
+  EXPECT_LT(far.penalty.predicted_damping(far.penalty.pairs[0], std::as_const(far.x).field(),
+                                          std::as_const(far.v).field(), 0.01f),
+            0.5f * PenaltyContact::damping_bound(100, 0.5f, 0.1f))
       << "a light contact is not taken for a deep one";
 }
 

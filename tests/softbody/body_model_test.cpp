@@ -1,4 +1,4 @@
-// What make_prototype() derives from a mesh and a material.
+// What make_body_model() derives from a mesh and a material.
 
 #include <gtest/gtest.h>
 
@@ -11,53 +11,53 @@
 
 #include "softbody/integrate/equilibrium.h"
 #include "softbody/model/spring_bound.h"
-#include "softbody/world/prototype_set.h"
+#include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
 
 namespace softbody::test {
 namespace {
 
-TEST(Prototype, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
+TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   Material m = spring_ball(), renamed = m, stiffer = m;
   renamed.name += " again";
   stiffer.structural.stiffness *= 2;
-  auto one = shared_prototype({}, m);
-  EXPECT_EQ(shared_prototype({}, m), one);
-  EXPECT_NE(shared_prototype({}, renamed), one) << "worlds tell prototypes of different materials apart by this";
-  EXPECT_EQ(shared_prototype({}, renamed)->material.name, renamed.name);
-  EXPECT_NE(shared_prototype({}, stiffer), one);
-  EXPECT_NE(shared_prototype({.subdivisions = 1}, m), one);
-  const std::weak_ptr<const Prototype> before = std::exchange(one, nullptr);
+  auto one = shared_body_model({}, m);
+  EXPECT_EQ(shared_body_model({}, m), one);
+  EXPECT_NE(shared_body_model({}, renamed), one) << "worlds tell body models of different materials apart by this";
+  EXPECT_EQ(shared_body_model({}, renamed)->material.name, renamed.name);
+  EXPECT_NE(shared_body_model({}, stiffer), one);
+  EXPECT_NE(shared_body_model({.subdivisions = 1}, m), one);
+  const std::weak_ptr<const BodyModel> before = std::exchange(one, nullptr);
   EXPECT_TRUE(before.expired()) << "nothing is kept for its own sake";
-  EXPECT_EQ(shared_prototype({}, m)->structural.size(), 480u);
+  EXPECT_EQ(shared_body_model({}, m)->structural.size(), 480u);
 }
 
-TEST(Prototype, HasOneSpringAPairWithTheMeshsOwnLengths) {
+TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
   Material m = spring_ball();
   m.mass = 3;
   m.structural = {300, 0.2};
   m.bend = {75, 0.4};
   m.shear = {10, 0.1};
-  const auto ball = make_prototype({}, m);
+  const auto ball = make_body_model({}, m);
   EXPECT_EQ(ball->structural.size(), 480u);
   EXPECT_EQ(ball->bend.size(), 480u);
   EXPECT_TRUE(ball->shear.empty()) << "shear springs are for quads";
   MeshSource grid;
   grid.kind = "grid";
   grid.columns = grid.rows = 3;
-  EXPECT_EQ(make_prototype(grid, m)->shear.size(), 18u);
+  EXPECT_EQ(make_body_model(grid, m)->shear.size(), 18u);
   for (const auto* list : {&ball->structural, &ball->bend})
     for (const Spring& s : *list)
       EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
 }
 
-TEST(Prototype, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
+TEST(BodyModel, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
   Material m = spring_ball();
   m.mass = 3;
   m.structural = {300, 0.2};
   m.bend = {75, 0.4};
-  const auto p = make_prototype({}, m);
+  const auto p = make_body_model({}, m);
   const double reduced = 3.0 / 162 / 2;  // two equal masses
   EXPECT_DOUBLE_EQ(p->particle_mass, 3.0 / 162);
   for (const Spring& s : p->structural) {
@@ -71,7 +71,7 @@ TEST(Prototype, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
 }
 
 /// Of a fan the spokes share at the hub; its rim is as stiff as the material says.
-TEST(Prototype, SpringsOfAHubShareWhatSixWouldHave) {
+TEST(BodyModel, SpringsOfAHubShareWhatSixWouldHave) {
   constexpr int spokes = 18;
   std::string fan = vertex({0, 1, 0});
   for (int i = 0; i < spokes; ++i)
@@ -80,7 +80,7 @@ TEST(Prototype, SpringsOfAHubShareWhatSixWouldHave) {
   const TemporaryFolder folder;
   Material m = spring_ball();
   m.structural = {300, 0.2};
-  const auto p = make_prototype(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), m);
+  const auto p = make_body_model(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), m);
   int shared = 0;
   for (const Spring& s : p->structural) {
     shared += s.stiffness < 300;
@@ -90,10 +90,10 @@ TEST(Prototype, SpringsOfAHubShareWhatSixWouldHave) {
   EXPECT_EQ(shared, spokes);
 }
 
-TEST(Prototype, AStiffnessOfZeroMeansNoSprings) {
+TEST(BodyModel, AStiffnessOfZeroMeansNoSprings) {
   Material m = spring_ball();
   m.bend.stiffness = 0;
-  EXPECT_TRUE(make_prototype({}, m)->bend.empty());
+  EXPECT_TRUE(make_body_model({}, m)->bend.empty());
 }
 
 TEST(SpringBound, HasTheEigenvaluesOfKnownGraphs) {
@@ -123,7 +123,7 @@ TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
   grid.kind = "grid";
   for (const MeshSource& source : {grid, ball})
     for (const auto property : {&Spring::stiffness, &Spring::damping}) {
-      const auto p = make_prototype(source, m);
+      const auto p = make_body_model(source, m);
       const std::array lists{&p->structural, &p->bend, &p->shear};
       const std::size_t count = p->mesh.vertices.size();
       std::vector<double> v(count);
@@ -146,8 +146,8 @@ TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
     }
 }
 
-TEST(Prototype, ListsTheFacesAtEachVertex) {
-  const auto p = make_prototype({}, spring_ball());
+TEST(BodyModel, ListsTheFacesAtEachVertex) {
+  const auto p = make_body_model({}, spring_ball());
   std::size_t total = 0;
   for (Index v = 0; v < 162; ++v) {
     const auto faces = p->faces_of(v);
@@ -161,21 +161,21 @@ TEST(Prototype, ListsTheFacesAtEachVertex) {
   EXPECT_EQ(total, 3 * 320u);
 }
 
-TEST(Prototype, GasIsForClosedMeshesWithSomePressure) {
+TEST(BodyModel, GasIsForClosedMeshesWithSomePressure) {
   MeshSource grid;
   grid.kind = "grid";
-  EXPECT_FALSE(make_prototype({}, spring_ball())->has_gas);
-  EXPECT_FALSE(make_prototype(grid, gas_ball())->has_gas);
-  EXPECT_EQ(make_prototype(grid, gas_ball())->start_volume, 0);
-  const auto p = make_prototype({}, gas_ball());
+  EXPECT_FALSE(make_body_model({}, spring_ball())->has_gas);
+  EXPECT_FALSE(make_body_model(grid, gas_ball())->has_gas);
+  EXPECT_EQ(make_body_model(grid, gas_ball())->start_volume, 0);
+  const auto p = make_body_model({}, gas_ball());
   EXPECT_TRUE(p->has_gas);
   EXPECT_DOUBLE_EQ(p->gas.rest_volume, volume(p->mesh.vertices, p->mesh.triangles));
   EXPECT_DOUBLE_EQ(p->gas.pressure(p->gas.rest_volume), 113000);
   EXPECT_EQ(p->gas.ambient, 101325);
 }
 
-TEST(Prototype, DetectorsSeeItsEdgesAndRestDistances) {
-  const auto p = make_prototype({}, spring_ball());
+TEST(BodyModel, DetectorsSeeItsEdgesAndRestDistances) {
+  const auto p = make_body_model({}, spring_ball());
   EXPECT_EQ(p->shape->vertex_count(), 162u);
   const auto& [i, j] = p->mesh.edges.front();
   EXPECT_TRUE(p->shape->excludes(i, j, 1e-12f));
@@ -185,7 +185,7 @@ TEST(Prototype, DetectorsSeeItsEdgesAndRestDistances) {
   EXPECT_TRUE(p->shape->excludes(0, far, 1.5f)) << "closer than the tolerance at rest";
 }
 
-TEST(PrototypeSet, SharesOneAPairOfMeshAndMaterial) {
+TEST(BodyModelSet, SharesOneAPairOfMeshAndMaterial) {
   Scene scene = lone_body(spring_ball());
   scene.materials.push_back(gas_ball());
   add_body(scene, glm::dvec3(3, 0, 0), glm::dvec3(0.0));
@@ -193,7 +193,7 @@ TEST(PrototypeSet, SharesOneAPairOfMeshAndMaterial) {
   add_body(scene, glm::dvec3(9, 0, 0), glm::dvec3(0.0));
   scene.bodies[2].material = 1;
   scene.bodies[3].mesh.subdivisions = 1;
-  const PrototypeSet set(scene);
+  const BodyModelSet set(scene);
   EXPECT_EQ(set.all().size(), 3u);
   EXPECT_EQ(set.of(scene.bodies[0]), set.of(scene.bodies[1]));
   EXPECT_NE(set.of(scene.bodies[0]), set.of(scene.bodies[2]));

@@ -5,10 +5,10 @@
 
 namespace softbody {
 
-struct WorldInsides {
+struct WorldTestAccess {
   static const Dynamics& dynamics(const World& world) { return world.state_->dynamics; }
   /// m, of the penalty force: grows slowly towards the tolerance.
-  static float penalty_thickness(const World& world) { return world.state_->shield; }
+  static float penalty_thickness(const World& world) { return world.state_->penalty_thickness; }
 };
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "softbody/model/prototype.h"
+#include "softbody/model/body_model.h"
 
 #include <algorithm>
 #include <array>
@@ -33,7 +33,7 @@ std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pair
 }
 
 /// What draws the particles to their places in the mesh's own shape.
-void set_shape(Prototype& p, double frequency) {
+void set_shape(BodyModel& p, double frequency) {
   p.shape_rate = 2 * std::numbers::pi * frequency;
   p.goal.clear();
   if (p.shape_rate <= 0) return;
@@ -54,7 +54,7 @@ Material for_mesh(Material m, const MeshSource& source) {
   return m;
 }
 
-void list_faces(Prototype& p) {
+void list_faces(BodyModel& p) {
   std::vector<std::vector<Index>> at(p.mesh.vertices.size());
   for (Index f = 0; f < p.mesh.triangles.size(); ++f)
     for (const Index corner : p.mesh.triangles[f]) at[corner].push_back(f);
@@ -65,7 +65,7 @@ void list_faces(Prototype& p) {
 }
 
 /// All that the material decides, but for the starting shape.
-void give_material(Prototype& p, const MeshSource& source, const Material& material) {
+void give_material(BodyModel& p, const MeshSource& source, const Material& material) {
   p.material = for_mesh(material, source);
   p.particle_mass = material.mass / double(p.mesh.vertices.size());
   p.structural = make_springs(p.mesh, p.mesh.edges, p.material.structural, p.particle_mass);
@@ -89,14 +89,16 @@ double Gas::pressure(double v) const {
   return amount / bend * (2 - v / bend);
 }
 
-double Gas::outside(double v) const { return ambient * std::clamp(v / (linear_below * rest_volume), -1.0, 1.0); }
+double Gas::ambient_pressure(double v) const {
+  return ambient * std::clamp(v / (linear_below * rest_volume), -1.0, 1.0);
+}
 
 double Gas::slope(double v) const {
   const double bend = linear_below * rest_volume, held = std::max(v, bend);
   return -amount / (held * held) - (std::abs(v) < bend ? ambient / bend : 0);
 }
 
-double Gas::outside_energy(double v) const {
+double Gas::ambient_energy(double v) const {
   const double bend = linear_below * rest_volume;
   const double pushed_away = std::abs(v) < bend ? (v * v + bend * bend) / (2 * bend) : std::abs(v);
   return ambient * (pushed_away - rest_volume);
@@ -104,9 +106,9 @@ double Gas::outside_energy(double v) const {
 
 double Gas::energy(double v) const {
   const double bend = linear_below * rest_volume;
-  if (v >= bend) return outside_energy(v) - amount * std::log(v / rest_volume);
+  if (v >= bend) return ambient_energy(v) - amount * std::log(v / rest_volume);
   const double beyond = bend - v;  // the integral of the linear law from v to the bend
-  return outside_energy(v) - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
+  return ambient_energy(v) - amount * std::log(linear_below) + amount / bend * (beyond + beyond * beyond / (2 * bend));
 }
 
 double stable_step(double k_m, double c_m) {
@@ -117,7 +119,7 @@ double stable_step(double k_m, double c_m) {
   return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
 }
 
-double stiffness_per_mass(const Prototype& p, const SurfaceShape& surface) {
+double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface) {
   // stable_step() doubles what springs do, for each also stands beside the diagonal; the shape's w^2 is no such sum.
   const double springs = p.spring_stiffness_bound / p.particle_mass + p.shape_rate * p.shape_rate / 2;
   if (!p.has_gas) return springs;
@@ -137,7 +139,7 @@ double stiffness_per_mass(const Prototype& p, const SurfaceShape& surface) {
   return springs + gas / (2 * p.particle_mass);  // nor is this
 }
 
-SurfaceShape measure_surface(const Prototype& p, const std::vector<glm::dvec3>& vertices) {
+SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& vertices) {
   if (!p.has_gas) return {};
   SurfaceShape s{.volume = volume(vertices, p.mesh.triangles)};
   std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
@@ -157,8 +159,8 @@ SurfaceShape measure_surface(const Prototype& p, const std::vector<glm::dvec3>& 
   return s;
 }
 
-std::shared_ptr<Prototype> make_unbalanced_prototype(const MeshSource& source, const Material& material) {
-  auto p = std::make_shared<Prototype>();
+std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& source, const Material& material) {
+  auto p = std::make_shared<BodyModel>();
   p->mesh = source.make();
   p->radius = bounding_radius(p->mesh);
   list_faces(*p);
@@ -177,9 +179,9 @@ std::shared_ptr<Prototype> make_unbalanced_prototype(const MeshSource& source, c
   return p;
 }
 
-std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
+std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
                                                const Material& material) {
-  auto p = std::make_shared<Prototype>(prototype);
+  auto p = std::make_shared<BodyModel>(model);
   give_material(*p, source, material);
   return p;
 }

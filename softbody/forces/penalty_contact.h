@@ -7,12 +7,12 @@
 // which fades out where the detector loses sight of the pair, at |d| = h, so that contacts come and go without a jump -
 // in front of the surface. A pair that comes into sight from behind it is pushed out with full force at once: work that
 // nobody has put in, as when solids push out what is in them.
-// h is the shield's thickness, k its stiffness, u the speed at which the two separate: Hunt and Crossley's damping
-// (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a spring
-// of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to frame as
-// long as the pair does, so that bodies stick and not merely creep. Between closed bodies n comes from the surfaces'
-// normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between the two. k
-// is shared among the contacts of a particle: a wide shield is not stiffer.
+// h is the thickness of the contact layer, k its stiffness, u the speed at which the two separate: Hunt and Crossley's
+// damping (1975), under which nothing is thrown back faster than v. Friction across n is Cundall and Strack's (1979): a
+// spring of stiffness k that the slip stretches, with a damper, cut off at Coulomb's limit; it holds from frame to
+// frame as long as the pair does, so that bodies stick and not merely creep. Between closed bodies n comes from the
+// surfaces' normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between
+// the two. k is shared among the contacts of a particle: a wide contact layer is not stiffer.
 
 #include <cmath>
 #include <cstdint>
@@ -28,7 +28,7 @@
 
 namespace softbody {
 
-struct ShieldPair {
+struct PenaltyPair {
   collide::Contact contact;    // the two vertices
   std::size_t slot_a, slot_b;  // into the state's arrays
   BodyId body_a, body_b;
@@ -40,34 +40,34 @@ struct ShieldPair {
 };
 
 /// The end of a pair that falls to one batch.
-struct ShieldEnd {
+struct PenaltyEnd {
   std::size_t slot;
   std::uint32_t pair;
   float sign;  // +1 for a, -1 for b
 };
 
-struct Shield {
+struct PenaltyContact {
   static constexpr float rebound_speed = 2.0f;   // v, m/s
   static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
   float thickness = 0;                           // h, m
-  std::vector<ShieldPair> pairs;
+  std::vector<PenaltyPair> pairs;
   std::vector<glm::vec3> force;          // on a, of the current substep, N
-  std::vector<ShieldEnd> ends;           // grouped by batch
+  std::vector<PenaltyEnd> ends;          // grouped by batch
   std::vector<std::uint32_t> first_end;  // batches + 1 offsets into ends
 
   /// Evaluates the forces of the pairs in `part` and stretches their friction springs by `seconds` of slip.
   void evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds);
   /// J: the work of the undamped push along n until the pair is out of sight, and what its friction spring holds.
-  double energy(const ShieldPair& pair, Field<const float> x) const;
+  double energy(const PenaltyPair& pair, Field<const float> x) const;
   std::vector<PairEnergy> energies(Field<const float> x) const;  // of all, in the order of pairs
   /// How fast the force on a falls with the motion of a in the coming `seconds`, at least: N/m along and across n.
   struct Slopes {
     float spring, damper;                // along n
     float across_spring, across_damper;  // while it sticks
   };
-  Slopes slopes(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+  Slopes slopes(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
-  void inherit(std::span<const ShieldPair> before);
+  void carry_over(std::span<const PenaltyPair> before);
   /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up. Slots are as before.
   void remove(BodyId body, collide::Index first, collide::Index count);
   /// Fills `ends`: batch_of(body) gives a body's batch.
@@ -76,24 +76,24 @@ struct Shield {
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
   static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
   static float damping_bound(float k, float friction, float thickness) {                 // N s/m
-    return most_damping(friction) * k * thickness / rebound_speed;
+    return max_damping(friction) * k * thickness / rebound_speed;
   }
   /// N: of a contact as deep as can be, damped as much as can be.
-  float most_force(const ShieldPair& pair) const {
-    return approach_limit * most_damping(pair.friction) * pair.stiffness * thickness;
+  float max_force(const PenaltyPair& pair) const {
+    return approach_limit * max_damping(pair.friction) * pair.stiffness * thickness;
   }
   /// N s/m: the most that a pair does in the coming `seconds` if its speed stays.
-  float damping_ahead(const ShieldPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+  float predicted_damping(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
 
  private:
   static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
   /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.
-  static float most_damping(float friction) { return std::sqrt(1 + friction * friction); }
+  static float max_damping(float friction) { return std::sqrt(1 + friction * friction); }
 };
 
-void Shield::group(std::size_t batches, const auto& batch_of) {
+void PenaltyContact::group(std::size_t batches, const auto& batch_of) {
   first_end.assign(batches + 1, 0);
-  for (const ShieldPair& p : pairs) {
+  for (const PenaltyPair& p : pairs) {
     ++first_end[batch_of(p.body_a) + 1];
     ++first_end[batch_of(p.body_b) + 1];
   }

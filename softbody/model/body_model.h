@@ -1,5 +1,5 @@
 #pragma once
-// A prototype is all that bodies of one mesh and one material share. Bodies of one prototype are solved together.
+// A body model is all that bodies of one mesh and one material share. Bodies of one model are solved together.
 
 #include <memory>
 #include <span>
@@ -34,18 +34,18 @@ struct Gas {
   double pressure(double v) const;
   /// Ambient pressure in Pa. It acts on the outer side of the skin: within 0.1 V0 of a flat body it changes its sign.
   /// Otherwise an inverted body with little gas would be blown up without end.
-  double outside(double v) const;
+  double ambient_pressure(double v) const;
   /// The pressure in Pa that drives the faces out.
-  double gauge(double v) const { return pressure(v) - outside(v); }
+  double gauge(double v) const { return pressure(v) - ambient_pressure(v); }
   /// The derivative of gauge() in Pa/m^3, never positive.
   double slope(double v) const;
-  /// Work done against the ambient pressure in J, 0 at V0; d/dV = outside().
-  double outside_energy(double v) const;
+  /// Work done against the ambient pressure in J, 0 at V0; d/dV = ambient_pressure().
+  double ambient_energy(double v) const;
   /// That work less the work done by the gas, in J, 0 at V0; d/dV = -gauge().
   double energy(double v) const;
 };
 
-struct Prototype {
+struct BodyModel {
   Mesh mesh;
   Material material;
   std::shared_ptr<const collide::Shape> shape;               // what the detectors see of it
@@ -71,12 +71,12 @@ struct Prototype {
   }
 };
 
-/// Returns a prototype whose starting shape is the mesh itself, in balance or not.
-std::shared_ptr<Prototype> make_unbalanced_prototype(const MeshSource& mesh, const Material& material);
+/// Returns a body model whose starting shape is the mesh itself, in balance or not.
+std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
 
-/// Returns a prototype of the same mesh with another material. It keeps the starting shape, which is in equilibrium
+/// Returns a body model of the same mesh with another material. It keeps the starting shape, which is in equilibrium
 /// only for the material that it was found for. `source`: that of the mesh.
-std::shared_ptr<const Prototype> with_material(const Prototype& prototype, const MeshSource& source,
+std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
                                                const Material& material);
 
 /// What the stability bound of the gas needs to know of a body's shape.
@@ -86,11 +86,11 @@ struct SurfaceShape {
   double stretch = 0;      // N m^3: the sum over the springs of the stiffness times |A_i - A_j|^2
   double two_medians = 0;  // m: the largest sum of a face's two longest medians
 };
-SurfaceShape measure_surface(const Prototype& prototype, const std::vector<glm::dvec3>& vertices);
+SurfaceShape measure_surface(const BodyModel& model, const std::vector<glm::dvec3>& vertices);
 
 /// Returns a bound of the stiffness over mass (1/s^2) of springs, gas and shape matching at one particle of a body of
 /// this shape.
-double stiffness_per_mass(const Prototype& prototype, const SurfaceShape& surface);
+double stiffness_per_mass(const BodyModel& model, const SurfaceShape& surface);
 
 /// Returns 0.8 times the largest stable step of semi-implicit Euler in s, for the sums k_m of stiffness/mass (1/s^2)
 /// and c_m of damping/mass (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m /
