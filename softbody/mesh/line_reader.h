@@ -1,5 +1,5 @@
 #pragma once
-// The lines of a text file of statements such as OBJ's, of any size, read piece by piece.
+// Reads the lines of a text file, such as an OBJ file, of any size, piece by piece.
 
 #include <cstdint>
 #include <filesystem>
@@ -19,17 +19,18 @@ class LineReader {
   LineReader(const LineReader&) = delete;
   LineReader& operator=(const LineReader&) = delete;
 
-  /// The next line, without its end (LF, CRLF or CR); false if there is none. The text is valid until the next call. A
-  /// line that ends with a backslash goes on in the next one, unless that begins with a letter or #: the joint becomes
-  /// spaces. Ctrl-Z and NUL at the end of the file are left out.
-  /// Throws std::length_error if the line is longer than max_line_length.
+  /// Reads the next line into `line`, without its end (LF, CRLF or CR). Returns false if there is none. The text is
+  /// valid until the next call. A line that ends with a backslash is joined with the next one, unless that one begins
+  /// with a letter or #; the backslash and the line end become spaces. Ctrl-Z and NUL at the end of the file are
+  /// skipped. Throws std::length_error if the line is longer than max_line_length.
   bool next(std::string_view& line);
-  /// Of the line that next() gave, or at which it failed: 1 is the first. The first one of lines that were joined.
+  /// Returns the number, from 1, of the line that next() returned or at which it threw. Of joined lines it is the
+  /// number of the first one.
   std::uint64_t number() const { return number_; }
 
  private:
   // Offsets count from begin_, so that they outlast read_more().
-  /// Whether the file goes on at an offset, which is at most one beyond what was asked for before.
+  /// True if the file has a character at `offset`, which is at most one more than any offset asked for before.
   bool has(std::size_t offset) { return begin_ + offset < end_ || read_more(); }
   char at(std::size_t offset) const { return buffer_[begin_ + offset]; }
   std::size_t find(bool (*is_such)(char), std::size_t offset);
@@ -38,7 +39,7 @@ class LineReader {
 
   int file_;
   std::vector<char> buffer_;
-  std::size_t begin_ = 0, end_ = 0;  // of what is read and not yet handed out
+  std::size_t begin_ = 0, end_ = 0;  // of the part of the buffer that next() has not returned yet
   std::uint64_t number_ = 0, lines_read_ = 0;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// Surface meshes: where a soft body's particles and springs come from.
+// Surface meshes. They give a soft body its particles and springs.
 
 #include <algorithm>
 #include <array>
@@ -19,27 +19,28 @@ inline Edge ordered(Index a, Index b) { return {std::min(a, b), std::max(a, b)};
 struct Mesh {
   std::vector<glm::dvec3> vertices;  // m, around the mesh's own origin
   std::vector<Triangle> triangles;
-  std::vector<Edge> edges;        // polygon edges, ascending, unique; a quad's diagonals are not among them
+  std::vector<Edge> edges;        // polygon edges, ascending, unique, without the diagonals of quads
   std::vector<Edge> shear_pairs;  // both diagonals of each quad; empty for triangle meshes
   std::vector<Edge> bend_pairs;   // the vertices that a bend spring joins across one edge or particle
-  bool closed = false;            // every edge has two faces, so that it holds a volume
+  bool closed = false;            // every edge has two faces, so the mesh encloses a volume
 };
 
-/// Unit icosahedron cut `subdivisions` times (each face into four), scaled to the radius: 10 * 4^s + 2 vertices,
-/// 20 * 4^s faces; s = 2 is the paper's body of 162 and 320. subdivisions 0 .. 6, radius > 0 in metres.
+/// Returns a sphere: an icosahedron whose faces are cut into four s = `subdivisions` times (0 to 6). It has
+/// 10 * 4^s + 2 vertices and 20 * 4^s faces; s = 2 is the paper's body of 162 vertices and 320 faces. radius: > 0, in
+/// m.
 Mesh icosphere(int subdivisions, double radius);
 
-/// Flat sheet in the xz plane, centred: columns x rows quads (>= 1 each) over width x depth metres. Bend springs skip
-/// one particle along both directions.
+/// Returns a flat sheet in the xz plane, centred at the origin: columns x rows quads (>= 1 each), width x depth metres.
+/// Bend springs join each particle to the next but one in both directions.
 Mesh quad_grid(int columns, int rows, double width, double depth);
 
-/// Fills in edges, bend pairs and closedness from the triangles.
+/// Fills in `edges`, `bend_pairs` and `closed` from the triangles.
 void connect_triangles(Mesh& mesh);
 
-/// Signed volume of a closed triangle mesh by the divergence theorem, in m^3.
+/// Returns the signed volume of a closed triangle mesh in m^3, by the divergence theorem.
 double volume(const std::vector<glm::dvec3>& vertices, const std::vector<Triangle>& triangles);
 
-/// Largest distance of a vertex from the vertices' mean, in m.
+/// Returns the largest distance of a vertex from the mean of all vertices, in m.
 double bounding_radius(const Mesh& mesh);
 
 }  // namespace softbody

@@ -1,6 +1,6 @@
 #pragma once
-// A mesh from a Wavefront OBJ file, made fit for a soft body: seams welded, polygons cut into triangles, what is of no
-// use dropped, faces turned outwards, checked.
+// Imports a mesh from a Wavefront OBJ file and prepares it for a soft body: seams are welded, polygons are cut into
+// triangles, unused vertices are dropped, faces are turned outwards, and the surface is checked.
 
 #include <filesystem>
 #include <string>
@@ -11,25 +11,25 @@ namespace softbody {
 
 struct MeshFile {
   std::filesystem::path path{};
-  double size = 0;         // m, largest extent that the mesh is brought to; 0: as large as the file has it, in metres
+  double size = 0;         // m, the mesh is scaled to this largest extent; 0: not scaled, the file is in metres
   double weld = 1e-6;      // seams no wider than this times the largest extent are closed (weld.h)
   glm::dvec3 up{0, 1, 0};  // the file's direction that becomes y, of any length but 0
   bool operator==(const MeshFile&) const = default;
 };
 
-/// What was found in the file and done to it.
+/// What the import found in the file and what it changed.
 struct ImportFindings {
   std::size_t file_vertices = 0, file_faces = 0;  // as written
-  std::size_t welded_vertices = 0;                // gone, since another one is as good as at their place
-  std::size_t unused_vertices = 0;                // gone, since no face names them
-  std::size_t degenerate_faces = 0;               // gone, since welding left them fewer than three corners
-  std::size_t duplicate_faces = 0;                // gone, since an earlier one has the same outline, either way round
-  std::size_t weights = 0;                        // of vertices, other than 1: passed over
-  std::size_t turned_faces = 0;                   // corners put in the other order
-  std::size_t components = 0;                     // joined by edges; all are one body
-  bool closed = false;                            // it holds a volume
+  std::size_t welded_vertices = 0;                // dropped: another vertex is at the same place
+  std::size_t unused_vertices = 0;                // dropped: no face uses them
+  std::size_t degenerate_faces = 0;               // dropped: fewer than three corners were left after welding
+  std::size_t duplicate_faces = 0;                // dropped: an earlier face has the same outline, in either direction
+  std::size_t weights = 0;                        // vertices with a weight other than 1, which is ignored
+  std::size_t turned_faces = 0;                   // faces whose corners were reversed
+  std::size_t components = 0;                     // parts connected by edges; all are one body
+  bool closed = false;                            // the mesh encloses a volume
   double file_extent = 0;                         // largest extent before scaling
-  double extent = 0;                              // m, after it
+  double extent = 0;                              // m, after scaling
   bool operator==(const ImportFindings&) const = default;
 };
 
@@ -41,12 +41,13 @@ struct ImportedMesh {
 inline constexpr std::size_t max_imported_vertices = 100'000;                    // after welding
 inline constexpr std::uintmax_t max_mesh_file_size = std::uintmax_t{256} << 20;  // bytes
 
-/// All objects of the file together are one mesh. Throws ObjError (obj_file.h): unreadable, no face, too large, an edge
-/// with more than two faces, a surface with one side, closed without a volume.
+/// Imports all objects of the file as one mesh. Throws ObjError (obj_file.h) if the file cannot be read, has no face or
+/// is too large, or if the surface has an edge with more than two faces, has one side only, or is closed without a
+/// volume.
 ImportedMesh import_mesh(const MeshFile& file);
 
-/// One line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". Empty if there is nothing
-/// to say: a closed mesh in one piece, taken as it is.
+/// Returns one line for people, e.g. "12 vertices welded, 3 unused ones dropped; open; 2 components". It is empty for a
+/// closed mesh in one piece that was not changed.
 std::string remarks(const ImportFindings& findings);
 
 }  // namespace softbody

@@ -16,11 +16,11 @@ struct MeshSource {
   int columns = 32, rows = 32;                     // grid
   double width = 3, depth = 3;                     // m, grid
   MeshFile file{};                                 // file
-  std::shared_ptr<const ImportedMesh> imported{};  // file: what was read, shared by all bodies of it
-  /// Reads the file. Throws ObjError.
+  std::shared_ptr<const ImportedMesh> imported{};  // file: the imported mesh, shared by all its bodies
+  /// Imports the file. Throws ObjError.
   static MeshSource from_file(const MeshFile& file);
   Mesh make() const;
-  std::uint64_t vertex_count() const;  // of the mesh, without making it
+  std::uint64_t vertex_count() const;  // of the mesh, found without making it
   bool operator==(const MeshSource&) const = default;
 };
 

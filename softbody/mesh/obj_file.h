@@ -1,5 +1,5 @@
 #pragma once
-// Wavefront OBJ files as they are written: every number rounded correctly, every vertex where the file has it.
+// Reads Wavefront OBJ files exactly: every number is rounded correctly, and vertices and faces keep the file's order.
 
 #include <filesystem>
 #include <span>
@@ -15,7 +15,7 @@ struct ObjError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// Indices count from 0 over the file.
+/// Contents of an OBJ file. Indices count from 0 over the whole file.
 struct ObjFile {
   struct Face {
     std::size_t end;     // of its corners in `corners`
@@ -24,10 +24,10 @@ struct ObjFile {
   struct Object {
     Index first_vertex;
     std::size_t first_face;
-    bool named;  // by a line `o`; not: what precedes the first one
+    bool named;  // it has a line `o`; false for what stands before the first one
   };
   std::vector<float> x, y, z;   // finite
-  std::vector<Object> objects;  // as their lines `o` stand; vertices before the first one are an object too
+  std::vector<Object> objects;  // in the order of their lines `o`; vertices before the first `o` are an object too
   std::vector<Index> corners;   // of all faces, one after another
   std::vector<Face> faces;      // of 3 or more corners
   std::size_t weights = 0;      // lines v X Y Z W with W other than 1, which only curves and surfaces use
@@ -42,9 +42,9 @@ struct ObjFile {
   }
 };
 
-/// Reads `v`, `o` and `f` and passes over all other statements, as over what follows the coordinates of a vertex. A
-/// face may name vertices further down. There is at least one object. Takes time in proportion to the file's size and
-/// no more memory than the result needs. Throws ObjError.
+/// Reads the statements `v`, `o` and `f`. All other statements are ignored, and so is what follows the coordinates of a
+/// vertex. A face may use vertices that come later in the file. The result has at least one object. The time is
+/// proportional to the file's size, and no more memory is used than the result needs. Throws ObjError.
 ObjFile read_obj_file(const std::filesystem::path& file);
 
 }  // namespace softbody

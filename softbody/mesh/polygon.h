@@ -1,5 +1,5 @@
 #pragma once
-// Polygons cut into triangles.
+// Cuts polygons into triangles.
 
 #include <span>
 #include <stdexcept>
@@ -11,13 +11,13 @@ namespace softbody {
 
 inline constexpr std::size_t max_polygon_corners = 1000;  // time grows with the cube of their number
 
-/// The triangles of a polygon that may be concave and not quite flat, by clipping ears (Meisters 1975), of several the
-/// one with the shortest cut first. Indices are into `corners`; every corner is used, those on a straight line too, and
-/// each side belongs to one triangle, so that neighbours stay joined. A polygon that crosses itself is cut somehow. 3
-/// or more corners.
+/// Cuts a polygon of 3 or more corners into triangles by ear clipping (Meisters 1975); the ear with the shortest cut is
+/// clipped first. The polygon may be concave and not quite flat. Indices are into `corners`. Every corner is used, even
+/// on a straight line, and each side belongs to one triangle, so that neighbours stay connected. A polygon that crosses
+/// itself is cut, too, but not in a defined way.
 std::vector<Triangle> triangulate(std::span<const glm::dvec3> corners);
 
-/// Polygons of one mesh, each of 3 or more corners, one after another.
+/// Polygons of one mesh, stored one after another. Each has 3 or more corners.
 struct Polygons {
   std::vector<Index> corners;     // numbers of vertices
   std::vector<std::size_t> ends;  // of each polygon in `corners`
@@ -31,19 +31,19 @@ struct Polygons {
 
 struct Triangulation {
   std::vector<Triangle> triangles;  // each with three different vertices
-  std::vector<Index> polygon;       // of each triangle
+  std::vector<Index> polygon;       // the polygon of each triangle
 };
 
-/// A polygon cannot be cut.
+/// Thrown if a polygon cannot be cut.
 struct PolygonError : std::runtime_error {
   explicit PolygonError(std::size_t polygon_number)
       : std::runtime_error("no cut of a polygon is free"), polygon(polygon_number) {}
   std::size_t polygon;
 };
 
-/// Cuts polygons that share vertices. No cut runs along a side of a polygon or along a cut of another one, since edges
-/// would have more than two faces; polygons where this asks for no other cuts are cut as each would be by itself.
-/// Throws PolygonError if no such cuts are found: for polygons of four corners only if there are none.
+/// Cuts polygons that share vertices. No cut runs along a side of a polygon or along a cut of another polygon, since
+/// the edge would then have more than two faces. A polygon without such a conflict is cut as it would be alone. Throws
+/// PolygonError if no such cuts are found; if all polygons have four corners at most, only if there are none.
 Triangulation triangulate(const Polygons& polygons, std::span<const glm::dvec3> vertices);
 
 }  // namespace softbody
