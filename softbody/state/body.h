@@ -14,13 +14,13 @@ struct Particle {
   glm::dvec3 position, velocity;  // m and m/s, in the world
 };
 
-/// A body's state as a whole.
+/// State of a body as a whole.
 struct BodyState {
   std::uint32_t number = 0;  // stays the same when bodies before it are removed and ids move up
   glm::dvec3 origin{0.0};    // m; the solver stores the positions of particles relative to it
-  bool pinned = false;       // in place, until the frame that the scene says
+  bool pinned = false;       // held in place until the frame that its BodySource names
   bool asleep = false;
-  glm::dvec3 solid_impulse{0.0};  // N s, that solids gave to it along their normals in the last step
+  glm::dvec3 solid_impulse{0.0};  // N s, the normal impulses of solids on it in the last step
   bool moves() const { return !pinned && !asleep; }
 };
 

@@ -8,13 +8,13 @@
 
 namespace softbody {
 
-/// Bodies of one model that are solved side by side, one in each SIMD lane.
+/// Number of bodies of one model that are solved side by side, one in each SIMD lane.
 inline constexpr int lanes = 8;
 
 /// Instruction sets that the inner loops are compiled for. All give the same bits.
 enum class Isa { baseline, avx2 };
 
-/// Returns the widest one that this processor and this build have.
+/// Returns the widest instruction set that both this processor and this build support.
 Isa best_isa();
 
 }  // namespace softbody

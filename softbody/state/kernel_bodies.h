@@ -1,6 +1,6 @@
 #pragma once
-// The arithmetic of the state's kernels, for `width` bodies at a time: eight, or one by itself. Included where it is
-// compiled for an instruction set.
+// Arithmetic of the state's kernels for `width` bodies at a time: eight, or one alone. Each file that includes this
+// compiles it for one instruction set.
 
 #include <cstring>
 #include <type_traits>
@@ -10,7 +10,7 @@
 
 namespace softbody::body {
 
-/// V: one value a lane.
+/// Loads one value for each lane.
 template <class V, class Real>
 SB_INLINE V load(const Real* p) {
   V v;
@@ -45,7 +45,7 @@ SB_INLINE void store(Field<Real> f, std::size_t at, const Vec<V>& v) {
   store(f.z + at, v.z);
 }
 
-/// As many lanes of doubles as registers hold a dozen sums of, and the same of floats.
+/// Part of the lanes, in doubles and in floats: so many that registers hold a dozen sums of them.
 template <int width>
 using DoublePart = std::conditional_t<width == one_lane, double, DoubleLane::Half>;
 typedef float HalfLane __attribute__((vector_size(lanes / 2 * sizeof(float))));
@@ -70,7 +70,7 @@ SB_INLINE Vec<V> load(const LaneVector& v) {
 SB_INLINE Field<double> field(DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
 SB_INLINE Field<const double> field(const DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
 
-/// The lanes in which a > b, as bits.
+/// Returns a bit for each lane in which a > b.
 template <class V>
 SB_INLINE unsigned lanes_above(V a, V b) {
   unsigned bits = 0;
@@ -80,7 +80,7 @@ SB_INLINE unsigned lanes_above(V a, V b) {
 
 SB_INLINE unsigned lanes_above(float a, float b) { return a > b; }
 
-/// The sum of the squared lengths of so many vectors.
+/// Sums the squared lengths of all particles' vectors.
 template <int width>
 SB_INLINE void square_sum(std::size_t particles, Field<const float> a, float* sum) {
   using V = Lane<float, width>;

@@ -1,6 +1,5 @@
 #pragma once
-// What the kernels of the state take. Of what stands here for each lane, a body that is solved by itself has but the
-// first value.
+// Arguments of the state's kernels. Arrays over lanes use only their first value for a body that is solved alone.
 
 #include <algorithm>
 #include <cmath>
@@ -26,13 +25,13 @@ struct KickArguments {
   const float* moves;  // a value a lane, 0 or 1
 };
 
-/// Of a body a lane.
+/// Bounds of two fields, for the body in each lane.
 struct Extent {
-  LaneVector lo, hi;                 // corners of the box round one field's vectors
-  alignas(32) float length2[lanes];  // squared length of the longest vector of another
+  LaneVector lo, hi;                 // corners of the bounding box of the first field's vectors
+  alignas(32) float length2[lanes];  // squared length of the longest vector of the second field
 
   double max_length() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
-  double max_diagonal() const {  // of the boxes' diagonals
+  double max_diagonal() const {  // of the boxes
     double most = 0;
     for (int l = 0; l < lanes; ++l)
       most =
@@ -41,14 +40,15 @@ struct Extent {
   }
 };
 
-/// Of a lane's body: sums over its particles, with their places r seen from the first one.
+/// Sums over the particles of the body in each lane. r is a particle's position relative to the first particle.
 struct RigidSums {
   DoubleLaneVector place, velocity;
   DoubleLaneVector momentum;       // r x v
   DoubleLaneVector square, mixed;  // of r: xx, yy, zz and yz, zx, xy
 };
 
-/// What is added to the velocities of the lanes in which `acts` is 1: push + spin x (r - about), r as in RigidSums.
+/// Velocity push + spin x (r - about) that is added to the particles of the lanes in which `acts` is 1; r as in
+/// RigidSums.
 struct RigidChange {
   alignas(32) float acts[lanes];       // 0 or 1
   DoubleLaneVector push, spin, about;  // m/s, rad/s, m

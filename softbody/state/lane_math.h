@@ -1,5 +1,5 @@
 #pragma once
-// Arithmetic that reads the same for one value a lane and for a plain double: V is either.
+// Arithmetic written once for lanes and for plain numbers: V is one value for each lane, or a float or double.
 
 #include <cmath>
 #include <cstdint>
@@ -39,7 +39,7 @@ SB_INLINE V smaller(V a, V b) {
   return a < b ? a : b;
 }
 
-/// Whether a > b in any lane.
+/// True if a > b in any lane.
 template <class V>
 SB_INLINE bool any_above(V a, V b) {
   if constexpr (std::is_floating_point_v<V>) {

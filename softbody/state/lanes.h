@@ -1,7 +1,7 @@
 #pragma once
-// Eight bodies of one model are solved side by side, one a SIMD lane: value [particle * lanes + lane]. Or one by
-// itself: value [particle]. The same source serves both widths and, by compiler vectors, every instruction set, and
-// gives the same bits on each.
+// Eight bodies of one model are solved side by side, one in each SIMD lane: value [particle * lanes + lane]. A body may
+// also be solved alone: value [particle]. The same source serves both widths and, by compiler vectors, every
+// instruction set, and gives the same bits on each.
 
 #include <cmath>
 #include <cstring>
@@ -15,12 +15,13 @@
 
 namespace softbody {
 
-inline constexpr int one_lane = 1;  // the width of what is solved by itself
+inline constexpr int one_lane = 1;  // the width of a batch whose body is solved alone
 
-/// Inlined everywhere, so that it is compiled for the instruction set of its caller.
+/// Forces inlining, so that a function is compiled for the instruction set of its caller.
 #define SB_INLINE [[gnu::always_inline]] inline
 
-/// Eight doubles as two vectors that registers hold: a wider one compilers keep in memory, several times as slow.
+/// Eight doubles as two vectors that fit into registers. Compilers keep wider vectors in memory, which is several times
+/// slower.
 struct DoubleLane {
   typedef double Half __attribute__((vector_size(4 * sizeof(double))));
   Half lo, hi;
@@ -52,11 +53,11 @@ template <>
 struct LaneOf<double, lanes> {
   using Vector = DoubleLane;
 };
-/// One value a body, of `width` bodies.
+/// One value for each of `width` bodies.
 template <class Real, int width>
 using Lane = typename LaneOf<Real, width>::Vector;
 
-/// Storage that starts on a cache line.
+/// Allocates memory that starts on a cache line.
 template <class T>
 struct CacheLineAllocator {
   using value_type = T;
@@ -71,11 +72,11 @@ struct CacheLineAllocator {
 template <class Real>
 using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
 
-/// A field of vectors over the particles of eight bodies: component k of particle i of lane l stands at
+/// A field of vectors over the particles of eight bodies. Component k of particle i of lane l has the index
 /// (k * particles + i) * lanes + l.
 using Lanes = LaneArray<double>;
 
-// The vector `at` particle * lanes + lane.
+// Reads, writes or adds to the vector at index `at` = particle * lanes + lane.
 inline glm::dvec3 read(const Lanes& field, std::size_t at) {
   const std::size_t stride = field.size() / 3;
   return {field[at], field[at + stride], field[at + 2 * stride]};
@@ -89,14 +90,14 @@ inline void add(Lanes& field, std::size_t at, const glm::dvec3& more) {
   field[at] += more.x, field[at + stride] += more.y, field[at + 2 * stride] += more.z;
 }
 
-/// One lane of a field, by its particles.
+/// Reads one lane of a field by particle.
 struct LaneView {
   const Lanes& field;
   std::size_t lane;
   glm::dvec3 operator()(std::size_t particle) const { return read(field, particle * lanes + lane); }
 };
 
-/// Three components of a field over the particles of one batch.
+/// Pointers to the three components of a field over the particles of one batch.
 template <class Real>
 struct Field {
   Real *x, *y, *z;

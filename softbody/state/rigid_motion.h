@@ -1,5 +1,5 @@
 #pragma once
-// The rigid part of the motion of particles of equal mass.
+// Rigid part of the motion of particles of equal mass.
 
 #include <cmath>
 
@@ -13,13 +13,14 @@ struct RigidMotion {
   glm::dvec3 centre{0.0}, velocity{0.0};
   glm::dvec3 momentum{0.0};  // angular, about the centre, for particles of mass 1
   glm::dmat3 inertia{0.0};   // likewise
-  bool can_rotate = false;   // false: a line or a point, which has no spin
+  bool can_rotate = false;   // false for a line or a point, which has no defined spin
   glm::dvec3 spin{0.0};      // rad/s
 
   glm::dvec3 spin_of(const glm::dvec3& angular) const {
     return can_rotate ? glm::inverse(inertia) * angular : glm::dvec3(0.0);
   }
-  /// Nearly that, but little about an axis to which all particles are so near that what swings there looks like a spin.
+  /// Returns nearly spin_of(angular), but reduces the spin about an axis to which all particles are close: there, small
+  /// oscillations would look like a fast spin.
   glm::dvec3 steady_spin_of(const glm::dvec3& angular) const {
     constexpr double least = 0.01;  // of the moments' sum
     const double floor = least * (inertia[0][0] + inertia[1][1] + inertia[2][2]);
@@ -28,8 +29,9 @@ struct RigidMotion {
   }
 };
 
-/// About `turn` by its length in rad. By halves, as a sine has not the same last digits on all processors: (1, half) is
-/// a quaternion of an angle that is too small by its cube over twelve.
+/// Returns the rotation about the direction of `turn` by its length in rad. It halves and doubles the angle instead of
+/// calling sin(), whose last digits differ between processors: the quaternion (1, half) has an angle that is too small
+/// by its cube over twelve.
 inline glm::dmat3 rotation(const glm::dvec3& turn) {
   constexpr int doublings = 8;
   const glm::dvec3 half = turn / double(2 << doublings);
@@ -44,7 +46,7 @@ inline glm::dmat3 rotation(const glm::dvec3& turn) {
   return glm::dmat3(1) + 2.0 * (w * cross + cross * cross);
 }
 
-/// position(i) and velocity(i) for i < count.
+/// Returns the rigid motion of `count` particles with position(i) and velocity(i).
 template <class Position, class Velocity>
 RigidMotion rigid_motion(std::size_t count, Position position, Velocity velocity) {
   RigidMotion m;
