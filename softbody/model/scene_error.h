@@ -5,9 +5,9 @@
 
 namespace softbody {
 
-/// Bad input. what() is one line: the file (and line, where there is one), what is wrong, what to do.
+/// Thrown for bad input. what() is one line: the file (and line, if there is one), what is wrong, what to do.
 struct SceneError : std::runtime_error {
-  /// One line, whatever names and keys it quotes: control characters become question marks.
+  /// Replaces control characters in the message, which may come from quoted names and keys, by question marks.
   explicit SceneError(std::string message);
 };
 
