@@ -1,5 +1,5 @@
 #pragma once
-// What a body's deformation holds, with its particles at x: one place a particle, in m.
+// Energy and volume of a deformed body. x: the positions of its particles in m.
 
 #include <vector>
 
@@ -7,10 +7,10 @@
 
 namespace softbody {
 
-/// In J: of springs, and of what keeps the shape.
+/// Returns the energy of springs and shape matching in J.
 double elastic_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
-/// In m^3, of a closed mesh; the particles may be far from the origin.
+/// Returns the volume of a closed mesh in m^3. The particles may be far from the origin.
 double enclosed_volume(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 }  // namespace softbody

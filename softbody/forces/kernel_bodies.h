@@ -1,6 +1,6 @@
 #pragma once
-// The arithmetic of forces, for `width` bodies at a time: eight, or one by itself. Included where it is compiled for
-// an instruction set.
+// Arithmetic of forces for `width` bodies at a time: eight, or one alone. Each file that includes this compiles it for
+// one instruction set.
 
 #include <algorithm>
 #include <span>
@@ -11,8 +11,8 @@
 namespace softbody::body {
 
 /// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j, so
-/// (k (L - L0) L + c dv . dx) dx / L^2: root and quotient need not wait for each other.
-/// A spring of length zero has no direction and pulls nowhere.
+/// (k (L - L0) L + c dv . dx) dx / L^2, in which the root and the quotient do not wait for each other.
+/// A spring of length zero has no direction and exerts no force.
 template <class Real, int width>
 SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Real> x, Field<const Real> v,
                        Field<Real> f) {
@@ -29,8 +29,8 @@ SB_INLINE void springs(std::span<const KernelSpring<Real>> list, Field<const Rea
 }
 
 /// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): the spring
-/// as a constraint of compliance 1 / k with its damper. Particles are at x + d, d their displacements in this step:
-/// these are small, so that floats leave velocities their digits.
+/// as a constraint of compliance 1 / k with its damper. Particles are at x + d. Their displacements d in this step are
+/// small, so that velocities lose no digits in floats.
 template <int width>
 SB_INLINE void project_springs(const ProjectArguments& p, std::span<const KernelSpring<float>> list,
                                Field<const float> x, Field<float> d) {
@@ -52,8 +52,8 @@ SB_INLINE void project_springs(const ProjectArguments& p, std::span<const Kernel
   }
 }
 
-/// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces, seen from one of the corners and
-/// added up in blocks, for the gas of a body at rest breathes with its last digits.
+/// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces. Corners are taken relative to
+/// one of them and summed in blocks, because rounding errors of the volume would make a body at rest pulsate.
 template <class Real, int width>
 SB_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Real> x, Real* result) {
   using V = Lane<Real, width>;
@@ -69,7 +69,7 @@ SB_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Real> x
   store(result, six / Real(6));
 }
 
-/// See Surface: of two medians of one face, the largest sum.
+/// SurfaceShape::two_medians: the largest sum of two medians of one face.
 template <int width>
 SB_INLINE void medians(std::span<const KernelTriangle> faces, Field<const float> x, float* result) {
   using V = Lane<float, width>;
@@ -85,7 +85,7 @@ SB_INLINE void medians(std::span<const KernelTriangle> faces, Field<const float>
   store(result, largest / 2.0f);
 }
 
-/// See Surface: adds the springs' stiffness times the squared difference of the vectors at their ends.
+/// SurfaceShape::stretch: adds the springs' stiffness times the squared difference of the vectors at their ends.
 template <int width>
 SB_INLINE void stretch(std::span<const KernelSpring<float>> list, Field<const float> a, float* sum) {
   using V = Lane<float, width>;
@@ -97,7 +97,7 @@ SB_INLINE void stretch(std::span<const KernelSpring<float>> list, Field<const fl
   store(sum, all);
 }
 
-/// A third of each face's pressure force to each of its corners (Matyka & Ollila 2003).
+/// Adds a third of each face's pressure force to each of its corners (Matyka & Ollila 2003).
 template <class Real, int width>
 SB_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Real> x, const Real* gauge, Field<Real> f) {
   using V = Lane<Real, width>;
@@ -111,7 +111,7 @@ SB_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Real>
   }
 }
 
-/// What the fit of the shape needs. Seen from one of the particles and added up in blocks, as volume() is.
+/// Computes the moments for fit_shape(), relative to one of the particles and in blocks, as in volume().
 template <class Real, int width>
 SB_INLINE void shape_moments(std::span<const ShapePoint<Real>> shape, Field<const Real> x, ShapeMoments<Real>& m) {
   using V = Lane<Real, width>;
@@ -138,7 +138,7 @@ SB_INLINE void shape_moments(std::span<const ShapePoint<Real>> shape, Field<cons
     store(Field<Real>{m.covariance[3 * k], m.covariance[3 * k + 1], m.covariance[3 * k + 2]}, 0, covariance[k]);
 }
 
-/// Draws each particle to its place: f += stiffness (centre + R q - x).
+/// Pulls each particle to its goal: f += stiffness (centre + R q - x).
 template <class Real, int width>
 SB_INLINE void shape_pull(std::span<const ShapePoint<Real>> shape, const ShapePose<Real>& pose, Real stiffness,
                           Field<const Real> x, Field<Real> f) {

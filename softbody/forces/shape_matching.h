@@ -1,26 +1,27 @@
 #pragma once
-// What keeps a body's shape: shape matching (Mueller, Heidelberger, Teschner, Gross 2005, "Meshless deformations based
-// on shape matching") as a force. Each particle is drawn to where it would be if the body were rigid,
+// Shape matching (Mueller, Heidelberger, Teschner, Gross 2005, "Meshless deformations based on shape matching") as a
+// force that keeps a body's shape. It pulls each particle to the place that it would have if the body were rigid,
 //
 //   f_i = m w^2 (g_i - x_i),   g_i = c + R q_i,
 //
-// with q_i its resting place from the mean of all, c the particles' mean and R the rotation that brings the q_i nearest
-// to them. It is the gradient of 1/2 m w^2 sum |x_i - g_i|^2, minimal in c and R, so that it changes neither linear nor
-// angular momentum; a maximum over rotations is convex in x, so that w^2 bounds its stiffness over mass in every state.
+// where q_i is its place at rest relative to the mean of all, c is the mean of the particles, and R is the rotation
+// that brings the q_i closest to the particles. The force is the gradient of 1/2 m w^2 sum |x_i - g_i|^2, which c and R
+// minimise, so it changes neither linear nor angular momentum. A maximum over rotations is convex in x, so w^2 bounds
+// the stiffness over mass in every state.
 
 #include "softbody/forces/kernel_types.h"
 #include "softbody/model/body_model.h"
 
 namespace softbody {
 
-/// Where the goal shape goes in each of the first `used` lanes; the others stay as they are.
+/// Finds the pose of the goal shape in each of the first `used` lanes; the other lanes of `pose` are not changed.
 template <class Real>
 void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pose);
 
-/// m w^2 in N/m: what draws one particle.
+/// Returns m w^2 in N/m, the stiffness of the pull on one particle.
 double shape_stiffness(const BodyModel& model);
 
-/// In J, of one body with its particles at x; 0 if it does not keep its shape.
+/// Returns the energy in J of one body with its particles at x; 0 without shape matching.
 double shape_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 }  // namespace softbody
