@@ -1,6 +1,6 @@
 #pragma once
-// A scene is data: what is in the world, not how it is simulated or drawn. Written in TOML; assets/scenes/README.md
-// documents the format.
+// A scene is data: it says what is in the world, not how that is simulated or drawn. It is written in TOML;
+// assets/scenes/README.md documents the format.
 
 #include <array>
 #include <filesystem>
@@ -29,15 +29,15 @@ struct BodySource {
   bool operator==(const BodySource&) const = default;
 };
 
-/// Where "drop another body" puts it: a body source and the radius of the disc around its position.
+/// What "drop another body" adds, and where: anywhere on a disc around the position of `body`.
 struct Dropper {
   BodySource body;
-  double spread = 0.3;  // m
+  double spread = 0.3;  // m, radius of the disc
   bool operator==(const Dropper&) const = default;
 };
 
 struct SleepRule {
-  double speed = 0.03;  // m/s: no particle of a contact island faster ...
+  double speed = 0.03;  // m/s: an island of touching bodies falls asleep if no particle of it was faster ...
   int frames = 30;      // ... for this many frames
   bool operator==(const SleepRule&) const = default;
 };
@@ -71,14 +71,14 @@ inline constexpr std::array<ContactSurfaceInfo, 2> contact_surfaces{{
     {ContactSurface::surfaces, "surface", "Surface",
      "Vertices against faces and edges against edges: the true surfaces never meet."},
 }};
-/// nullptr if there is none with this key.
+/// Returns nullptr if there is none with this key.
 const ContactSurfaceInfo* find_contact_surface(std::string_view key);
 std::string contact_surface_keys();
 
 struct Scene {
   std::string key;  // the file's stem
   std::string name;
-  std::string look_at;              // one sentence: what to look at
+  std::string look_at;              // one sentence for the user: what to look at
   glm::dvec3 gravity{0, -9.81, 0};  // m/s^2
   std::string method{collide::default_method};
   ContactSurface contact_surface = ContactSurface::vertices;
@@ -108,11 +108,11 @@ std::vector<Material> load_presets(const std::filesystem::path& file);
 /// Returns the presets of the scenes in `folder`.
 std::filesystem::path presets_path(const std::filesystem::path& folder);
 
-/// The keys of a folder's scenes (stems of its .toml files), in order.
+/// Returns the keys of a folder's scenes (the stems of its .toml files), in order.
 std::vector<std::string> scene_keys(const std::filesystem::path& folder);
 
-/// The file of a scene that is named by key in `folder`, or by path if `name` ends in .toml. Throws SceneError for an
-/// unknown key; the message lists the known ones.
+/// Returns the file of a scene. `name` is its path if it ends in .toml, else its key in `folder`. Throws SceneError for
+/// an unknown key; the message lists the known ones.
 std::filesystem::path scene_path(const std::string& name, const std::filesystem::path& folder);
 
 /// Loads the scene of that name, with presets_path(folder). Throws SceneError.

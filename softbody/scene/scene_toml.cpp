@@ -1,4 +1,4 @@
-// Reading scene files. What is written here has its counterpart in scene_write.cpp.
+// Reads scene files. Each key that is read here is written in scene_write.cpp.
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@
 namespace softbody {
 namespace {
 
-constexpr double tiny = 1e-9;  // "greater than zero" for lengths, masses and the like
+constexpr double tiny = 1e-9;  // smallest allowed value of what must be greater than zero: lengths, masses ...
 
 SpringLaw read_springs(Table table, SpringLaw law) {
   law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);
@@ -27,7 +27,7 @@ SpringLaw read_springs(Table table, SpringLaw law) {
   return law;
 }
 
-/// `m`: the values of keys that the table does not have.
+/// Reads a material. `m` holds the values for keys that the table does not have.
 Material read_material(Table& table, Material m = {}) {
   m.name = table.text("name", m.name);
   m.mass = table.number("mass", m.mass, tiny, 1e9);
@@ -50,7 +50,7 @@ Material read_material(Table& table, Material m = {}) {
   return m;
 }
 
-/// The known mesh of the same file and settings, or a new one: each is read once, however many bodies name it.
+/// Returns the known mesh of the same file and settings, or imports it. Each is read once, however many bodies use it.
 MeshSource read_mesh_file(Table& table, std::vector<MeshSource>& known) {
   MeshFile file;
   file.path = table.folder() / table.text("path", "");
@@ -89,7 +89,7 @@ MeshSource read_mesh(Table table, std::vector<MeshSource>& files) {
   return m;
 }
 
-/// What bodies and the dropper have in common.
+/// Reads the keys that bodies and the dropper have in common.
 BodySource read_body(Table& table, const std::vector<Material>& materials, std::vector<MeshSource>& files) {
   BodySource b;
   b.mesh = read_mesh(table.child("mesh"), files);
@@ -122,9 +122,9 @@ void read_collision(Table table, Scene& scene) {
   table.close();
 }
 
-constexpr double farthest = 1e6;  // m, for places
+constexpr double max_coordinate = 1e6;  // m, of positions
 
-/// What all solids have in common.
+/// Reads the keys that all solids have in common.
 template <class Solid>
 void read_surface(Table& table, Solid& solid) {
   solid.friction = table.number("friction", solid.friction, 0, 10);
@@ -134,14 +134,15 @@ void read_surface(Table& table, Solid& solid) {
 
 constexpr double unit_error = 1e-14;  // of the square of a length that was made 1, at most
 
-/// A direction of any length but zero. Those that are unit stay as they are to the bit, so that saved scenes are equal.
+/// Reads a direction of any length but zero and returns its unit vector. A unit vector is returned unchanged, to the
+/// bit, so that saved scenes are equal.
 glm::dvec3 read_direction(Table& table, const std::string& key, const glm::dvec3& fallback) {
-  const glm::dvec3 v = table.vector(key, fallback, -farthest, farthest);
+  const glm::dvec3 v = table.vector(key, fallback, -max_coordinate, max_coordinate);
   if (glm::length(v) < tiny) table.fail(key, "must have a length, e.g. [0, 1, 0]");
   return std::abs(glm::dot(v, v) - 1) < unit_error ? v : glm::normalize(v);
 }
 
-/// A rotation as its matrix, column by column: what saved scenes have, since it is exact.
+/// Reads a rotation as a matrix, column by column. Saved scenes use this form, since it is exact.
 glm::dmat3 read_axes(Table table) {
   const glm::dmat3 axes = table.matrix("axes");
   table.close();
@@ -152,8 +153,8 @@ glm::dmat3 read_axes(Table table) {
   return axes;
 }
 
-/// The columns of the matrix that turns by `degrees` about `axis`, counter-clockwise seen from its tip (Rodrigues).
-/// Sine and cosine are rounded: quarter turns are exact, and the last digits, in which processors differ, do not show.
+/// Returns the matrix that rotates by `degrees` about `axis`, counter-clockwise as seen from its tip (Rodrigues). Sine
+/// and cosine are rounded, so that quarter turns are exact and processors agree in the last digits.
 glm::dmat3 read_rotation(Table table) {
   if (table.has("axes")) return read_axes(std::move(table));
   const glm::dvec3 axis = read_direction(table, "axis", {0, 1, 0});
@@ -171,28 +172,28 @@ glm::dmat3 read_rotation(Table table) {
 }
 
 void read_sphere(Table& t, SolidSphere& s) {
-  s.centre = t.vector("centre", s.centre, -farthest, farthest);
-  s.radius = t.number("radius", s.radius, tiny, farthest);
+  s.centre = t.vector("centre", s.centre, -max_coordinate, max_coordinate);
+  s.radius = t.number("radius", s.radius, tiny, max_coordinate);
 }
 
 void read_plane(Table& t, SolidPlane& p) {
-  p.point = t.vector("point", p.point, -farthest, farthest);
+  p.point = t.vector("point", p.point, -max_coordinate, max_coordinate);
   p.normal = read_direction(t, "normal", p.normal);
 }
 
 void read_box(Table& t, SolidBox& b) {
-  b.centre = t.vector("centre", b.centre, -farthest, farthest);
-  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, farthest);
+  b.centre = t.vector("centre", b.centre, -max_coordinate, max_coordinate);
+  b.half_size = 0.5 * t.vector("size", 2.0 * b.half_size, tiny, max_coordinate);
   b.axes = read_rotation(t.child("rotation"));
 }
 
 void read_capsule(Table& t, SolidCapsule& c) {
-  c.from = t.vector("from", c.from, -farthest, farthest);
-  c.to = t.vector("to", c.to, -farthest, farthest);
-  c.radius = t.number("radius", c.radius, tiny, farthest);
+  c.from = t.vector("from", c.from, -max_coordinate, max_coordinate);
+  c.to = t.vector("to", c.to, -max_coordinate, max_coordinate);
+  c.radius = t.number("radius", c.radius, tiny, max_coordinate);
 }
 
-/// The solids of [[key]].
+/// Reads the solids of [[key]].
 template <class Solid>
 std::vector<Solid> read_list(Table& root, const std::string& key, void (*read)(Table&, Solid&)) {
   std::vector<Solid> list;
@@ -211,12 +212,12 @@ void read_solids(Table& root, Scene& scene) {
   if (!root.has("ground")) return;
   Table t = root.child("ground");
   Ground& ground = scene.ground.emplace();
-  ground.height = t.number("height", ground.height, -farthest, farthest);
+  ground.height = t.number("height", ground.height, -max_coordinate, max_coordinate);
   read_surface(t, ground);
 }
 
-/// `number` copies of the body, layer by layer upwards; the bottom layer's centre is the body's position. Adds one body
-/// if the table is empty. particles: those of the scene so far, checked before any memory is taken.
+/// Adds `number` copies of the body in layers upwards; the body's position is the centre of the bottom layer. Adds one
+/// body if the table is empty. particles: the number of particles of the scene so far, checked before any allocation.
 void add_lattice(const Table& owner, Table table, const BodySource& body, std::vector<BodySource>& bodies,
                  std::uint64_t& particles) {
   const glm::dvec3 size = table.whole_vector("size", glm::dvec3(1.0), 1, 1000);

@@ -1,4 +1,4 @@
-// Writing scene files, in the order in which scene_toml.cpp reads them.
+// Writes scene files, in the order in which scene_toml.cpp reads them.
 
 #include "softbody/scene/scene_write.h"
 
@@ -67,7 +67,7 @@ void write_solids(TomlLines& out, const Scene& scene) {
   write_surface(out, *scene.ground);
 }
 
-/// As seen from the scene file's folder, through whatever links lead to the two.
+/// Returns a path relative to the scene file's folder, with the links in both paths resolved.
 std::string relative_path(const fs::path& file, const fs::path& folder) {
   std::error_code error;
   const fs::path relative = fs::relative(file, folder.empty() ? fs::path(".") : folder, error);
@@ -112,7 +112,7 @@ void write_view(TomlLines& out, const Scene& scene) {
   for (const Caption& c : scene.captions) out.heading("[[caption]]").add("frame", c.frame).add("text", c.text);
 }
 
-/// Bodies name their material, so names must tell them apart.
+/// Throws SceneError if two materials have the same name, since bodies refer to materials by name.
 void require_different_names(const Scene& scene) {
   for (auto m = scene.materials.begin(); m != scene.materials.end(); ++m)
     if (std::ranges::count(scene.materials, m->name, &Material::name) > 1)
@@ -134,7 +134,7 @@ std::string scene_toml(const Scene& scene, const fs::path& folder) {
   write_view(out, scene);
   if (out.text().size() > max_toml_file_size) throw SceneError("the scene has too many bodies for a scene file");
   try {
-    static_cast<void>(toml::parse(out.text()));  // toml++ knows best what is UTF-8
+    static_cast<void>(toml::parse(out.text()));  // fails if a text is not UTF-8
   } catch (const toml::parse_error& error) {
     throw SceneError("a name in the scene cannot be written: " + std::string(error.description()));
   }

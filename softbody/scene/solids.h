@@ -1,5 +1,5 @@
 #pragma once
-// The solids of a scene, one after another.
+// Visits the solids of a scene.
 
 #include "softbody/contact/solid_surface.h"
 #include "softbody/scene/scene.h"
@@ -8,7 +8,7 @@ namespace softbody {
 
 inline SolidPlane as_plane(const Ground& g) { return {{0, g.height, 0}, {0, 1, 0}, g.friction, g.restitution}; }
 
-/// Visits each solid, in the order in which a step takes them; the ground comes as a plane.
+/// Calls visit(solid) for each solid, in the order in which a step handles them. The ground is visited as a plane.
 template <class Visit>
 void for_each_solid(const Scene& scene, Visit visit) {
   for (const SolidSphere& s : scene.spheres) visit(s);

@@ -1,6 +1,6 @@
 #pragma once
-// Reading TOML strictly. Every key is read through Table, which checks type and range and remembers what was asked for,
-// so that a key that nobody asked for is reported as unknown.
+// Reads TOML strictly. Every key is read through Table, which checks type and range and records which keys were read,
+// so that all other keys are reported as unknown.
 
 #include <filesystem>
 #include <limits>
@@ -16,38 +16,38 @@
 
 namespace softbody {
 
-/// The whole file. Throws SceneError if it cannot be read, is larger than max_toml_file_size, or is no TOML.
+/// Reads a whole file. Throws SceneError if it cannot be read, is larger than max_toml_file_size, or is no TOML.
 toml::table read_toml(const std::filesystem::path& file);
 
 inline constexpr std::uintmax_t max_toml_file_size = 16 << 20;  // bytes
 
-/// One table of the file, which must outlive it. All errors are SceneErrors that name the file, the line and the key.
+/// One table of a file. The parsed file must outlive it. All errors are SceneErrors that name the file, line and key.
 class Table {
  public:
   static constexpr double any = std::numeric_limits<double>::max();
 
-  /// name: of the table in messages; empty for the whole file.
+  /// name: the table's name in messages; empty for the whole file.
   Table(const toml::table& table, std::string file, std::string name)
       : table_(table), file_(std::move(file)), name_(std::move(name)) {}
 
-  // The value of a key, or the fallback if the key is not there.
+  // Return the value of a key, or the fallback if the key is missing.
   double number(const std::string& key, double fallback, double lo = -any, double hi = any);
   int integer(const std::string& key, int fallback, int lo, int hi);
   bool boolean(const std::string& key, bool fallback);
   std::string text(const std::string& key, std::string fallback);
   glm::dvec3 vector(const std::string& key, glm::dvec3 fallback, double lo = -any, double hi = any);
-  glm::dmat3 matrix(const std::string& key);  // its columns; must be there
+  glm::dmat3 matrix(const std::string& key);  // written by columns; the key must exist
   glm::dvec3 whole_vector(const std::string& key, glm::dvec3 fallback, double lo, double hi);
 
-  /// Of the file.
+  /// Returns the folder of the file.
   std::filesystem::path folder() const { return std::filesystem::path(file_).parent_path(); }
   bool has(const std::string& key) { return find(key) != nullptr; }
-  /// The table below `key`, or an empty one.
+  /// Returns the table at `key`, or an empty one.
   Table child(const std::string& key);
-  /// The tables of [[key]].
+  /// Returns the tables of [[key]].
   std::vector<Table> children(const std::string& key);
 
-  /// Throws if the table holds a key that was never asked for.
+  /// Throws SceneError if the table has a key that was not read.
   void close() const;
   [[noreturn]] void fail(const std::string& key, const std::string& what) const;
 
