@@ -8,13 +8,13 @@ namespace softbody {
 namespace {
 
 struct InUse {
-  MeshSource mesh;  // an imported one stays in memory as long as this does
+  MeshSource mesh;  // keeps an imported mesh in memory
   Material material;
   std::weak_ptr<const BodyModel> model;
 };
 
 std::mutex in_use_mutex;
-std::vector<InUse> in_use;  // and those that were, until somebody looks
+std::vector<InUse> in_use;  // find_in_use() removes those whose model is gone
 
 std::shared_ptr<const BodyModel> find_in_use(const MeshSource& mesh, const Material& material, bool any_name) {
   const std::scoped_lock lock(in_use_mutex);

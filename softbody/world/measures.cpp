@@ -13,7 +13,7 @@
 namespace softbody {
 namespace {
 
-/// Of a body with its particles at x: what it is bent, stretched and blown up by.
+/// Returns the elastic and the gas energy of a body with its particles at x.
 Energy deformation(const BodyModel& p, const std::vector<glm::dvec3>& x, double volume) {
   Energy energy;
   energy.elastic = elastic_energy(p, x);
@@ -33,10 +33,10 @@ double largest_strain(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   return most;
 }
 
-/// BodyMeasures::staggering, of a body whose deformation holds so many J now.
+/// Returns BodyMeasures::staggering. deformation_now: the body's present deformation energy in J.
 double staggering(const World& world, BodyId id, double substep, double deformation_now) {
   const BodyModel& p = world.model(id);
-  std::vector<glm::dvec3> middle, before;  // of the last substep
+  std::vector<glm::dvec3> middle, before;  // positions in the middle of the last substep, and before it
   double sum = 0;
   for (Index i = 0; i < p.mesh.vertices.size(); ++i) {
     const Particle q = world.particle(id, i);
@@ -123,7 +123,7 @@ std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
 }
 
 std::vector<SolidContact> solid_contacts(const World& world) {
-  constexpr double rounding = 1e-4;  // m: particles end a substep at their distance from the surface, up to rounding
+  constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
   std::vector<SolidContact> contacts;
   const collide::Frame p = world.positions();
   for (Index i = 0; i < p.x.size(); ++i) {

@@ -5,7 +5,7 @@
 
 namespace softbody {
 
-/// In J, without the energy that contacts store.
+/// Energies in J, without the energy that contacts store.
 struct Energy {
   double kinetic = 0;
   double elastic = 0;  // springs and shape matching
@@ -18,25 +18,25 @@ struct Energy {
 
 struct BodyMeasures {
   Energy energy;
-  double staggering = 0;     // J, see measure()
+  double staggering = 0;     // J, correction of the energy, see measure()
   glm::dvec3 momentum{0.0};  // kg m/s
   bool closed = false;
-  double volume_ratio = 0;         // of a closed body, over the starting volume
+  double volume_ratio = 0;         // volume of a closed body over its starting volume
   double largest_strain = 0;       // of a spring, |length / resting length - 1|
   double deepest_penetration = 0;  // m, as in Measures
   double max_speed = 0;            // m/s, of a particle
   bool finite = true;              // all positions and velocities
 };
 
-/// `substep`: s, the length of the last substep of semi-implicit Euler, or 0 to leave `staggering` out. The velocities
-/// of that integrator belong to the middle of a substep, so that the energy of fast oscillations oscillates, too. What
-/// it conserves instead, exactly if forces are linear, is the energy plus `staggering`:
+/// Measures a body. `substep`: s, the length of the last substep of semi-implicit Euler, or 0 to leave `staggering`
+/// out. The velocities of this integrator belong to the middle of a substep, so that the energy of fast oscillations
+/// oscillates, too. The integrator conserves the energy plus `staggering`, exactly if forces are linear:
 ///
 ///   K(v) + 2 U(x - h/2 v) - (U(x) + U(x - h v)) / 2.
 BodyMeasures measure(const World& world, BodyId body, double substep = 0);
 std::vector<BodyMeasures> measure_bodies(const World& world, double substep = 0);
 
-/// Returns the deformation energy of a body's starting shape. It is the smallest one if the body starts in equilibrium.
+/// Returns the deformation energy of a body's starting shape. It is the minimum if the body starts in equilibrium.
 Energy starting_energy(const BodyModel& model);
 
 struct Measures {
@@ -55,7 +55,7 @@ Measures measure(const World& world);
 /// Returns the sum of the measures of all bodies.
 Measures total(std::span<const BodyMeasures> bodies);
 
-/// How deep a point lies in a solid, with the solid's outward normal there.
+/// Depth of a point in a solid, and the solid's outward normal there.
 struct SolidDepth {
   glm::vec3 normal;
   double depth;  // m, negative outside

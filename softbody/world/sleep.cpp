@@ -36,7 +36,7 @@ void Sleep::settle(Dynamics& dynamics, std::span<const BodyId> vertex_body,
   };
   for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
   for (const collide::surface::ItemPair& pair : dynamics.surface_contact().interactions()) join(pair.a, pair.b);
-  std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: its least calm body
+  std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: the calm frames of its latest body
   for (BodyId b = 0; b < count; ++b) {
     if (!dynamics.body(b).moves()) continue;
     dynamics.set_calm_frames(b, dynamics.max_particle_speed(b) < rule_.speed ? dynamics.body(b).calm_frames + 1 : 0);

@@ -43,7 +43,7 @@ void World::restore(const Snapshot& snapshot) {
   s.options.integrator = from.integrator;
   s.report = from.report;
   s.update_plan();
-  s.set_integrator();  // unchecked: what it has come to since would not be accepted from a scene any more
+  s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
   s.dynamics.restore(from.dynamics);
   s.dynamics.grab(snapshot.grab);
   s.arrived = from.arrived;
@@ -53,13 +53,13 @@ void World::restore(const Snapshot& snapshot) {
   s.settings = from.settings;
   s.penalty_thickness = from.penalty_thickness;
   s.method = from.method;
-  s.detector = s.method->make();  // what it remembers is of another state
+  s.detector = s.method->make();  // a new one: the old one caches another state
   s.count_vertices();
   s.update_positions();
   s.detect();
 }
 
-/// Bodies and their vertices, as the dynamics have them.
+/// Counts bodies and their vertices anew from `dynamics`.
 void World::State::count_vertices() {
   bodies = {};
   vertex_body.clear();

@@ -1,5 +1,5 @@
 #pragma once
-// A world at an instant, to go back to.
+// Snapshots of a world, to which it can return.
 
 #include <memory>
 #include <optional>
@@ -8,16 +8,17 @@
 
 namespace softbody {
 
-/// Made by World::snapshot(). It shares meshes and materials with the world; copies of a snapshot share all of it.
+/// State of a world at one instant, made by World::snapshot(). It shares meshes and materials with the world. Copies of
+/// a snapshot share everything.
 struct Snapshot {
   /// All other values that decide how the world goes on.
   struct Values;
 
   int frame = 0;
-  std::optional<Grab> grab;  // reset it to let the world go on without the hand
+  std::optional<Grab> grab;  // reset it to continue without the hand
   std::shared_ptr<const Values> values;
 
-  /// Returns its memory in bytes, without what is shared with the world; a few kilobytes may be missing.
+  /// Returns the memory of the snapshot in bytes, up to a few kilobytes, without what it shares with the world.
   std::size_t bytes() const;
 };
 

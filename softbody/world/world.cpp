@@ -18,7 +18,7 @@ double ms_since(Clock::time_point start) {
   return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
 }
 
-/// The default cell size is that of the bodies at rest, whatever they look like later.
+/// Returns the default cell size, which depends on the bodies at rest and not on their later shapes.
 glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& settings) {
   collide::Bodies bodies;
   Coordinates rest;
@@ -68,14 +68,14 @@ double World::State::needed_substeps(const BodyModel& p, float thickness) const 
   return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }
 
-/// Whether the integrator can turn to implicit steps, so that nothing is too stiff for it.
+/// True if the integrator may choose implicit steps, so that no material is too stiff.
 bool World::State::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
   return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
          std::all_of(all.all().begin(), all.all().end(),
                      [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
 }
 
-/// As the options have it, whatever becomes of it.
+/// Sets the integrator of the options, without a check of stability.
 void World::State::set_integrator() {
   report.integrator = &options.integrator.integrator();
   report.why = {};
@@ -83,7 +83,7 @@ void World::State::set_integrator() {
   dynamics.set_fixed_substeps(options.integrator.substeps);
 }
 
-/// Throws SceneError if one of them asks for more substeps than there may be, in a world of this plan.
+/// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
 void World::State::check_stability(const BodyModelSet& all, const Plan& with) const {
   const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
   for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
@@ -98,8 +98,7 @@ void World::State::check_stability(const BodyModel& p, bool implicit_in_reserve,
   if (options.integrator.substeps) return;
   const double steps = needed_substeps(p, contacts ? penalty_thickness : 0);
   if (steps <= max_substeps) return;
-  const bool wide =
-      contacts && needed_substeps(p, 0) <= max_substeps;  // a thin contact layer would do: it is the tolerance's fault
+  const bool wide = contacts && needed_substeps(p, 0) <= max_substeps;  // a smaller tolerance would be stable
   if (!wide && implicit_in_reserve) return;
   std::ostringstream text;
   text << "scene '" << scene.key << "', material '" << p.material.name << "': ";
@@ -159,7 +158,7 @@ void World::step(const std::function<void()>& after_substep) {
   State& s = *state_;
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
-  if (const auto& grab = grabbed()) s.dynamics.set_asleep(grab->body, false);  // nor does it fall asleep meanwhile
+  if (const auto& grab = grabbed()) s.dynamics.set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
   const float thickness = s.penalty_thickness;
@@ -192,7 +191,7 @@ void World::step(const std::function<void()>& after_substep) {
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
   const bool penalty_grows = s.plan.has(Stage::contact_response) &&
-                             s.penalty_thickness < s.settings.tolerance;  // slow, but nobody sleeps over it
+                             s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.report.total_ms = ms_since(start) - looking_ms;
 }
@@ -261,7 +260,8 @@ void World::set_contact_surface(ContactSurface surface) {
     s.update_plan();
     throw;
   }
-  // Surfaces come closer than the tolerance: the contact layer grows from nothing, or it would throw the bodies apart.
+  // Surface contact lets bodies closer than the tolerance. The contact layer grows from 0, or it would throw them
+  // apart.
   if (surface == ContactSurface::surfaces && s.frame > 0) s.penalty_thickness = 0;
   s.wake_all();
 }

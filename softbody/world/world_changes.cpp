@@ -20,7 +20,7 @@ void World::State::update_plan() {
   dynamics.set_plan(plan);
 }
 
-/// For so many more bodies.
+/// Throws SceneError if `number` more bodies would exceed max_particles.
 void World::State::check_capacity(const BodyModel& p, std::size_t number) const {
   const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
   if (particles <= max_particles) return;
@@ -29,8 +29,8 @@ void World::State::check_capacity(const BodyModel& p, std::size_t number) const 
                    std::to_string(max_particles) + "); take bodies out first");
 }
 
-/// Throws SceneError if so many more must not come: two bodies touch, and for their surfaces a stiff one has no
-/// implicit steps in reserve, which alone it had.
+/// Throws SceneError if a material would be too stiff with `number` more bodies. One body alone has no contacts; with
+/// two, the plan may get surface contact, and then `auto` cannot choose implicit steps for a stiff body.
 void World::State::check_stability_with(const BodyModelSet& all, std::size_t number) const {
   AddedBodies more = added_bodies;
   more.bodies += number;
@@ -44,7 +44,7 @@ void World::State::bodies_added(std::size_t number) {
   detect();
 }
 
-/// The height at which a body dropped at `position` is clear of all others.
+/// Returns the height at which a body dropped at `position` touches no other body.
 double World::State::clear_height(const BodyModel& p, const glm::dvec3& position) const {
   double height = position.y;
   const double clear = 1.3 * p.radius + settings.tolerance;
@@ -76,7 +76,7 @@ BodyId World::State::spawn(BodySource source) {
 
 Dropper World::State::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
 
-/// Whether a new body at `position` would be outside all solids, and no vertex of another within its box.
+/// True if a new body at `position` would be outside all solids and no vertex of another body in its bounding box.
 bool World::State::is_clear(const BodyModel& p, const glm::dvec3& position) const {
   glm::dvec3 lo = p.start.front(), hi = lo;
   for (const glm::dvec3& v : p.start) {
@@ -148,7 +148,7 @@ BodyId World::add(const BodySource& source) {
   return id;
 }
 
-/// What touches the body may lean on it, whether a detector sees it or not.
+/// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
 void World::State::wake_near(BodyId body) {
   const auto box = [&](BodyId b) {
     const Index first = bodies.first[b];

@@ -1,5 +1,5 @@
 #pragma once
-// What a world is made of, for the files that implement World. Only they and tests of the solver include this.
+// Parts of a world. Only the files that implement World and tests of the solver include this.
 
 #include "softbody/integrate/dynamics.h"
 #include "softbody/world/body_model_set.h"
@@ -9,7 +9,7 @@
 
 namespace softbody {
 
-/// Positions as a detector wants them.
+/// Positions in the layout that detectors take.
 struct Coordinates {
   std::vector<float> x, y, z;
   void add(const glm::vec3& p) {
@@ -38,7 +38,7 @@ struct World::State {
   void check_stability(const BodyModelSet& all, const Plan& with) const;
   void check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const;
   void check_stability_with(const BodyModelSet& all, std::size_t number) const;
-  void bodies_added(std::size_t number);  // bodies, by hand
+  void bodies_added(std::size_t number);  // by hand
   Dropper dropper() const;                // the scene's, or one over its first body
   void drop(const Dropper& dropper);
   BodyId spawn(BodySource source);
@@ -52,7 +52,7 @@ struct World::State {
   Plan plan;
   Dynamics dynamics;
   Sleep sleep;
-  std::vector<char> arrived;  // one a body source of the scene
+  std::vector<char> arrived;  // for each body source of the scene
   AddedBodies added_bodies;
   std::vector<AddedBody> added;
   int drops = 0;
@@ -62,8 +62,8 @@ struct World::State {
   const collide::Method* method;
   std::unique_ptr<collide::Detector> detector;
   collide::Settings settings;
-  float penalty_thickness;  // m, thickness of the response: grows slowly towards the tolerance, so that no slider
-                            // throws bodies about
+  float penalty_thickness;  // m, of the contact layer; grows slowly towards the tolerance, so that a larger tolerance
+                            // throws no bodies about
 
   collide::Bodies bodies;
   std::vector<BodyId> vertex_body;
@@ -84,7 +84,7 @@ struct Snapshot::Values {
   IntegratorChoice integrator;
   const collide::Method* method = nullptr;
   collide::Settings settings;
-  float penalty_thickness = 0;  // m, how thick it has grown
+  float penalty_thickness = 0;  // m
   StepReport report;
 };
 
