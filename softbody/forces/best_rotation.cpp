@@ -8,7 +8,8 @@ namespace {
 
 using Matrix4 = std::array<std::array<double, 4>, 4>;
 
-/// One Jacobi rotation in the plane (p, q), after which the symmetric a[p][q] is 0; v gathers the rotations.
+/// Applies one Jacobi rotation in the plane (p, q), after which a[p][q] of the symmetric matrix is 0. v accumulates the
+/// rotations.
 void rotate(Matrix4& a, Matrix4& v, std::size_t p, std::size_t q) {
   if (a[p][q] == 0) return;
   const double theta = (a[q][q] - a[p][p]) / (2 * a[p][q]);
@@ -28,8 +29,8 @@ void rotate(Matrix4& a, Matrix4& v, std::size_t p, std::size_t q) {
   }
 }
 
-/// The eigenvector of the largest eigenvalue, by Jacobi's cyclic method: no library function but sqrt, so that it gives
-/// the same bits everywhere.
+/// Returns the eigenvector of the largest eigenvalue, by Jacobi's cyclic method. It uses no library function but sqrt,
+/// so it gives the same bits everywhere.
 std::array<double, 4> dominant_eigenvector(Matrix4 a) {
   Matrix4 v{{{1, 0, 0, 0}, {0, 1, 0, 0}, {0, 0, 1, 0}, {0, 0, 0, 1}}};
   constexpr int sweeps = 12;  // far more than convergence takes, which is quadratic; a NaN ends here, too

@@ -13,9 +13,10 @@ namespace {
 
 bool is_blank(char c) { return c == ' ' || c == '\t'; }
 bool ends_line(char c) { return c == '\n' || c == '\r'; }
-/// What CP/M and DOS (Ctrl-Z), and file systems that lose the end of a file, leave there.
+/// True for characters at the end of a file that are no text: CP/M and DOS write Ctrl-Z there, and file systems that
+/// lose the end of a file leave NUL.
 bool is_padding(char c) { return c == '\x1a' || c == '\0'; }
-/// Keywords begin with a letter; numbers and corners of faces do not.
+/// True if a line that begins with `c` is a statement or a comment: numbers and corners of faces begin with no letter.
 bool begins_statement(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '#'; }
 
 }  // namespace
@@ -50,8 +51,8 @@ bool LineReader::next(std::string_view& line) {
   return true;
 }
 
-/// Joins the line with the next one, if it goes on there; not if that is a statement, as after a name that ends with a
-/// backslash, such as a folder's.
+/// Joins the line with the next one and returns true, if the line ends with a backslash. Does not join them if the next
+/// one is a statement: then the backslash is the end of a name, such as a folder's.
 bool LineReader::joins_next(std::size_t begin, std::size_t end, std::size_t after) {
   std::size_t last = end;
   while (last > begin && is_blank(at(last - 1))) --last;
@@ -62,13 +63,13 @@ bool LineReader::joins_next(std::size_t begin, std::size_t end, std::size_t afte
   return true;
 }
 
-/// The first such character from an offset on; the end of the file if there is none.
+/// Returns the offset of the first such character from `offset` on, or of the end of the file if there is none.
 std::size_t LineReader::find(bool (*is_such)(char), std::size_t offset) {
   while (has(offset) && !is_such(at(offset))) ++offset;
   return offset;
 }
 
-/// Moves the rest to the buffer's start and reads on; false at the end of the file.
+/// Moves the unread rest to the start of the buffer and reads more. Returns false at the end of the file.
 bool LineReader::read_more() {
   std::memmove(buffer_.data(), buffer_.data() + begin_, end_ - begin_);
   end_ -= begin_;

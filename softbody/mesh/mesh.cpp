@@ -14,7 +14,7 @@ void sort_unique(std::vector<Edge>& edges) {
   edges.erase(std::unique(edges.begin(), edges.end()), edges.end());
 }
 
-/// The corner opposite each side of each triangle, by side: one a face that has the side.
+/// Returns, for each edge, the corners opposite to it: one for each triangle that has the edge.
 std::map<Edge, std::vector<Index>> opposite_corners(const std::vector<Triangle>& triangles) {
   std::map<Edge, std::vector<Index>> corners;
   for (const Triangle& t : triangles)

@@ -31,7 +31,7 @@ struct Box {
   double extent() const { return std::max({hi.x - lo.x, hi.y - lo.y, hi.z - lo.z}); }
 };
 
-/// The rotation by the shortest way that brings `up` to the y axis.
+/// Returns the smallest rotation that brings `up` to the y axis.
 glm::dmat3 to_y(const glm::dvec3& up) {
   const glm::dvec3 u = glm::normalize(up);
   if (u.y < -1 + 1e-12) return {glm::dvec3(1, 0, 0), glm::dvec3(0, -1, 0), glm::dvec3(0, 0, -1)};
@@ -75,7 +75,7 @@ class Importer {
       fail("is larger than " + std::to_string(max_mesh_file_size >> 20) + " MiB; simplify the mesh first");
   }
 
-  /// Positions in metres around the middle of what the faces use.
+  /// Finds positions in metres. The origin is the middle of the bounding box of the vertices that faces use.
   void place() {
     const std::size_t count = obj_.x.size();
     std::vector<char> used(count, false);
@@ -132,7 +132,7 @@ class Importer {
       fail("has no face with three different corners; check the export, or lower weld " + std::string(where_weld_is));
   }
 
-  /// Leaves out the vertices that no triangle has.
+  /// Removes the vertices that no triangle uses.
   void compact() {
     std::vector<Index> number(position_.size(), no_vertex);
     for (Triangle& t : mesh_.triangles)
@@ -160,7 +160,7 @@ class Importer {
       fail("is closed but holds no volume; leave out one of its sides, or give it thickness");
   }
 
-  /// What is wrong with the surface, by the file's lines and vertices.
+  /// Returns what is wrong with the surface, with line and vertex numbers of the file.
   std::string reason(const SurfaceError& error) const {
     std::vector<std::size_t> faces;
     for (const Index triangle : error.triangles) faces.push_back(outlines_.face[polygon_of_[triangle]]);
@@ -176,7 +176,7 @@ class Importer {
     return what + error.what() + ": see " + lines + "; repair the mesh, or change weld " + where_weld_is;
   }
 
-  /// The numbers, from 1, by which a face of the file names the ends of its side that became an edge of the mesh.
+  /// Returns the vertex numbers, from 1, that a face of the file has at its side that became this edge of the mesh.
   std::string edge_in(std::size_t face, const Edge& edge) const {
     const std::size_t begin = face > 0 ? obj_.faces[face - 1].end : 0, end = obj_.faces[face].end;
     const Edge welded = ordered(in_file_[edge[0]], in_file_[edge[1]]);

@@ -14,12 +14,12 @@
 namespace softbody {
 namespace {
 
-/// The words of a line; one that begins with # ends it.
+/// Splits a line into words. A word that begins with # ends the line.
 class Words {
  public:
   explicit Words(std::string_view line) : rest_(line) {}
 
-  /// Empty if there is none left.
+  /// Returns the next word; empty if there is none.
   std::string_view next() {
     const auto is_space = [](char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; };
     const char *at = rest_.data(), *const end = at + rest_.size();
@@ -35,7 +35,7 @@ class Words {
   std::string_view rest_;
 };
 
-/// A word for a message: short and printable, whatever is in the file.
+/// Returns a word of the file for a message: short, and with printable characters only.
 std::string quoted(std::string_view word) {
   constexpr std::size_t longest = 30;
   std::string text(word.substr(0, longest));
@@ -44,14 +44,14 @@ std::string quoted(std::string_view word) {
   return "'" + text + (word.size() > longest ? "...'" : "'");
 }
 
-/// Reads a whole number at the start of `text` and takes it away; false if there is none or it is too large.
+/// Reads an integer at the start of `text` and removes it. Returns false if there is none or it is too large.
 bool take_integer(std::string_view& text, std::int64_t& number) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
   text.remove_prefix(static_cast<std::size_t>(end - text.data()));
   return error == std::errc();
 }
 
-/// "", "/vt", "//vn" or "/vt/vn", where the numbers may be missing.
+/// True for "", "/vt", "//vn" and "/vt/vn"; the numbers may be missing.
 bool is_texture_and_normal(std::string_view text) {
   std::int64_t ignored = 0;
   for (int part = 0; part < 2 && text.starts_with('/'); ++part) {
@@ -61,7 +61,7 @@ bool is_texture_and_normal(std::string_view text) {
   return text.empty();
 }
 
-/// As from_chars, but a + may stand before the number.
+/// Parses a number as from_chars() does, but allows a + before it.
 std::from_chars_result parse(std::string_view word, float& value) {
   if (word.starts_with('+') && !word.starts_with("+-")) word.remove_prefix(1);
   return std::from_chars(word.data(), word.data() + word.size(), value);
@@ -125,7 +125,8 @@ class Parser {
     pass_over_weight_and_colour(words);
   }
 
-  /// Any numbers, such as 1.#QNAN, or none; but what else follows, such as a second vertex, must not be lost.
+  /// Skips a weight and a colour, whatever their values, such as 1.#QNAN. Anything else after a vertex, such as a
+  /// second vertex, is an error, since it must not be lost.
   void pass_over_weight_and_colour(Words words) {
     int count = 0;
     bool is_one = true;
@@ -173,7 +174,7 @@ class Parser {
     return static_cast<Index>(vertex);
   }
 
-  /// A face may come before its vertices, so that this must wait for the end of the file.
+  /// Checks that a face's vertices exist. Called at the end of the file, since a face may come before its vertices.
   void require_vertices(std::span<const Index> corners, std::uint64_t line) const {
     for (const Index vertex : corners) {
       if (vertex >= vertex_count())

@@ -20,7 +20,7 @@
 namespace softbody {
 namespace {
 
-/// The corners seen along the polygon's mean normal (Newell's), counter-clockwise.
+/// Returns the corners projected along the polygon's mean normal (Newell's), counter-clockwise.
 std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
   glm::dvec3 normal(0.0);
   for (std::size_t i = 0; i < corners.size(); ++i)
@@ -34,12 +34,12 @@ std::vector<glm::dvec2> flattened(std::span<const glm::dvec3> corners) {
   return flat;
 }
 
-/// Twice the area of a, b, c; positive if they run counter-clockwise.
+/// Returns twice the area of a, b, c; positive if they are counter-clockwise.
 double turn(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
   return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// What is left of a polygon while ears are clipped.
+/// The remaining part of a polygon while ears are clipped.
 class Remainder {
  public:
   explicit Remainder(std::span<const glm::dvec3> corners) : flat_(flattened(corners)), left_(corners.size()) {
@@ -47,14 +47,14 @@ class Remainder {
   }
   std::size_t size() const { return left_.size(); }
 
-  /// The triangle at place k, whose corner goes.
+  /// Returns the triangle at place k and removes its corner.
   Triangle clip(std::size_t k) {
     const Triangle t = at(k);
     left_.erase(left_.begin() + std::ptrdiff_t(k));
     return t;
   }
 
-  /// The place of the ear with the shortest cut; any place if there is no ear.
+  /// Returns the place of the ear with the shortest cut, or any place if there is no ear.
   std::size_t best_ear() const {
     std::size_t best = 0;
     double shortest = std::numeric_limits<double>::infinity();
@@ -88,15 +88,15 @@ class Remainder {
   std::vector<Index> left_;
 };
 
-/// Of a triangulation; the smaller of two is the better one.
+/// Cost of a triangulation. A smaller cost is better.
 struct Cost {
   double price = 0, length = 0;  // length: sum of the squares of the cuts' lengths
   Cost operator+(const Cost& other) const { return {price + other.price, length + other.length}; }
   auto operator<=>(const Cost&) const = default;
 };
 
-/// The cheapest of all triangulations of a polygon, by dynamic programming (Klincsek 1980). cut_price(i, j): of the cut
-/// between corners i < j; triangle_price(i, k, j): of the triangle of corners i < k < j.
+/// Returns the cheapest of all triangulations of a polygon, by dynamic programming (Klincsek 1980). cut_price(i, j):
+/// price of the cut between corners i < j; triangle_price(i, k, j): price of the triangle of corners i < k < j.
 std::vector<Triangle> cheapest_triangles(std::span<const glm::dvec3> corners, const auto& cut_price,
                                          const auto& triangle_price) {
   const std::size_t n = corners.size();
@@ -131,8 +131,8 @@ std::vector<Triangle> cheapest_triangles(std::span<const glm::dvec3> corners, co
 
 bool is_degenerate(const Triangle& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; }
 
-/// Shares out the cuts by an auction (Bertsekas 1979): a polygon whose cuts are taken takes the cheapest ones instead,
-/// from others if need be, and raises their price; a polygon that lost a cut chooses again.
+/// Assigns cuts to polygons by an auction (Bertsekas 1979). A polygon whose cuts are taken takes the cheapest ones
+/// instead, if necessary from other polygons, and raises their price. A polygon that has lost a cut chooses again.
 class Auction {
  public:
   Auction(const Polygons& polygons, std::span<const glm::dvec3> vertices)
@@ -194,8 +194,8 @@ class Auction {
     return sides;
   }
 
-  /// The edges that a polygon's triangles have beyond its sides, ascending, once for each triangle. A cut is none of
-  /// them where a degenerate triangle beside it takes the place of a side.
+  /// Returns the edges of a polygon's triangles that are not sides of the polygon, ascending, once for each triangle. A
+  /// cut beside a degenerate triangle that takes the place of a side is not among them.
   std::vector<Edge> cuts_of(std::size_t p) {
     if (polygons_[p].size() == 3) return {};
     std::vector<Edge> edges, sides = sides_of(p), cuts;
@@ -210,7 +210,7 @@ class Auction {
   static std::uint64_t key(const Edge& edge) { return std::uint64_t{edge[0]} << 32 | edge[1]; }
   bool is_side(const Edge& edge) const { return std::binary_search(sides_.begin(), sides_.end(), edge); }
 
-  /// Two cuts of an outline that comes back to a vertex may be the same edge.
+  /// True if two cuts are the same edge, as can happen if the outline returns to a vertex.
   static bool meet(const std::vector<Edge>& cuts, std::size_t i) { return i >= 2 && cuts[i] == cuts[i - 2]; }
 
   bool take_free_cuts(std::size_t p) {

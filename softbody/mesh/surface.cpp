@@ -28,12 +28,12 @@ std::vector<Side> sorted_sides(const std::vector<Triangle>& triangles) {
 }
 
 struct Neighbour {
-  Index face = none;  // none: the side is a border
+  Index face = none;  // none: the side is at the border
   bool agrees = true;
   Edge edge{};
 };
 
-/// Walks over the components and decides for each face whether it must be turned.
+/// Walks over the components and decides for each face whether it must be reversed.
 class Orientation {
  public:
   Orientation(std::vector<Triangle>& triangles, const std::vector<glm::dvec3>& vertices)
@@ -76,7 +76,7 @@ class Orientation {
     }
   }
 
-  /// The component of a face.
+  /// Returns the component of a face, and marks the faces that must be reversed to agree with it.
   std::vector<Index> walk(Index start) {
     std::vector<Index> component{start};
     turned_[start] = no;
@@ -96,7 +96,7 @@ class Orientation {
     return component;
   }
 
-  /// Turns what the walk has found, and the whole of a closed component that would be inside out.
+  /// Reverses the marked faces, or the others if the closed component would be inside out.
   void settle(const std::vector<Index>& component) {
     bool closed = true;
     std::vector<Triangle> faces;

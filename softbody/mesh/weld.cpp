@@ -19,12 +19,12 @@
 namespace softbody {
 namespace {
 
-/// Finds for each point the first one before it that is no further away than `distance`, by a grid of such cells.
+/// Finds for each point the first earlier point within `distance`, by a grid.
 class Places {
  public:
   Places(double distance, double min_cell) : distance_(distance), cell_(std::max(distance, min_cell)) {}
 
-  /// The number of the point that this one is at the place of: its own if there is none.
+  /// Adds a point. Returns the number of the earlier point at the same place, or `number` if there is none.
   Index add(const glm::dvec3& point, Index number) {
     const glm::dvec3 cell = glm::floor(point / cell_);
     for (int n = 0; n < 27; ++n) {
@@ -38,7 +38,7 @@ class Places {
   }
 
  private:
-  /// Cells that share a key cost time only.
+  /// Returns a hash of the cell. Cells with equal keys only cost time.
   static std::uint64_t key(const glm::dvec3& cell) {
     std::uint64_t h = 0;
     for (int k = 0; k < 3; ++k) h = (h ^ static_cast<std::uint64_t>(std::int64_t(cell[k]))) * 0x9e3779b97f4a7c15u;
@@ -81,7 +81,7 @@ void for_each_run(std::span<const PolygonSide> sides, const auto& key, const aut
   }
 }
 
-/// Equal for polygons of the same outline, wherever it begins and whichever way round it runs.
+/// Returns a key that is equal for polygons of the same outline, whatever their first corner and direction.
 std::vector<Index> outline_key(std::vector<Index> polygon) {
   const auto from_least = [](std::vector<Index> corners) {
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
@@ -136,10 +136,10 @@ class Seams {
   }
 
  private:
-  /// Which vertices at a place are welded: all, or those of the same part.
+  /// Which vertices at a place are welded: all of the file, or those of the same piece or object.
   enum class Scope : char { file, piece, object };
 
-  /// Of all polygons, ascending.
+  /// Returns the sides of all polygons, ascending.
   std::vector<PolygonSide> sides() const {
     std::vector<PolygonSide> all;
     for (std::size_t p = 0; p < polygons_.size(); ++p) {
@@ -154,7 +154,7 @@ class Seams {
     return all;
   }
 
-  /// Welds as the places' scopes ask for.
+  /// Welds the vertices at each place according to the place's scope.
   void weld() {
     std::unordered_map<std::uint64_t, Index> first;  // by place and part
     for (Index v = 0; v < place_.size(); ++v) {
@@ -167,14 +167,14 @@ class Seams {
     }
   }
 
-  /// Faces that are welded to each other where that is no question are one piece.
+  /// Unites faces to one piece that are welded to each other where the scope is the whole file.
   void join_pieces() {
     for (Index v = 0; v < place_.size(); ++v)
       if (scope_[place_[v]] == Scope::file) pieces_.unite(without_length_.find(v), welded_to_[v]);
   }
 
-  /// Of more than two open sides at the same place, two of different pieces that follow one another in the file make
-  /// one piece of these.
+  /// Where more than two open sides are at the same place, unites two pieces whose sides follow one another in the
+  /// file.
   void join_neighbours() {
     for_each_run(open_sides_, &PolygonSide::place, [&](std::span<const PolygonSide> there) {
       if (there.size() <= 2) return;
@@ -192,8 +192,8 @@ class Seams {
     });
   }
 
-  /// Of the ends of edges with more than two faces, and of more than two sides at one place that are still open though
-  /// no object keeps them apart; false if there are none.
+  /// Changes the scope of bad places: ends of edges with more than two faces, and ends of more than two open sides at
+  /// one place that are not kept apart by objects. Returns false if there are none.
   bool change_scope_of_bad_places(Scope scope) {
     std::vector<Index> bad;
     for_each_run(sides(), &PolygonSide::place, [&](std::span<const PolygonSide> there) {
@@ -210,7 +210,7 @@ class Seams {
     return !bad.empty();
   }
 
-  /// Welds pieces that lie on others with all their faces.
+  /// Welds pieces whose faces all lie on faces of other pieces to those.
   void weld_copies() {
     Sets pieces(place_.size());
     std::map<std::vector<Index>, std::size_t> first;  // polygon by outline

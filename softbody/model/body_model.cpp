@@ -14,11 +14,12 @@
 namespace softbody {
 namespace {
 
-constexpr double linear_below = 0.1;  // of V0: the gas law goes on linearly, so that flat and inverted bodies recover
+constexpr double linear_below = 0.1;  // of V0: the gas law continues linearly, so that flat and inverted bodies recover
 
-/// A net of equal springs is as stiff as a sheet however fine it is (Young's modulus times thickness = 2 k / sqrt(3)),
-/// so that the stiffness in N/m holds for every mesh. But where more than six springs meet, as in a regular net, they
-/// share what six would have: the middle of a fan asks for no shorter steps than the rest.
+/// Returns springs of the material's stiffness. A net of equal springs has the stiffness of a sheet, however fine the
+/// net is (Young's modulus times thickness = 2 k / sqrt(3)), so one stiffness in N/m fits every mesh. Where more than
+/// six springs meet (the number in a regular net), they share the stiffness of six, so that the middle of a fan needs
+/// no shorter steps than the rest.
 std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pairs, const SpringLaw& law, double mass) {
   std::vector<Spring> springs;
   if (law.stiffness <= 0) return springs;
@@ -32,7 +33,7 @@ std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pair
   return springs;
 }
 
-/// What draws the particles to their places in the mesh's own shape.
+/// Sets the values for shape matching.
 void set_shape(BodyModel& p, double frequency) {
   p.shape_rate = 2 * std::numbers::pi * frequency;
   p.goal.clear();
@@ -42,9 +43,10 @@ void set_shape(BodyModel& p, double frequency) {
   for (const glm::dvec3& v : p.mesh.vertices) p.goal.push_back(v - mean);
 }
 
-/// The material as it acts on the particles of a mesh from a file. Its contact stiffness is stated for the particles of
-/// the paper's sphere; where more of them share a body, and so a contact, they share the stiffness, too. The springs of
-/// very fine meshes get softer, so that a frame takes no more substeps than one of the finest mesh with full springs.
+/// Returns the material that acts on the particles of a mesh from a file. The given contact stiffness is for the
+/// particles of the paper's sphere. If a body has more particles, more of them share a contact, so they share the
+/// stiffness, too. Springs of very fine meshes become softer, so that a frame takes no more substeps than with the
+/// finest mesh that has full springs.
 Material for_mesh(Material m, const MeshSource& source) {
   constexpr double stated_for = 162, finest = 2000;  // vertices
   if (source.kind != "file") return m;
@@ -64,7 +66,7 @@ void list_faces(BodyModel& p) {
   }
 }
 
-/// All that the material decides, but for the starting shape.
+/// Sets everything that depends on the material, except the starting shape.
 void give_material(BodyModel& p, const MeshSource& source, const Material& material) {
   p.material = for_mesh(material, source);
   p.particle_mass = material.mass / double(p.mesh.vertices.size());

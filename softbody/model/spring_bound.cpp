@@ -40,7 +40,7 @@ class Laplacian {
   Vector sum_;
 };
 
-/// Of length 1, and without the symmetries of a mesh: it has a part along every eigenvector.
+/// Returns a unit vector without the symmetries of a mesh, so that it has a component along every eigenvector.
 Vector start(Eigen::Index size) {
   Vector v(size);
   for (Eigen::Index i = 0; i < size; ++i) v[i] = std::fmod(double(i + 1) * 0.6180339887498949, 1.0) - 0.5;
