@@ -19,6 +19,7 @@ softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbo
 softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
 softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene
 softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
+softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 engine:
 engine/render: engine

@@ -1,6 +1,6 @@
 #pragma once
-// What of a solid can meet a body between its vertices: corners and edges of boxes, and the centres and axes that
-// spheres and capsules are round about.
+// Cores of solids, which can meet faces and edges of a body between its vertices: corners and edges of boxes, centres
+// of spheres, and axes of capsules.
 
 #include <array>
 #include <cstdint>
@@ -16,7 +16,8 @@ struct SolidCore {
   glm::dvec3 out{0.0};  // of a box: the sum of the outward normals of its sides that meet there
   bool point() const { return from == to; }
 };
-/// The surface is `radius` m from the cores. None of a plane: what keeps vertices off it keeps all off.
+/// Returns the cores of a solid; its surface is core_radius() away from them. A plane has none: if no vertex passes it,
+/// nothing does.
 std::vector<SolidCore> cores_of(const SolidSphere& sphere);
 std::vector<SolidCore> cores_of(const SolidPlane& plane);
 std::vector<SolidCore> cores_of(const SolidBox& box);
@@ -25,7 +26,7 @@ inline double core_radius(const SolidSphere& sphere) { return sphere.radius; }
 inline double core_radius(const SolidPlane&) { return 0; }
 inline double core_radius(const SolidBox&) { return 0; }
 inline double core_radius(const SolidCapsule& capsule) { return capsule.radius; }
-/// How near to the cores a body is in a frame.
+/// How close a body may come to the cores in a frame.
 struct Approach {
   double distance;               // m, from the cores to where the body is kept
   double speed;                  // m/s, with which it may come

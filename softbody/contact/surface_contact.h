@@ -64,7 +64,7 @@ struct ContactRow {
 
 class SurfaceContact {
  public:
-  /// All that is remembered from one substep to the next, and the rows that contact_points() shows.
+  /// Everything that is kept from one substep to the next, and the rows that contact_points() returns.
   struct State;
   State save() const;
   void restore(const State& state);
@@ -93,7 +93,8 @@ class SurfaceContact {
   std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
-  /// Largest relative speed of two bodies with candidates, over how far they may go in a substep: substeps a second.
+  /// Returns the substeps a second that surface contact needs: the largest relative speed of two bodies with candidates
+  /// over the distance that they may pass each other by in a substep.
   float substep_rate() const { return rate_; }
 
   /// The rows of this substep, from positions at its start, `elapsed` seconds after find(), and velocities with all
@@ -105,18 +106,18 @@ class SurfaceContact {
   /// Whether two bodies pass each other half as far as they may in a substep of h, or one lies on itself: what a solid
   /// stops is then hit from behind by the body's other side.
   bool needs_more_iterations(float h) const;
-  /// Where solids, which have the last word, have pressed what lies on them through a surface that follows fast: one
-  /// more round for such bodies. False if there are none. On every thread, after a barrier.
+  /// Solves once more the rows of fast pairs whose targets the solids, which act last, have violated. Returns false if
+  /// there are none. Call it on every thread, after a barrier.
   bool resolve_after_solids(int thread, int threads, Field<float> v, float h, const std::function<void()>& barrier);
 
   /// Of the last substep, of h seconds: its candidates, and a half for each time that a contact may have been solved,
   /// or a vertex moved with its whole body.
   double work_of_substep(float h) const;
 
-  /// Every two bodies of which features may touch in the frame at hand, a < b.
+  /// Returns the pairs of bodies, a < b, of which features may touch in this frame.
   std::vector<collide::surface::ItemPair> interactions() const;
   std::size_t rows() const;
-  /// Whether the last substep was to push out what overlaps, or throw back what hit: with energy that nobody puts in.
+  /// True if the last substep pushed overlapping surfaces apart or threw colliding ones back, and so added energy.
   bool adds_energy() const;
   /// `vertices`: those of the bodies that find() was given, and perhaps of more. While all bodies sleep it is the last
   /// substep before.

@@ -35,14 +35,14 @@ struct Quantity {
 inline constexpr Quantity positions{0}, velocities{1}, forces{2};
 constexpr Quantity scratch(int i) { return {3 + i}; }
 
-/// What a detector has found.
+/// Contacts that a detector has found.
 struct DetectedContacts {
   const collide::Bodies& vertices;
   std::span<const BodyId> vertex_body;  // the body of each vertex
   const std::vector<collide::Contact>& contacts;
 };
 
-/// What a frame came to.
+/// What a frame has simulated.
 struct FrameResult {
   int substeps = 0;
   double seconds = 0;
@@ -54,7 +54,7 @@ class Dynamics {
       : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
 
   BodyId add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity);
-  /// Takes a body out; those after it move up by one id. set_vertices() must still tell the bodies with it.
+  /// Removes a body; the ids of later bodies move up by one. The bodies of set_vertices() must still contain it.
   void remove(BodyId body);
   /// Bodies of the model `from` go on as bodies of `to`, of the same mesh, from where they are.
   void replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to);
@@ -77,20 +77,20 @@ class Dynamics {
   void set_particles(BodyId body, std::span<const Particle> particles);
   void set_asleep(BodyId body, bool asleep);
 
-  /// Takes the contacts that hold for the coming frame; thickness: of the tolerance force (§2.3) in m.
+  /// Sets the contacts for the coming frame. thickness: of the contact layer, m.
   void set_contacts(const DetectedContacts& detected, float thickness);
-  /// What the pairs of the last frame hold by now; what these contacts would hold, of bodies that move.
+  /// Stored energy (J) of each pair: of the last frame's pairs now; of `detected`, if applied now.
   std::vector<PairEnergy> penalty_energies() const;
   std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
   /// For surface contact: where bodies' vertices are in frames. The bodies must outlive this.
   void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
 
-  /// Advances by `seconds`, or by less of them in as many substeps as there may be, or in as much work: unless substeps
-  /// are fixed, their bound is worked out anew as bodies move, and those that are crushed may ask for any number, and
-  /// be full of contacts. after_substep: called by one thread while the others wait.
+  /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their
+  /// bound is computed anew as bodies move, since bodies that are crushed may need any number of substeps and have many
+  /// contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
-  /// Substeps that the bound asks for in the state at hand.
+  /// Returns the substeps that the bound asks for in the present state.
   int needed_substeps(double seconds) const;
   /// Once a frame of `seconds`, after advance(): what resists the bodies' motion as a whole, then their origins follow.
   void finish_frame(double seconds);

@@ -1,25 +1,27 @@
 #pragma once
-// How many substeps a stretch of time takes.
+// Bounds of the number of substeps.
 
 #include <algorithm>
 
 namespace softbody {
 
-/// What bounds substeps in a state of the bodies.
+/// Bounds of substeps for a state of the bodies.
 struct SubstepBound {
   double stable_step;       // s, that is stable: infinite for integrators that are at any step
   double min_substeps;      // of the stretch: those that keep up with the fastest body near a solid
   double deformation_rate;  // 1/s, that keep up with the body that changes its shape fastest
   double free_rate;         // 1/s, that are stable for what bodies do by themselves, contacts apart
 
-  /// Implicit steps a second that keep up with that body: a tenth as many, for one that bends it by more than its
-  /// radius leaves no round body round. None is needed for stability, so there is an end to them. frame: s.
+  /// Returns the rate (1/s) of implicit steps that keeps up with the body that deforms fastest: a tenth of
+  /// deformation_rate, because a body does not stay round if a step bends it by more than its radius. Stability needs
+  /// no such steps, so there are at most 16 a frame. frame: s.
   double implicit_rate(double frame) const { return std::min(0.1 * deformation_rate, 16 / frame); }
 };
 
-/// Substeps a second that bodies asked for by themselves: no fewer are taken for half a second to one second more.
-/// Steps of one length keep the energy of a swing within bounds; where they get longer and shorter as it swings, they
-/// feed it, however short they are (Skeel and Gear 1992, "Does variable step size ruin a symplectic integrator?").
+/// Lower bound of the substep rate that falls with a delay: the largest rate (1/s) that bodies have needed, contacts
+/// apart, within the last half second to one second. Steps of equal length keep the energy of an oscillation bounded.
+/// Steps that get longer and shorter with the oscillation feed it, however short they are (Skeel and Gear 1992, "Does
+/// variable step size ruin a symplectic integrator?").
 class SubstepHysteresis {
  public:
   void advance(double seconds) {

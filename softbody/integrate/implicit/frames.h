@@ -1,43 +1,44 @@
 #pragma once
-// Frames that move with the bodies, one a lane, for implicit steps: steps of a turning body lead along chords, by which
-// it swells, its velocities lag behind and its spin is lost; in a frame that turns with it there is none of that.
+// Frames that move with the bodies, one for each lane, for implicit steps. In the world's frame, the particles of a
+// rotating body move along chords, so that the body swells, its velocities lag behind and its spin is lost. In a frame
+// that rotates with the body they do not.
 
 #include "softbody/integrate/implicit/solver.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
 
-/// During a step a frame's origin falls with the body's centre of mass, and it turns about as fast as the body at the
-/// start. What is in it feels the centrifugal and the Coriolis acceleration, and of gravity nothing.
+/// During a step, the origin of a frame falls with the body's centre of mass, and the frame rotates about as fast as
+/// the body does at the start. In the frame act the centrifugal and the Coriolis acceleration, and no gravity.
 class ImplicitFrames {
  public:
-  /// Of a step of h from x, v (m and m/s, in the world), for the lanes `which`; in the others the frame is the world's.
-  /// The origins fall by h^2 gravity, as in a step of first order.
+  /// Makes frames for a step of h from x, v (m and m/s, in the world), for the lanes `which`; the frame of other lanes
+  /// is the world's. The origins fall by h^2 gravity, as in a step of first order.
   ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
                  const glm::dvec3& gravity);
-  /// Those of some of its lanes.
+  /// Returns frames for the lanes `which` only; the frame of other lanes is the world's.
   ImplicitFrames subset(const std::array<bool, lanes>& which) const;
-  /// The same with origins that fall by so many m.
+  /// Returns the same frames with origins that fall by `fall` (m).
   ImplicitFrames falling(const glm::dvec3& fall) const;
-  /// 1 for lanes that have a frame of their own, else 0.
+  /// Returns 1 for each lane that has a frame of its own, else 0.
   std::array<float, lanes> moves() const;
-  /// How the body in a lane that has a frame moves in the world at the start.
+  /// Returns the rigid motion, in the world, that the body of a lane with a frame has at the start.
   const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
-  /// Takes positions and velocities of the start into the frames. frame_displacement: m, how far the frame takes a
-  /// particle along.
+  /// Transforms positions and velocities of the start into the frames. frame_displacement: set to how far (m) the frame
+  /// moves each particle along.
   void enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const;
-  /// Turns what is told in the world's directions, and back.
+  /// Rotate directions from the world into a frame, and back.
   glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(frames_[lane].turned) * v; }
   glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return frames_[lane].turned * v; }
   LinearPenaltyPair enter(const LinearPenaltyPair& pair) const;
-  /// m/s^2, what each particle feels there.
+  /// Sets `a` to the acceleration (m/s^2) that the frame adds to each particle.
   void accelerations(const Lanes& x, const Lanes& v, Lanes& a) const;
-  /// Takes positions and velocities of the end back into the world.
+  /// Transforms positions and velocities of the end back into the world.
   void leave(Lanes& x, Lanes& v) const;
 
-  // Of a particle at x, v of the start, in the world: velocity without that of the frame's turning; how far it goes in
-  // the step if nothing acts on it, and what of that is the turning's.
+  // For a particle with x, v at the start, in the world: its velocity without the frame's rotation; its displacement in
+  // the step by the frame's rotation, and the whole displacement if no force acts on it.
   glm::dvec3 velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
   glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
   glm::dvec3 free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;

@@ -1,5 +1,5 @@
 #pragma once
-// What an implicit step makes of planes that its solve has missed.
+// Corrections of an implicit step whose solve has left particles behind planes.
 
 #include <algorithm>
 #include <span>
@@ -11,10 +11,10 @@
 
 namespace softbody {
 
-inline constexpr int plane_passes = 8;  // over planes that stand in each other's way
+inline constexpr int plane_passes = 8;  // over planes that conflict with each other
 
-/// How far a lane's body shifts as one in a step of h, in m, if its planes stop what is meant. aside(i): m, by which
-/// particle i moves besides.
+/// Returns how far (m) a lane's body shifts as a whole in a step of h: by `meant`, unless its planes stop it. aside(i):
+/// m, by which particle i moves relative to that shift.
 template <class Aside>
 glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
                    const Aside& aside) {
@@ -31,26 +31,26 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
       stands = false;
     }
   }
-  // Planes that face each other have no place for it.
+  // Between planes that face each other the passes do not converge.
   if (const double length = glm::length(shift); length > max_shift) shift *= max_shift / length;
   return shift;
 }
 
-/// In which lanes work.end_x is behind one of work.planes.
+/// Returns the lanes in which work.end_x is behind one of work.planes.
 std::array<bool, lanes> behind_planes(const ImplicitWork& work);
 
-/// Takes particles that end behind their planes before them, each by itself: a solve that has not come to its end
-/// leaves some there.
+/// Moves each particle that ends behind its planes in front of them. A solve that has not converged leaves such
+/// particles.
 void clear_planes(ImplicitWork& work, double h);
 
-/// Whether a step of h has changed the momentum of a lane's body by what gravity and contact forces give, but for a
-/// tenth.
+/// True if a step of h has changed the momentum of a lane's body by the impulse of gravity and contact forces, to
+/// within a tenth.
 bool satisfies_momentum_balance(const BodyModel& model, const ImplicitWork& work, std::size_t lane, double h,
                                 const glm::dvec3& gravity);
 
-/// The end of a step of h whose solve is not to be trusted: the body in the lane flies and spins on as one and stops at
-/// its planes. If that would give it energy, it turns about its angular momentum instead, and if that does, with less
-/// spin or none. Its shape stays, what moves within it is lost.
+/// Replaces the end of a step of h whose solve cannot be trusted: the body in the lane moves and rotates as a rigid
+/// body and stops at its planes. If that would give it energy, it rotates about its angular momentum instead; if that
+/// does, too, its spin is reduced. Its shape does not change, and its deformation velocities are lost.
 void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity);
 
 }  // namespace softbody

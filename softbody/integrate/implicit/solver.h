@@ -27,7 +27,7 @@
 
 namespace softbody {
 
-/// A solid's plane before a particle, and the force with which they meet.
+/// The plane of a solid that a particle must stay in front of, and the contact force.
 struct PlaneContact {
   std::size_t at;  // particle * lanes + lane
   double friction, restitution;
@@ -48,7 +48,7 @@ struct LinearPenaltyPair {
   glm::dvec3 start_separation{0.0};  // m, how far the two separate at the first velocities; in `force`
   double max_work = 0;               // J, that it can do in the step, whatever force_after() says
 
-  /// N, when the particle has moved by u. It never pulls, and friction keeps to its limit.
+  /// Returns the force (N) after the particle has moved by u. It never pulls, and friction does not exceed its limit.
   glm::dvec3 force_after(const glm::dvec3& u) const;
 };
 
@@ -68,10 +68,10 @@ class ImplicitSolver {
  public:
   ImplicitSolver(const BodyModel& model, const ImplicitKernels& kernels);
 
-  /// The positions at the end, and for each lane whether they have converged to 1e-9 of the radius.
+  /// Solves a step and returns the positions at its end. converged(lane): their error is below 1e-9 of the radius.
   const Lanes& solve(const ImplicitProblem& problem);
   bool converged(int lane) const { return converged_[std::size_t(lane)]; }
-  /// Since it was last asked: iterations of all lanes at once, times particles, and what else took as long.
+  /// Returns the work since the last call: iterations times particles, and other work in the same unit.
   double take_work() { return std::exchange(work_, 0.0); }
 
  private:
@@ -81,7 +81,7 @@ class ImplicitSolver {
 
   Field<double> field(Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
   Field<const double> field(const Lanes& v) const { return {v.data(), v.data() + stride_, v.data() + 2 * stride_}; }
-  /// m, in this step.
+  /// Returns the displacement (m) of a particle in this step.
   glm::dvec3 moved(const ImplicitProblem& p, const Lanes& x, std::size_t at) const {
     return read(x, at) - read(*p.x, at) + read(*p.frame_displacement, at);
   }
@@ -122,7 +122,7 @@ class ImplicitSolver {
   double work_ = 0;
 };
 
-/// What a thread solves the batches of one body model with.
+/// Workspace in which a thread solves the batches of one body model.
 struct ImplicitWork {
   ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels);
   ImplicitSolver solver;
