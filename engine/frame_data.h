@@ -30,8 +30,8 @@ struct TranslucentSet {
   std::vector<MeshDraw> meshes;
   float opacity = 0.4f;
   bool hides = true;  // overlays behind them; false: a veil, drawn after the overlays and sets that hide
-  // Bodies, though not other solids, hide them even where these are farther away: solid bodies, and earlier sets without
-  // this flag.
+  // Bodies, though not other solids, hide them even where these are farther away: solid bodies, and earlier sets
+  // without this flag.
   bool behind_bodies = false;
 };
 
