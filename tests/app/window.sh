@@ -121,7 +121,7 @@ open_only() {
   local i open
   for i in "${!sections[@]}"; do
     open=false
-    [ "${sections[i]}" = "$1" ] && open=true && field=$((269 + 29 * i))
+    [ "${sections[i]}" = "$1" ] && open=true && field=$((248 + 29 * i))
     printf '[[section]]\nname = "%s"\nopen = %s\n' "${sections[i]}" $open
   done >"$preferences"
 }
@@ -186,7 +186,7 @@ press q
 expect_clean_end "the key Q, after other keyboards"
 kept() { grep -qx "$2" "$1" || fail "$2 was not kept: a key of another keyboard was taken for something else"; }
 for line in 'method = "grid-hash"' 'contact_surface = "vertex-vertex"' 'levels = 2'; do kept keys.toml "$line"; done
-for line in 'body-boxes = true' 'touches = false' 'error_time = false' 'hash_table = false'; do
+for line in 'body-boxes = true' 'touches = false' 'below = "none"' 'hash_table = false'; do
   kept "$preferences" "$line"
 done
 

@@ -6,7 +6,7 @@
 namespace softbody {
 namespace {
 
-constexpr Quantity x0 = scratch(0), v0 = scratch(1), mean_v = scratch(2), mean_a = scratch(3);
+constexpr Quantity start_x = scratch(0), start_v = scratch(1), mean_v = scratch(2), mean_a = scratch(3);
 
 /// One of the four stages: takes its share of the means and goes on to where the next one stands, `ahead` seconds from
 /// the start.
@@ -14,9 +14,9 @@ void stage(Dynamics& dynamics, Batch& batch, float weight, float ahead) {
   dynamics.accelerations(batch);
   dynamics.add(batch, mean_v, weight, velocities);
   dynamics.add(batch, mean_a, weight, forces);
-  dynamics.copy(batch, x0, positions);
+  dynamics.copy(batch, start_x, positions);
   dynamics.add(batch, positions, ahead, velocities);
-  dynamics.copy(batch, v0, velocities);
+  dynamics.copy(batch, start_v, velocities);
   dynamics.add(batch, velocities, ahead, forces);
 }
 
@@ -26,8 +26,8 @@ void runge_kutta_4(Dynamics& dynamics, const Worker& worker, const Substep& subs
   constexpr std::array<float, 4> weight{1.0f / 6, 1.0f / 3, 1.0f / 3, 1.0f / 6}, ahead{0.5f, 0.5f, 1.0f, 0.0f};
   const float h = substep.h;
   for (Batch* batch : worker.batches()) {
-    dynamics.copy(*batch, positions, x0);
-    dynamics.copy(*batch, velocities, v0);
+    dynamics.copy(*batch, positions, start_x);
+    dynamics.copy(*batch, velocities, start_v);
     dynamics.clear(*batch, mean_v);
     dynamics.clear(*batch, mean_a);
   }
@@ -42,7 +42,7 @@ void runge_kutta_4(Dynamics& dynamics, const Worker& worker, const Substep& subs
   for (Batch* batch : worker.batches()) {
     dynamics.drift(*batch, h);
     dynamics.add(*batch, velocities, -1, mean_v);  // what the contacts have changed
-    dynamics.add(*batch, velocities, 1, v0);
+    dynamics.add(*batch, velocities, 1, start_v);
     dynamics.add(*batch, velocities, h, mean_a);
   }
   dynamics.contacts_at_end(worker, h);
