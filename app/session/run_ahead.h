@@ -1,5 +1,5 @@
 #pragma once
-// Lets the world run, several frames a picture, to a frame that is looked for.
+// Lets the world run, several frames per picture, to a frame that is looked for.
 
 #include <functional>
 #include <optional>

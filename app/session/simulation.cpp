@@ -4,7 +4,6 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/base/timings.h"
 #include "app/base/usage_error.h"
 
 namespace app::session {

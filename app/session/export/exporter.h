@@ -42,7 +42,7 @@ class Exporter {
   void write_curves(Session& session);
   /// Starts a recording, or stops the one in progress.
   void toggle_recording();
-  /// Returns true during a recording. Then the world moves one step a picture, so that no frame is lost, and only if
+  /// Returns true during a recording. Then the world moves one step per picture, so that no frame is lost, and only if
   /// may_step().
   bool recording() const { return recording_ && !recording_->progress().stopping; }
   bool may_step() const {

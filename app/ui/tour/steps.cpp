@@ -57,8 +57,7 @@ std::string text_of_bucket(const TourContext& v) {
 
 std::string text_of_contact(const TourContext&) {
   return "Vertices of boxes that share a bucket are compared. Two that are closer than the tolerance collide, between "
-         "bodies and within one: the tolerance is a shield round the surface. Boxes that share no bucket are never "
-         "compared, so a contact between them is missed.";
+         "bodies and within one. Boxes that share no bucket are never compared, so a contact between them is missed.";
 }
 
 std::string text_of_miss(const TourContext& v) {
