@@ -193,7 +193,7 @@ TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
     Scene scene = lone_body(spring_ball());
     for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
     const World world(scene, {});
-    return WorldTestAccess::dynamics(world).save().bytes();
+    return WorldTestAccess::solver(world).save().bytes();
   };
   EXPECT_EQ(bytes(8) - bytes(7), sizeof(Body));
 }

@@ -34,7 +34,7 @@ TEST(StepController, TakesTheSubstepsOfTheBodyThatNeedsMost) {
           stiffness_per_mass(p, measure_surface(p, x)), p.spring_damping_bound / p.particle_mass);
       most = std::max(most, world.frame_time() / step);
     }
-    EXPECT_NEAR(WorldTestAccess::dynamics(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
+    EXPECT_NEAR(WorldTestAccess::solver(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
   }
 }
 
