@@ -8,7 +8,7 @@
 #include <limits>
 #include <random>
 
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/integrate/implicit/energy.h"
 #include "softbody/integrate/implicit/frames.h"
 #include "softbody/integrate/implicit/planes.h"

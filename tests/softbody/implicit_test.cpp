@@ -6,7 +6,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/integrate/implicit/solver.h"
 #include "tests/softbody/helpers.h"
