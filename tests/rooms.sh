@@ -17,8 +17,8 @@ softbody/model: collide/core collide/surface softbody/mesh softbody/state
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
 softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
+softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
+softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
 softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 engine:

@@ -183,7 +183,7 @@ void Dynamics::take_substeps(Progress& frame, const std::function<void()>& after
     frame.substeps += steps;
     penalty_work_ += double(penalty_.pairs.size()) * steps;
     if (!surface_.empty()) surface_work_ += surface_.work_of_substep(float(h)) * steps;
-    count_implicit_work();
+    implicit_ += implicit_steps_.take_work();
   };
   if (frame.substeps == 0 && now > 1 && !frame.fixed) {
     go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
@@ -209,7 +209,12 @@ int Dynamics::substeps_left(const Progress& frame, int stable) const {
 
 void Dynamics::run(int count, float h, bool first, const std::function<void()>& after_substep) {
   step_ = h;
-  if (integrator_->implicit) prepare_implicit(h);
+  if (integrator_->implicit) {
+    implicit_steps_.retain([this](const BodyModel& model) {
+      return std::ranges::any_of(batches_, [&](const Batch& b) { return b.model.get() == &model; });
+    });
+    for (const Batch* b : crew_.moving()) implicit_steps_.prepare(b->model, double(h), crew_.active());
+  }
   crew_.run([&](const Worker& worker) {
     for (int s = 0; s < count; ++s) {
       if (has_restitution_)

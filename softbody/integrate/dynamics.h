@@ -11,6 +11,7 @@
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/dynamics_state.h"
+#include "softbody/integrate/implicit/steps.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/kernels.h"
 #include "softbody/integrate/max_work.h"
@@ -22,11 +23,6 @@
 #include "softbody/scene/scene.h"
 
 namespace softbody {
-
-class ImplicitFrames;
-class ImplicitMatrix;
-struct ImplicitSteps;
-struct ImplicitWork;
 
 /// A field over all particles that integrators compute with.
 struct Quantity {
@@ -51,7 +47,7 @@ struct FrameResult {
 class Dynamics {
  public:
   Dynamics(const Scene& scene, const Crew& crew, Isa isa)
-      : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
+      : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), implicit_steps_(isa) {}
 
   BodyId add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Removes a body; the ids of later bodies move up by one. The bodies of set_vertices() must still contain it.
@@ -219,17 +215,6 @@ class Dynamics {
   double rounding_velocity(double step) const;
   void choose_integrator(double seconds);
   void resize_scratch();
-  void prepare_implicit(float h);
-  void count_implicit_work();
-  const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
-  std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                                      double h) const;
-  std::array<bool, lanes> find_penalty_pairs(const Batch& batch, ImplicitWork& work, double h) const;
-  void correct_solver_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                               const std::array<bool, lanes>& which, double h) const;
-  std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                                            double h) const;
-  void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void mark_contacted(BodyId id) { batches_[bodies_[id].batch].contacted |= 1u << bodies_[id].lane; }
   void recentre_origin(BodyId id);
@@ -238,7 +223,6 @@ class Dynamics {
   const Scene& scene_;
   Crew crew_;
   const Kernels &wide_, &narrow_;
-  Isa isa_;
   const Integrator *chosen_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;
@@ -253,7 +237,7 @@ class Dynamics {
   mutable std::vector<float> penalty_damping_;
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
-  std::shared_ptr<ImplicitSteps> implicit_steps_;  // what they keep; none before the first
+  ImplicitSteps implicit_steps_;
   PenaltyContact penalty_;
   SurfaceContact surface_;
   bool has_surface_ = false, self_contact_ = false, has_solid_features_ = false;
