@@ -12,14 +12,14 @@ collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 softbody/mesh:
-softbody/state: softbody/mesh
-softbody/model: collide/core collide/surface softbody/mesh softbody/state
+softbody/model: collide/core collide/surface softbody/mesh
+softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
 softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
-softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
+softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
+softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
+softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 engine:
 engine/render: engine

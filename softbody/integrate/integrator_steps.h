@@ -25,9 +25,9 @@ void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep)
 void xpbd(Motion& motion, const Worker& worker, const Substep& substep);
 
 /// Where nothing touches: the L-stable diagonally implicit Runge-Kutta method of second order with two stages
-/// (Alexander 1977), both with the same matrix. Where bodies touch or its solves do not converge: backward Euler,
-/// contacts in the solve. Both in a frame that moves with the body. Linear and angular momentum are restored after each
-/// step in which no solid pushes.
+/// (Alexander 1977), both with the same matrix. Elsewhere: backward Euler with contact in the solve. Both in a frame
+/// that moves with the body. implicit/attempts.h says what is tried in which order. Linear and angular momentum are
+/// restored after each step in which no solid pushes.
 void implicit_step(Motion& motion, const Worker& worker, const Substep& substep);
 
 }  // namespace softbody
