@@ -205,7 +205,6 @@ std::vector<PairEnergy> PenaltyContact::energies(Field<const float> x) const {
   return list;
 }
 
-/// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
 void PenaltyContact::carry_over(std::span<const PenaltyPair> before) {
   auto old = before.begin();
   for (PenaltyPair& p : pairs) {

@@ -76,6 +76,8 @@ struct PenaltyContact {
   /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to them.
   /// thickness: of the contact layer, m. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, float thickness);
+  /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
+  void carry_over(std::span<const PenaltyPair> before);
   /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
   void locate(const State& state);
   /// Returns the ends of pairs that fall to a batch.
@@ -97,7 +99,6 @@ struct PenaltyContact {
 
  private:
   void add_pairs(const DetectedContacts& detected, const State& state);
-  void carry_over(std::span<const PenaltyPair> before);
   void group(const State& state);
 
   static constexpr float sticking_damping = 0.5f;  // across n, over k h / v

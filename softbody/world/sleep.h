@@ -1,8 +1,8 @@
 #pragma once
 // Puts bodies at rest to sleep. Islands of touching bodies fall asleep together, so that no sleeper loses its support.
 
-#include "collide/core/detector.h"
-#include "collide/surface/surface_search.h"
+#include "collide/methods.h"
+#include "softbody/contact/surface_contact.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/state.h"
 
