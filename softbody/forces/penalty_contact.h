@@ -14,6 +14,7 @@
 // surfaces' normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between
 // the two. k is shared among the contacts of a particle: a wide contact layer is not stiffer.
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -23,6 +24,7 @@
 
 #include "collide/core/detector.h"
 #include "softbody/forces/pair_energy.h"
+#include "softbody/model/key.h"
 #include "softbody/state/body.h"
 #include "softbody/state/lanes.h"
 
@@ -47,6 +49,12 @@ struct PenaltyEnd {
 };
 
 struct PenaltyContact {
+  static constexpr auto stiffness =
+      Key("contact_stiffness", "N/m", 100, {0, 1e9},
+          "Stiffness of vertex-vertex contact (§2.3), shared among the contacts of a vertex.",
+          {"Contact", "%.0f N/m", 1, 1000, true}, {.place = 30});
+  static constexpr std::array keys{&stiffness};
+
   static constexpr float rebound_speed = 2.0f;   // v, m/s
   static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
   float thickness = 0;                           // h, m
