@@ -5,7 +5,7 @@
 
 #include "softbody/model/key.h"
 
-namespace softbody::law {
+namespace softbody::contact {
 
 inline constexpr auto rebound_speed =
     Key("rebound_speed", "m/s", 0, {0, 1e6},
@@ -22,4 +22,4 @@ inline constexpr auto rolling_resistance =
         {"Rolling", "%.2f", 0, 1}, {.place = 25});
 inline constexpr std::array keys{&rebound_speed, &friction, &restitution, &rolling_resistance};
 
-}  // namespace softbody::law
+}  // namespace softbody::contact

@@ -17,6 +17,8 @@
 
 namespace softbody {
 
+inline constexpr double mesh_file_shape_frequency = 10;  // Hz
+
 struct ShapeMatching {
   static constexpr auto frequency =
       Key("shape_frequency", "Hz", not_given, {0, 1e3},

@@ -17,17 +17,17 @@ struct StructuralSprings {
       Key("structural.stiffness", "N/m", 300, spring_stiffness, "Stiffness of the springs along the edges of the mesh.",
           {"Springs", "%.0f N/m", 10, 3000, true});
   static constexpr auto damping_ratio =
-      Key("structural.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of these springs. 1 is critical damping.",
-          {"  damping", "%.2f", 0, 1});
+      Key("structural.damping_ratio", "", 0.1, spring_damping_ratio,
+          "Damping of the structural springs. 1 is critical damping.", {"  damping", "%.2f", 0, 1});
   static constexpr std::array keys{&stiffness, &damping_ratio};
 };
 
 /// Between the two vertices opposite an edge; on grids over one particle.
 struct BendSprings {
-  static constexpr auto stiffness =
-      Key("bend.stiffness", "N/m", 75, spring_stiffness,
-          "Stiffness of the springs between the two vertices opposite an edge. They resist folding.",
-          {"Bend springs", "%.1f N/m", 0, 1000, true});
+  static constexpr auto stiffness = Key("bend.stiffness", "N/m", 75, spring_stiffness,
+                                        "Stiffness of the springs between the two vertices opposite an edge, on grids "
+                                        "over one vertex. They resist folding.",
+                                        {"Bend springs", "%.1f N/m", 0, 1000, true});
   static constexpr auto damping_ratio =
       Key("bend.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of the bend springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/dynamics.h"
 
 namespace softbody {
@@ -60,7 +61,7 @@ SubstepBound Dynamics::bound(double seconds) const {
     double damper = p.spring_damping_bound;
     lone_step = std::min(lone_step, integrator_->stable_step(stiffest, damper / p.particle_mass));
     if (!penalty_.pairs.empty()) {
-      const auto k = static_cast<float>(p.material.contact_stiffness);
+      const auto k = static_cast<float>(p.material[PenaltyContact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
       const float* own = penalty_damping_.data() + b.base;
       damper += double(*std::max_element(own, own + b.values()));

@@ -5,7 +5,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/dynamics.h"
 
 namespace softbody {
@@ -67,9 +69,9 @@ void Dynamics::find_pairs(const DetectedContacts& detected, std::vector<std::uin
                      .body_b = b,
                      .offset = glm::vec3(bodies_[a].origin - bodies_[b].origin),
                      .normal = {},
-                     .stiffness = float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
+                     .stiffness = float(std::min(ma[PenaltyContact::stiffness], mb[PenaltyContact::stiffness]) /
                                         double(std::max(contacts_of[c.a], contacts_of[c.b]))),
-                     .friction = float(law::common_friction(ma.friction, mb.friction))};
+                     .friction = float(law::common_friction(ma[contact::friction], mb[contact::friction]))};
     pair.normal = contact_normal(pair, va, vb);
     pairs.push_back(pair);
   }
@@ -149,11 +151,11 @@ void Dynamics::find_surface_contacts(double left, double ahead, double least) {
     const Body& body = bodies_[id];
     const BodyModel& p = model(id);
     const auto edge = float(p.mean_edge);
-    const float margin = std::clamp(0.5f * float(p.material.thickness), 0.001f * edge, 0.1f * edge);
+    const float margin = std::clamp(0.5f * float(p.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
     traits.push_back({p.surface.get(), margin, 0, edge, body.moves()});
     contacts.push_back({body.origin, slot(body, 0), std::size_t(batches_[body.batch].width),
-                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material.friction),
-                        float(p.material.restitution), &p.shape->rest()});
+                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
+                        float(p.material[contact::restitution]), &p.shape->rest()});
   }
   surface_.find(motion, std::move(traits), std::move(contacts),
                 {float(left), float(least), self_contact_, max_work_.candidates(n)}, float(ahead), crew_.workers());

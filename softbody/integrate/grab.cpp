@@ -23,7 +23,7 @@ bool Dynamics::is_grabbed(const Batch& b) const { return &batches_[bodies_[grab_
 
 /// The force on the point, which everything else would let go at `velocity` after a step of h.
 glm::dvec3 Dynamics::grab_pull(const BodyModel& p, float h, const glm::dvec3& velocity) const {
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = p.material.mass;  // 1/s, kg
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = p.material[Material::mass];  // 1/s, kg
   const double point_mass = p.particle_mass / glm::dot(grab_->weights, grab_->weights);
   return softbody::pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, double(h),
                         grab_->target - grabbed_point(), velocity);

@@ -61,7 +61,7 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
   bool any = false;
   for (int l = 0; l < b.used; ++l) any = any || near(l);
   if (!any) return;
-  const double thickness = b.model->material.thickness;
+  const double thickness = b.model->material[Material::thickness];
   SolidArguments& s = b.near_solids.emplace_back();
   s.particles = b.particles();
   s.mass = float(b.model->particle_mass);
@@ -93,7 +93,7 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
 double Dynamics::max_travel(const Batch& b, const Extent& e, int lane, double seconds) const {
   const double fall = glm::length(scene_.gravity) * seconds;
   return (2 * std::sqrt(double(e.length2[lane])) + fall) * seconds + 0.1 * b.model->radius +
-         b.model->material.thickness;
+         b.model->material[Material::thickness];
 }
 
 }  // namespace softbody

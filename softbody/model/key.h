@@ -42,6 +42,14 @@ struct Key {
                 Slider shown = {}, KeyOptions more = {})
       : name(n), unit(u), fallback(value), limits(allowed), summary(text), slider(shown), options(more) {}
   Key(const Key&) = delete;
+
+  /// Returns the name of the inline table in files that holds the key; empty if none does.
+  constexpr std::string_view table() const { return name.substr(0, last_part() > 0 ? last_part() - 1 : 0); }
+  /// Returns the key's name in its table.
+  constexpr std::string_view own_name() const { return name.substr(last_part()); }
+
+ private:
+  constexpr std::size_t last_part() const { return name.find('.') + 1; }  // 0 if there is no dot: npos + 1
 };
 
 }  // namespace softbody

@@ -5,7 +5,9 @@
 #include <sstream>
 #include <utility>
 
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
+#include "softbody/forces/penalty_contact.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_state.h"
 
@@ -58,9 +60,9 @@ World::State::State(Scene s, const Options& o)
 /// Returns the substeps that one frame needs for a contact layer of `thickness` (m).
 double World::State::needed_substeps(const BodyModel& p, float thickness) const {
   double max_friction = 0;
-  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m.friction);
-  const auto contact = float(p.material.contact_stiffness);
-  const auto friction = float(law::common_friction(p.material.friction, max_friction));
+  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m[contact::friction]);
+  const auto contact = float(p.material[PenaltyContact::stiffness]);
+  const auto friction = float(law::common_friction(p.material[contact::friction], max_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
   const double own = p.spring_damping_bound, all = own + PenaltyContact::damping_bound(contact, friction, thickness);
