@@ -2,7 +2,6 @@
 // The table of forces. A force is a struct in a file of its own, and its name in this list.
 
 #include "softbody/forces/gas.h"
-#include "softbody/forces/penalty_contact.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"
 
@@ -11,6 +10,6 @@ namespace softbody {
 template <class... Force>
 struct List {};
 
-using Forces = List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching, PenaltyContact>;
+using Forces = List<StructuralSprings, BendSprings, ShearSprings, GasPressure, ShapeMatching>;
 
 }  // namespace softbody

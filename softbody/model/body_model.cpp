@@ -9,8 +9,8 @@
 #include <glm/geometric.hpp>
 
 #include "collide/surface/surface.h"
+#include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
-#include "softbody/forces/penalty_contact.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/forces/springs.h"
 #include "softbody/model/spring_bound.h"
@@ -57,7 +57,7 @@ Material for_mesh(Material m, const MeshSource& source) {
   constexpr double stated_for = 162, finest = 2000;  // vertices
   if (source.kind != "file") return m;
   const auto count = static_cast<double>(source.vertex_count());
-  m[PenaltyContact::stiffness] *= std::min(1.0, stated_for / count);
+  m[contact::stiffness] *= std::min(1.0, stated_for / count);
   for (const Key* key : {&StructuralSprings::stiffness, &BendSprings::stiffness, &ShearSprings::stiffness})
     m[*key] *= std::min(1.0, finest / count);
   return m;

@@ -2,7 +2,7 @@
 
 #include <mutex>
 
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 
 namespace softbody {
 namespace {

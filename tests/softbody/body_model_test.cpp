@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/model/spring_bound.h"
 #include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"

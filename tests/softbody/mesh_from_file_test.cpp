@@ -6,8 +6,8 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/equilibrium.h"
 #include "softbody/mesh/obj_file.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

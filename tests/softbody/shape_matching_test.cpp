@@ -7,8 +7,8 @@
 #include <glm/matrix.hpp>
 
 #include "softbody/forces/best_rotation.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/equilibrium.h"
 #include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 

@@ -140,27 +140,27 @@ glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneCo
 
 /// The prediction stops as one where planes stop it: behind, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
-  std::array<bool, lanes> any{};
-  for (const PlaneContact& c : *p.planes) any[c.at % lanes] = true;
+  LaneMask any;
+  for (const PlaneContact& c : p.planes) any.set(c.at % lanes);
   for (std::size_t l = 0; l < lanes; ++l) {
     if (!any[l]) continue;
     glm::dvec3 meant(0.0);
     for (std::size_t i = l; i < stride_; i += lanes) meant += moved(p, x_, i) / double(particles_);
     const glm::dvec3 less =
-        stop_at(*p.planes, l, p.h, meant, [&](std::size_t i) { return moved(p, x_, i * lanes + l) - meant; }) - meant;
+        stop_at(p.planes, l, p.h, meant, [&](std::size_t i) { return moved(p, x_, i * lanes + l) - meant; }) - meant;
     for (std::size_t i = l; i < stride_; i += lanes) add(x_, i, less);
   }
 }
 
 /// Rounds that each leave a fraction of the error where the matrix says what the body does. Returns in which lanes they
 /// have come to an end.
-std::array<bool, lanes> ImplicitSolver::solve_contact_forces(const ImplicitProblem& p) {
+LaneMask ImplicitSolver::solve_contact_forces(const ImplicitProblem& p) {
   constexpr int max_rounds = 30, look_every = 2;
   constexpr double enough_progress = 0.25;  // of the moves are left: where it is more, the end would not be reached
   const double enough = held_within * p.model.radius;
   contact_springs_ = false;
-  std::array<bool, lanes> held{};
-  given_up_ = {};
+  LaneMask held;
+  given_up_.reset();
   moves_left_.fill(max_moves);
   PerLane last;
   last.fill(none_found);
@@ -185,13 +185,13 @@ std::array<bool, lanes> ImplicitSolver::solve_contact_forces(const ImplicitProbl
 void ImplicitSolver::solve_penalty(const ImplicitProblem& p) {
   constexpr int max_rounds = 8;
   contact_springs_ = true;
-  given_up_ = {};
+  given_up_.reset();
   moves_left_.fill(max_moves);
   for (int round = 0; round < max_rounds; ++round) {
     project_contacts(p);
     const bool settled = minimise(p, iterations_of_round);
     double most = 0;
-    for (PlaneContact& c : *p.planes) {
+    for (PlaneContact& c : p.planes) {
       const glm::dvec3 force = contact_force(p, c, moved(p, x_, c.at));
       most = std::max(most, glm::length(force - c.force));
       c.force = force;
@@ -205,12 +205,11 @@ void ImplicitSolver::solve_penalty(const ImplicitProblem& p) {
 ImplicitSolver::PerLane ImplicitSolver::project_contacts(const ImplicitProblem& p) {
   PerLane moved{}, once;
   direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move
-  std::vector<PlaneContact>& planes = *p.planes;
-  for (std::size_t first = 0; first < planes.size();) {
-    const std::size_t lane = planes[first].at % lanes;
+  for (std::size_t first = 0; first < p.planes.size();) {
+    const std::size_t lane = p.planes[first].at % lanes;
     std::size_t end = first;
-    while (end < planes.size() && planes[end].at % lanes == lane) ++end;
-    if (!given_up_[lane]) moved[lane] = project_contacts_of_lane(p, std::span(planes).subspan(first, end - first));
+    while (end < p.planes.size() && p.planes[end].at % lanes == lane) ++end;
+    if (!given_up_[lane]) moved[lane] = project_contacts_of_lane(p, p.planes.subspan(first, end - first));
     first = end;
   }
   if (std::ranges::max(moved) <= 0) return moved;

@@ -1,7 +1,7 @@
 #pragma once
 // Energy balance of implicit steps.
 
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/work.h"
 
 namespace softbody {
 

@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/equilibrium.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {

@@ -7,7 +7,6 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-#include "softbody/contact/law.h"
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/shape_matching.h"
 
@@ -23,11 +22,6 @@ ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernel
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * stride_);
-}
-
-ImplicitWork::ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels) {
-  for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a, &frame_displacement})
-    lane_field->resize(3 * model.mesh.vertices.size() * lanes);
 }
 
 ImplicitSolver::PerLane ImplicitSolver::product(const Lanes& a, const Lanes& b) const {
@@ -97,20 +91,9 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
 
 void ImplicitSolver::add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f) {
   constexpr double work_of_a_force = 1.0 / 32;  // of an iteration for one particle in all lanes, about
-  work_ += double(p.planes->size() + p.penalty_pairs->size()) * work_of_a_force;
-  for (const PlaneContact& c : *p.planes) add(f, c.at, contact_force(p, c, moved(p, x, c.at)));
-  for (const LinearPenaltyPair& s : *p.penalty_pairs) add(f, s.at, s.force_after(moved(p, x, s.at)));
-}
-
-glm::dvec3 LinearPenaltyPair::force_after(const glm::dvec3& moved) const {
-  const glm::dvec3 apart = moved - partner, faster = apart - start_separation;
-  const double push = glm::dot(force, normal);
-  const double press = std::max(
-      0.0, push - double(slopes.spring) * glm::dot(apart, normal) - double(slopes.damper) * glm::dot(faster, normal));
-  const auto across = [this](const glm::dvec3& v) { return v - glm::dot(v, normal) * normal; };
-  // The friction spring of the start has slipped for this step already, see PenaltyContact::evaluate().
-  const glm::dvec3 drag = across(force) - double(slopes.across_spring + slopes.across_damper) * across(faster);
-  return press * normal + law::within_cone(drag, friction * press);
+  work_ += double(p.planes.size() + p.penalty_pairs.size()) * work_of_a_force;
+  for (const PlaneContact& c : p.planes) add(f, c.at, contact_force(p, c, moved(p, x, c.at)));
+  for (const LinearPenaltyPair& s : p.penalty_pairs) add(f, s.at, s.force_after(moved(p, x, s.at)));
 }
 
 /// q = A^-1 q
@@ -206,7 +189,7 @@ void ImplicitSolver::remember() {
 bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
   const double enough = 1e-9 * p.model.radius;
   gradient(p, x_, gradient_);
-  converged_.fill(false);
+  converged_.reset();
   for (int i = 0; i < iterations; ++i) {
     work_ += double(particles_);
     direction(p);
@@ -215,12 +198,8 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
     std::swap(x_, trial_);
     std::swap(gradient_, trial_gradient_);
     const PerLane square = product(steps_[newest_], steps_[newest_]);
-    bool all = true;
-    for (std::size_t l = 0; l < lanes; ++l) {
-      converged_[l] = square[l] <= enough * enough * double(particles_);
-      all = all && converged_[l];
-    }
-    if (all) return true;
+    for (std::size_t l = 0; l < lanes; ++l) converged_[l] = square[l] <= enough * enough * double(particles_);
+    if (converged_.all()) return true;
   }
   return false;
 }
@@ -230,21 +209,21 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   predict(p);
   if (p.matrix.rotates()) fit_rotation(p);
   if (!p.model.goal.empty()) place_goal(p);
-  if (p.planes->empty()) {
+  if (p.planes.empty()) {
     minimise(p, max_iterations);
     return x_;
   }
-  const std::array<bool, lanes> held = solve_contact_forces(p);
-  if (std::ranges::find(held, false) == held.end()) return x_;
+  const LaneMask held = solve_contact_forces(p);
+  if (held.all()) return x_;
   const Lanes found = x_;
-  const std::vector<PlaneContact> planes_before = *p.planes;
-  for (PlaneContact& c : *p.planes) c.force = glm::dvec3(0.0);
+  const std::vector<PlaneContact> planes_before(p.planes.begin(), p.planes.end());
+  for (PlaneContact& c : p.planes) c.force = glm::dvec3(0.0);
   predict(p);
   solve_penalty(p);
   for (std::size_t i = 0; i < found.size(); ++i)
     if (held[i % lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)
-    if (held[planes_before[i].at % lanes]) (*p.planes)[i] = planes_before[i];
+    if (held[planes_before[i].at % lanes]) p.planes[i] = planes_before[i];
   return x_;
 }
 

@@ -16,61 +16,38 @@
 // bodies enter to first order.
 
 #include <array>
-#include <functional>
 #include <memory>
+#include <span>
 #include <utility>
 
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/implicit/contacts.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
 
-/// The plane of a solid that a particle must stay in front of, and the contact force.
-struct PlaneContact {
-  std::size_t at;  // particle * lanes + lane
-  double friction, restitution;
-  glm::dvec3 normal;        // unit
-  double min_displacement;  // m, that the particle has to move along the normal in this step
-  double out;               // m, what of that takes it out of the solid
-  glm::dvec3 force{0.0};    // N
-};
-
-/// The penalty contact between a particle of the batch and one of another body, to first order.
-struct LinearPenaltyPair {
-  std::size_t at;     // particle * lanes + lane
-  glm::dvec3 normal;  // unit, towards the particle
-  PenaltyContact::Slopes slopes;
-  glm::dvec3 force{0.0};  // N, on it at the start
-  double friction = 0;
-  glm::dvec3 partner{0.0};           // m, how far the other particle is taken to move
-  glm::dvec3 start_separation{0.0};  // m, how far the two separate at the first velocities; in `force`
-  double max_work = 0;               // J, that it can do in the step, whatever force_after() says
-
-  /// Returns the force (N) after the particle has moved by u. It never pulls, and friction does not exceed its limit.
-  glm::dvec3 force_after(const glm::dvec3& u) const;
-};
-
+/// The problem of one step, in the frames of the lanes.
 struct ImplicitProblem {
   const BodyModel& model;
   const ImplicitMatrix& matrix;
-  double h;                           // s
-  const float* moves;                 // lanes values
-  const Lanes *x, *v;                 // at the start
-  const Lanes* a;                     // m/s^2, what acts beside the forces
-  const Lanes* frame_displacement;    // m, what particles move without leaving their places here (implicit/frames.h)
-  std::vector<PlaneContact>* planes;  // ordered by lanes; their forces are filled in
-  const std::vector<LinearPenaltyPair>* penalty_pairs;
+  double h;                          // s
+  const float* moves;                // lanes values
+  const Lanes *x, *v;                // at the start
+  const Lanes* a;                    // m/s^2, what acts beside the forces
+  const Lanes* frame_displacement;   // m, what particles move without leaving their places here (implicit/frames.h)
+  std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
+  std::span<const LinearPenaltyPair> penalty_pairs{};
 };
 
 class ImplicitSolver {
  public:
   ImplicitSolver(const BodyModel& model, const ImplicitKernels& kernels);
 
-  /// Solves a step and returns the positions at its end. converged(lane): their error is below 1e-9 of the radius.
+  /// Solves a step and returns the positions at its end.
   const Lanes& solve(const ImplicitProblem& problem);
-  bool converged(int lane) const { return converged_[std::size_t(lane)]; }
+  /// Returns the lanes whose positions have, at the end of the last solve, an error below 1e-9 of the radius.
+  LaneMask converged() const { return converged_; }
   /// Returns the work since the last call: iterations times particles, and other work in the same unit.
   double take_work() { return std::exchange(work_, 0.0); }
 
@@ -92,7 +69,7 @@ class ImplicitSolver {
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
-  std::array<bool, lanes> solve_contact_forces(const ImplicitProblem& p);
+  LaneMask solve_contact_forces(const ImplicitProblem& p);
   void solve_penalty(const ImplicitProblem& p);
   PerLane project_contacts(const ImplicitProblem& p);
   double project_contacts_of_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
@@ -115,23 +92,11 @@ class ImplicitSolver {
   std::size_t remembered_ = 0, newest_ = 0;
   PerLane step_{}, max_step_{};  // max_step: m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][lanes];
-  bool contact_springs_ = false;        // while they lead
-  std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
-  std::array<bool, lanes> converged_{};
+  bool contact_springs_ = false;  // while they lead
+  LaneMask given_up_;             // where contact forces by the matrix cannot be found
+  LaneMask converged_;
   PerLane moves_left_{};  // by contacts, before they are given up
   double work_ = 0;
-};
-
-/// Workspace in which a thread solves the batches of one body model.
-struct ImplicitWork {
-  ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels);
-  ImplicitSolver solver;
-  Lanes x, v, end_x, end_v;                  // in the world
-  Lanes local_x, local_v, stage_x, stage_v;  // in the lanes' frames
-  Lanes a, stage_a, frame_displacement;
-  std::array<float, lanes> moves{};
-  std::vector<PlaneContact> planes;
-  std::vector<LinearPenaltyPair> penalty_pairs;
 };
 
 }  // namespace softbody

@@ -1,0 +1,51 @@
+#include "softbody/forces/hand.h"
+
+#include <cassert>
+#include <cmath>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+
+namespace softbody {
+
+void Hand::take(const std::optional<Grab>& grab) {
+  assert(!grab || std::abs(grab->weights.x + grab->weights.y + grab->weights.z - 1) < 1e-6);
+  grab_ = grab;
+}
+
+void Hand::remove(BodyId body) {
+  if (holds(body)) grab_.reset();
+  if (grab_ && grab_->body > body) --grab_->body;
+}
+
+/// On the point, which everything else would let go at `velocity` after a step of h.
+glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material[Material::mass];  // 1/s, kg
+  const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
+  glm::dvec3 point(0.0);
+  for (int i = 0; i < 3; ++i) point += grab_->weights[i] * (body.origin + body.x(grab_->corners[std::size_t(i)]));
+  return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, h, grab_->target - point,
+              velocity);
+}
+
+void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) const {
+  assert(grab_ && h > 0);
+  const double h_over_mass = h / body.model.particle_mass;
+  glm::dvec3 velocity = h * gravity;
+  for (int i = 0; i < 3; ++i) {
+    const std::size_t corner = grab_->corners[std::size_t(i)];
+    velocity += grab_->weights[i] * (body.v(corner) + h_over_mass * body.f(corner));
+  }
+  const glm::dvec3 pulled = force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * pulled);
+}
+
+void Hand::add_impulse(const HeldBody& body, double h) const {
+  assert(grab_ && h > 0);
+  glm::dvec3 velocity(0.0);
+  for (int i = 0; i < 3; ++i) velocity += grab_->weights[i] * body.v(grab_->corners[std::size_t(i)]);
+  const glm::dvec3 change = h / body.model.particle_mass * force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.v.add(grab_->corners[std::size_t(i)], grab_->weights[i] * change);
+}
+
+}  // namespace softbody
