@@ -4,6 +4,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
+# model/body_model.cpp still makes the data of the forces.
 allowed="
 collide/core:
 collide/methods: collide/core
@@ -12,7 +13,7 @@ collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 softbody/mesh:
-softbody/model: collide/core collide/surface softbody/mesh
+softbody/model: collide/core collide/surface softbody/mesh softbody/contact softbody/forces
 softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
@@ -47,9 +48,10 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/isa state/lane_math state/lanes
-model/material model/body_model model/scene_error
-contact/contacts contact/law contact/solid contact/solid_surface
-forces/best_rotation forces/grab forces/pair_energy
+model/key model/material model/body_model model/scene_error
+contact/contacts contact/keys contact/law contact/solid contact/solid_surface
+forces/best_rotation forces/gas forces/grab forces/kernel_types forces/material_keys forces/pair_energy
+forces/shape_matching forces/springs
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
 world/measures world/body_model_set world/snapshot world/world

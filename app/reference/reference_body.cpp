@@ -105,10 +105,11 @@ std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
 /// Corrects the velocities for the coming h seconds: no particle gets below a surface, and one that is below rises with
 /// at most 1 m/s and a tenth of its depth per step. Coulomb friction acts in proportion to the correction.
 void ReferenceBody::collide_with_solids(const std::vector<dvec3>& x, std::vector<dvec3>& v, double h) const {
+  const double thickness = model_.material[softbody::Material::thickness];
   softbody::for_each_solid(scene_, [&](const auto& solid) {
     for (std::size_t i = 0; i < x.size(); ++i) {
       const softbody::SolidSurface s = softbody::surface_at(solid, x[i]);
-      const double gap = s.distance - model_.material.thickness;
+      const double gap = s.distance - thickness;
       const double min_up = gap > 0 ? -gap / h : std::min(-0.1 * gap / h, 1.0);
       const double up = glm::dot(v[i], s.normal);
       if (up >= min_up) continue;

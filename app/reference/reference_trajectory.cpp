@@ -33,9 +33,10 @@ double longest_step(const ReferenceBody& body, const BodyState& s) {
 
 double unsettled_speed(const ReferenceBody& body, const BodyState& s) {
   const softbody::Scene& scene = body.scene();
-  const bool free = scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
-                      return softbody::solid_depth(scene, p).depth > -body.model().material.thickness;
-                    });
+  const bool free =
+      scene.gravity == glm::dvec3(0.0) && std::ranges::none_of(s.x, [&](const glm::dvec3& p) {
+        return softbody::solid_depth(scene, p).depth > -body.model().material[softbody::Material::thickness];
+      });
   return free ? deformation_speed(s) : rms_distance(s.v, std::vector<glm::dvec3>(s.v.size(), glm::dvec3(0.0)));
 }
 

@@ -10,12 +10,17 @@
 #include <glm/vec3.hpp>
 
 #include "app/base/text.h"
+#include "softbody/contact/keys.h"
+#include "softbody/forces/springs.h"
 #include "softbody/mesh/obj_file.h"
 #include "softbody/model/body_model.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
 
 namespace app::session {
+
+using softbody::Material;
+
 namespace {
 
 constexpr std::size_t many_vertices = 10'000;
@@ -84,17 +89,17 @@ softbody::BodySource place_above(const softbody::World& world, softbody::MeshSou
   return body;
 }
 
-softbody::Material imported_material(double extent) {
+Material imported_material(double extent) {
   assert(extent > 0);
-  softbody::Material m;
+  Material m;
   m.name = "imported";
-  m.mass = std::clamp(extent * extent * extent, 0.01, 1000.0);
-  m.structural = {200 * m.mass, 0.1};
-  m.bend = {50 * m.mass, 0.1};
-  m.contact_stiffness = 100 * m.mass;
-  m.internal_damping = 10;
-  m.rebound_speed = 2;
-  m.rolling_resistance = 0.3;
+  m[Material::mass] = std::clamp(extent * extent * extent, 0.01, 1000.0);
+  m.set(softbody::StructuralSprings::keys, {200 * m[Material::mass], 0.1});
+  m.set(softbody::BendSprings::keys, {50 * m[Material::mass], 0.1});
+  m[softbody::contact::stiffness] = 100 * m[Material::mass];
+  m[Material::internal_damping] = 10;
+  m[softbody::contact::rebound_speed] = 2;
+  m[softbody::contact::rolling_resistance] = 0.3;
   return m;
 }
 
@@ -181,7 +186,7 @@ void Import::enter(Session& session, FileReader::World answer) {
 void Import::join(Session& session, FileReader::Mesh read) {
   const std::string name = read.mesh.file.path.filename().string();
   std::vector<std::string> lines = lines_about(read, session.world());
-  softbody::Material material = imported_material(read.mesh.imported->findings.extent);
+  Material material = imported_material(read.mesh.imported->findings.extent);
   session.bodies.add(place_above(session.world(), std::move(read.mesh)), std::move(material));
   Notice& notice = session.simulation.notice;
   if (notice.is_error()) {

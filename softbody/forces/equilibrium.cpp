@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/forces/gas.h"
 #include "softbody/forces/kernel_bodies.h"
 #include "softbody/forces/shape_matching.h"
 #include "softbody/model/scene_error.h"
@@ -94,7 +95,7 @@ class Relaxation {
 std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vector<glm::dvec3>& from) {
   Relaxation relaxation(model, from);
   const double scale = (model.spring_stiffness_bound + std::abs(model.gas.ambient) * model.radius +
-                        model.material.gas_pressure * model.radius) *
+                        model.material[GasPressure::inside] * model.radius) *
                        model.radius;
   // Half of what is stable: the kinetic energy has a peak to be found only where a swing takes more than a few steps.
   const double h = 0.5 * stable_step(stiffness_per_mass(model, measure_surface(model, model.mesh.vertices)), 0);
@@ -112,7 +113,7 @@ std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vect
 
 std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material) {
   auto p = make_unbalanced_body_model(mesh, material);
-  if (!material.start_in_equilibrium || !p->has_gas) return p;
+  if (material[Material::start_in_equilibrium] == 0 || !p->has_gas) return p;
   p->start = find_equilibrium(*p, p->mesh.vertices);
   p->start_volume = volume(p->start, p->mesh.triangles);
   return p;

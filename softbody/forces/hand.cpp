@@ -20,7 +20,7 @@ void Hand::remove(BodyId body) {
 
 /// On the point, which everything else would let go at `velocity` after a step of h.
 glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material.mass;  // 1/s, kg
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material[Material::mass];  // 1/s, kg
   const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
   glm::dvec3 point(0.0);
   for (int i = 0; i < 3; ++i) point += grab_->weights[i] * (body.origin + body.x(grab_->corners[std::size_t(i)]));

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
 
 namespace softbody {
@@ -56,6 +57,12 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
   const auto still = [&state, bodies = vertex_body](const collide::Contact& c) {
     return !state.body(bodies[c.a]).moves() && !state.body(bodies[c.b]).moves();
   };
+  const auto of_bodies = [&state, &vertices](const Key& key) {
+    std::vector<double> values;
+    for (BodyId body = 0; body < vertices.count(); ++body) values.push_back(state.model(body).material[key]);
+    return values;
+  };
+  const std::vector<double> stiffness = of_bodies(contact::stiffness), friction = of_bodies(contact::friction);
   std::vector<std::uint32_t> contacts_of(vertex_body.size(), 0);  // of each vertex
   for (const collide::Contact& c : contacts) {
     if (still(c)) continue;
@@ -66,20 +73,18 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
     if (still(c)) continue;
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     const Index va = c.a - vertices.first[a], vb = c.b - vertices.first[b];
-    const Material &ma = state.model(a).material, &mb = state.model(b).material;
-    PenaltyPair& pair =
-        pairs.emplace_back(PenaltyPair{.contact = c,
-                                       .body_a = a,
-                                       .body_b = b,
-                                       .vertex_a = va,
-                                       .vertex_b = vb,
-                                       .slot_a = state.slot(a, va),
-                                       .slot_b = state.slot(b, vb),
-                                       .offset = glm::vec3(state.body(a).origin - state.body(b).origin),
-                                       .normal = {},
-                                       .stiffness = float(std::min(ma.contact_stiffness, mb.contact_stiffness) /
-                                                          double(std::max(contacts_of[c.a], contacts_of[c.b]))),
-                                       .friction = float(law::common_friction(ma.friction, mb.friction))});
+    PenaltyPair& pair = pairs.emplace_back(PenaltyPair{
+        .contact = c,
+        .body_a = a,
+        .body_b = b,
+        .vertex_a = va,
+        .vertex_b = vb,
+        .slot_a = state.slot(a, va),
+        .slot_b = state.slot(b, vb),
+        .offset = glm::vec3(state.body(a).origin - state.body(b).origin),
+        .normal = {},
+        .stiffness = float(std::min(stiffness[a], stiffness[b]) / double(std::max(contacts_of[c.a], contacts_of[c.b]))),
+        .friction = float(law::common_friction(friction[a], friction[b]))});
     pair.normal = contact_normal(state, pair);
   }
 }

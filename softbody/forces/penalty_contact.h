@@ -37,13 +37,13 @@ struct DetectedContacts {
 struct PenaltyPair {
   collide::Contact contact;  // the two vertices, over the whole world
   BodyId body_a, body_b;
-  Index vertex_a, vertex_b;       // of their bodies
-  std::size_t slot_a, slot_b;     // in the state's arrays
-  glm::vec3 offset;               // origin of a minus origin of b, m
-  glm::vec3 normal;         // unit, from b to a
-  float stiffness;          // N/m
-  float friction;           // Coulomb
-  glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
+  Index vertex_a, vertex_b;    // of their bodies
+  std::size_t slot_a, slot_b;  // in the state's arrays
+  glm::vec3 offset;            // origin of a minus origin of b, m
+  glm::vec3 normal;            // unit, from b to a
+  float stiffness;             // N/m
+  float friction;              // Coulomb
+  glm::vec3 stretch{0.0f};     // of the friction spring, m: how far a has slipped along b
 };
 
 /// The end of a pair that falls to one batch.
@@ -73,8 +73,8 @@ struct PenaltyContact {
     float across_spring, across_damper;  // while it sticks
   };
   Slopes slopes(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
-  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to them.
-  /// thickness: of the contact layer, m. The contacts ascend.
+  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
+  /// them. thickness: of the contact layer, m. The contacts ascend.
   void find(const DetectedContacts& detected, const State& state, float thickness);
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
   void carry_over(std::span<const PenaltyPair> before);

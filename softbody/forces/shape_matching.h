@@ -9,10 +9,24 @@
 // minimise, so it changes neither linear nor angular momentum. A maximum over rotations is convex in x, so w^2 bounds
 // the stiffness over mass in every state.
 
+#include <array>
+
 #include "softbody/forces/kernel_types.h"
 #include "softbody/model/body_model.h"
+#include "softbody/model/key.h"
 
 namespace softbody {
+
+inline constexpr double mesh_file_shape_frequency = 10;  // Hz
+
+struct ShapeMatching {
+  static constexpr auto frequency =
+      Key("shape_frequency", "Hz", not_given, {0, 1e3},
+          "Frequency with which a single particle swings about its place in the mesh's own shape. 0: the body does not "
+          "keep its shape by itself.",
+          {}, {.place = 40, .if_missing = "10 for meshes from files, else 0"});
+  static constexpr std::array keys{&frequency};
+};
 
 /// Finds the pose of the goal shape in each of the first `used` lanes; the other lanes of `pose` are not changed.
 template <class Real>

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include "softbody/contact/keys.h"
 
 namespace softbody {
 
@@ -64,11 +65,11 @@ double ContactPass::find(double left, double ahead, double least, std::size_t ma
     const Body& body = state_.body(id);
     const BodyModel& p = state_.model(id);
     const auto edge = float(p.mean_edge);
-    const float margin = std::clamp(0.5f * float(p.material.thickness), 0.001f * edge, 0.1f * edge);
+    const float margin = std::clamp(0.5f * float(p.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
     traits.push_back({p.surface.get(), margin, 0, edge, body.moves()});
     contacts.push_back({body.origin, state_.slot(id, 0), std::size_t(state_.batch_of(id).width),
-                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material.friction),
-                        float(p.material.restitution), &p.shape->rest()});
+                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
+                        float(p.material[contact::restitution]), &p.shape->rest()});
   }
   surfaces_.find(motion(now), std::move(traits), std::move(contacts),
                  {float(left), float(least), scene_.collision.self_collision, max_candidates}, float(ahead),

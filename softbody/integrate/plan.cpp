@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "softbody/contact/keys.h"
 #include "softbody/model/body_model.h"
 #include "softbody/scene/solids.h"
 
@@ -78,14 +79,16 @@ const char* restitution(const Facts& f) {
 const char* ground(const Facts& f) { return f.scene.ground ? nullptr : "the scene has no ground"; }
 
 const char* damping(const Facts& f) {
-  return f.any([](const BodyModel& p) { return p.material.internal_damping > 0; }) ? nullptr
-                                                                                   : "no material has internal damping";
+  return f.any([](const BodyModel& p) { return p.material[Material::internal_damping] > 0; })
+             ? nullptr
+             : "no material has internal damping";
 }
 
 const char* rebound(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to rebound from";
-  return f.any([](const BodyModel& p) { return p.material.rebound_speed > 0; }) ? nullptr
-                                                                                : "no material has a rebound speed";
+  return f.any([](const BodyModel& p) { return p.material[contact::rebound_speed] > 0; })
+             ? nullptr
+             : "no material has a rebound speed";
 }
 
 const char* solid_features(const Facts& f) {
@@ -96,7 +99,7 @@ const char* solid_features(const Facts& f) {
 
 const char* rolling(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to roll on";
-  return f.any([](const BodyModel& p) { return p.mesh.closed && p.material.rolling_resistance > 0; })
+  return f.any([](const BodyModel& p) { return p.mesh.closed && p.material[contact::rolling_resistance] > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
 }

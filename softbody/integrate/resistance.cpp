@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/integrate/plan.h"
@@ -38,7 +39,7 @@ void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& 
   assert(seconds >= 0);
   if (!internal_ && !rebound_ && !rolling_) return;
   const Material& m = p.material;
-  const double rate = internal_ ? m.internal_damping * seconds : 0, share = rate / (1 + rate);
+  const double rate = internal_ ? m[Material::internal_damping] * seconds : 0, share = rate / (1 + rate);
   const double normal = glm::length(push.impulse);
   if (normal <= 0) impact = 0;
   if (share <= 0 && normal <= 0) return;
@@ -48,11 +49,11 @@ void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& 
   const auto& [centre, velocity, momentum, inertia, can_rotate, spin] = motion;
   glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
   if (const double size = p.particle_mass * glm::length(momentum); rolling_ && p.mesh.closed && size > 0)
-    lost_spin = spin * std::min(1.0, m.rolling_resistance * p.radius * normal / size);
-  if (rebound_ && m.rebound_speed > 0 && normal > 0) {
+    lost_spin = spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
+  if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
     const glm::dvec3 n = push.impulse / normal;
-    lost_velocity = n * excess_rebound_speed(glm::dot(velocity, n), normal, push.returned, m.mass, impact) *
-                    std::min(1.0, normal / (m.mass * m.rebound_speed));
+    lost_velocity = n * excess_rebound_speed(glm::dot(velocity, n), normal, push.returned, m[Material::mass], impact) *
+                    std::min(1.0, normal / (m[Material::mass] * m[contact::rebound_speed]));
   }
   for (std::size_t i = 0; i < count; ++i) {
     const glm::dvec3 r = x(i) - centre, old = v(i);

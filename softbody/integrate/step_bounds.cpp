@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
 
 namespace softbody {
@@ -58,7 +59,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     double damper = p.spring_damping_bound;
     lone_step = std::min(lone_step, integrator.stable_step(stiffest, damper / p.particle_mass));
     if (pairs) {
-      const auto k = static_cast<float>(p.material.contact_stiffness);
+      const auto k = static_cast<float>(p.material[contact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
       const float* own = penalty_damping_.data() + b.base;
       damper += double(*std::max_element(own, own + b.values()));
@@ -102,8 +103,8 @@ double StepBounds::rounding_velocity(std::span<const Batch* const> moving, doubl
 
 double substeps_at_start(const BodyModel& p, const Integrator& integrator, double frame_time, float thickness,
                          double max_friction) {
-  const auto contact = float(p.material.contact_stiffness);
-  const auto friction = float(law::common_friction(p.material.friction, max_friction));
+  const auto contact = float(p.material[contact::stiffness]);
+  const auto friction = float(law::common_friction(p.material[contact::friction], max_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
   const double own = p.spring_damping_bound, all = own + PenaltyContact::damping_bound(contact, friction, thickness);

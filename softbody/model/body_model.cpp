@@ -9,6 +9,10 @@
 #include <glm/geometric.hpp>
 
 #include "collide/surface/surface.h"
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/shape_matching.h"
+#include "softbody/forces/springs.h"
 #include "softbody/model/spring_bound.h"
 
 namespace softbody {
@@ -20,15 +24,17 @@ constexpr double linear_below = 0.1;  // of V0: the gas law continues linearly, 
 /// net is (Young's modulus times thickness = 2 k / sqrt(3)), so one stiffness in N/m fits every mesh. Where more than
 /// six springs meet (the number in a regular net), they share the stiffness of six, so that the middle of a fan needs
 /// no shorter steps than the rest.
-std::vector<Spring> make_springs(const Mesh& mesh, const std::vector<Edge>& pairs, const SpringLaw& law, double mass) {
+template <class Force>
+std::vector<Spring> make_springs(const BodyModel& p, const std::vector<Edge>& pairs) {
   std::vector<Spring> springs;
-  if (law.stiffness <= 0) return springs;
-  std::vector<int> meeting(mesh.vertices.size(), 0);
+  if (p.material[Force::stiffness] <= 0) return springs;
+  std::vector<int> meeting(p.mesh.vertices.size(), 0);
   for (const auto& [i, j] : pairs) ++meeting[i], ++meeting[j];
   for (const auto& [i, j] : pairs) {
-    const double stiffness = law.stiffness * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
-    const double damping = 2 * law.damping_ratio * std::sqrt(stiffness * mass / 2);  // reduced mass m / 2
-    springs.push_back({i, j, glm::distance(mesh.vertices[i], mesh.vertices[j]), stiffness, damping});
+    const double stiffness = p.material[Force::stiffness] * std::min(1.0, 6.0 / std::max(meeting[i], meeting[j]));
+    const double damping =
+        2 * p.material[Force::damping_ratio] * std::sqrt(stiffness * p.particle_mass / 2);  // reduced mass m / 2
+    springs.push_back({i, j, glm::distance(p.mesh.vertices[i], p.mesh.vertices[j]), stiffness, damping});
   }
   return springs;
 }
@@ -51,8 +57,9 @@ Material for_mesh(Material m, const MeshSource& source) {
   constexpr double stated_for = 162, finest = 2000;  // vertices
   if (source.kind != "file") return m;
   const auto count = static_cast<double>(source.vertex_count());
-  m.contact_stiffness *= std::min(1.0, stated_for / count);
-  for (SpringLaw* law : {&m.structural, &m.bend, &m.shear}) law->stiffness *= std::min(1.0, finest / count);
+  m[contact::stiffness] *= std::min(1.0, stated_for / count);
+  for (const Key* key : {&StructuralSprings::stiffness, &BendSprings::stiffness, &ShearSprings::stiffness})
+    m[*key] *= std::min(1.0, finest / count);
   return m;
 }
 
@@ -69,18 +76,19 @@ void list_faces(BodyModel& p) {
 /// Sets everything that depends on the material, except the starting shape.
 void give_material(BodyModel& p, const MeshSource& source, const Material& material) {
   p.material = for_mesh(material, source);
-  p.particle_mass = material.mass / double(p.mesh.vertices.size());
-  p.structural = make_springs(p.mesh, p.mesh.edges, p.material.structural, p.particle_mass);
-  p.bend = make_springs(p.mesh, p.mesh.bend_pairs, p.material.bend, p.particle_mass);
-  p.shear = make_springs(p.mesh, p.mesh.shear_pairs, p.material.shear, p.particle_mass);
+  p.particle_mass = material[Material::mass] / double(p.mesh.vertices.size());
+  p.structural = make_springs<StructuralSprings>(p, p.mesh.edges);
+  p.bend = make_springs<BendSprings>(p, p.mesh.bend_pairs);
+  p.shear = make_springs<ShearSprings>(p, p.mesh.shear_pairs);
   const std::array lists{&std::as_const(p.structural), &std::as_const(p.bend), &std::as_const(p.shear)};
   p.spring_stiffness_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::stiffness) / 2;
   p.spring_damping_bound = spring_bound(p.mesh.vertices.size(), lists, &Spring::damping) / 2;
-  set_shape(p, material.shape_frequency.value_or(source.kind == "file" ? mesh_file_shape_frequency : 0));
+  const double by_kind = source.kind == "file" ? mesh_file_shape_frequency : 0;
+  set_shape(p, material.given(ShapeMatching::frequency) ? material[ShapeMatching::frequency] : by_kind);
   if (!p.mesh.closed) return;
-  p.gas.ambient = material.ambient_pressure;
-  p.gas.amount = material.gas_pressure * p.gas.rest_volume;
-  p.has_gas = material.gas_pressure > 0 || material.ambient_pressure > 0;
+  p.gas.ambient = material[GasPressure::outside];
+  p.gas.amount = material[GasPressure::inside] * p.gas.rest_volume;
+  p.has_gas = material[GasPressure::inside] > 0 || material[GasPressure::outside] > 0;
 }
 
 }  // namespace

@@ -1,41 +1,62 @@
 #pragma once
-// Material of a body.
+// Material of a body: values by key. A key that is not given has its fallback.
 
-#include <optional>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <initializer_list>
+#include <map>
+#include <span>
 #include <string>
+
+#include "softbody/model/key.h"
 
 namespace softbody {
 
-/// Linear spring with a damper along it (the paper's Introduction: elasticity and damper).
-struct SpringLaw {
-  double stiffness = 0;  // N/m
-  double damping_ratio =
-      0;  // of the critical damping of the spring between its two particles: c = 2 zeta sqrt(k m / 2)
-  bool operator==(const SpringLaw&) const = default;
-};
+class Material {
+ public:
+  // Keys of the body as a whole; the others are declared beside the forces and the law of contact.
+  static constexpr auto mass = Key("mass", "kg", 1, {1e-9, 1e9}, "The mass of a body. Its vertices share it equally.",
+                                   {"Mass", "%.2f kg", 0.05f, 20, true}, {.place = 0});
+  static constexpr auto internal_damping = Key("internal_damping", "1/s", 0, {0, 1e6},
+                                               "How quickly a body stops wobbling: the rate at which it loses "
+                                               "deformation velocities.",
+                                               {"Damping", "%.1f 1/s", 0, 50}, {.place = 20});
+  static constexpr auto thickness =
+      Key("thickness", "m", 0.005, {0, 1e3},
+          "Distance that vertices keep to solids, so that the faces between them stay outside.", {}, {.place = 22});
+  static constexpr auto start_in_equilibrium =
+      Key("start_in_equilibrium", "", true, {0, 1},
+          "Springs and gas are brought into balance when the scene is loaded.", {}, {.place = 50, .is_switch = true});
+  static constexpr std::array keys{&mass, &internal_damping, &thickness, &start_in_equilibrium};
 
-struct Material {
   std::string name;
-  double mass = 1;  // kg a body, shared equally by its particles
-  SpringLaw structural{300, 0.1};
-  SpringLaw bend{75, 0.1};
-  SpringLaw shear{};            // quad grids only
-  double gas_pressure = 0;      // Pa, absolute, of the gas at the mesh's own volume: P = gas_pressure * V0 / V
-  double ambient_pressure = 0;  // Pa, absolute, outside
-  double internal_damping = 0;  // 1/s, rate at which deformation velocities decay
-  double rebound_speed = 0;     // m/s: a body rebounds from solids no faster, unless by their restitution; 0: no limit
-  double thickness = 0.005;  // m: particles keep this distance to solids, so that the faces between them stay outside
-  double friction = 0.5;     // Coulomb, against other bodies
-  double restitution = 0;    // 0..1, Newton's, of surface contact between bodies
-  double rolling_resistance = 0.02;  // torque = this * radius * normal force, against solids
-  double contact_stiffness = 100;    // N/m of penalty contact, summed over one particle's contacts
-  /// Frequency in Hz at which a single particle oscillates about its place in the mesh's shape (shape_matching.h). 0:
-  /// no shape matching. Not given: mesh_file_shape_frequency for meshes from files, 0 for others.
-  std::optional<double> shape_frequency;
-  bool start_in_equilibrium = true;  // springs and gas are brought into balance when the scene is loaded
-  bool operator==(const Material&) const = default;
-};
 
-inline constexpr double mesh_file_shape_frequency = 10;  // Hz
+  /// Returns the value of a key: its fallback (maybe not_given) if it was not set.
+  double operator[](const Key& key) const {
+    const auto found = values_.find(&key);
+    return found == values_.end() ? key.fallback : found->second;
+  }
+  double& operator[](const Key& key) { return values_.try_emplace(&key, key.fallback).first->second; }
+  bool given(const Key& key) const { return !std::isnan((*this)[key]); }
+  /// Sets the first keys of a list, e.g. set(BendSprings::keys, {75, 0.1}).
+  void set(std::span<const Key* const> list, std::initializer_list<double> values) {
+    for (std::size_t i = 0; const double value : values) (*this)[*list[i++]] = value;
+  }
+
+  /// A key that was set to its fallback equals one that was not set.
+  friend bool operator==(const Material& a, const Material& b) {
+    return a.name == b.name && a.agrees_with(b) && b.agrees_with(a);
+  }
+
+ private:
+  bool agrees_with(const Material& other) const {
+    return std::ranges::all_of(values_, [&other](const auto& v) {
+      const double its = other[*v.first];
+      return v.second == its || (std::isnan(v.second) && std::isnan(its));
+    });
+  }
+  std::map<const Key*, double> values_;
+};
 
 }  // namespace softbody

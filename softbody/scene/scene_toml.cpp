@@ -3,12 +3,14 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <span>
 
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 #include <glm/trigonometric.hpp>
 
+#include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/mesh/obj_file.h"
 #include "softbody/scene/limits.h"
@@ -20,32 +22,22 @@ namespace {
 
 constexpr double tiny = 1e-9;  // smallest allowed value of what must be greater than zero: lengths, masses ...
 
-SpringLaw read_springs(Table table, SpringLaw law) {
-  law.stiffness = table.number("stiffness", law.stiffness, 0, 1e9);
-  law.damping_ratio = table.number("damping_ratio", law.damping_ratio, 0, 10);
-  table.close();
-  return law;
+double read_value(Table& table, const Key& key, double value) {
+  const std::string name(key.own_name());
+  return key.options.is_switch ? double(table.boolean(name, value != 0))
+                               : table.number(name, value, key.limits.least, key.limits.most);
 }
 
 /// Reads a material. `m` holds the values for keys that the table does not have.
 Material read_material(Table& table, Material m = {}) {
   m.name = table.text("name", m.name);
-  m.mass = table.number("mass", m.mass, tiny, 1e9);
-  m.structural = read_springs(table.child("structural"), m.structural);
-  m.bend = read_springs(table.child("bend"), m.bend);
-  m.shear = read_springs(table.child("shear"), m.shear);
-  m.gas_pressure = table.number("gas_pressure", m.gas_pressure, 0, 1e9);
-  m.ambient_pressure = table.number("ambient_pressure", m.ambient_pressure, 0, 1e9);
-  m.internal_damping = table.number("internal_damping", m.internal_damping, 0, 1e6);
-  m.rebound_speed = table.number("rebound_speed", m.rebound_speed, 0, 1e6);
-  m.thickness = table.number("thickness", m.thickness, 0, 1e3);
-  m.friction = table.number("friction", m.friction, 0, 10);
-  m.restitution = table.number("restitution", m.restitution, 0, 1);
-  m.rolling_resistance = table.number("rolling_resistance", m.rolling_resistance, 0, 10);
-  m.contact_stiffness = table.number("contact_stiffness", m.contact_stiffness, 0, 1e9);
-  const double shape = table.number("shape_frequency", m.shape_frequency.value_or(-1), 0, 1e3);
-  if (shape >= 0) m.shape_frequency = shape;
-  m.start_in_equilibrium = table.boolean("start_in_equilibrium", m.start_in_equilibrium);
+  std::map<std::string, Table> inline_tables;
+  for (const Key* key : material_keys()) {
+    const std::string inside(key->table());
+    Table& t = inside.empty() ? table : inline_tables.try_emplace(inside, table.child(inside)).first->second;
+    m[*key] = read_value(t, *key, m[*key]);
+  }
+  for (const auto& [name, inline_table] : inline_tables) inline_table.close();
   table.close();
   return m;
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "softbody/forces/material_keys.h"
 #include "softbody/scene/toml_table.h"
 #include "softbody/scene/toml_text.h"
 
@@ -23,20 +24,26 @@ void write_collision(TomlLines& out, const Scene& scene) {
   out.add("primes", glm::dvec3(c.primes[0], c.primes[1], c.primes[2]));
 }
 
-TomlInline springs(const SpringLaw& law) {
-  return TomlInline().add("stiffness", law.stiffness).add("damping_ratio", law.damping_ratio);
-}
-
 void write_material(TomlLines& out, const Material& m) {
-  out.heading("[[material]]");
-  out.add("name", m.name).add("mass", m.mass);
-  out.add("structural", springs(m.structural)).add("bend", springs(m.bend)).add("shear", springs(m.shear));
-  out.add("gas_pressure", m.gas_pressure).add("ambient_pressure", m.ambient_pressure);
-  out.add("internal_damping", m.internal_damping).add("rebound_speed", m.rebound_speed);
-  out.add("thickness", m.thickness).add("friction", m.friction).add("restitution", m.restitution);
-  out.add("rolling_resistance", m.rolling_resistance).add("contact_stiffness", m.contact_stiffness);
-  if (m.shape_frequency) out.add("shape_frequency", *m.shape_frequency);
-  out.add("start_in_equilibrium", m.start_in_equilibrium);
+  out.heading("[[material]]").add("name", m.name);
+  const auto add = [&m](auto& lines, const Key& key) {
+    if (!m.given(key)) return;
+    if (key.options.is_switch)
+      lines.add(key.own_name(), m[key] != 0);
+    else
+      lines.add(key.own_name(), m[key]);
+  };
+  const auto keys = material_keys();
+  for (auto key = keys.begin(); key != keys.end();) {
+    const std::string_view name = (*key)->table();
+    if (name.empty()) {
+      add(out, **key++);
+      continue;
+    }
+    TomlInline inside;
+    for (; key != keys.end() && (*key)->table() == name; ++key) add(inside, **key);
+    out.add(name, inside);
+  }
 }
 
 template <class Solid>

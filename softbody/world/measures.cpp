@@ -126,10 +126,12 @@ std::vector<SolidContactPoint> solid_contacts(const World& world) {
   constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
   std::vector<SolidContactPoint> contacts;
   const collide::Frame p = world.positions();
-  for (Index i = 0; i < p.x.size(); ++i) {
-    const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
-    const double distance = world.model(world.vertex_body()[i]).material.thickness + rounding;
-    if (d.depth > -distance) contacts.push_back({i, d.normal});
+  for (BodyId body = 0; body < p.bodies->count(); ++body) {
+    const double distance = world.model(body).material[Material::thickness] + rounding;
+    for (Index i = p.bodies->first[body]; i < p.bodies->first[body + 1]; ++i) {
+      const SolidDepth d = solid_depth(world.scene(), {p.x[i], p.y[i], p.z[i]});
+      if (d.depth > -distance) contacts.push_back({i, d.normal});
+    }
   }
   return contacts;
 }

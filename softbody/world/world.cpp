@@ -5,6 +5,7 @@
 #include <sstream>
 #include <utility>
 
+#include "softbody/contact/keys.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"
 
@@ -57,7 +58,7 @@ World::Parts::Parts(Scene s, const Options& o)
 /// Returns the substeps that one frame needs for a contact layer of `thickness` (m).
 double World::Parts::needed_substeps(const BodyModel& p, float thickness) const {
   double max_friction = 0;
-  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m.friction);
+  for (const Material& m : scene.materials) max_friction = std::max(max_friction, m[contact::friction]);
   return substeps_at_start(p, options.integrator.integrator(), options.frame_time, thickness, max_friction);
 }
 

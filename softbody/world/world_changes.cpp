@@ -80,7 +80,7 @@ Dropper World::Parts::dropper() const { return scene.dropper ? *scene.dropper : 
 bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) const {
   glm::dvec3 lo = p.start.front(), hi = lo;
   for (const glm::dvec3& v : p.start) {
-    if (solid_depth(scene, position + v).depth > -p.material.thickness) return false;
+    if (solid_depth(scene, position + v).depth > -p.material[Material::thickness]) return false;
     lo = glm::min(lo, v), hi = glm::max(hi, v);
   }
   const glm::vec3 low(position + lo - double(settings.tolerance)), high(position + hi + double(settings.tolerance));

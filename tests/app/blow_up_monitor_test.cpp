@@ -5,6 +5,8 @@
 #include <glm/vec2.hpp>
 
 #include "app/session/session.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 
@@ -79,7 +81,7 @@ TEST(BlowUpMonitor, AcceptsABodyAddedInsideAnother) {
       for (const glm::dvec2 apart : {glm::dvec2(0.05, 0.02), {0.1, 0.2}, {0.5, 0.2}, {0.9, 0.2}, {1.02, 0}}) {
         softbody::Scene scene = touching_pair();
         scene.gravity = glm::dvec3(0.0);
-        scene.materials[0].structural.stiffness = stiffness;
+        scene.materials[0][softbody::StructuralSprings::stiffness] = stiffness;
         scene.contact_surface = surface;
         scene.bodies[1].position = scene.bodies[0].position + glm::dvec3(apart, 0);
         scene.bodies[1].appear = 5;
@@ -98,9 +100,9 @@ TEST(BlowUpMonitor, AcceptsAHeldBodyThatSpringsBack) {
   scene.bodies.resize(1);
   scene.bodies[0].release = 10;
   scene.gravity = glm::dvec3(0.0);
-  scene.materials[0].gas_pressure = 171'527;
-  scene.materials[0].ambient_pressure = 101'325;
-  scene.materials[0].start_in_equilibrium = false;
+  scene.materials[0][softbody::GasPressure::inside] = 171'527;
+  scene.materials[0][softbody::GasPressure::outside] = 101'325;
+  scene.materials[0][softbody::Material::start_in_equilibrium] = false;
   softbody::World world(scene, {});
   session::BlowUpMonitor monitor;
   double fastest = 0;
@@ -199,11 +201,11 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
   for (const double pressure : {0.0, 90e3, 111e3, 114e3, 116e3, 119e3, 125e3, 150e3}) {  // Pa
     softbody::Scene scene = touching_pair();
     softbody::Material& rubber = scene.materials[0];
-    rubber.gas_pressure = 113e3, rubber.ambient_pressure = 101'325;
-    rubber.start_in_equilibrium = true;
+    rubber[softbody::GasPressure::inside] = 113e3, rubber[softbody::GasPressure::outside] = 101'325;
+    rubber[softbody::Material::start_in_equilibrium] = true;
     Session session(scene, {}, 1);
     while (session.world().frame() < 15) session.advance(tick);
-    rubber.gas_pressure = pressure;
+    rubber[softbody::GasPressure::inside] = pressure;
     session.settings.set_material(0, rubber);
     while (session.world().frame() < 60 && !session.simulation.stability().blow_up()) session.advance(tick);
     EXPECT_FALSE(session.simulation.stability().blow_up())
@@ -214,7 +216,7 @@ TEST(BlowUpMonitor, AcceptsBodiesThatSwingFast) {
 /// Springs far too stiff for a single substep a frame.
 TEST(BlowUpMonitor, ReportsTheBlowUpOfEveryExplicitIntegrator) {
   softbody::Scene scene = touching_pair();
-  scene.materials[0].structural.stiffness = 1e5;
+  scene.materials[0][softbody::StructuralSprings::stiffness] = 1e5;
   for (const char* integrator : {"explicit-euler", "semi-implicit-euler", "velocity-verlet", "rk4"}) {
     softbody::World world(scene, {.integrator = {integrator, 1}});
     session::BlowUpMonitor monitor;

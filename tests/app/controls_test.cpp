@@ -6,6 +6,7 @@
 
 #include "app/session/scene_controls.h"
 #include "app/session/setting_controls.h"
+#include "softbody/forces/springs.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
@@ -112,18 +113,19 @@ TEST(SettingControls, SayWhatTheWorldRefusesAndChangeNothing) {
   session::Simulation simulation(scene, 1);
   session::SettingControls controls(simulation);
   softbody::Material stiff = simulation.world().scene().materials[0];
-  stiff.structural.stiffness = 1e9;
+  stiff[softbody::StructuralSprings::stiffness] = 1e9;
   controls.set_material(0, stiff);
   EXPECT_NE(simulation.notice.text().find("stiff"), std::string::npos);
   EXPECT_FALSE(simulation.clock.paused);
-  EXPECT_EQ(simulation.world().scene().materials[0].structural.stiffness, softbody::Material().structural.stiffness);
+  EXPECT_EQ(simulation.world().scene().materials[0][softbody::StructuralSprings::stiffness],
+            softbody::Material()[softbody::StructuralSprings::stiffness]);
 }
 
 TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRestored) {
   session::Simulation simulation(touching_pair(), 1);
   session::SettingControls controls(simulation);
   softbody::Material heavy = simulation.world().scene().materials[0];
-  heavy.mass = 3;
+  heavy[softbody::Material::mass] = 3;
   controls.set_material(0, heavy);
   controls.set_gravity(2);
   session::SolidList solids = controls.solids();
@@ -132,12 +134,12 @@ TEST(SettingControls, KeepGravityMaterialAndSolidsOverAResetUntilTheScenesAreRes
   controls.set_solids(solids);
   EXPECT_TRUE(simulation.world().scene().spheres.empty());
   simulation.reset();
-  EXPECT_EQ(simulation.world().scene().materials[0].mass, 3);
+  EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 3);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -2, 0));
   EXPECT_TRUE(simulation.world().scene().spheres.empty());
   ASSERT_EQ(controls.solids().size(), 2u);
   controls.restore_world();
-  EXPECT_EQ(simulation.world().scene().materials[0].mass, 1);
+  EXPECT_EQ(simulation.world().scene().materials[0][softbody::Material::mass], 1);
   EXPECT_EQ(simulation.world().scene().gravity, glm::dvec3(0, -9.81, 0));
   EXPECT_EQ(simulation.world().scene().spheres.size(), 1u);
   EXPECT_TRUE(controls.solids()[0].on);

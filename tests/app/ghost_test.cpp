@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/resources.h"
+#include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/hands.h"
 #include "tests/app/panel_rig.h"
@@ -73,7 +74,7 @@ TEST(Ghost, BeginsAnewWhenTheWorldIsChangedByHand) {
 
 TEST(Ghost, ThatBlowsUpStops) {
   softbody::Scene scene = touching_pair();
-  scene.materials[0].structural.stiffness = 20'000;
+  scene.materials[0][softbody::StructuralSprings::stiffness] = 20'000;
   Session session(scene, {}, 1);
   session.choose_ghost(softbody::IntegratorChoice{"explicit-euler", 1});
   go_on(session, 120);
@@ -86,7 +87,7 @@ TEST(Ghost, ThatBlowsUpStops) {
 
 TEST(Ghost, WhatItsIntegratorCannotMoveIsRefused) {
   softbody::Scene scene = touching_pair();
-  scene.materials[0].structural.stiffness = 1e9;
+  scene.materials[0][softbody::StructuralSprings::stiffness] = 1e9;
   Session session(scene, {}, 1);
   session.choose_ghost(softbody::IntegratorChoice{"explicit-euler", std::nullopt});
   EXPECT_EQ(session.ghost().get(), nullptr);

@@ -5,6 +5,9 @@
 #include "app/files/scene_folder.h"
 #include "app/ui/panel/panel.h"
 #include "app/ui/time_line.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/material_keys.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/measures.h"
 #include "tests/app/panel_rig.h"
 
@@ -67,18 +70,18 @@ TEST(WorldPanel, DragsEverySliderToItsEndsWhileTheWorldRuns) {
   rig.click("Detection");  // folds it to make room
   rig.click("World");
   const softbody::World& world = rig.session.world();
-  for (const char* label :
-       {"Gravity", "Mass", "Spring stiffness", "Spring damping", "Bend stiffness", "Shear stiffness", "Gas pressure",
-        "Internal damping", "Rebound speed", "Friction", "Rolling resistance", "Contact stiffness", "Restitution",
-        "Solid position", "Solid radius", "Solid friction", "Solid restitution"}) {
+  std::vector<std::string> labels{"Gravity", "Solid position", "Solid radius", "Solid friction", "Solid restitution"};
+  for (const softbody::Key* key : softbody::material_keys())
+    if (key->slider.text) labels.emplace_back(key->name);
+  for (const std::string& label : labels) {
     for (const float by : {500.0f, -500.0f}) {
-      rig.drag(label, by);
+      rig.drag(label.c_str(), by);
       rig.frames(5);
       EXPECT_FALSE(rig.session.simulation.clock.paused) << label << ": " << rig.session.simulation.notice.text();
       EXPECT_TRUE(softbody::measure(world).finite) << label;
     }
     rig.click("Restore world");
-    EXPECT_EQ(world.scene().materials[0].mass, 1) << label;
+    EXPECT_EQ(world.scene().materials[0][softbody::Material::mass], 1) << label;
   }
   EXPECT_EQ(world.scene().spheres.at(0).radius, 1);
   rig.drag("Gravity", -500);
@@ -108,7 +111,7 @@ TEST(Slider, TakesATypedValueAfterADoubleClick) {
   EXPECT_NEAR(gravity(), 3.5, 1e-6) << "in the open field";
   rig.type("99");
   EXPECT_NEAR(gravity(), 30, 1e-6) << "the upper end";
-  rig.double_click("Bend stiffness");
+  rig.double_click("bend.stiffness");
   EXPECT_NEAR(gravity(), 30, 1e-6) << "another slider";
 }
 
@@ -122,9 +125,9 @@ TEST(WorldPanel, OffersThePresetsOfMaterials) {
   rig.click(chosen.name.c_str());
   const softbody::Material& now = rig.session.world().scene().materials[0];
   EXPECT_EQ(now.name, "rubber") << "the material keeps its name";
-  EXPECT_EQ(now.mass, chosen.mass);
-  EXPECT_EQ(now.structural, chosen.structural);
-  EXPECT_EQ(now.gas_pressure, chosen.gas_pressure);
+  EXPECT_EQ(now[softbody::Material::mass], chosen[softbody::Material::mass]);
+  EXPECT_EQ(now[softbody::StructuralSprings::stiffness], chosen[softbody::StructuralSprings::stiffness]);
+  EXPECT_EQ(now[softbody::GasPressure::inside], chosen[softbody::GasPressure::inside]);
 }
 
 TEST(WorldPanel, SwitchesAndChoosesSolids) {

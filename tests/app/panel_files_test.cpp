@@ -143,7 +143,10 @@ TEST(FilesPanel, CopiesCommandsForTheSettingsInUse) {
   const std::string end = " --frames " + std::to_string(rig.session.world().frame());
   EXPECT_NE(simulate.find(" simulate --scene pair "), std::string::npos) << simulate;
   EXPECT_NE(simulate.find(end), std::string::npos) << simulate;
-  rig.session.bodies.add({}, {.name = "new", .mass = 2, .shape_frequency = {}});
+  softbody::Material heavy;
+  heavy.name = "new";
+  heavy[softbody::Material::mass] = 2;
+  rig.session.bodies.add({}, heavy);
   rig.frames(2);
   EXPECT_FALSE(rig.widget("Copy").enabled) << "the file has no such body";
 }

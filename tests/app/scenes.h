@@ -15,7 +15,9 @@ inline softbody::Scene touching_pair() {
   scene.key = "pair";
   scene.name = "Touching pair";
   scene.collision.tolerance = 0.1f;
-  scene.materials.push_back({.name = "rubber", .shape_frequency = {}, .start_in_equilibrium = false});
+  softbody::Material& rubber = scene.materials.emplace_back();
+  rubber.name = "rubber";
+  rubber[softbody::Material::start_in_equilibrium] = false;
   softbody::BodySource left, right;
   left.position = {-0.51, 3, 0.03};
   right.position = {0.51, 3, 0};

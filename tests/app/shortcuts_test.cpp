@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "softbody/forces/springs.h"
 #include "tests/app/scenes.h"
 
 #include <GLFW/glfw3.h>
@@ -64,7 +65,7 @@ TEST(Shortcuts, SayWhatTheyDid) {
   const std::string method = said('M');
   EXPECT_EQ(method, "Method: " + std::string(session.world().method().name));
   softbody::Scene stiff = touching_pair();  // for surfaces, which have no implicit steps in reserve
-  stiff.materials[0].structural.stiffness = 1e9;
+  stiff.materials[0][softbody::StructuralSprings::stiffness] = 1e9;
   Session refusing(stiff, {}, 1);
   ui::handle_key('F', false, refusing, ui);
   EXPECT_TRUE(refusing.simulation.notice.is_error())

@@ -4,6 +4,7 @@
 
 #include "app/session/session.h"
 #include "app/ui/views/status.h"
+#include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 #include "tests/app/scenes.h"
 
@@ -14,7 +15,7 @@ namespace {
 struct Monitored {
   softbody::World world = [] {
     softbody::Scene scene = touching_pair();
-    scene.materials[0].structural.stiffness = 1e5;
+    scene.materials[0][softbody::StructuralSprings::stiffness] = 1e5;
     return softbody::World(scene, {});
   }();
   session::StabilityMonitor monitor;

@@ -6,6 +6,9 @@
 
 #include <algorithm>
 
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/measures.h"
 
 namespace app::test {
@@ -88,9 +91,9 @@ softbody::Scene slack_on_stiff() {
   for (const double k : {10.0, 1e-5}) {
     softbody::Material& m = scene.materials.emplace_back();
     m.name = k > 1 ? "stiff" : "slack";
-    m.structural = {k, 0.1}, m.bend = {k / 4, 0.1};
-    m.gas_pressure = 1.6 * k;
-    m.rolling_resistance = 0;
+    m.set(softbody::StructuralSprings::keys, {k, 0.1}), m.set(softbody::BendSprings::keys, {k / 4, 0.1});
+    m[softbody::GasPressure::inside] = 1.6 * k;
+    m[softbody::contact::rolling_resistance] = 0;
     softbody::BodySource& body = scene.bodies.emplace_back();
     body.material = int(scene.materials.size()) - 1;
     body.position = {0, k > 1 ? 0 : 1.7, 0};

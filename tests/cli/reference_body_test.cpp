@@ -6,6 +6,9 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/reference_trajectory.h"
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 
 namespace app::test {
 namespace {
@@ -15,10 +18,10 @@ using glm::dvec3;
 softbody::Scene lone_ball(double stiffness, double damping_ratio) {
   softbody::Scene scene;
   softbody::Material m;
-  m.structural = {stiffness, damping_ratio};
-  m.bend = {stiffness / 4, damping_ratio};
-  m.gas_pressure = 0.5 * stiffness;
-  m.rolling_resistance = 0;
+  m.set(softbody::StructuralSprings::keys, {stiffness, damping_ratio});
+  m.set(softbody::BendSprings::keys, {stiffness / 4, damping_ratio});
+  m[softbody::GasPressure::inside] = 0.5 * stiffness;
+  m[softbody::contact::rolling_resistance] = 0;
   scene.materials.push_back(m);
   scene.bodies.push_back({.mesh = {}, .position = dvec3(0.0)});
   scene.gravity = {};
@@ -77,7 +80,7 @@ TEST(ReferenceBody, FollowsAParabolaInFreeFall) {
 
 TEST(ReferenceBody, HasForcesThatAreTheGradientOfTheEnergy) {
   softbody::Scene scene = lone_ball(1e3, 0);
-  scene.materials[0].ambient_pressure = 300;
+  scene.materials[0][softbody::GasPressure::outside] = 300;
   const softbody::World world(scene, {});
   const reference::ReferenceBody body(world.model(0), scene);
   for (const double scale : {1.1, 0.3, -0.5}) {  // large, below 0.1 V0, inside out
@@ -99,7 +102,7 @@ TEST(ReferenceBody, StopsOnTheGroundAndSlowsByFriction) {
   Pair pair(100, 0);
   pair.scene.ground = softbody::Ground{.height = 0, .friction = 0.5};
   pair.scene.gravity = {0, -10, 0};
-  pair.model.material.thickness = 0;
+  pair.model.material[softbody::Material::thickness] = 0;
   const reference::BodyState sliding{{{0, 0, 0}, {1, 0, 0}}, {{0, 0, 1}, {0, 0, 1}}};
   const reference::BodyState end = reference::integrate(pair.body, sliding, 0.02, {.seconds = 0.1}).end;
   EXPECT_NEAR(end.v[0].z, 0.5, 1e-6) << "0.1 s at 5 m/s^2";
@@ -120,7 +123,7 @@ double difference(const softbody::Scene& scene, int substeps) {
 
 TEST(ReferenceBody, AgreesWithTheWorldInFreeFlight) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
-  scene.materials[0].start_in_equilibrium = false;
+  scene.materials[0][softbody::Material::start_in_equilibrium] = false;
   scene.bodies[0].velocity = {1, 2, 0.5};
   EXPECT_LT(difference(scene, 64), 2e-5);
 }
@@ -144,7 +147,7 @@ TEST(ReferenceBody, KeepsItsAccuracyAKilometreFromTheOrigin) {
 
 TEST(ReferenceBody, NamesAStageThatItDoesNotModel) {
   softbody::Scene scene = lone_ball(1e3, 0.02);
-  scene.materials[0].internal_damping = 1;
+  scene.materials[0][softbody::Material::internal_damping] = 1;
   EXPECT_EQ(reference::ReferenceBody::unsupported_stage(softbody::World(scene, {})), "internal-damping");
   scene.bodies.push_back(scene.bodies[0]);
   EXPECT_EQ(reference::ReferenceBody::unsupported_stage(softbody::World(scene, {})), "several bodies");

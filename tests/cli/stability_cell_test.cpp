@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "app/report/stability/cases.h"
+#include "softbody/contact/keys.h"
 
 namespace app::test {
 namespace {
@@ -59,14 +60,14 @@ TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
 /// Returns a ball with stiff penalty contact, and a second ball that joins.
 softbody::Scene joined_by(const softbody::BodySource& second) {
   softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
-  scene.materials[0].contact_stiffness = 1e8;
+  scene.materials[0][softbody::contact::stiffness] = 1e8;
   scene.bodies[0].release = 1000;
   return scene;
 }
 
 TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
   softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
-  scene.materials[0].contact_stiffness = 1e3;
+  scene.materials[0][softbody::contact::stiffness] = 1e3;
   EXPECT_LE(run(scene, "auto", 12).energy, reference::stability_bounds.energy);
 }
 
@@ -124,7 +125,7 @@ TEST(StabilityCell, AllowsNoMoreForBodiesThatAreStillToJoin) {
   softbody::Scene lone = balls({joiner(0, {0, 0, 0})}), awaiting = balls({joiner(0, {0, 0, 0}), joiner(5, {9, 0, 0})});
   for (softbody::Scene* scene : {&lone, &awaiting}) scene->gravity = {0, -98.1, 0};
   awaiting.materials.push_back(report::ball_material(1e3, 0.1));
-  awaiting.materials[1].mass = 1000;
+  awaiting.materials[1][softbody::Material::mass] = 1000;
   awaiting.bodies[1].material = 1;
   const double gain = run(lone, "explicit-euler", 1).energy;
   EXPECT_GT(gain, 5 * reference::stability_bounds.energy);
@@ -136,7 +137,7 @@ TEST(StabilityCell, TellsBodiesApartByWhenTheyJoin) {
   softbody::Scene scene = balls({joiner(4, {9, -30, 0}), joiner(0, {0, 0, 0}), joiner(2, {0, 50, 0}, {0, 20, 0})});
   scene.gravity = {0, -9.81, 0};
   scene.materials.push_back(report::ball_material(1e3, 0.1));
-  scene.materials[1].mass = 7;
+  scene.materials[1][softbody::Material::mass] = 7;
   scene.bodies[0].material = 1;
   EXPECT_NEAR(run(scene, "auto", 8).energy, 0, 1e-3);
 }

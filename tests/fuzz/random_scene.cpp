@@ -1,8 +1,14 @@
 #include "random_scene.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <string_view>
+#include <tuple>
 
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/material_keys.h"
 #include "softbody/mesh/limits.h"
 #include "softbody/scene/limits.h"
 
@@ -17,9 +23,16 @@ struct Range {
   double usual_least, usual_most, least, most;
 };
 constexpr Range lengths{0.05, 1, 1e-9, 1e6}, sizes{0.05, 1, softbody::min_body_size, softbody::max_body_size},
-    stiffnesses{1, 1e5, 0, 1e9}, damping_ratios{0.01, 1, 0, 10}, masses{0.05, 20, 1e-9, 1e9},
-    pressures{10, 2e5, 0, 1e9}, shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10}, rates{0.1, 100, 0, 1e6},
-    frequencies{0.1, 100, 0, 1e3}, thicknesses{1e-3, 0.05, 0, 1e3};
+    shares{0.1, 1, 0, 1}, coefficients{0.1, 1, 0, 10};
+
+Range range_of(const softbody::Key& key) {
+  constexpr std::array<std::tuple<std::string_view, double, double>, 5> usual{
+      {{"kg", 0.05, 20}, {"N/m", 1, 1e5}, {"Pa", 10, 2e5}, {"m", 1e-3, 0.05}, {"", 0.01, 1}}};
+  Range range{0.1, 100, key.limits.least, key.limits.most};
+  for (const auto& [unit, least, most] : usual)
+    if (unit == key.unit) range.usual_least = least, range.usual_most = most;
+  return range;
+}
 
 /// In equal ratios.
 double between(Bytes& bytes, double least, double most) {
@@ -40,7 +53,10 @@ double read(Bytes& bytes, const Range& range) {
   }
 }
 
-softbody::SpringLaw read_springs(Bytes& bytes) { return {read(bytes, stiffnesses), read(bytes, damping_ratios)}; }
+/// True if one is of no use without the other, as two pressures.
+bool belong_together(const softbody::Key& a, const softbody::Key& b) {
+  return a.unit == b.unit || (!a.table().empty() && a.table() == b.table());
+}
 
 softbody::MeshSource read_mesh(Bytes& bytes) {
   softbody::MeshSource mesh;
@@ -131,19 +147,19 @@ glm::dvec3 read_vector(Bytes& bytes, double size) {
 softbody::Material read_material(Bytes& bytes, const std::string& name) {
   softbody::Material m;
   m.name = name;
-  m.mass = read(bytes, masses);
-  m.structural = read_springs(bytes), m.bend = read_springs(bytes);
-  if (bytes.below(4) == 0) m.shear = read_springs(bytes);
-  if (bytes.below(2) == 0) m.gas_pressure = read(bytes, pressures), m.ambient_pressure = read(bytes, pressures);
-  if (bytes.below(4) == 0) m.internal_damping = read(bytes, rates);
-  if (bytes.below(4) == 0) m.rebound_speed = read(bytes, rates);
-  m.thickness = read(bytes, thicknesses);
-  m.friction = read(bytes, coefficients);
-  if (bytes.below(2) == 0) m.restitution = read(bytes, shares);
-  m.rolling_resistance = read(bytes, coefficients);
-  m.contact_stiffness = read(bytes, stiffnesses);
-  if (bytes.below(4) == 0) m.shape_frequency = read(bytes, frequencies);
-  m.start_in_equilibrium = bytes.below(2) == 0;
+  const softbody::Key* before = nullptr;  // if that one may be left out
+  bool there = true;
+  for (const softbody::Key* key : softbody::material_keys()) {
+    if (key->options.is_switch) {
+      m[*key] = bytes.below(2) == 0;
+      continue;
+    }
+    const bool optional = !(key->fallback > 0);
+    const bool often = key == &softbody::GasPressure::inside || key == &softbody::contact::restitution;
+    if (!optional || !before || !belong_together(*before, *key)) there = !optional || bytes.below(often ? 2 : 4) == 0;
+    if (there) m[*key] = read(bytes, range_of(*key));
+    before = optional ? key : nullptr;
+  }
   return m;
 }
 

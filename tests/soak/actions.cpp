@@ -4,6 +4,9 @@
 #include <fstream>
 
 #include "collide/methods.h"
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "softbody/integrate/integrators.h"
 
 namespace soak {
@@ -92,19 +95,19 @@ void material(DemoRig& demo, Dice& dice) {
   softbody::Material m = all[index];
   switch (dice.pick(5)) {
     case 0:
-      m.mass = end_or_between(dice, 0.01, 100.0);
+      m[softbody::Material::mass] = end_or_between(dice, 0.01, 100.0);
       break;
     case 1:
-      m.structural.stiffness = end_or_between(dice, 0.0, 1e6);
+      m[softbody::StructuralSprings::stiffness] = end_or_between(dice, 0.0, 1e6);
       break;
     case 2:
-      m.structural.damping_ratio = end_or_between(dice, 0.0, 2.0);
+      m[softbody::StructuralSprings::damping_ratio] = end_or_between(dice, 0.0, 2.0);
       break;
     case 3:
-      m.gas_pressure = end_or_between(dice, 0.0, 2e5);
+      m[softbody::GasPressure::inside] = end_or_between(dice, 0.0, 2e5);
       break;
     default:
-      m.friction = end_or_between(dice, 0.0, 2.0);
+      m[softbody::contact::friction] = end_or_between(dice, 0.0, 2.0);
   }
   demo.session.settings.set_material(index, m);
 }

@@ -175,22 +175,20 @@ TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
                          [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
 
-int width_of(const World& world, BodyId body) {
-  return WorldTestAccess::solver(world).state().batch_of(body).width;
-}
+int width_of(const World& world, BodyId body) { return WorldTestAccess::solver(world).state().batch_of(body).width; }
 
 /// A ball of 2562 vertices just above the ground and one of another material just above it, both falling.
 Scene large_bodies(ContactSurface surface) {
   Material m = gas_ball();
-  m.mass = 4;
-  m.gas_pressure = 1200;
-  m.ambient_pressure = 1000;
-  m.internal_damping = 2;
-  m.rebound_speed = 1;
-  m.start_in_equilibrium = false;
+  m[Material::mass] = 4;
+  m[GasPressure::inside] = 1200;
+  m[GasPressure::outside] = 1000;
+  m[Material::internal_damping] = 2;
+  m[contact::rebound_speed] = 1;
+  m[Material::start_in_equilibrium] = false;
   Scene scene = lone_body(m, {0, -1, 0});
   m.name = "other";
-  m.friction = 0.3;
+  m[contact::friction] = 0.3;
   scene.materials.push_back(m);
   scene.contact_surface = surface;
   scene.collision.self_collision = true;
@@ -300,7 +298,7 @@ TEST(LargeBodies, AreChangedTheSameAtEitherWidth) {
   for (World* world : {&narrow, &wide}) {
     run(*world, 4);
     Material soft = scene.materials[0];
-    soft.structural.stiffness = 100;
+    soft[StructuralSprings::stiffness] = 100;
     world->set_material(0, soft);
     world->grab(Grab{.body = 1, .target = {1, 2, 0}});
     run(*world, 4);

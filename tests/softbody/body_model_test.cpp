@@ -21,7 +21,7 @@ namespace {
 TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   Material m = spring_ball(), renamed = m, stiffer = m;
   renamed.name += " again";
-  stiffer.structural.stiffness *= 2;
+  stiffer[StructuralSprings::stiffness] *= 2;
   auto one = shared_body_model({}, m);
   EXPECT_EQ(shared_body_model({}, m), one);
   EXPECT_NE(shared_body_model({}, renamed), one) << "worlds tell body models of different materials apart by this";
@@ -35,10 +35,10 @@ TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
 
 TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
   Material m = spring_ball();
-  m.mass = 3;
-  m.structural = {300, 0.2};
-  m.bend = {75, 0.4};
-  m.shear = {10, 0.1};
+  m[Material::mass] = 3;
+  m.set(StructuralSprings::keys, {300, 0.2});
+  m.set(BendSprings::keys, {75, 0.4});
+  m.set(ShearSprings::keys, {10, 0.1});
   const auto ball = make_body_model({}, m);
   EXPECT_EQ(ball->structural.size(), 480u);
   EXPECT_EQ(ball->bend.size(), 480u);
@@ -54,9 +54,9 @@ TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
 
 TEST(BodyModel, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
   Material m = spring_ball();
-  m.mass = 3;
-  m.structural = {300, 0.2};
-  m.bend = {75, 0.4};
+  m[Material::mass] = 3;
+  m.set(StructuralSprings::keys, {300, 0.2});
+  m.set(BendSprings::keys, {75, 0.4});
   const auto p = make_body_model({}, m);
   const double reduced = 3.0 / 162 / 2;  // two equal masses
   EXPECT_DOUBLE_EQ(p->particle_mass, 3.0 / 162);
@@ -79,7 +79,7 @@ TEST(BodyModel, SpringsOfAHubShareWhatSixWouldHave) {
   for (int i = 0; i < spokes; ++i) fan += face({1, 2 + i, 2 + (i + 1) % spokes});
   const TemporaryFolder folder;
   Material m = spring_ball();
-  m.structural = {300, 0.2};
+  m.set(StructuralSprings::keys, {300, 0.2});
   const auto p = make_body_model(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), m);
   int shared = 0;
   for (const Spring& s : p->structural) {
@@ -92,7 +92,7 @@ TEST(BodyModel, SpringsOfAHubShareWhatSixWouldHave) {
 
 TEST(BodyModel, AStiffnessOfZeroMeansNoSprings) {
   Material m = spring_ball();
-  m.bend.stiffness = 0;
+  m[BendSprings::stiffness] = 0;
   EXPECT_TRUE(make_body_model({}, m)->bend.empty());
 }
 
@@ -116,9 +116,9 @@ TEST(SpringBound, HasTheEigenvaluesOfKnownGraphs) {
 /// From below by power iteration, from above by a little more than that.
 TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
   Material m = spring_ball();
-  m.structural = {300, 0.2};
-  m.bend = {75, 0.4};
-  m.shear = {100, 0.1};
+  m.set(StructuralSprings::keys, {300, 0.2});
+  m.set(BendSprings::keys, {75, 0.4});
+  m.set(ShearSprings::keys, {100, 0.1});
   MeshSource grid, ball;
   grid.kind = "grid";
   for (const MeshSource& source : {grid, ball})

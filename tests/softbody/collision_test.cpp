@@ -16,9 +16,9 @@ namespace {
 /// Two bodies that meet off the line of their centres, one three times as heavy.
 Scene collision() {
   Scene scene = lone_body(gas_ball(), glm::dvec3(3, 0.2, 0));
-  scene.materials[0].internal_damping = 5;
+  scene.materials[0][Material::internal_damping] = 5;
   scene.materials.push_back(scene.materials[0]);
-  scene.materials[1].mass = 3;
+  scene.materials[1][Material::mass] = 3;
   add_body(scene, {1.6, 0.3, 0.1}, {-1.5, 0, 0.3});
   scene.bodies[1].material = 1;
   return scene;
@@ -52,7 +52,7 @@ TEST(Collision, LosesEnergyAndIsNotThrownBackFasterThanPenaltyContactAllows) {
 TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
   const auto stretch = [](const char* integrator) {
     Scene scene = lone_body(spring_ball());
-    scene.materials[0].friction = 10;
+    scene.materials[0][contact::friction] = 10;
     add_body(scene, {0, 1.03, 0}, {0.1, 0, 0});
     World world(scene, {.frame_time = 1e-4, .integrator = {integrator, 1}});
     run(world, 10);
@@ -73,8 +73,8 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     Scene scene = lone_body(gas_ball());
     scene.materials.push_back(scene.materials[0]);
     Material &soft = scene.materials[softer_first ? 0 : 1], &hard = scene.materials[softer_first ? 1 : 0];
-    soft.contact_stiffness = 40, hard.contact_stiffness = 90;
-    soft.friction = 0.2, hard.friction = 0.8;
+    soft[contact::stiffness] = 40, hard[contact::stiffness] = 90;
+    soft[contact::friction] = 0.2, hard[contact::friction] = 0.8;
     add_body(scene, {0, 0.8, 0.1}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
     scene.bodies[1].mesh = {.subdivisions = 3, .radius = 0.35};
@@ -183,7 +183,7 @@ TEST(Collision, BodiesDoNotPassThroughEachOther) {
 TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
   const auto spin = [](const char* integrator) {
     Scene scene = lone_body(gas_ball(), glm::dvec3(2, 0, 0));
-    scene.materials[0].friction = 1;
+    scene.materials[0][contact::friction] = 1;
     add_body(scene, {1.2, 0.5, 0}, {-2, 0, 0});
     World world(scene, {.integrator = {integrator}});
     run(world, 45);
@@ -198,7 +198,7 @@ TEST(Collision, OffTheMiddleGivesAsMuchSpinInImplicitSteps) {
 TEST(Collision, InsideOneBodyConservesMomentumAndSpin) {
   const auto fly = [](bool with_itself) {
     Scene scene = lone_body(spring_ball());
-    scene.materials[0].friction = 0;  // a couple over the distance that it is kept at, which would take spin
+    scene.materials[0][contact::friction] = 0;  // a couple over the distance that it is kept at, which would take spin
     scene.collision.self_collision = with_itself;
     scene.collision.tolerance = 0.1f;
     World world(scene, {.frame_time = 1.0 / 240});

@@ -21,7 +21,7 @@ double largest(const std::vector<glm::dvec3>& vectors) {
 TEST(Equilibrium, LeavesNoForceBehind) {
   for (const double pressure : {101325.0, 103000.0, 113000.0, 90000.0}) {
     Material m = gas_ball();
-    m.gas_pressure = pressure;
+    m[GasPressure::inside] = pressure;
     const auto p = make_body_model({}, m);
     const double weight = p->particle_mass * 9.81;
     EXPECT_LT(largest(forces(*p, p->start)), 1e-3 * weight) << pressure << " Pa";
@@ -36,7 +36,7 @@ TEST(Equilibrium, LeavesNoForceBehind) {
 /// An icosahedron stays one, so its radius is the root of one equation: springs against gas.
 TEST(Equilibrium, OfAnIcosahedronHasTheRadiusOfTheForceBalance) {
   Material m = gas_ball();
-  m.gas_pressure = 200000;
+  m[GasPressure::inside] = 200000;
   MeshSource source;
   source.subdivisions = 0;
   source.radius = 0.5;
@@ -62,7 +62,7 @@ TEST(Equilibrium, OfAnIcosahedronHasTheRadiusOfTheForceBalance) {
 TEST(Equilibrium, ABodyThatStartsInItStaysAtRest) {
   for (const bool gas : {false, true}) {
     Material m = gas ? gas_ball() : spring_ball();
-    m.internal_damping = 10;
+    m[Material::internal_damping] = 10;
     World world(lone_body(m), {});
     for (int i = 0; i < 240; ++i) {
       world.step();
@@ -76,7 +76,7 @@ TEST(Equilibrium, ABodyThatStartsInItStaysAtRest) {
 
 TEST(Equilibrium, IsNotLookedForWhenTheSceneSaysSo) {
   Material m = gas_ball();
-  m.start_in_equilibrium = false;
+  m[Material::start_in_equilibrium] = false;
   const auto p = make_body_model({}, m);
   EXPECT_EQ(p->start, p->mesh.vertices);
   World world(lone_body(m), {});
@@ -89,9 +89,9 @@ TEST(Equilibrium, OfASoftSkinIsNearlyTheVolumeAtAmbientPressure) {
   for (const double pressure : {101400.0, 103000.0, 113000.0})
     for (const double stiffness : {2.0, 20.0, 100.0}) {
       Material m = gas_ball();
-      m.structural.stiffness = stiffness;
-      m.bend.stiffness = stiffness / 4;
-      m.gas_pressure = pressure;
+      m[StructuralSprings::stiffness] = stiffness;
+      m[BendSprings::stiffness] = stiffness / 4;
+      m[GasPressure::inside] = pressure;
       const auto p = make_body_model({}, m);
       EXPECT_NEAR(p->start_volume / p->gas.rest_volume, pressure / 101325, 1e-3) << stiffness << " N/m";
       EXPECT_LT(largest(forces(*p, p->start)), 1e-4);
@@ -107,8 +107,8 @@ TEST(Equilibrium, IsNeverNotANumber) {
 TEST(Equilibrium, ThatDoesNotExistIsAnErrorThatNamesTheMaterial) {
   Material m = gas_ball();
   m.name = "balloon";
-  m.structural.stiffness = m.bend.stiffness = 1e-6;
-  m.ambient_pressure = 0;  // nothing holds the gas back but these springs
+  m[StructuralSprings::stiffness] = m[BendSprings::stiffness] = 1e-6;
+  m[GasPressure::outside] = 0;  // nothing holds the gas back but these springs
   try {
     make_body_model({}, m);
     FAIL() << "found one";

@@ -190,9 +190,9 @@ TEST(GasLaw, EnergyIsThePotentialOfThePressureOnBothSides) {
 /// With nothing inside there is no volume at which what is around would let it rest but none.
 TEST(Gas, ABodyWithoutAnyFallsFlatAndIsNotBlownUp) {
   Material m = gas_ball();
-  m.gas_pressure = 0;
-  m.ambient_pressure = 101325;
-  m.start_in_equilibrium = false;
+  m[GasPressure::inside] = 0;
+  m[GasPressure::outside] = 101325;
+  m[Material::start_in_equilibrium] = false;
   World world(lone_body(m), {});
   const double energy = measure(world).energy;
   for (int frame = 0; frame < 120; ++frame) {

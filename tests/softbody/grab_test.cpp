@@ -53,7 +53,7 @@ TEST(Grab, TheForceIsTheSpringsAndDampersForASmallStepAndBoundedForAnyOther) {
 
 TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
   Material dust = test::spring_ball();
-  dust.structural.stiffness = dust.bend.stiffness = 0;  // particles that know nothing of each other
+  dust[StructuralSprings::stiffness] = dust[BendSprings::stiffness] = 0;  // particles that know nothing of each other
   World world(test::lone_body(dust), {.frame_time = 1e-4});
   Grab grab = on_first_face(world);
   grab.frequency = 0.2;
@@ -61,8 +61,8 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
   const double stretch = 0.1;
   const glm::dvec3 from = take(world, grab, {stretch, 0, 0});
   const double mass = world.model(0).particle_mass / glm::dot(grab.weights, grab.weights);
-  const double rate = 2 * std::numbers::pi * grab.frequency, k = dust.mass * rate * rate;
-  const double decay = grab.damping_ratio * dust.mass * rate / mass;
+  const double rate = 2 * std::numbers::pi * grab.frequency, k = dust[Material::mass] * rate * rate;
+  const double decay = grab.damping_ratio * dust[Material::mass] * rate / mass;
   const double swing = std::sqrt(k / mass - decay * decay);
   for (int frame = 1; frame <= 6000; ++frame) {
     world.step();
@@ -79,8 +79,8 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
   for (const Integrator& integrator : integrators()) {
     for (const double mass : {0.5, 2.0}) {
       Material material = test::spring_ball();
-      material.mass = mass;
-      material.internal_damping = 10;
+      material[Material::mass] = mass;
+      material[Material::internal_damping] = 10;
       Scene scene = test::lone_body(material);
       scene.gravity = {0, -9.81, 0};
       World world(scene, {.integrator = {std::string(integrator.key)}});
@@ -97,7 +97,7 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
 
 TEST(Grab, ABodySagsByItsWeightInLongSubstepsToo) {
   Material material = test::spring_ball();
-  material.internal_damping = 10;
+  material[Material::internal_damping] = 10;
   Scene scene = test::lone_body(material);
   scene.gravity = {0, -9.81, 0};
   World world(scene, {.integrator = {"semi-implicit-euler", 8}});
@@ -113,7 +113,7 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
     for (const double mass : {1e-2, 1e3}) {
       for (const double ratio : {0.0, 100.0}) {
         Material material = test::gas_ball();
-        material.mass = mass;
+        material[Material::mass] = mass;
         World world(test::lone_body(material), {});
         Grab grab = on_first_face(world);
         grab.frequency = frequency;
@@ -124,8 +124,7 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
         EXPECT_TRUE(m.finite) << frequency << " Hz, " << mass << " kg";
         EXPECT_LT(m.max_speed, 200) << frequency << " Hz, " << mass << " kg";
         if (frequency < 1e3 || ratio > 0) continue;
-        EXPECT_LT(glm::distance(grabbed_point(world), from + glm::dvec3(0.5, 0.5, 0)),
-                  0.01);
+        EXPECT_LT(glm::distance(grabbed_point(world), from + glm::dvec3(0.5, 0.5, 0)), 0.01);
       }
     }
   }

@@ -15,7 +15,7 @@ namespace {
 class HandOnThreeParticles : public testing::Test {
  protected:
   HandOnThreeParticles() {
-    model.material.mass = 2;
+    model.material[Material::mass] = 2;
     model.particle_mass = 0.5;
     x.randomise(random, 1);
     v.randomise(random, 1);
@@ -26,7 +26,7 @@ class HandOnThreeParticles : public testing::Test {
   HeldBody body() { return {model, origin, of(x), of(v), of(f)}; }
   /// N, on the point, which moves at `velocity` after a step of h but for the hand.
   glm::dvec3 expected(const glm::dvec3& velocity) {
-    const double rate = 2 * std::numbers::pi * grab.frequency, mass = model.material.mass;
+    const double rate = 2 * std::numbers::pi * grab.frequency, mass = model.material[Material::mass];
     return pull(mass * rate * rate, 2 * grab.damping_ratio * mass * rate,
                 model.particle_mass / glm::dot(grab.weights, grab.weights), h, grab.target - origin - mean(of(x)),
                 velocity);

@@ -9,27 +9,27 @@ namespace softbody::test {
 Material spring_ball() {
   Material m;
   m.name = "springs";
-  m.rolling_resistance = 0;
-  m.thickness = 0;
+  m[contact::rolling_resistance] = 0;
+  m[Material::thickness] = 0;
   return m;
 }
 
 Material gas_ball() {
   Material m = spring_ball();
   m.name = "gas";
-  m.structural = {200, 0.1};
-  m.bend = {50, 0.1};
-  m.gas_pressure = 113000;
-  m.ambient_pressure = 101325;
+  m.set(StructuralSprings::keys, {200, 0.1});
+  m.set(BendSprings::keys, {50, 0.1});
+  m[GasPressure::inside] = 113000;
+  m[GasPressure::outside] = 101325;
   return m;
 }
 
 Material gas_ball(double stiffness, double damping_ratio) {
   Material m = gas_ball();
-  m.structural = {stiffness, damping_ratio};
-  m.bend = {stiffness / 4, damping_ratio};
-  m.gas_pressure = 1.6 * stiffness;
-  m.rolling_resistance = 0;
+  m.set(StructuralSprings::keys, {stiffness, damping_ratio});
+  m.set(BendSprings::keys, {stiffness / 4, damping_ratio});
+  m[GasPressure::inside] = 1.6 * stiffness;
+  m[contact::rolling_resistance] = 0;
   return m;
 }
 
@@ -83,7 +83,7 @@ void place(World& world, const glm::dvec3& scale, double rate) {
 Motion motion(const World& world, BodyId body) {
   const BodyModel& p = world.model(body);
   const auto count = static_cast<Index>(p.mesh.vertices.size());
-  Motion m{p.material.mass, glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
+  Motion m{p.material[Material::mass], glm::dvec3(0.0), glm::dvec3(0.0), glm::dvec3(0.0)};
   for (Index i = 0; i < count; ++i) {
     const Particle q = world.particle(body, i);
     m.centre += q.position / double(count);

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <random>
 
+#include "softbody/contact/keys.h"
+#include "softbody/forces/table.h"
 #include "softbody/model/body_model.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"

@@ -143,7 +143,7 @@ TEST(FirstOrderStep, StopsAtPlanes) {
   EXPECT_GT(given.y, 0.1) << "N s";
   EXPECT_LT(std::hypot(given.x, given.z), 1e-6 * given.y) << "the planes are smooth";
   const glm::dvec3 gained =
-      rig.model->material.mass * (rig.end(1).velocity - rig.start(1).velocity - rig.h * rig.gravity);
+      rig.model->material[Material::mass] * (rig.end(1).velocity - rig.start(1).velocity - rig.h * rig.gravity);
   EXPECT_LT(glm::distance(gained, given), 0.1 * given.y) << gained.y << " " << given.y;
   EXPECT_EQ(rig.gain(1, true), 0);
 }
@@ -168,7 +168,7 @@ TEST(FirstOrderStep, TakesTheMomentumThatPenaltyPairsGive) {
                             penalty_pair(5, 2, glm::normalize(force), -force)};
   for (LinearPenaltyPair& s : rig.work.penalty_pairs) s.max_work = 1;
   ASSERT_EQ(attempt(first_order_step, rig, mask({1})), mask({1}));
-  EXPECT_LT(glm::distance(rig.model->material.mass * rig.end(1).velocity, rig.h * force), 1e-12);
+  EXPECT_LT(glm::distance(rig.model->material[Material::mass] * rig.end(1).velocity, rig.h * force), 1e-12);
   const glm::dvec3 lever = at(rig.work.end_x, 5, 1) - rig.end(1).centre;
   EXPECT_LT(glm::distance(rig.model->particle_mass * rig.end(1).momentum, rig.h * glm::cross(lever, force)), 1e-12);
 }

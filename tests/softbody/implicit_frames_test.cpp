@@ -110,7 +110,7 @@ TEST(ImplicitFrames, DoNotFollowATremor) {
 
 /// A ball in lane 1 whose particles all move with 2 m/s.
 struct Moving : ImplicitRig {
-  double kinetic = 0.5 * model->material.mass * 4;  // J
+  double kinetic = 0.5 * model->material[Material::mass] * 4;  // J
   Moving() {
     move(1, {2, 0, 0});
     work.end_x = work.x, work.end_v = work.v;
@@ -158,13 +158,13 @@ TEST(SatisfiesMomentumBalance, ComparesMomentumWithTheForces) {
   m.work.planes = {plane(3, 1, {0, 1, 0}, 0, by_plane), plane(3, 2, {0, 1, 0}, 0, {1e3, 1e3, 1e3})};
   m.work.penalty_pairs = {penalty_pair(5, 1, {0, 0, 1}, by_pair), penalty_pair(5, 2, {0, 0, 1}, {0, 0, 1e3})};
   const glm::dvec3 given = h * (by_plane + by_pair);
-  const double tenth = 0.1 * (glm::length(given) + h * m.model->material.mass * glm::length(gravity));
+  const double tenth = 0.1 * (glm::length(given) + h * m.model->material[Material::mass] * glm::length(gravity));
   const auto ends_with = [&](const glm::dvec3& momentum) {  // kg m/s, more than it started with
     for (std::size_t i = 0; i < m.model->mesh.vertices.size(); ++i)
-      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.model->material.mass);
+      put(m.work.end_v, i, 1, at(m.work.v, i, 1) + momentum / m.model->material[Material::mass]);
     return satisfies_momentum_balance(*m.model, m.work, 1, h, gravity);
   };
-  const glm::dvec3 due = given + h * m.model->material.mass * gravity;
+  const glm::dvec3 due = given + h * m.model->material[Material::mass] * gravity;
   for (const glm::dvec3& way : {glm::dvec3(1, 0, 0), glm::dvec3(0, 1, 0), glm::dvec3(0, 0, 1)})
     for (const double sign : {-1.0, 1.0}) {
       EXPECT_TRUE(ends_with(due + 0.99 * sign * tenth * way));

@@ -78,7 +78,8 @@ TEST(ImplicitSpin, SwellsAsItShould) {
 TEST(ImplicitSpin, LetsWhatIsFreeFlyStraight) {
   const auto error = [](int frames) {  // m, the root of the mean square after a quarter of a second
     Material loose = spring_ball();
-    loose.structural = loose.bend = {1e-9, 0};
+    loose.set(StructuralSprings::keys, {1e-9, 0});
+    loose.set(BendSprings::keys, {1e-9, 0});
     World world(lone_body(loose), {.frame_time = 0.25 / frames, .integrator = {"implicit", 1}});
     std::vector<Particle> start = particles_of(world);
     std::mt19937 random(3);
@@ -127,9 +128,9 @@ TEST(ImplicitSpin, KeepsMomentumInTheAir) {
       for (unsigned seed = 1; seed <= 5; ++seed) {
         SCOPED_TRACE(testing::Message() << stiffness << " N/m, " << width << " m wide, seed " << seed);
         Material m;
-        m.structural = {stiffness, 0.1};
-        m.shear = {stiffness / 2, 0.1};
-        m.bend = {stiffness / 10, 0.1};
+        m.set(StructuralSprings::keys, {stiffness, 0.1});
+        m.set(ShearSprings::keys, {stiffness / 2, 0.1});
+        m.set(BendSprings::keys, {stiffness / 10, 0.1});
         Scene scene = lone_body(m);
         scene.bodies[0].mesh = {.kind = "grid", .columns = 30, .rows = 1, .width = 2, .depth = width};
         World world(scene, {.integrator = {"implicit", 1}});

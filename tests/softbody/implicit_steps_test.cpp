@@ -208,7 +208,7 @@ TEST(ImplicitSteps, TakeABatchToItsEnd) {
   const glm::dvec3 fall = rig.h * rig.gravity;
   EXPECT_LT(glm::distance(rig.velocity(rig.mean, 0), glm::dvec3(1, 0, 0) + fall / 2.0), 1e-6) << "second order";
   EXPECT_LT(glm::distance(rig.velocity(rig.rest, 0), fall / 2.0), 1e-6);
-  const double mass = rig.model->material.mass;
+  const double mass = rig.model->material[Material::mass];
   const glm::dvec3 gained = rig.velocity(rig.mean, 1) + rig.velocity(rig.rest, 1) - glm::dvec3(0, -2, 0) - fall;
   EXPECT_GT(gained.y, 0.1) << "m/s";
   EXPECT_NEAR(mass * gained.y, double(rig.impulse.y[1]), 0.1 * mass * gained.y);

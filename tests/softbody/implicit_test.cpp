@@ -17,11 +17,11 @@ namespace {
 /// Its mean height when at rest is worked out by nobody: explicit steps of the same model say it.
 Scene ball_above_ground(double stiffness, double height) {
   Material m = gas_ball();
-  m.structural = {stiffness, 0.1};
-  m.bend = {stiffness / 4, 0.1};
-  m.internal_damping = 10;
-  m.rebound_speed = 2;
-  m.rolling_resistance = 0.3;
+  m.set(StructuralSprings::keys, {stiffness, 0.1});
+  m.set(BendSprings::keys, {stiffness / 4, 0.1});
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
   Scene scene = lone_body(m);
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].position = {0, height, 0};
@@ -44,7 +44,7 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
     source.subdivisions = 1;
     if (!closed) source.kind = "grid", source.columns = source.rows = 6;
     Material m = gas_ball();
-    m.shear = {50, 0.1};
+    m.set(ShearSprings::keys, {50, 0.1});
     const auto p = make_body_model(source, m);
     const ImplicitMatrix a(*p, 1e-2);
     const auto n = static_cast<Index>(p->mesh.vertices.size());
@@ -69,9 +69,9 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
 TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
   constexpr double h = 1e-2, tiny = 1e-6;
   Material m = gas_ball();
-  m.structural = {1e4, 0};
-  m.bend = {2e3, 0};
-  m.start_in_equilibrium = false;  // it finds the balance itself
+  m.set(StructuralSprings::keys, {1e4, 0});
+  m.set(BendSprings::keys, {2e3, 0});
+  m[Material::start_in_equilibrium] = false;  // it finds the balance itself
   const auto p = make_body_model({}, m);
   const ImplicitMatrix a(*p, h);
   const std::size_t n = p->mesh.vertices.size();
@@ -94,7 +94,7 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
 /// With another step length only the shape in balance is taken over.
 TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
   Material m = gas_ball();
-  m.start_in_equilibrium = false;  // so that the shape in balance is not the one of the start
+  m[Material::start_in_equilibrium] = false;  // so that the shape in balance is not the one of the start
   const auto p = make_body_model({}, m);
   const ImplicitMatrix other(*p, 1e-2), again(*p, 2e-3, &other), fresh(*p, 2e-3);
   EXPECT_GT(glm::distance(fresh.shape()[0], p->start[0]), 1e-3);
@@ -115,8 +115,8 @@ TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
 
 TEST(ImplicitMatrix, IsToBeHadOfHardlyAnyMass) {
   Material m = gas_ball();
-  m.structural = {1e9, 0.1};
-  m.mass = 1e-12;
+  m.set(StructuralSprings::keys, {1e9, 0.1});
+  m[Material::mass] = 1e-12;
   const ImplicitMatrix a(*make_body_model({}, m), 0.5);
   EXPECT_TRUE(std::isfinite(glm::determinant(a.compliance(1, 1))));
 }
@@ -177,8 +177,8 @@ double max_gained(World& world, int frames) {
 TEST(Implicit, ABodyThatKeepsItsShapeGainsNoEnergy) {
   for (const double frequency : {1.0, 10.0, 100.0}) {
     Material m = spring_ball();
-    m.structural.damping_ratio = m.bend.damping_ratio = 0;
-    m.shape_frequency = frequency;
+    m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = 0;
+    m[ShapeMatching::frequency] = frequency;
     World world(lone_body(m), {.integrator = {"implicit"}});
     place(world, {1.5, 0.8, 0.8});
     const double rest = starting_energy(world.model(0)).deformation(), start = measure(world).energy - rest;
@@ -223,8 +223,8 @@ TEST(Implicit, RestsWhereExplicitStepsRest) {
 TEST(Implicit, KeepsAnEquilibriumsVolumeToAMillionth) {
   for (const double stiffness : {1e1, 1e3, 1e6}) {
     Material m = gas_ball();
-    m.structural = {stiffness, 0.1};
-    m.bend = {stiffness / 4, 0.1};
+    m.set(StructuralSprings::keys, {stiffness, 0.1});
+    m.set(BendSprings::keys, {stiffness / 4, 0.1});
     World world(lone_body(m), {.integrator = {"implicit", 1}});
     run(world, 60);
     EXPECT_NEAR(measure(world).volume_ratio_min, 1, 1e-6) << stiffness;
@@ -266,7 +266,7 @@ TEST(Auto, TakesMoreExplicitSubstepsInContactThanInFlight) {
 /// Light balls that lie on each other: hundreds of explicit substeps are cheaper than a few implicit ones.
 TEST(Auto, StaysExplicitInAHeap) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
-  scene.materials[0].mass = 0.012;
+  scene.materials[0][Material::mass] = 0.012;
   World world(scene, {});
   int most = 0;
   for (int frame = 0; frame < 60; ++frame) {
@@ -301,7 +301,7 @@ TEST(Auto, TurnsImplicitWhereRoundingWouldKeepBodiesTrembling) {
 TEST(Auto, ReckonsWithRoundingAlongEveryAxis) {
   Scene scene = sheet_on_ground(0, glm::dvec3(0.0), glm::dvec3(0.0));
   scene.ground.reset();
-  scene.materials[0].structural.stiffness = 1e5;
+  scene.materials[0][StructuralSprings::stiffness] = 1e5;
   const auto choice = [&](double width, double depth) {
     scene.bodies[0].mesh.width = width, scene.bodies[0].mesh.depth = depth;
     World world(scene, {.frame_time = 1.0 / 240});

@@ -14,8 +14,8 @@ namespace {
 /// A ball that has been pulled longer along one axis and flies, turning.
 Scene swinging_ball(double damping_ratio) {
   Material m = spring_ball();
-  m.structural = {1000, damping_ratio};
-  m.bend = {250, damping_ratio};
+  m.set(StructuralSprings::keys, {1000, damping_ratio});
+  m.set(BendSprings::keys, {250, damping_ratio});
   Scene scene = lone_body(m, {1, 2, 0.5});
   scene.gravity = {0, -9.81, 0};
   return scene;
@@ -46,8 +46,8 @@ class Integrators : public testing::TestWithParam<Integrator> {};
 TEST_P(Integrators, ConvergeWithTheirOrder) {
   const Integrator& i = GetParam();
   Scene scene = swinging_ball(0.02);
-  scene.materials[0].gas_pressure = 500;  // it breathes, for it does not start in equilibrium
-  scene.materials[0].start_in_equilibrium = false;
+  scene.materials[0][GasPressure::inside] = 500;  // it breathes, for it does not start in equilibrium
+  scene.materials[0][Material::start_in_equilibrium] = false;
   const auto reference = flight(scene, "rk4", 256, 6);
   // Coarse enough for the error to be far above a float's.
   const int coarse = i.order == 4 ? 6 : std::max(48 / i.substeps_per_step, 3);
@@ -60,8 +60,8 @@ TEST_P(Integrators, ConvergeWithTheirOrder) {
 TEST_P(Integrators, KeepLinearAndAngularMomentum) {
   Scene scene = swinging_ball(0.05);
   scene.gravity = {};
-  scene.materials[0].gas_pressure = 400;
-  scene.materials[0].start_in_equilibrium = false;
+  scene.materials[0][GasPressure::inside] = 400;
+  scene.materials[0][Material::start_in_equilibrium] = false;
   const Integrator& i = GetParam();
   World world(scene, {.integrator = {std::string(i.key), i.order == 1 ? about(i, 100) : i.implicit ? 2 : 20}});
   const Motion start = motion(world, 0);
@@ -138,11 +138,11 @@ TEST(Integrator, CanBeChangedWhileItRuns) {
 TEST(Integrator, ExplicitEulerKeepsItsEnergyAtItsBound) {
   for (const double stiffness : {1e3, 1e5}) {
     Scene scene = swinging_ball(0.1);
-    scene.materials[0].structural.stiffness = stiffness;
-    scene.materials[0].bend = {stiffness / 4, 0.1};
-    scene.materials[0].gas_pressure = 1.6 * stiffness;
-    scene.materials[0].ambient_pressure = 0;
-    scene.materials[0].start_in_equilibrium = false;  // it breathes
+    scene.materials[0][StructuralSprings::stiffness] = stiffness;
+    scene.materials[0].set(BendSprings::keys, {stiffness / 4, 0.1});
+    scene.materials[0][GasPressure::inside] = 1.6 * stiffness;
+    scene.materials[0][GasPressure::outside] = 0;
+    scene.materials[0][Material::start_in_equilibrium] = false;  // it breathes
     World world(scene, {.integrator = {"explicit-euler"}});
     const double start = measure(world).energy;
     for (int frame = 0; frame < 3; ++frame) {
@@ -155,7 +155,7 @@ TEST(Integrator, ExplicitEulerKeepsItsEnergyAtItsBound) {
 TEST(Integrator, BelowItsBoundAnExplicitOneBlowsUp) {
   for (const std::string_view key : {"semi-implicit-euler", "velocity-verlet", "rk4", "explicit-euler"}) {
     Scene scene = swinging_ball(0.02);
-    scene.materials[0].structural.stiffness = 1e5;
+    scene.materials[0][StructuralSprings::stiffness] = 1e5;
     World world(scene, {.integrator = {std::string(key), 1}});
     run(world, 60);
     const Measures m = measure(world);
@@ -182,8 +182,8 @@ TEST(ExplicitEuler, CountsOnNoDampingButTheBodysOwn) {
 /// A sheet that only springs along its diagonals hold, let go of when it is sheared.
 TEST(Integrator, XpbdGoesWithShearSprings) {
   Material m = spring_ball();
-  m.structural.stiffness = m.bend.stiffness = 0;
-  m.shear = {50, 0};
+  m[StructuralSprings::stiffness] = m[BendSprings::stiffness] = 0;
+  m.set(ShearSprings::keys, {50, 0});
   Scene scene = lone_body(m);
   scene.bodies[0].mesh = {.kind = "grid", .columns = 4, .rows = 4, .width = 1, .depth = 1};
   const auto positions = [&](const char* integrator, int frames) {
@@ -205,7 +205,7 @@ TEST(Integrator, XpbdGoesWithShearSprings) {
 TEST(Integrator, XpbdIsStableHoweverStiffTheGas) {
   for (const double pressure : {1e5, 1e6, 1e7}) {
     Material m = gas_ball();
-    m.gas_pressure = m.ambient_pressure = pressure;
+    m[GasPressure::inside] = m[GasPressure::outside] = pressure;
     World world(lone_body(m), {.integrator = {"xpbd", 10}});
     place(world, glm::dvec3(0.95));
     for (int frame = 0; frame < 30; ++frame) {

@@ -63,7 +63,7 @@ position = [0.9, 2.6, 0.1]
 /// Root mean square distance of the particles from the mesh's own shape, in m.
 double distortion(const World& world) {
   Material m = world.model(0).material;
-  m.shape_frequency = 1;
+  m[ShapeMatching::frequency] = 1;
   const auto p = make_body_model(world.scene().bodies[0].mesh, m);
   std::vector<glm::dvec3> x;
   for (Index i = 0; i < p->goal.size(); ++i) x.push_back(world.particle(0, i).position);

@@ -59,8 +59,8 @@ TEST(BodyOrigin, FollowsItsParticlesWithoutAJump) {
 /// Where the particles of a body that starts away from its balance are at eight times, after `steps` steps in all.
 std::vector<glm::dvec3> pulsate(double seconds, int steps) {
   Material m = gas_ball();
-  m.gas_pressure = 160000;
-  m.start_in_equilibrium = false;
+  m[GasPressure::inside] = 160000;
+  m[Material::start_in_equilibrium] = false;
   World world(lone_body(m), {.frame_time = seconds / steps, .integrator = {"semi-implicit-euler", 1}});
   std::vector<glm::dvec3> x;
   for (int i = 1; i <= steps; ++i) {
@@ -91,9 +91,9 @@ TEST(Convergence, OfAPulsatingBodyIsOfFirstOrder) {
 TEST(Energy, OfABodyInFreeFlightDoesNotGrow) {
   for (const double damping_ratio : {0.0, 0.3}) {
     Material m = gas_ball();
-    m.structural.damping_ratio = m.bend.damping_ratio = damping_ratio;
-    m.gas_pressure = 102500;
-    m.start_in_equilibrium = false;
+    m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = damping_ratio;
+    m[GasPressure::inside] = 102500;
+    m[Material::start_in_equilibrium] = false;
     Scene scene = lone_body(m, glm::dvec3(0.5, 0, 0));
     const auto kinetic = [](const World& world) {
       double sum = 0;
@@ -133,7 +133,7 @@ TEST(Energy, OfAFallingBodyIsThatOfItsStart) {
 /// Gives a free body a spin: it grazes a rough solid sphere in passing, without gravity.
 Scene grazing(double internal_damping) {
   Material m = gas_ball();
-  m.internal_damping = internal_damping;
+  m[Material::internal_damping] = internal_damping;
   Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
   scene.bodies[0].position = {-1.5, 1.35, 0.2};
   scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
@@ -145,8 +145,8 @@ TEST(Energy, OfShearSpringsIsThatOfTheDiagonalsStretch) {
   constexpr double width = 0.2, depth = 0.3, shift = 0.4,
                    k = 70;  // of a quad, m; of a row against the next, per m; N/m
   Material m = spring_ball();
-  m.structural.stiffness = m.bend.stiffness = 0;
-  m.shear = {k, 0};
+  m[StructuralSprings::stiffness] = m[BendSprings::stiffness] = 0;
+  m.set(ShearSprings::keys, {k, 0});
   Scene scene = lone_body(m);
   scene.bodies[0].mesh = {
       .kind = "grid", .columns = columns, .rows = rows, .width = columns * width, .depth = rows * depth};

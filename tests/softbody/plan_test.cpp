@@ -107,7 +107,7 @@ TEST_P(StageLeftOut, ChangesNoBitOfTheTrajectory) {
   base.bodies[0].position = {0, 1, 0};
   base.ground = Ground{0, 0.5};
   base.spheres = {{.centre = {1, 0, 0.25}, .radius = 0.5}};
-  base.materials[0].start_in_equilibrium = false;
+  base.materials[0][Material::start_in_equilibrium] = false;
   Scene absent = base, present = base;
   idle.without(absent);
   idle.with(present);
@@ -176,9 +176,10 @@ const Idle idle_stages[]{
        s.bodies.push_back(s.bodies[0]);
        s.bodies[1].appear = s.bodies[1].release = 1000;
      }},
-    {"damping", Stage::internal_damping, nothing, [](Scene& s) { s.materials[0].internal_damping = 1e-30; }},
-    {"rebound", Stage::rebound_damping, nothing, [](Scene& s) { s.materials[0].rebound_speed = 1e30; }},
-    {"rolling", Stage::rolling_resistance, nothing, [](Scene& s) { s.materials[0].rolling_resistance = 1e-30; }},
+    {"damping", Stage::internal_damping, nothing, [](Scene& s) { s.materials[0][Material::internal_damping] = 1e-30; }},
+    {"rebound", Stage::rebound_damping, nothing, [](Scene& s) { s.materials[0][contact::rebound_speed] = 1e30; }},
+    {"rolling", Stage::rolling_resistance, nothing,
+     [](Scene& s) { s.materials[0][contact::rolling_resistance] = 1e-30; }},
     {"sleep", Stage::sleep, nothing, [](Scene& s) { s.sleep.speed = 1e-30; }},
     {"gravity", Stage::gravity, [](Scene& s) { s.gravity = glm::dvec3(0.0); },
      [](Scene& s) {
@@ -187,16 +188,17 @@ const Idle idle_stages[]{
     {"shear", Stage::shear_springs, sheet,
      [](Scene& s) {
        sheet(s);
-       s.materials[0].shear = {1e-30, 0};
+       s.materials[0].set(ShearSprings::keys, {1e-30, 0});
      }},
-    {"bend", Stage::bend_springs, [](Scene& s) { s.materials[0].bend = {}; },
+    {"bend", Stage::bend_springs, [](Scene& s) { s.materials[0][BendSprings::stiffness] = 0; },
      [](Scene& s) {
-       s.materials[0].bend = {1e-30, 0};
+       s.materials[0].set(BendSprings::keys, {1e-30, 0});
      }},
-    {"gas", Stage::gas_pressure, [](Scene& s) { s.materials[0].gas_pressure = s.materials[0].ambient_pressure = 0; },
+    {"gas", Stage::gas_pressure,
+     [](Scene& s) { s.materials[0][GasPressure::inside] = s.materials[0][GasPressure::outside] = 0; },
      [](Scene& s) {
-       s.materials[0].gas_pressure = 1e-30;
-       s.materials[0].ambient_pressure = 0;
+       s.materials[0][GasPressure::inside] = 1e-30;
+       s.materials[0][GasPressure::outside] = 0;
      }},
 };
 

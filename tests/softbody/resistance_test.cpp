@@ -32,8 +32,8 @@ double vibration(const World& world) {
 /// After a frame that shook a body without dampers against a solid, the frames that follow in free flight.
 Scene shaken(double internal_damping) {
   Material m = gas_ball();
-  m.structural.damping_ratio = m.bend.damping_ratio = 0;
-  m.internal_damping = internal_damping;
+  m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = 0;
+  m[Material::internal_damping] = internal_damping;
   Scene scene = lone_body(m, glm::dvec3(4, 0, 0));
   scene.bodies[0].position = {-2, 1.2, 0};
   scene.spheres = {{.centre = glm::dvec3(0.0), .radius = 1, .friction = 1}};
@@ -62,8 +62,9 @@ TEST(InternalDamping, HasTheRateOfItsMaterial) {
   for (const double rate : {2.0, 6.0})
     for (const double frame_time : {1.0 / 60, 1.0 / 240}) {
       Material m = spring_ball();
-      m.structural = m.bend = {1e-9, 0};  // its particles fly nearly on their own
-      m.internal_damping = rate;
+      m.set(BendSprings::keys, {1e-9, 0});
+      m.set(StructuralSprings::keys, {1e-9, 0});  // its particles fly nearly on their own
+      m[Material::internal_damping] = rate;
       World world(lone_body(m), {.frame_time = frame_time});
       std::vector<Particle> shaken = particles_of(world);
       std::mt19937 random(5);  // so slow that the shape, and with it the rigid motion, stays
@@ -82,10 +83,10 @@ TEST(InternalDamping, HasTheRateOfItsMaterial) {
 /// A ball that rolls over the ground, after `frames`.
 Motion rolling(double resistance, int frames) {
   Material m = gas_ball();
-  m.structural.stiffness = 2000;  // hardly flattened, so that the closed form holds
-  m.bend.stiffness = 500;
-  m.rolling_resistance = resistance;
-  m.internal_damping = 20;
+  m[StructuralSprings::stiffness] = 2000;  // hardly flattened, so that the closed form holds
+  m[BendSprings::stiffness] = 500;
+  m[contact::rolling_resistance] = resistance;
+  m[Material::internal_damping] = 20;
   Scene scene = lone_body(m, glm::dvec3(3, 0, 0));
   scene.gravity = {0, -9.81, 0};
   scene.bodies[0].position = {0, 0.51, 0};
@@ -118,9 +119,9 @@ std::vector<Particle> tumbled_sheet(double resistance) {
   Scene scene = sheet_on_ground(1, {0, -9.81, 0}, glm::dvec3(0.0));
   scene.ground.reset();
   scene.spheres = {{.centre = {0.3, -0.5, 0.1}, .radius = 0.4, .friction = 1}};
-  scene.materials[0].rolling_resistance = resistance;
+  scene.materials[0][contact::rolling_resistance] = resistance;
   scene.materials.push_back(gas_ball());
-  scene.materials[1].rolling_resistance = 1;
+  scene.materials[1][contact::rolling_resistance] = 1;
   add_body(scene, {50, 0, 0}, glm::dvec3(0.0));
   scene.bodies[1].material = 1;
   World world(scene, {});
@@ -142,7 +143,7 @@ TEST(RollingResistance, IsThatOfClosedBodiesOnly) {
 /// How fast a ball thrown at the ground without gravity leaves it.
 double rebound(double thrown, double limit) {
   Material m = gas_ball();
-  m.rebound_speed = limit;
+  m[contact::rebound_speed] = limit;
   Scene scene = lone_body(m, glm::dvec3(0, -thrown, 0));
   scene.bodies[0].position = {0, 1, 0};
   scene.ground = Ground{0, 0.5};
@@ -164,7 +165,7 @@ TEST(ReboundDamping, ThrowsNoBodyBackFasterThanItsSpeed) {
 
 TEST(ReboundDamping, DoesNothingToABodyInFreeFlight) {
   Material m = gas_ball();
-  m.rebound_speed = 0.5;
+  m[contact::rebound_speed] = 0.5;
   Scene scene = lone_body(m, glm::dvec3(0, 20, 0));
   scene.ground = Ground{-1, 0.5};
   World world(scene, {});
@@ -176,9 +177,9 @@ TEST(ReboundDamping, DoesNothingToABodyInFreeFlight) {
 class ResistanceOfABody : public testing::Test {
  protected:
   ResistanceOfABody() {
-    material.internal_damping = 5;
-    material.rolling_resistance = 0.1;
-    material.rebound_speed = 4;
+    material[Material::internal_damping] = 5;
+    material[contact::rolling_resistance] = 0.1;
+    material[contact::rebound_speed] = 4;
     model = make_unbalanced_body_model({}, material);
     x = v = LaneField(model->start.size());
     for (std::size_t i = 0; i < model->start.size(); ++i) {
@@ -242,14 +243,14 @@ TEST_F(ResistanceOfABody, RollsByTheNormalImpulse) {
 
 TEST_F(ResistanceOfABody, DampsARebound) {
   const glm::dvec3 before = motion().velocity;
-  const double impulse = 0.5 * material.mass * material.rebound_speed;
+  const double impulse = 0.5 * material[Material::mass] * material[contact::rebound_speed];
   apply(Stage::rebound_damping, {{0, impulse, 0}, 0});
   EXPECT_NEAR(motion().velocity.y, 0.5 * before.y, 1e-5);
   EXPECT_NEAR(motion().velocity.x, before.x, 1e-6);
 }
 
 TEST_F(ResistanceOfABody, KeepsWhatRestitutionGivesBackOfARebound) {
-  const double out = motion().velocity.y, in = 3, impulse = material.mass * (in + out);
+  const double out = motion().velocity.y, in = 3, impulse = material[Material::mass] * (in + out);
   apply(Stage::rebound_damping, {{0, impulse, 0}, 0.5 * impulse});
   EXPECT_NEAR(impact, in, 1e-5);
   EXPECT_NEAR(motion().velocity.y, 0.5 * in, 1e-5) << "all that is faster is lost: the impulse is large";

@@ -179,20 +179,20 @@ TEST(SceneFile, MaterialsAndSolids) {
   ASSERT_EQ(s.materials.size(), 2u);
   const Material& m = s.materials[1];
   EXPECT_EQ(m.name, "second");
-  EXPECT_EQ(m.mass, 2.5);
-  EXPECT_EQ(std::pair(m.structural.stiffness, m.structural.damping_ratio), std::pair(400.0, 0.25));
-  EXPECT_EQ(std::pair(m.bend.stiffness, m.bend.damping_ratio), std::pair(90.0, 0.5));
-  EXPECT_EQ(std::pair(m.shear.stiffness, m.shear.damping_ratio), std::pair(30.0, 0.75));
-  EXPECT_EQ(m.gas_pressure, 120000);
-  EXPECT_EQ(m.ambient_pressure, 101325);
-  EXPECT_EQ(m.internal_damping, 7);
-  EXPECT_EQ(m.rebound_speed, 1.5);
-  EXPECT_EQ(m.thickness, 0.03);
-  EXPECT_EQ(m.friction, 0.35);
-  EXPECT_EQ(m.restitution, 0.625);
-  EXPECT_EQ(m.rolling_resistance, 0.15);
-  EXPECT_EQ(m.contact_stiffness, 55);
-  EXPECT_FALSE(m.start_in_equilibrium);
+  EXPECT_EQ(m[Material::mass], 2.5);
+  EXPECT_EQ(std::pair(m[StructuralSprings::stiffness], m[StructuralSprings::damping_ratio]), std::pair(400.0, 0.25));
+  EXPECT_EQ(std::pair(m[BendSprings::stiffness], m[BendSprings::damping_ratio]), std::pair(90.0, 0.5));
+  EXPECT_EQ(std::pair(m[ShearSprings::stiffness], m[ShearSprings::damping_ratio]), std::pair(30.0, 0.75));
+  EXPECT_EQ(m[GasPressure::inside], 120000);
+  EXPECT_EQ(m[GasPressure::outside], 101325);
+  EXPECT_EQ(m[Material::internal_damping], 7);
+  EXPECT_EQ(m[contact::rebound_speed], 1.5);
+  EXPECT_EQ(m[Material::thickness], 0.03);
+  EXPECT_EQ(m[contact::friction], 0.35);
+  EXPECT_EQ(m[contact::restitution], 0.625);
+  EXPECT_EQ(m[contact::rolling_resistance], 0.15);
+  EXPECT_EQ(m[contact::stiffness], 55);
+  EXPECT_FALSE(m[Material::start_in_equilibrium]);
   ASSERT_EQ(s.spheres.size(), 2u);
   EXPECT_EQ(s.spheres[0].centre, glm::dvec3(1, 2, 3));
   EXPECT_EQ(s.spheres[0].radius, 0.75);
@@ -341,8 +341,8 @@ material = "mine"
   ASSERT_EQ(s.materials.size(), 2u);
   EXPECT_EQ(s.materials[0], load_presets(presets)[0]);
   EXPECT_EQ(s.materials[1].name, "mine");
-  EXPECT_EQ(s.materials[1].mass, 3);
-  EXPECT_EQ(s.materials[1].friction, 0.25);
+  EXPECT_EQ(s.materials[1][Material::mass], 3);
+  EXPECT_EQ(s.materials[1][contact::friction], 0.25);
   EXPECT_EQ(s.bodies[0].material, 1);
 }
 

@@ -6,6 +6,7 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <random>
 
+#include "softbody/forces/material_keys.h"
 #include "softbody/scene/scene_write.h"
 #include "tests/softbody/helpers.h"
 
@@ -31,15 +32,14 @@ class Filler {
   void set(glm::vec3& v) { set_all(v.x, v.y, v.z); }
 
   // Each takes its struct apart: a new field does not compile until it is set here, and then must be written.
-  void set(SpringLaw& v) {
-    auto& [stiffness, damping_ratio] = v;
-    set_all(stiffness, damping_ratio);
-  }
   void set(Material& v) {
-    auto& [name, mass, structural, bend, shear, gas, ambient, damping, rebound, thickness, friction, restitution,
-           rolling, contact, shape_frequency, equilibrium] = v;
-    set_all(name, mass, structural, bend, shear, gas, ambient, damping, rebound, thickness, friction, restitution,
-            rolling, contact, shape_frequency, equilibrium);
+    set(v.name);
+    for (const Key* key : material_keys()) {
+      if (key->options.is_switch)
+        v[*key] = random_() % 2 == 0;
+      else if (v.given(*key) || random_() % 4 != 0)
+        set(v[*key]);
+    }
   }
   void set(MeshSource& v) {
     auto& [kind, subdivisions, radius, columns, rows, width, depth, file, imported] = v;

@@ -57,8 +57,8 @@ TEST(BestRotation, IsNeverAReflectionAndTakesAnything) {
 
 Material shape_only() {
   Material m = spring_ball();
-  m.structural.stiffness = m.bend.stiffness = 0;
-  m.shape_frequency = 3;
+  m[StructuralSprings::stiffness] = m[BendSprings::stiffness] = 0;
+  m[ShapeMatching::frequency] = 3;
   return m;
 }
 
@@ -115,7 +115,7 @@ TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
   Material m = spring_ball();
   EXPECT_EQ(make_body_model({}, m)->shape_rate, 0);
   EXPECT_NEAR(make_body_model(source, m)->shape_rate, 2 * 3.14159265358979 * mesh_file_shape_frequency, 1e-9);
-  m.shape_frequency = 0;
+  m[ShapeMatching::frequency] = 0;
   EXPECT_EQ(make_body_model(source, m)->shape_rate, 0);
   EXPECT_TRUE(make_body_model(source, m)->goal.empty());
 }

@@ -82,9 +82,9 @@ TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
 /// A body that lies on the ground, and one that falls on it later.
 Scene one_falls_on_another() {
   Material m = gas_ball();
-  m.internal_damping = 20;
-  m.rebound_speed = 1;
-  m.rolling_resistance = 0.3;
+  m[Material::internal_damping] = 20;
+  m[contact::rebound_speed] = 1;
+  m[contact::rolling_resistance] = 0.3;
   Scene scene = lone_body(m);
   scene.gravity = {0, -9.81, 0};
   scene.sleep = {.speed = 0.05, .frames = 20};
@@ -144,8 +144,8 @@ TEST(Sleeping, NoBodyFallsAsleepWhileOneThatItTouchesMoves) {
 /// A ball slides over a mat without friction; no vertex of the one is near any of the other.
 TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   Material smooth = spring_ball();
-  smooth.friction = smooth.rolling_resistance = 0;
-  smooth.internal_damping = 10;
+  smooth[contact::friction] = smooth[contact::rolling_resistance] = 0;
+  smooth[Material::internal_damping] = 10;
   Scene scene = lone_body(smooth, {1, 0, 0});
   scene.gravity = {0, -9.81, 0};
   scene.ground = Ground{0, 0.6, 0};
@@ -153,9 +153,9 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   scene.collision.tolerance = 1e-4f;
   scene.sleep = {.speed = 0.1, .frames = 10};
   Material heavy = smooth;
-  heavy.mass = 50;
+  heavy[Material::mass] = 50;
   scene.materials.push_back(heavy);
-  scene.materials[0].mass = 0.2;
+  scene.materials[0][Material::mass] = 0.2;
   scene.bodies.push_back(scene.bodies[0]);
   scene.bodies[1].material = 1;
   scene.bodies[0].position = {-0.6, 0.52, 0.01};

@@ -80,7 +80,7 @@ TEST(Snapshot, HoldsWhatHandsDid) {
   world.throw_body({-3, 4, 0}, {5, 0, 0});
   world.remove(1);
   Material soft = scene.materials[0];
-  soft.structural.stiffness = 100;
+  soft[StructuralSprings::stiffness] = 100;
   world.set_material(0, soft);
   world.set_gravity({0, -5, 0});
   world.grab(Grab{.body = 0, .target = {1, 4, 0}});
@@ -161,7 +161,7 @@ TEST(Snapshot, BringsTheSleepRuleOfItsScene) {
 /// After surfaces the contact layer grows from nothing, so that at first no tolerance is too wide.
 TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0].contact_stiffness = 2e4;
+  scene.materials[0][contact::stiffness] = 2e4;
   scene.collision.tolerance = 0.5f;
   add_body(scene, {0, 1.05, 0}, glm::dvec3(0.0));
   constexpr double frame_time = 0.1;

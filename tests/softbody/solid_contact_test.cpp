@@ -15,7 +15,7 @@ class SolidContactOverAPlane : public testing::Test {
  protected:
   SolidContactOverAPlane() {
     Material material = spring_ball();
-    material.thickness = 0.01;
+    material[Material::thickness] = 0.01;
     model = make_unbalanced_body_model({}, material);
     for (int i = 0; i < 2; ++i) state.add(model, {2 * i, height, 1}, {0.1, -3, 0});
     state.set_pinned(1, true);

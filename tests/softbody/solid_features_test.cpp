@@ -133,8 +133,8 @@ TEST(CoresOf, AreTheCornersAndEdgesOfABox) {
 /// Between two vertices' places, on a sphere so small that no vertex meets it.
 double rebound(double restitution) {
   Material m = gas_ball();
-  m.rebound_speed = 2;
-  m.internal_damping = 10;
+  m[contact::rebound_speed] = 2;
+  m[Material::internal_damping] = 10;
   Scene scene = lone_body(m, {0, -8, 0});
   scene.bodies[0].position = {0.003, 0.62, 0.002};
   scene.contact_surface = ContactSurface::surfaces;
@@ -163,7 +163,8 @@ TEST(SolidFeature, ThrowsBackByTheSolidsRestitution) {
 /// By a sphere under its middle, with springs that are too weak to have a part in it.
 TEST(SolidFeature, ThrowsAFaceBackByTheSolidsRestitution) {
   Material loose = spring_ball();
-  loose.structural = loose.bend = {1e-9, 0};
+  loose.set(StructuralSprings::keys, {1e-9, 0});
+  loose.set(BendSprings::keys, {1e-9, 0});
   for (const double e : {0.0, 0.4, 0.8}) {
     Scene scene = lone_body(loose, {0, -8, 0});
     scene.bodies[0].position = {0, 0.3, 0};

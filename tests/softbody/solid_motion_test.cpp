@@ -80,8 +80,8 @@ TEST(Restitution, LetsSlowImpactsRest) {
 /// A ball of the shipped scenes' kind, thrown down at the ground.
 Scene soft_ball(double restitution, double speed) {
   Material m = gas_ball();
-  m.rebound_speed = 2;
-  m.internal_damping = 10;
+  m[contact::rebound_speed] = 2;
+  m[Material::internal_damping] = 10;
   Scene scene = lone_body(m, glm::dvec3(0, -speed, 0));
   scene.bodies[0].position = {0, 1, 0};
   scene.ground = Ground{0, 0.5, restitution};
@@ -129,8 +129,8 @@ TEST(Restitution, OfASoftBallForgetsAnImpactOnceTheBallHasLeft) {
 
 TEST(Restitution, DoesNotShakeABallAtRest) {
   Material m = gas_ball();
-  m.rebound_speed = 2;
-  m.internal_damping = 10;
+  m[contact::rebound_speed] = 2;
+  m[Material::internal_damping] = 10;
   Scene scene = lone_body(m);
   scene.gravity = {0, -g, 0};
   scene.bodies[0].position = {0, 0.55, 0};
@@ -193,7 +193,7 @@ TEST_P(FastImpact, GoesNeitherInNorThroughAndDoesNotExplode) {
   for (const glm::dvec3& direction : {glm::dvec3(0, -1, 0), glm::dvec3(0.48, -0.8, 0.36)})
     for (const double restitution : {0.0, 0.5}) {
       Material m = gas_ball();
-      m.thickness = 0.005;
+      m[Material::thickness] = 0.005;
       Scene scene = lone_body(m, thrown * direction);
       scene.gravity = {0, -g, 0};
       scene.bodies[0].position = glm::dvec3(0.03, 0.1, 0.02) - 3.0 * direction;
@@ -232,10 +232,10 @@ TEST(SolidMotion, TheShippedContainerLosesNone) {
 
 TEST(SolidMotion, ABallComesToRestInABox) {
   Material m = gas_ball();
-  m.internal_damping = 10;
-  m.rebound_speed = 2;
-  m.rolling_resistance = 0.3;
-  m.thickness = 0.005;
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
+  m[Material::thickness] = 0.005;
   Scene scene = lone_body(m, glm::dvec3(3, 0, 2));
   scene.gravity = {0, -g, 0};
   scene.sleep.speed = 0.05;

@@ -102,9 +102,9 @@ TEST(Solids, ABodyThatStartsInASolidSphereIsPushedOutWithoutExploding) {
 
 TEST(Solids, HoldABodysWeight) {
   Scene scene = falling({0, 2.52, 0}, glm::dvec3(0.0));
-  scene.materials[0].internal_damping = 20;
-  scene.materials[0].rebound_speed = 1;
-  scene.materials[0].rolling_resistance = 0.3;
+  scene.materials[0][Material::internal_damping] = 20;
+  scene.materials[0][contact::rebound_speed] = 1;
+  scene.materials[0][contact::rolling_resistance] = 0.3;
   scene.ground = Ground{2.0, 0.6};
   World world(scene, {});
   run(world, 600);
@@ -124,7 +124,7 @@ TEST(Solids, HoldABodysWeight) {
 
 TEST(Solids, KeepParticlesOfAThickMaterialAtADistance) {
   Scene scene = falling({0, 2.6, 0}, glm::dvec3(0.0));
-  scene.materials[0].thickness = 0.03;
+  scene.materials[0][Material::thickness] = 0.03;
   scene.spheres = {{.centre = {0, 1, 0}}};
   World world(scene, {});
   double nearest = 1;
@@ -135,7 +135,7 @@ TEST(Solids, KeepParticlesOfAThickMaterialAtADistance) {
   }
   EXPECT_NEAR(nearest, 0.03, 1e-5);
   scene = sheet_on_ground(0.5, {0, -9.81, 0}, glm::dvec3(0.0));
-  scene.materials[0].thickness = 0.03;
+  scene.materials[0][Material::thickness] = 0.03;
   scene.bodies[0].position.y = 0.2;
   World fallen(scene, {});
   run(fallen, 60);

@@ -90,9 +90,9 @@ TEST(StiffnessBound, HoldsSpringsAndGasTogetherAtEverySize) {
   for (const double stiffness : {200.0, 20.0})
     for (const double size : {0.5, 0.7, 1.0, 1.15, 1.4}) {
       Material m = gas_ball();
-      m.structural.stiffness = stiffness;
-      m.bend.stiffness = stiffness / 4;
-      m.gas_pressure = 103000;
+      m[StructuralSprings::stiffness] = stiffness;
+      m[BendSprings::stiffness] = stiffness / 4;
+      m[GasPressure::inside] = 103000;
       const auto p = make_body_model({}, m);
       auto x = p->start;
       for (auto& v : x) v *= size;
@@ -109,16 +109,16 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
   for (const double gas : {0.0, 100.0, 1000.0, 10000.0})
     for (const double rough : {0.02, 0.1, 0.3}) {
       Material m = spring_ball();
-      m.gas_pressure = gas;
-      m.ambient_pressure = gas > 0 ? 0.9 * gas : 200;
-      m.start_in_equilibrium = false;
+      m[GasPressure::inside] = gas;
+      m[GasPressure::outside] = gas > 0 ? 0.9 * gas : 200;
+      m[Material::start_in_equilibrium] = false;
       const auto p = make_body_model({}, m);
       auto x = p->start;
       for (auto& v : x) v += rough * p->radius * random_vector(random, 1);
       const double bound = 2 * stiffness_per_mass(*p, measure_surface(*p, x));
       EXPECT_LE(largest_eigenvalue(*p, x, bound / 2), bound) << "gas " << gas << ", rough " << rough;
       Material without = m;
-      without.gas_pressure = without.ambient_pressure = 0;
+      without[GasPressure::inside] = without[GasPressure::outside] = 0;
       const double springs = 2 * stiffness_per_mass(*make_body_model({}, without), {});
       EXPECT_GE(bound, springs);
       const SurfaceShape s = measure_surface(*p, x);

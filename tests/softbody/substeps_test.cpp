@@ -43,8 +43,8 @@ TEST(StepController, TakesTheSubstepsOfTheLighterBodyInEitherOrder) {
   const auto substeps = [](double first, double second) {
     Scene scene = lone_body(spring_ball());
     scene.materials.push_back(scene.materials[0]);
-    scene.materials[0].mass = first, scene.materials[1].mass = second;
-    for (Material& m : scene.materials) m.contact_stiffness = 1000;
+    scene.materials[0][Material::mass] = first, scene.materials[1][Material::mass] = second;
+    for (Material& m : scene.materials) m[contact::stiffness] = 1000;
     add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
     World world(scene, {.integrator = {"semi-implicit-euler"}});
@@ -59,7 +59,7 @@ TEST(StepController, TakesTheSubstepsOfTheLighterBodyInEitherOrder) {
 /// The thinner a contact layer, the less of its bound is damping, and the more its stiffness.
 TEST(StepController, CountsTheStiffnessOfContacts) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0].contact_stiffness = 1e4;
+  scene.materials[0][contact::stiffness] = 1e4;
   scene.collision.tolerance = 1e-4f;
   const std::vector<glm::dvec3> start = World(scene, {}).model(0).start;
   const auto above = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };
@@ -79,7 +79,7 @@ TEST(StepController, CountsTheStiffnessOfContacts) {
 /// A tenth of its radius in a substep, at most.
 TEST(StepController, KeepsUpWithASoftBodyNearASolid) {
   Material soft = spring_ball();
-  soft.structural.stiffness = soft.bend.stiffness = 0.1;
+  soft[StructuralSprings::stiffness] = soft[BendSprings::stiffness] = 0.1;
   const auto substeps = [&](double height) {
     Scene scene = lone_body(soft, {60, 0, 0});
     scene.bodies[0].position = {0, height, 0};
@@ -116,10 +116,10 @@ TEST(StepController, FollowsABodyThatSnapsBack) {
     for (const double stiffness : {1e1, 1e2, 1e3, 1e4})
       for (const double frame_time : {1.0 / 30, 1.0 / 60, 1.0 / 240}) {
         Material m = gas_ball();
-        m.structural = {stiffness, 0.1};
-        m.bend = {stiffness / 4, 0.1};
-        m.gas_pressure = 1.6 * stiffness;
-        m.ambient_pressure = 0;
+        m.set(StructuralSprings::keys, {stiffness, 0.1});
+        m.set(BendSprings::keys, {stiffness / 4, 0.1});
+        m[GasPressure::inside] = 1.6 * stiffness;
+        m[GasPressure::outside] = 0;
         World world(lone_body(m), {.frame_time = frame_time});
         place(world, {stretch, 1, 1});
         const double most = 1.05 * measure(world).energy;
@@ -153,7 +153,7 @@ TEST(StepController, KeepsOtherBodiesStableWhereOneNeedsTooMany) {
 TEST(StepController, FollowsTheBound) {
   Scene scene = lone_body(spring_ball());
   for (const double stiffness : {10.0, 300.0, 30000.0}) {
-    scene.materials[0].structural.stiffness = stiffness;
+    scene.materials[0][StructuralSprings::stiffness] = stiffness;
     World world(scene, {});
     const BodyModel& p = world.model(0);
     world.step();
@@ -167,7 +167,7 @@ TEST(StepController, LimitsStepsToASixtiethOfASecondUnlessFixed) {
   for (const std::string integrator : {"semi-implicit-euler", "implicit", "xpbd"}) {
     const int each = find_integrator(integrator)->substeps_per_step;
     Material soft = spring_ball();
-    soft.structural.stiffness = soft.bend.stiffness = 0.01;
+    soft[StructuralSprings::stiffness] = soft[BendSprings::stiffness] = 0.01;
     const auto substeps = [&](double frame_time, std::optional<int> fixed) {
       World world(lone_body(soft), {.frame_time = frame_time, .integrator = {integrator, fixed}});
       world.step();
@@ -182,7 +182,7 @@ TEST(StepController, LimitsStepsToASixtiethOfASecondUnlessFixed) {
 
 TEST(StepController, RefusesAMaterialThatNeedsTooMany) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0].structural.stiffness = 1e9;
+  scene.materials[0][StructuralSprings::stiffness] = 1e9;
   try {
     World world(scene, {.integrator = {"semi-implicit-euler"}});
     FAIL() << "took it";

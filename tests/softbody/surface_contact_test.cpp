@@ -133,11 +133,11 @@ TEST(SurfaceContact, ABallThrownAtASolidSphereDoesNotPierceItself) {
 TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
   for (const double speed : {3.0, 10.0}) {
     Material slack = spring_ball();
-    slack.structural = {50, 0.1};
-    slack.bend = {1, 0.1};
-    slack.internal_damping = 1;
-    slack.friction = 0.5;
-    slack.thickness = 0.005;
+    slack.set(StructuralSprings::keys, {50, 0.1});
+    slack.set(BendSprings::keys, {1, 0.1});
+    slack[Material::internal_damping] = 1;
+    slack[contact::friction] = 0.5;
+    slack[Material::thickness] = 0.005;
     Scene scene = ball_in_space(slack, {0, -speed, 0});
     scene.gravity = {0, -9.81, 0};
     scene.spheres.push_back({.centre = {0, 1, 0}, .radius = 1});
@@ -158,7 +158,7 @@ TEST(SurfaceContact, ASlackBallThatFallsInOnASolidSphereDoesNotPierceItself) {
 
 TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
   Material thick = spring_ball();
-  thick.thickness = 0.05;
+  thick[Material::thickness] = 0.05;
   Scene scene = ball_in_space(thick);
   scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
   World world(scene, {});
@@ -240,7 +240,7 @@ TEST(SurfaceContact, BodiesOfUnlikeMassAndMeshThatStartFarInEachOtherPartWithout
   for (const int subdivisions : {1, 2, 3}) {  // of the heavy one
     Scene scene = ball_in_space(rubber());
     scene.materials.push_back(scene.materials[0]);
-    scene.materials[1].mass = 8;
+    scene.materials[1][Material::mass] = 8;
     add_body(scene, {0.2, 0.05, 0}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
     scene.bodies[1].mesh.subdivisions = subdivisions;
@@ -267,8 +267,8 @@ TEST(SurfaceContact, ABodyWhollyInsideAnotherComesOut) {
 Scene sheet_on_sheet(double friction, double tangent) {
   const double g = 9.81, angle = std::atan(tangent);
   Material cloth = spring_ball();
-  cloth.friction = friction;
-  cloth.thickness = 0.01;
+  cloth[contact::friction] = friction;
+  cloth[Material::thickness] = 0.01;
   Scene scene = ball_in_space(cloth);
   scene.collision.self_collision = false;
   scene.gravity = g * glm::dvec3(std::sin(angle), -std::cos(angle), 0);
@@ -311,9 +311,9 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
 /// What the scene files call rubber.
 Material damped_rubber() {
   Material m = rubber();
-  m.internal_damping = 10;
-  m.rebound_speed = 2;
-  m.rolling_resistance = 0.3;
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
   return m;
 }
 
@@ -375,7 +375,7 @@ TEST(SurfaceContact, AStarThatFallsOnAStarStaysOutside) {
 TEST(SurfaceContact, HeavyBodiesThatCrushEachOtherGainNoEnergy) {
   Scene scene = find_scene("A", SBCOLLIDE_SCENES);
   scene.contact_surface = ContactSurface::surfaces;
-  scene.materials[0].mass = 90;
+  scene.materials[0][Material::mass] = 90;
   scene.bodies.clear();
   for (int i = 0; i < 6; ++i) add_body(scene, {0.15 + 0.05 * (i % 2), 2.7 + 1.2 * i, 0.1}, glm::dvec3(0.0));
   World world(scene, {});

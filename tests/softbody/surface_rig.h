@@ -10,8 +10,8 @@ namespace softbody::test {
 
 inline Material rubber(double friction = 0.5) {
   Material m = gas_ball();
-  m.thickness = 0.005;
-  m.friction = friction;
+  m[Material::thickness] = 0.005;
+  m[contact::friction] = friction;
   return m;
 }
 

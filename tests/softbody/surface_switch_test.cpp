@@ -83,7 +83,7 @@ TEST(SurfaceContact, LeavesVertexContactAsItIs) {
   const auto hash = [](double restitution, bool to_and_fro) {
     Scene scene = crowd();
     scene.contact_surface = ContactSurface::vertices;
-    scene.materials[0].restitution = restitution;
+    scene.materials[0][contact::restitution] = restitution;
     World world(scene, {});
     if (to_and_fro) {
       world.set_contact_surface(ContactSurface::surfaces);

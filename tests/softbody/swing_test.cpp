@@ -18,11 +18,11 @@ namespace {
 /// In balance at a pressure a little above that around it, and nearly undamped.
 Material swinging_ball(double stiffness, double damping_ratio) {
   Material m = gas_ball();
-  m.structural = {stiffness, damping_ratio};
-  m.bend = {50, damping_ratio};
-  m.gas_pressure = 113e3;
-  m.ambient_pressure = 101'325;
-  m.start_in_equilibrium = true;
+  m.set(StructuralSprings::keys, {stiffness, damping_ratio});
+  m.set(BendSprings::keys, {50, damping_ratio});
+  m[GasPressure::inside] = 113e3;
+  m[GasPressure::outside] = 101'325;
+  m[Material::start_in_equilibrium] = true;
   return m;
 }
 
@@ -35,7 +35,7 @@ TEST_P(Swing, GainsNoEnergyInSubstepsThatTheWorldChooses) {
       Material m = swinging_ball(stiffness, GetParam());
       World world(lone_body(m), {.integrator = {"auto"}});
       run(world, 5);
-      m.gas_pressure = pressure;
+      m[GasPressure::inside] = pressure;
       world.set_material(0, m);
       run(world, 3);  // the sudden force may bring the first substep's work besides
       const auto energy = [&] {
@@ -59,7 +59,7 @@ INSTANTIATE_TEST_SUITE_P(Damping, Swing, testing::Values(0.0, 0.005, 0.02));
 /// A small swing, in which forces are all but linear.
 TEST(StaggeredSteps, ConserveTheEnergyOfTheirStaggering) {
   Material m = spring_ball();
-  m.structural.damping_ratio = m.bend.damping_ratio = 0;
+  m[StructuralSprings::damping_ratio] = m[BendSprings::damping_ratio] = 0;
   const Scene scene = lone_body(m);
   const int least = World(scene, {.integrator = {"semi-implicit-euler"}}).needed_substeps();
   World world(scene, {.integrator = {"semi-implicit-euler", least}});
@@ -97,8 +97,8 @@ double out_of_round(const std::vector<Particle>& all) {
 /// A ball in the frame in which it begins to fly apart by its gas, with hundreds of m/s.
 World bursting(std::string integrator) {
   Material m = gas_ball(1000);
-  m.gas_pressure *= 100, m.ambient_pressure = 0;
-  m.start_in_equilibrium = false;
+  m[GasPressure::inside] *= 100, m[GasPressure::outside] = 0;
+  m[Material::start_in_equilibrium] = false;
   World world(lone_body(m), {.frame_time = 1.0 / 240, .integrator = {std::move(integrator)}});
   world.step();
   return world;
@@ -192,7 +192,7 @@ TEST_F(HysteresisOfSubsteps, EndsWhileAllBodiesSleep) {
 /// They come and go, and are damped.
 TEST_F(HysteresisOfSubsteps, IgnoresContacts) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0].contact_stiffness = 1e4;
+  scene.materials[0][contact::stiffness] = 1e4;
   add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
   World pair(scene, {.integrator = {"semi-implicit-euler"}});
   pair.step();

@@ -146,7 +146,7 @@ TEST(Add, AThrownBodyHasTheMomentumItWasGiven) {
   thrown.velocity = {3, -4, 12};
   EXPECT_EQ(world.add(thrown), 1u);
   test::run(world, 60);
-  const glm::dvec3 expected = scene.materials[0].mass * thrown.velocity;
+  const glm::dvec3 expected = scene.materials[0][Material::mass] * thrown.velocity;
   EXPECT_LT(glm::distance(measure(world).momentum, expected), 1e-3);
   EXPECT_LT(glm::distance(test::motion(world, 1).centre, thrown.position + thrown.velocity), 1e-3);
 }
@@ -252,9 +252,9 @@ TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   test::run(world, 3);
   const auto before = positions(world, 0);
   Material heavy = world.scene().materials[0];
-  heavy.mass = 5;
-  heavy.gas_pressure = heavy.ambient_pressure = 1000;
-  heavy.internal_damping = 2;
+  heavy[Material::mass] = 5;
+  heavy[GasPressure::inside] = heavy[GasPressure::outside] = 1000;
+  heavy[Material::internal_damping] = 2;
   world.set_material(0, heavy);
   EXPECT_EQ(positions(world, 0), before);
   EXPECT_TRUE(world.plan().has(Stage::gas_pressure));
@@ -274,13 +274,13 @@ TEST(Changes, OneOfTwoEqualMaterialsActsOnItsOwnBodiesOnly) {
   scene.bodies[1].material = 1;
   scene.bodies[1].position.y += 5;
   World world(scene, {});
-  const double mass = scene.materials[0].mass;
+  const double mass = scene.materials[0][Material::mass];
   for (const std::size_t changed : {0u, 1u}) {
     Material heavy = world.scene().materials[changed];
-    heavy.mass = 3 * mass;
+    heavy[Material::mass] = 3 * mass;
     world.set_material(changed, heavy);
-    EXPECT_EQ(world.model(0).material.mass, 3 * mass);
-    EXPECT_EQ(world.model(1).material.mass, changed == 0 ? mass : 3 * mass);
+    EXPECT_EQ(world.model(0).material[Material::mass], 3 * mass);
+    EXPECT_EQ(world.model(1).material[Material::mass], changed == 0 ? mass : 3 * mass);
   }
 }
 
@@ -288,10 +288,11 @@ TEST(Changes, AMaterialThatIsTooStiffIsRefusedAndNothingChanges) {
   World world(test::lone_body(test::spring_ball()), {.integrator = {"semi-implicit-euler"}});
   const std::vector<Stage> stages = world.plan().stages;
   Material stiff = world.scene().materials[0];
-  stiff.structural.stiffness = 1e9;
+  stiff[StructuralSprings::stiffness] = 1e9;
   EXPECT_THROW(world.set_material(0, stiff), SceneError);
-  EXPECT_EQ(world.scene().materials[0].structural.stiffness, test::spring_ball().structural.stiffness);
-  EXPECT_EQ(world.model(0).material.structural.stiffness, test::spring_ball().structural.stiffness);
+  EXPECT_EQ(world.scene().materials[0][StructuralSprings::stiffness],
+            test::spring_ball()[StructuralSprings::stiffness]);
+  EXPECT_EQ(world.model(0).material[StructuralSprings::stiffness], test::spring_ball()[StructuralSprings::stiffness]);
   EXPECT_EQ(world.plan().stages, stages);
 }
 
@@ -318,7 +319,7 @@ TEST(Changes, SolidsMoveComeAndGo) {
 /// Alone the body takes implicit steps, which contact of the surfaces would deny to it.
 TEST(Changes, RefuseASecondBodyIfOneIsTooStiffForSurfaceContact) {
   Material stiff = test::gas_ball();
-  stiff.structural = {1e10, 0.1};
+  stiff.set(StructuralSprings::keys, {1e10, 0.1});
   Scene scene = test::lone_body(stiff);
   scene.contact_surface = ContactSurface::surfaces;
   World world(scene, {});
@@ -337,7 +338,7 @@ std::uint64_t hash_after_much(int threads) {
   World world(pile(10), {.threads = threads, .min_shared_particles = 0});
   Scene solids = world.scene();
   Material material = world.scene().materials[0];
-  material.friction = 0.1;
+  material[contact::friction] = 0.1;
   test::run(world, 20);
   world.grab(Grab{.body = 3, .target = {2, 3, 1}});
   test::run(world, 20);

@@ -2,9 +2,15 @@
 
 #include <glm/geometric.hpp>
 #include "app/report/steps.h"
+#include "softbody/contact/keys.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "softbody/model/body_model.h"
 
 namespace app::report {
+
+using softbody::BendSprings, softbody::GasPressure, softbody::Material, softbody::StructuralSprings;
+
 namespace {
 
 using glm::dvec3;
@@ -12,11 +18,11 @@ using glm::dvec3;
 /// A ball that flies and turns. Its gas has a tenth more pressure than in balance, so that it pulsates.
 SolverScene free_flight(double stiffness, const std::string& in_words) {
   SolverScene s{.key = "free-" + in_words, .name = "Free flight, " + in_words + " N/m"};
-  softbody::Material calm = ball_material(stiffness, 0.02);
+  Material calm = ball_material(stiffness, 0.02);
   s.scene = lone_scene(calm);
   Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.velocity = dvec3(1, 2, 0.5) + glm::cross(dvec3(0.5, 3, 1), p.position);
-  s.scene.materials[0].gas_pressure *= 1.1;
+  s.scene.materials[0][GasPressure::inside] *= 1.1;
   return s;
 }
 
@@ -28,7 +34,7 @@ SolverScene on_the_ground() {
                                                  0)[0];  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
   s.scene.ground = softbody::Ground{};
-  s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0].thickness + 1e-3;
+  s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0][Material::thickness] + 1e-3;
   return s;
 }
 
@@ -41,13 +47,13 @@ SolverScene in_balance(double stiffness, const std::string& in_words) {
 /// A sheet falls across a round bar.
 SolverScene cloth() {
   SolverScene s{.key = "cloth", .name = "Cloth over a bar"};
-  softbody::Material m;
+  Material m;
   m.name = "cloth";
-  m.mass = 0.5;
-  m.structural = {200, 0.1};
-  m.shear = {60, 0.1};
-  m.bend = {1, 0.1};
-  m.rolling_resistance = 0;
+  m[Material::mass] = 0.5;
+  m.set(StructuralSprings::keys, {200, 0.1});
+  m.set(softbody::ShearSprings::keys, {60, 0.1});
+  m.set(BendSprings::keys, {1, 0.1});
+  m[softbody::contact::rolling_resistance] = 0;
   s.scene = lone_scene(m);
   s.scene.bodies[0].mesh = {.kind = "grid", .columns = 16, .rows = 16, .width = 1.2, .depth = 1.2};
   s.scene.gravity = {0, -9.81, 0};
@@ -57,17 +63,17 @@ SolverScene cloth() {
 
 }  // namespace
 
-softbody::Material ball_material(double stiffness, double damping_ratio) {
-  softbody::Material m;
+Material ball_material(double stiffness, double damping_ratio) {
+  Material m;
   m.name = "ball";
-  m.structural = {stiffness, damping_ratio};
-  m.bend = {stiffness / 4, damping_ratio};
-  m.gas_pressure = 1.6 * stiffness;
-  m.rolling_resistance = 0;
+  m.set(StructuralSprings::keys, {stiffness, damping_ratio});
+  m.set(BendSprings::keys, {stiffness / 4, damping_ratio});
+  m[GasPressure::inside] = 1.6 * stiffness;
+  m[softbody::contact::rolling_resistance] = 0;
   return m;
 }
 
-softbody::Scene lone_scene(const softbody::Material& material) {
+softbody::Scene lone_scene(const Material& material) {
   softbody::Scene scene;
   scene.gravity = dvec3(0.0);
   scene.collision.self_collision = false;

@@ -129,7 +129,7 @@ double energy_scale(const World& world, BodyId id) {
     now.x[i] += motion.centre;
     now.v[i] = glm::dvec3(0.0);
   }
-  return std::max(energy - body.energy(now), p.material.mass * 9.81 * p.radius);
+  return std::max(energy - body.energy(now), p.material[softbody::Material::mass] * 9.81 * p.radius);
 }
 
 SolverReference find_solver_reference(const SolverScene& scene, const SolverRun& run, double bound,

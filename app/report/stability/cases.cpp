@@ -8,8 +8,14 @@
 #include "app/base/usage_error.h"
 #include "app/files/scene_folder.h"
 #include "app/report/steps.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/shape_matching.h"
+#include "softbody/forces/springs.h"
 
 namespace app::report {
+
+using softbody::BendSprings, softbody::GasPressure, softbody::ShearSprings, softbody::StructuralSprings;
+
 namespace {
 
 using glm::dvec3;
@@ -83,7 +89,7 @@ StabilityScene inside_solid(double k) { return over_ground(k, inflated(k) - 0.15
 StabilityScene mass_ratio(double k) {
   StabilityScene s = on_the_ground(k);
   s.scene.materials.push_back(s.scene.materials[0]);
-  s.scene.materials[1].mass = 1000;
+  s.scene.materials[1][softbody::Material::mass] = 1000;
   s.scene.bodies.push_back(s.scene.bodies[0]);
   s.scene.bodies[1].material = 1;
   s.scene.bodies[1].position.y += 2.5 * inflated(k);
@@ -102,7 +108,7 @@ StabilityScene stiffness_ratio(double k) {
 
 StabilityScene tiny_mass(double k) {
   StabilityScene s = placed(k, [](const dvec3& p) { return p * dvec3(1, 0.5, 1); });
-  s.scene.materials[0].mass = 1e-6;
+  s.scene.materials[0][softbody::Material::mass] = 1e-6;
   return s;
 }
 
@@ -119,7 +125,7 @@ StabilityScene impact(double k) {
 /// Returns a ball that starts in balance with another gas pressure than its own.
 StabilityScene pressure_times(double k, double factor) {
   StabilityScene s = placed(k, [](const dvec3& p) { return p; });
-  s.scene.materials[0].gas_pressure *= factor;
+  s.scene.materials[0][GasPressure::inside] *= factor;
   return s;
 }
 StabilityScene overpressure(double k) { return pressure_times(k, 100); }
@@ -134,7 +140,7 @@ StabilityScene damaged_mesh(double k, Damage damage) {
   const auto [a, b, c] = imported->mesh.triangles[0];
   damage(imported->mesh.vertices[a], imported->mesh.vertices[b], imported->mesh.vertices[c]);
   s.scene.bodies[0].mesh = {.kind = "file", .file = {}, .imported = imported};
-  s.scene.materials[0].shape_frequency = 0;
+  s.scene.materials[0][softbody::ShapeMatching::frequency] = 0;
   Particles& start = s.start.emplace_back(particles_of(softbody::World(s.scene, {.integrator = one_step()}), 0));
   for (softbody::Particle& p : start) p.position.y *= 0.5;
   return s;
@@ -150,10 +156,10 @@ StabilityScene pile(double k) {
   StabilityScene s{.scene = softbody::find_scene("D", files::scene_folder())};
   for (softbody::Material& m : s.scene.materials) {
     const softbody::Material stiff = ball_material(k, damping_ratio);
-    m.structural = stiff.structural;
-    m.bend = stiff.bend;
-    m.gas_pressure = stiff.gas_pressure;
-    m.ambient_pressure = 0;
+    for (const softbody::Key* key : {&StructuralSprings::stiffness, &StructuralSprings::damping_ratio,
+                                     &BendSprings::stiffness, &BendSprings::damping_ratio, &GasPressure::inside})
+      m[*key] = stiff[*key];
+    m[GasPressure::outside] = 0;
   }
   return s;
 }
@@ -189,9 +195,9 @@ std::span<const StabilityCase> stability_cases() { return all_cases; }
 
 StabilityScene scaled(softbody::Scene scene, double factor) {
   for (softbody::Material& m : scene.materials) {
-    for (softbody::SpringLaw* law : {&m.structural, &m.bend, &m.shear}) law->stiffness *= factor;
-    m.gas_pressure *= factor;
-    m.ambient_pressure *= factor;
+    for (const softbody::Key* key : {&StructuralSprings::stiffness, &BendSprings::stiffness, &ShearSprings::stiffness,
+                                     &GasPressure::inside, &GasPressure::outside})
+      m[*key] *= factor;
   }
   return {.scene = std::move(scene)};
 }

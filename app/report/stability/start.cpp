@@ -60,13 +60,14 @@ World placed(const StabilityScene& from) {
 /// Returns the body as it starts or joins: in its starting shape.
 StabilityStart::Member member_of(const softbody::BodyModel& p, const softbody::BodySource& source,
                                  const dvec3& gravity) {
-  StabilityStart::Member m{.chain = spring_chain_of(p),
-                           .radius = p.radius,
-                           .mass = p.material.mass,
-                           .particle_mass = p.particle_mass,
-                           .balance = softbody::starting_energy(p).deformation(),
-                           .kinetic = 0.5 * p.material.mass * glm::dot(source.velocity, source.velocity),
-                           .height = 0};
+  StabilityStart::Member m{
+      .chain = spring_chain_of(p),
+      .radius = p.radius,
+      .mass = p.material[softbody::Material::mass],
+      .particle_mass = p.particle_mass,
+      .balance = softbody::starting_energy(p).deformation(),
+      .kinetic = 0.5 * p.material[softbody::Material::mass] * glm::dot(source.velocity, source.velocity),
+      .height = 0};
   for (const dvec3& x : p.start) m.height -= p.particle_mass * glm::dot(gravity, source.position + x);
   return m;
 }
@@ -122,7 +123,7 @@ StabilityStart prepare(const StabilityScene& from, double seconds) {
   s.limits = limits_of(world, s, seconds);
   // The bodies are where they start. So no cell has to find their balance again, unless some join later.
   if (s.particles.size() == from.scene.bodies.size())
-    for (softbody::Material& m : s.scene.materials) m.start_in_equilibrium = false;
+    for (softbody::Material& m : s.scene.materials) m[softbody::Material::start_in_equilibrium] = false;
   return s;
 }
 

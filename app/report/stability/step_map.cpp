@@ -25,7 +25,7 @@ class DisturbedBall {
       const double x = noise(), y = noise(), z = noise();
       p.position = p.position * glm::dvec3(1, 0.97, 1) + glm::dvec3(x, y, z);
     }
-    scene_.materials[0].start_in_equilibrium = false;
+    scene_.materials[0][softbody::Material::start_in_equilibrium] = false;
   }
 
   bool stable(const softbody::Integrator& integrator, double h) const {

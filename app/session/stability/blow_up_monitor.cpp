@@ -24,9 +24,9 @@ void BlowUpMonitor::begin(const softbody::World& world, std::size_t bodies) {
   for (softbody::BodyId b = 0; b < bodies; ++b) {
     const softbody::BodyModel& p = world.model(b);
     rest_energy_.push_back(&p == last ? rest_energy_.back() : softbody::starting_energy(p).deformation());
-    mass_.push_back(p.material.mass);
+    mass_.push_back(p.material[softbody::Material::mass]);
     max_depth_.push_back(max_depth * p.radius);
-    fall_energy_ += p.material.mass * g * p.radius;
+    fall_energy_ += p.material[softbody::Material::mass] * g * p.radius;
     last = &p;
   }
   fall_speed_ = g * static_cast<double>(memory) * world.frame_time();

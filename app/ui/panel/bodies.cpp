@@ -46,7 +46,7 @@ void draw_selected(Widgets& w, const softbody::World& world, softbody::BodyId id
   ImGui::SameLine();
   w.right_text(state_text(world, id));
   w.register_item("Selected body", "The body that was clicked last. Bodies and vertices count from 0.");
-  const double speed = glm::length(m.momentum) / world.model(id).material.mass;
+  const double speed = glm::length(m.momentum) / world.model(id).material[softbody::Material::mass];
   const std::string volume = m.closed ? fmt::format("{:.1f} %", 100 * m.volume_ratio) : "open";
   w.figure("Speed, volume", fmt::format("{:.2f} m/s   {}", speed, volume),
            "Of its centre of mass; of the volume that it started with.");

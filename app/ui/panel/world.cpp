@@ -1,59 +1,16 @@
 // The panel's section on gravity, materials and solids, which can be changed while the world runs.
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 #include <cmath>
 
 #include <glm/geometric.hpp>
 
 #include "app/ui/panel/panel.h"
+#include "softbody/forces/material_keys.h"
 
 namespace app::ui {
 namespace {
-
-struct MaterialRow {
-  const char *text, *label;  // on the screen; of the widget
-  const char* tooltip;
-  const char* format;
-  float min, max;
-  bool logarithmic;
-  double unit;  // a slider's 1 in the material's unit
-  double& (*value)(softbody::Material&);
-};
-
-#define SB_VALUE(member) [](softbody::Material& m) -> double& { return m.member; }
-constexpr std::array material_rows{
-    MaterialRow{"Mass", "Mass", "The mass of a body. Its vertices share it equally.", "%.2f kg", 0.05f, 20, true, 1,
-                SB_VALUE(mass)},
-    MaterialRow{"Springs", "Spring stiffness", "Stiffness of the structural springs along the edges of the mesh.",
-                "%.0f N/m", 10, 3000, true, 1, SB_VALUE(structural.stiffness)},
-    MaterialRow{"  damping", "Spring damping", "Damping of the structural springs. 1 is critical damping.", "%.2f", 0,
-                1, false, 1, SB_VALUE(structural.damping_ratio)},
-    MaterialRow{"Bend springs", "Bend stiffness",
-                "Stiffness of the springs between the two vertices opposite an edge. They resist folding.", "%.1f N/m",
-                0, 1000, true, 1, SB_VALUE(bend.stiffness)},
-    MaterialRow{"Shear springs", "Shear stiffness",
-                "Stiffness of the diagonal springs of grids. Other meshes have none.", "%.0f N/m", 0, 1000, true, 1,
-                SB_VALUE(shear.stiffness)},
-    MaterialRow{"Gas", "Gas pressure",
-                "Absolute pressure of the gas at the volume of the mesh. The air presses from outside.", "%.1f kPa", 50,
-                200, false, 1e3, SB_VALUE(gas_pressure)},
-    MaterialRow{"Damping", "Internal damping", "How quickly a body stops wobbling.", "%.1f 1/s", 0, 50, false, 1,
-                SB_VALUE(internal_damping)},
-    MaterialRow{"Rebound", "Rebound speed", "Largest speed at which a solid throws a body back. 0: no limit.",
-                "%.1f m/s", 0, 10, false, 1, SB_VALUE(rebound_speed)},
-    MaterialRow{"Friction", "Friction", "Coefficient of friction against other bodies.", "%.2f", 0, 2, false, 1,
-                SB_VALUE(friction)},
-    MaterialRow{"Rolling", "Rolling resistance", "Coefficient of rolling resistance on solids.", "%.2f", 0, 1, false, 1,
-                SB_VALUE(rolling_resistance)},
-    MaterialRow{"Contact", "Contact stiffness", "Stiffness of vertex-vertex contact (§2.3).", "%.0f N/m", 1, 1000, true,
-                1, SB_VALUE(contact_stiffness)},
-    MaterialRow{"Restitution", "Restitution",
-                "How strongly bodies bounce off each other with surface contact. 1: without loss.", "%.2f", 0, 1, false,
-                1, SB_VALUE(restitution)},
-};
-#undef SB_VALUE
 
 void draw_gravity(Widgets& w, Session& session) {
   auto strength = static_cast<float>(glm::length(session.world().scene().gravity));
@@ -84,7 +41,8 @@ void draw_preset(Widgets& w, Session& session, std::size_t index) {
   softbody::Material chosen = now;
   const auto renamed = [&](softbody::Material preset) {
     preset.name = now.name;
-    preset.start_in_equilibrium = now.start_in_equilibrium;
+    constexpr const softbody::Key& key = softbody::Material::start_in_equilibrium;
+    preset[key] = now[key];
     return preset;
   };
   const auto& presets = session.scenes.presets();
@@ -105,14 +63,17 @@ void draw_material(Widgets& w, Session& session, UiState& ui) {
     return all[i].name.empty() ? "material " + std::to_string(i + 1) : all[i].name;
   });
   draw_preset(w, session, ui.material);
-  for (const MaterialRow& row : material_rows) {
+  for (const softbody::Key* key : softbody::material_keys()) {
+    const softbody::Slider& s = key->slider;
+    if (!s.text) continue;
     softbody::Material changed = session.world().scene().materials[ui.material];
-    double& value = row.value(changed);
-    auto shown = static_cast<float>(value / row.unit);
-    w.row_label(row.text, w.px(label_column));
-    if (!w.slider(row.label, shown, row.min, row.max, row.format, row.tooltip, row.logarithmic)) continue;
+    auto shown = static_cast<float>(changed[*key] / s.unit);
+    w.row_label(s.text, w.px(label_column));
+    if (!w.slider(std::string(key->name).c_str(), shown, s.least, s.most, s.format, std::string(key->summary).c_str(),
+                  s.logarithmic))
+      continue;
     if (!std::isfinite(shown)) continue;
-    value = static_cast<double>(shown) * row.unit;
+    changed[*key] = static_cast<double>(shown) * s.unit;
     session.settings.set_material(ui.material, changed);
   }
 }

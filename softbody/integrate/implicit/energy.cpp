@@ -65,7 +65,7 @@ double energy_gain(const BodyModel& p, const ImplicitWork& work, std::size_t lan
   if (p.has_gas) gain -= gas_work(p.gas, enclosed_volume(p, start), enclosed_volume(p, end));
   double motion = before + after;
   if (!pushed)  // then how fast it flies has no part in it
-    motion -= p.material.mass / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));
+    motion -= p.material[Material::mass] / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));
   if (!std::isfinite(gain)) return std::numeric_limits<double>::infinity();
   return gain > share * motion + rounding * (elastic + before) ? gain : 0;
 }

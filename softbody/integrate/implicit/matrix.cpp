@@ -152,7 +152,7 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
     // So little mass that rounding hides it: directions need not be that exact.
     if (tension == Tension::pulling) a.diagonal().array() += 1e-12 * a.diagonal().maxCoeff();
     // A body's own springs set the scale, but as a whole it has to feel no more than the solver can bring to rest.
-    contact_stiffness_ = std::min(2 * a.diagonal().mean(), 1000 * p.material.mass / (h * h));
+    contact_stiffness_ = std::min(2 * a.diagonal().mean(), 1000 * p.material[Material::mass] / (h * h));
     factored_->llt.compute(a);
     if (factored_->llt.info() == Eigen::Success) break;
   }

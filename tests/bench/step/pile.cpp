@@ -3,6 +3,8 @@
 #include <array>
 
 #include "engine/resources.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 
 namespace bench {
 namespace {
@@ -26,10 +28,10 @@ softbody::Scene stiff_pile(const Gas& gas) {
   scene.dropper.reset();
   scene.sleep.speed = 0;  // Bullet's soft bodies never sleep
   for (softbody::Material& material : scene.materials) {
-    material.structural.stiffness = stiffness;
-    material.bend.stiffness = stiffness / 4;
-    material.gas_pressure = gas.pressure;
-    material.ambient_pressure = gas.ambient;
+    material[softbody::StructuralSprings::stiffness] = stiffness;
+    material[softbody::BendSprings::stiffness] = stiffness / 4;
+    material[softbody::GasPressure::inside] = gas.pressure;
+    material[softbody::GasPressure::outside] = gas.ambient;
   }
   return scene;
 }
