@@ -4,7 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/integrate/dynamics.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 
@@ -24,15 +26,15 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
   if (!p.has_gas) return stiffest;
   for (auto& component : area_) component.assign(b.values(), 0);
   const Field<float> area{area_[0].data(), area_[1].data(), area_[2].data()};
-  const Kernels& kernels = kernels_of(b);
-  alignas(32) float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
+  const ForceKernels& kernels = force_kernels(b.width);
+  float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
   std::fill(std::begin(one), std::end(one), 1.0f);
-  kernels.volume(b.mesh->faces, at(x_, b), volume);
-  kernels.medians(b.mesh->faces, at(x_, b), two_medians);
-  kernels.pressure(b.mesh->faces, at(x_, b), one, area);
-  kernels.square_sum(b.particles(), area, area2);
+  kernels.volume(b.used, b.mesh->faces, at(x_, b), volume);
+  kernels.medians(b.used, b.mesh->faces, at(x_, b), two_medians);
+  kernels.pressure(b.used, b.mesh->faces, at(x_, b), one, area);
+  state_kernels(b.width).square_sum(b.used, b.particles(), area, area2);
   for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
-    kernels.stretch(*list, area, stretch);
+    kernels.stretch(b.used, *list, area, stretch);
   for (int l = 0; l < b.used; ++l)
     stiffest = std::max(stiffest, softbody::stiffness_per_mass(p, {volume[l], area2[l], stretch[l], two_medians[l]}));
   return stiffest;

@@ -4,13 +4,15 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 
 Extent Dynamics::extent(const Batch& b, const Components& boxed, const Components& measured) const {
   Extent e{};
-  kernels_of(b).extent(b.particles(), at(boxed, b), at(measured, b), e);
+  state_kernels(b.width).extent(b.used, b.particles(), at(boxed, b), at(measured, b), e);
   return e;
 }
 
@@ -108,27 +110,32 @@ void Dynamics::all_forces(Batch& b) { run_stages(b, force_stages_); }
 void Dynamics::other_forces(Batch& b) { run_stages(b, other_force_stages_); }
 
 void Dynamics::structural_springs(Batch& b) {
-  kernels_of(b).springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b));
+  force_kernels(b.width).springs(b.used, b.mesh->structural, at(x_, b), at(v_, b), at(f_, b));
 }
-void Dynamics::bend_springs(Batch& b) { kernels_of(b).springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::shear_springs(Batch& b) { kernels_of(b).springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
+void Dynamics::bend_springs(Batch& b) {
+  force_kernels(b.width).springs(b.used, b.mesh->bend, at(x_, b), at(v_, b), at(f_, b));
+}
+void Dynamics::shear_springs(Batch& b) {
+  force_kernels(b.width).springs(b.used, b.mesh->shear, at(x_, b), at(v_, b), at(f_, b));
+}
 
 void Dynamics::gas_pressure(Batch& b) {
   if (!b.model->has_gas) return;
   const Gas& gas = b.model->gas;
-  alignas(32) float volume[lanes], gauge[lanes]{};
-  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
+  float volume[lanes], gauge[lanes]{};
+  force_kernels(b.width).volume(b.used, b.mesh->faces, at(x_, b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
-  kernels_of(b).pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
+  force_kernels(b.width).pressure(b.used, b.mesh->faces, at(x_, b), gauge, at(f_, b));
 }
 
 void Dynamics::shape_matching(Batch& b) {
   if (b.mesh->shape.empty()) return;
   ShapeMoments<float> moments;
   ShapePose<float> pose{};
-  kernels_of(b).shape_moments(b.mesh->shape, at(x_, b), moments);
+  force_kernels(b.width).shape_moments(b.used, b.mesh->shape, at(x_, b), moments);
   fit_shape(moments, b.used, pose);
-  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.model)), at(x_, b), at(f_, b));
+  force_kernels(b.width).shape_pull(b.used, b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.model)),
+                                    at(x_, b), at(f_, b));
 }
 
 void Dynamics::penalty_forces(Batch& b) {
@@ -142,10 +149,18 @@ void Dynamics::penalty_forces(Batch& b) {
 
 void Dynamics::kick(Batch& b, float h) {
   const glm::vec3 g = has_gravity_ ? h * glm::vec3(scene_.gravity) : glm::vec3(0.0f);
-  kernels_of(b).kick({b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b),
-                     at(v_, b));
+  state_kernels(b.width).kick(b.used, {b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()},
+                              at(f_, b), at(v_, b));
 }
 
-void Dynamics::drift(Batch& b, float h) { kernels_of(b).drift(b.particles(), h, b.moves.data(), at(v_, b), at(x_, b)); }
+void Dynamics::accelerations(Batch& b) {
+  const glm::vec3 g = has_gravity_ ? glm::vec3(scene_.gravity) : glm::vec3(0.0f);
+  state_kernels(b.width).accelerate(
+      b.used, {b.particles(), float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, at(f_, b));
+}
+
+void Dynamics::drift(Batch& b, float h) {
+  state_kernels(b.width).drift(b.used, b.particles(), h, b.moves.data(), at(v_, b), at(x_, b));
+}
 
 }  // namespace softbody

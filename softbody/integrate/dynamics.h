@@ -12,7 +12,6 @@
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/dynamics_state.h"
 #include "softbody/integrate/integrators.h"
-#include "softbody/integrate/kernels.h"
 #include "softbody/integrate/max_work.h"
 #include "softbody/integrate/momentum_restorer.h"
 #include "softbody/integrate/plan.h"
@@ -50,8 +49,7 @@ struct FrameResult {
 
 class Dynamics {
  public:
-  Dynamics(const Scene& scene, const Crew& crew, Isa isa)
-      : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
+  Dynamics(const Scene& scene, const Crew& crew) : scene_(scene), crew_(crew) {}
 
   BodyId add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Removes a body; the ids of later bodies move up by one. The bodies of set_vertices() must still contain it.
@@ -153,15 +151,12 @@ class Dynamics {
   Field<const float> at(const Components& c, const Batch& b) const {
     return {c[0].data() + b.base, c[1].data() + b.base, c[2].data() + b.base};
   }
-  BatchView view(const Batch& b) { return {b, kernels_of(b), at(x_, b), at(v_, b)}; }
-  const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
+  BatchView view(const Batch& b) { return {b, at(x_, b), at(v_, b)}; }
   std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const BodyModel>& model, int width) const;
   Batch& batch_with_free_lane(const std::shared_ptr<const BodyModel>& model);
   std::size_t append(std::size_t values);
   void widen(Batch& batch);
   Components& components(Quantity q);
-  template <class Operation>
-  void each_value(Batch& batch, Operation operation);
   void run_stages(Batch& batch, std::span<const BatchStage> stages);
   void contacts(const Worker& worker, float h, float since_start);
   void surface_contacts(const Worker& worker, float h, float since_start);
@@ -237,8 +232,6 @@ class Dynamics {
 
   const Scene& scene_;
   Crew crew_;
-  const Kernels &wide_, &narrow_;
-  Isa isa_;
   const Integrator *chosen_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "softbody/integrate/dynamics.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 
@@ -11,53 +12,20 @@ Dynamics::Components& Dynamics::components(Quantity q) {
   return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
 }
 
-/// operation(place in the arrays, 1 or 0 for whether its lane moves)
-template <class Operation>
-void Dynamics::each_value(Batch& b, Operation operation) {
-  const auto run = [&, moves = b.moves](auto width) {
-    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) operation(at + l, moves[l]);
-  };
-  if (b.width == one_lane)
-    run(std::integral_constant<std::size_t, one_lane>());
-  else
-    run(std::integral_constant<std::size_t, lanes>());
-}
-
 void Dynamics::copy(Batch& b, Quantity from, Quantity to) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = components(from)[k].data();
-    float* target = components(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] = moves > 0 ? source[i] : target[i]; });
-  }
+  state_kernels(b.width).copy(b.used, b.particles(), b.moves.data(), at(components(from), b), at(components(to), b));
 }
 
 void Dynamics::add(Batch& b, Quantity to, float times, Quantity q) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = components(q)[k].data();
-    float* target = components(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] += moves > 0 ? times * source[i] : 0; });
-  }
+  state_kernels(b.width).add(b.used, b.particles(), b.moves.data(), times, at(components(q), b), at(components(to), b));
 }
 
 void Dynamics::scale(Batch& b, Quantity q, float times) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    float* target = components(q)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] *= moves > 0 ? times : 1; });
-  }
+  state_kernels(b.width).scale(b.used, b.particles(), b.moves.data(), times, at(components(q), b));
 }
 
 void Dynamics::clear(Batch& b, Quantity q) {
-  for (auto& c : components(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
-}
-
-void Dynamics::accelerations(Batch& b) {
-  const auto inverse_mass = float(1 / b.model->particle_mass);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float g = has_gravity_ ? float(scene_.gravity[int(k)]) : 0;
-    float* f = f_[k].data();
-    each_value(b, [=](std::size_t i, float) { f[i] = f[i] * inverse_mass + g; });
-  }
+  state_kernels(b.width).clear(b.used, b.particles(), at(components(q), b));
 }
 
 std::size_t DynamicsState::bytes() const {

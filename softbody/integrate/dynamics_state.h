@@ -5,12 +5,11 @@
 #include <memory>
 #include <vector>
 
+#include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_features.h"
-#include "softbody/contact/solid_law.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/forces/kernel_types.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/kernels.h"
 #include "softbody/integrate/substeps.h"
 #include "softbody/model/body_model.h"
 #include "softbody/state/kernel_types.h"
@@ -34,21 +33,20 @@ struct Batch {
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
-  alignas(32) std::array<float, lanes> moves{};     // 1: integrated; 0: asleep, held or an empty lane
-  LaneVector impulse{};                             // N s, of solids along their normals, in the last advance()
-  alignas(32) std::array<float, lanes> returned{};  // N s, the part of these impulses that restitution gives back
-  unsigned contacted = 0;                           // bits: lanes that may have been pushed in the last advance()
-  std::vector<SolidArguments> near_solids;          // for the frame at hand ...
-  std::vector<SolidFeature> solid_features;         // ... and what of the bodies may meet them between vertices
+  std::array<float, lanes> moves{};          // 1: integrated; 0: asleep, held or an empty lane
+  LaneVector impulse{};                      // N s, of solids along their normals, in the last advance()
+  std::array<float, lanes> returned{};       // N s, the part of these impulses that restitution gives back
+  unsigned contacted = 0;                    // bits: lanes that may have been pushed in the last advance()
+  std::vector<SolidArguments> near_solids;   // for the frame at hand ...
+  std::vector<SolidFeature> solid_features;  // ... and what of the bodies may meet them between vertices
 
   std::size_t particles() const { return model->mesh.vertices.size(); }
   std::size_t values() const { return particles() * std::size_t(width); }  // of one array
 };
 
-/// A batch with its positions and velocities, and the kernels of its width.
+/// A batch with its positions and velocities.
 struct BatchView {
   const Batch& batch;
-  const Kernels& kernels;
   Field<float> x, v;  // m and m/s
   BodyField positions(int lane) const { return {x, std::size_t(lane), std::size_t(batch.width)}; }
   BodyField velocities(int lane) const { return {v, std::size_t(lane), std::size_t(batch.width)}; }

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_placement.h"
 #include "softbody/integrate/dynamics.h"
 #include "softbody/scene/solids.h"
@@ -32,7 +33,7 @@ bool Dynamics::particles_on_solids(Batch& b, float h, bool again) {
     for (SolidArguments& s : b.near_solids) {
       s.h = h;
       s.slack = pass || again ? slack : 0;
-      const unsigned now = kernels_of(b).solid(s, at(x_, b), at(v_, b));
+      const unsigned now = act_by_solid(b.width, b.used, s, at(x_, b), at(v_, b));
       more = more || (acted & now) || (pass && now);
       acted |= now;
       b.contacted |= now;

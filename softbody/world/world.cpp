@@ -37,7 +37,7 @@ World::State::State(Scene s, const Options& o)
       workers(o.threads),
       models(scene),
       plan(make_plan(scene, models.all())),
-      dynamics(scene, Crew(workers, o.min_shared_particles), o.isa),
+      dynamics(scene, Crew(workers, o.min_shared_particles)),
       sleep(scene.sleep),
       arrived(scene.bodies.size(), false),
       method(collide::find_method(scene.method)),

@@ -125,7 +125,7 @@ TEST(ImplicitFrames, DoNotFollowATremor) {
 /// One lane's work of a step in which a ball's particles all move with 2 m/s.
 struct Moving {
   std::shared_ptr<const BodyModel> model = make_body_model({}, gas_ball(1e4));
-  ImplicitWork work{*model, implicit_kernels(best_isa())};
+  ImplicitWork work{*model, implicit_kernels()};
   double kinetic = 0.5 * model->material.mass * 4;  // J
   Moving() {
     work.end_x = work.x;

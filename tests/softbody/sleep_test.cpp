@@ -29,7 +29,7 @@ class SleepRules : public testing::Test {
 
   Scene scene = lone_body(spring_ball());
   collide::Workers workers{1};
-  Dynamics dynamics{scene, Crew(workers, 0), best_isa()};
+  Dynamics dynamics{scene, Crew(workers, 0)};
   Sleep sleep{{.speed = 0.1, .frames = 10}};
   std::vector<BodyId> vertex_body;
 };

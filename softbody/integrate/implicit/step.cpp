@@ -10,6 +10,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/implicit/energy.h"
 #include "softbody/integrate/implicit/frames.h"
@@ -60,8 +61,7 @@ void enter(const ImplicitFrames& frames, ImplicitWork& work) {
 
 /// What no body needs any more goes: body models that are no longer there, and of the others' matrices the oldest.
 void Dynamics::prepare_implicit(float h) {
-  if (!implicit_steps_)
-    implicit_steps_ = std::make_shared<ImplicitSteps>(ImplicitSteps{implicit_kernels(isa_), {}, {}});
+  if (!implicit_steps_) implicit_steps_ = std::make_shared<ImplicitSteps>(ImplicitSteps{implicit_kernels(), {}, {}});
   auto& [kernels, matrices, work] = *implicit_steps_;
   constexpr std::size_t max_lengths = 8;  // kept of one body model, two of them in use
   const auto gone = [this](const std::shared_ptr<const BodyModel>& p) {

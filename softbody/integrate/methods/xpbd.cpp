@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
 
@@ -10,31 +11,32 @@ namespace softbody {
 void Dynamics::project_gas(Batch& b, Quantity d, float h) {
   const BodyModel& p = *b.model;
   if (!p.has_gas) return;
-  alignas(32) float volume[lanes], unit[lanes];
+  float volume[lanes], unit[lanes];
   double square[lanes]{};
   std::fill_n(unit, lanes, 1.0f);
   clear(b, forces);
-  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
-  kernels_of(b).pressure(b.mesh->faces, at(x_, b), unit, at(f_, b));
-  const auto width = std::size_t(b.width);
+  force_kernels(b.width).volume(b.used, b.mesh->faces, at(x_, b), volume);
+  force_kernels(b.width).pressure(b.used, b.mesh->faces, at(x_, b), unit, at(f_, b));
+  const auto width = std::size_t(b.width), used = std::size_t(b.used);
   for (const auto& gradient : f_)
     for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
+      for (std::size_t l = 0; l < used; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
   const double h2_m = double(h) * double(h) / p.particle_mass;
   float shift[lanes];
-  for (std::size_t l = 0; l < width; ++l) {
+  for (std::size_t l = 0; l < used; ++l) {
     const double gauge = p.gas.gauge(double(volume[l]));
     shift[l] = b.moves[l] * float(h2_m * gauge / (1 - p.gas.slope(double(volume[l])) * h2_m * square[l]));
   }
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) components(d)[k][at + l] += shift[l] * f_[k][at + l];
+      for (std::size_t l = 0; l < used; ++l) components(d)[k][at + l] += shift[l] * f_[k][at + l];
 }
 
 void Dynamics::project_springs(Batch& b, Quantity x0, Quantity d, float h) {
   const ProjectArguments arguments{h, float(1 / b.model->particle_mass), b.moves.data()};
   for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
-    kernels_of(b).project_springs(arguments, *list, at(std::as_const(components(x0)), b), at(components(d), b));
+    force_kernels(b.width).project_springs(b.used, arguments, *list, at(std::as_const(components(x0)), b),
+                                           at(components(d), b));
 }
 
 void xpbd(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
