@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "softbody/contact/solid_features.h"
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_surface.h"
 #include "softbody/state/state.h"
 
@@ -20,11 +20,8 @@ struct SolidPush {
 
 class SolidContact {
  public:
-  /// Kernel of body::solid(): acts on one batch, returns the lanes in which it acted as bits.
-  using Kernel = unsigned (*)(const SolidArguments&, Field<const float> x, Field<float> v);
-
-  /// `wide`, `narrow`: the kernels for batches of all lanes and of one. The state must outlive this.
-  SolidContact(State& state, Kernel wide, Kernel narrow) : state_(state), wide_(wide), narrow_(narrow) {}
+  /// The state must outlive this.
+  explicit SolidContact(State& state) : state_(state) {}
 
   /// features: faces and edges meet solids, too. restitution: some solid throws back.
   void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
@@ -70,7 +67,7 @@ class SolidContact {
     std::vector<SolidArguments> near;
     std::vector<SolidFeature> features;               // of the bodies, that may meet the solids between vertices
     LaneVector impulse{};                             // N s, along the normals
-    alignas(32) std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
+    std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
     unsigned pushed = 0;
   };
 
@@ -80,7 +77,6 @@ class SolidContact {
   bool apply_to_feature(const Batch& batch, SolidFeature& feature);
 
   State& state_;
-  Kernel wide_, narrow_;
   bool has_features_ = false, has_restitution_ = false;
   VectorArray before_;  // velocities at the start of the substep, if there is restitution
   std::vector<OfBatch> of_batch_;

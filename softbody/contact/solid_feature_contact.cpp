@@ -6,6 +6,8 @@
 
 #include "collide/surface/closest_features.h"
 #include "softbody/contact/solid_contact.h"
+#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -57,10 +59,8 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoint
   if (!m.inner || glm::dot(m.across, m.across) == 0) return std::nullopt;
   glm::vec3 n = glm::normalize(m.across);
   if (glm::dot(n, f.out) < 0) n = -n;
-  for (const body::Vec<float>& a : box->axes) {  // it points away from all of the box's sides that meet in the core
-    const glm::vec3 axis(a.x, a.y, a.z);
+  for (const glm::vec3& axis : box->axes)  // it points away from all of the box's sides that meet in the core
     if (glm::dot(n, axis) * glm::dot(f.out, axis) < 0) return std::nullopt;
-  }
   return SurfaceAt<float>{glm::dot(m.apart, n) - box->radius, {n.x, n.y, n.z}};
 }
 
