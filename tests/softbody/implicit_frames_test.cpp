@@ -7,7 +7,6 @@
 #include <limits>
 #include <random>
 
-#include "softbody/integrate/implicit/momentum.h"
 #include "softbody/integrate/implicit/planes.h"
 #include "tests/softbody/implicit_rig.h"
 

@@ -5,7 +5,7 @@
 
 #include "softbody/forces/equilibrium.h"
 #include "softbody/integrate/implicit/attempts.h"
-#include "softbody/integrate/implicit/energy.h"
+#include "softbody/integrate/implicit/balance.h"
 #include "softbody/integrate/implicit/matrices.h"
 #include "softbody/state/rigid_motion.h"
 #include "tests/softbody/helpers.h"

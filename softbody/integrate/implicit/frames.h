@@ -5,7 +5,7 @@
 
 #include <array>
 
-#include "softbody/integrate/implicit/contacts.h"
+#include "softbody/integrate/implicit/problem.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {

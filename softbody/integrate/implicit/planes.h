@@ -13,8 +13,8 @@ namespace softbody {
 
 inline constexpr int plane_passes = 8;  // over planes that conflict with each other
 
-/// Returns how far (m) a lane's body shifts as a whole in a step of h: by `meant`, unless its planes stop it. aside(i):
-/// m, by which particle i moves relative to that shift.
+/// Returns how far (m) a lane's body shifts as a whole in a step of h: by `meant`, unless its planes stop it. aside(i)
+/// returns how far (m) particle i moves relative to that shift.
 template <class Aside>
 glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, double h, const glm::dvec3& meant,
                    const Aside& aside) {

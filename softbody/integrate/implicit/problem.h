@@ -1,11 +1,11 @@
 #pragma once
-// What touches the bodies in an implicit step.
+// The problem of one implicit step of the bodies in all lanes, and what touches them.
 
 #include <bitset>
 #include <span>
-#include <vector>
 
 #include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
@@ -36,6 +36,24 @@ struct LinearPenaltyPair {
 
   /// Returns the force (N) after the particle has moved by u. It never pulls, and friction does not exceed its limit.
   glm::dvec3 force_after(const glm::dvec3& u) const;
+};
+
+/// What is solved in one step, in the frames of the lanes.
+struct ImplicitProblem {
+  const BodyModel& model;
+  const ImplicitMatrix& matrix;
+  double h;                          // s
+  const float* moves;                // lanes values
+  const Lanes *x, *v;                // at the start
+  const Lanes* a;                    // m/s^2, what acts beside the forces
+  const Lanes* frame_displacement;   // m, what particles move without leaving their places here (implicit/frames.h)
+  std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
+  std::span<const LinearPenaltyPair> penalty_pairs{};
+
+  /// Returns the displacement (m) in this step of a particle whose position is now in `now`.
+  glm::dvec3 displacement(const Lanes& now, std::size_t at) const {
+    return read(now, at) - read(*x, at) + read(*frame_displacement, at);
+  }
 };
 
 }  // namespace softbody

@@ -1,4 +1,4 @@
-#include "softbody/integrate/implicit/contacts.h"
+#include "softbody/integrate/implicit/problem.h"
 
 #include <algorithm>
 
