@@ -14,7 +14,7 @@ namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// s, of substeps that are not fixed: forces are far from linear over longer ones.
-constexpr double max_step = 1.0 / 60;
+constexpr double longest_step = 1.0 / 60;
 
 }  // namespace
 
@@ -46,7 +46,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
   double own_step = infinite;         // s, of the body that bears the shortest, contacts damp it or not
   double lone_step = infinite;        // s, of the one that bears the shortest without contacts
   // Substeps that keep up with the fastest body near a solid; implicit steps have no bound of stability.
-  double min_substeps = std::max(1.0, seconds / max_step);
+  double min_substeps = std::max(1.0, seconds / longest_step);
   double deformation_rate = 0;  // 1/s: a bound by the present shape tells nothing of one far from it
   const bool pairs = !penalty_.pairs.empty();
   penalty_damping_.assign(pairs ? state_.x[0].size() : 0, 0);
