@@ -28,8 +28,7 @@ void SolidContact::begin_frame() {
 }
 
 template <class Solid>
-void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity,
-                       double seconds) {
+void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity, double seconds) {
   OfBatch& own = of_batch_[b.index];
   const auto near = [&](int l) {  // the plane before the solid, as seen from the box's centre, cuts the box
     const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
@@ -106,8 +105,9 @@ void SolidContact::apply(const Batch& b, float h) {
   if (apply_to_particles(b, h, false) && has_features_ && apply_to_features(b, h)) apply_to_particles(b, h, true);
 }
 
-/// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a groove:
-/// they take turns until what is left is slow, or for so long (Gauss and Seidel). Returns false if no solid is near.
+/// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a
+/// groove: they take turns until what is left is slow, or for so long (Gauss and Seidel). Returns false if no solid is
+/// near.
 bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
   constexpr int max_passes = 8;
   constexpr float slack = 1e-4f;  // m/s
