@@ -8,6 +8,7 @@
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_surface.h"
+#include "softbody/contact/surface_contact.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -28,8 +29,8 @@ class SolidContact {
 
   // A frame: begin_frame(), add() for each batch that moves and each solid, substeps, end_frame().
   void begin_frame();
-  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the batch's
-  /// positions and velocities now. gravity in m/s^2.
+  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the
+  /// batch's positions and velocities now. gravity in m/s^2.
   template <class Solid>
   void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds);
   /// Notes the pushes of the frame.
@@ -66,6 +67,7 @@ class SolidContact {
   struct OfBatch {
     std::vector<SolidArguments> near;
     std::vector<SolidFeature> features;               // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;                     // of these, in the substep at hand
     LaneVector impulse{};                             // N s, along the normals
     std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
     unsigned pushed = 0;
@@ -74,7 +76,7 @@ class SolidContact {
   bool apply_to_particles(const Batch& batch, float h, bool again);
   void find_features(const Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
   bool apply_to_features(const Batch& batch, float h);
-  bool apply_to_feature(const Batch& batch, SolidFeature& feature);
+  void add_row(const Batch& batch, SolidFeature& feature, float h);
 
   State& state_;
   bool has_features_ = false, has_restitution_ = false;
