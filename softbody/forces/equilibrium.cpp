@@ -26,13 +26,13 @@ class Relaxation {
 
   void evaluate() {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
-    body::springs<double, one_lane>(springs_, constant(x_), constant(v_), field(f_));
+    body::springs<double>(springs_, constant(x_), constant(v_), field(f_));
     if (!shape_.empty()) keep_shape();
     if (!model_.has_gas) return;
     double v;
-    body::volume<double, one_lane>(model_.mesh.triangles, constant(x_), &v);
+    body::volume<double>(model_.mesh.triangles, constant(x_), &v);
     const double gauge = model_.gas.gauge(v);
-    body::pressure<double, one_lane>(model_.mesh.triangles, constant(x_), &gauge, field(f_));
+    body::pressure<double>(model_.mesh.triangles, constant(x_), &gauge, field(f_));
   }
 
   void keep_shape() {

@@ -33,13 +33,13 @@ struct ShapePoint {
 /// the matrix begins at 3 c.
 template <class Real>
 struct ShapeMoments {
-  alignas(64) Real mean[3][lanes], covariance[9][lanes];
+  Real mean[3][lanes], covariance[9][lanes];
 };
 
 /// Pose of the goal shape: x = centre + rotation q. Column c of the rotation begins at 3 c.
 template <class Real>
 struct ShapePose {
-  alignas(64) Real centre[3][lanes], rotation[9][lanes];
+  Real centre[3][lanes], rotation[9][lanes];
 };
 
 struct ProjectArguments {

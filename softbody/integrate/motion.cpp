@@ -1,11 +1,17 @@
 #include "softbody/integrate/motion.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
+namespace {
+
+std::size_t used(const Batch& b) { return std::size_t(b.used); }
+
+}  // namespace
 
 void Motion::set_plan(const Plan& plan) {
   static constexpr std::pair<Stage, ForceStage> springs_and_gas[] = {
@@ -53,31 +59,34 @@ void Motion::all_forces(const Batch& b) { run_stages(b, force_stages_); }
 void Motion::other_forces(const Batch& b) { run_stages(b, other_force_stages_); }
 
 void Motion::structural_springs(const Batch& b) {
-  parts_.kernels(b).springs(parts_.kernels.mesh(b).structural, x(b), v(b), f(b));
+  force_kernels(b.width).springs(used(b), parts_.meshes(b).structural, x(b), v(b), f(b));
 }
-void Motion::bend_springs(const Batch& b) { parts_.kernels(b).springs(parts_.kernels.mesh(b).bend, x(b), v(b), f(b)); }
+void Motion::bend_springs(const Batch& b) {
+  force_kernels(b.width).springs(used(b), parts_.meshes(b).bend, x(b), v(b), f(b));
+}
 void Motion::shear_springs(const Batch& b) {
-  parts_.kernels(b).springs(parts_.kernels.mesh(b).shear, x(b), v(b), f(b));
+  force_kernels(b.width).springs(used(b), parts_.meshes(b).shear, x(b), v(b), f(b));
 }
 
 void Motion::gas_pressure(const Batch& b) {
   if (!b.model->has_gas) return;
   const Gas& gas = b.model->gas;
-  const KernelMesh& mesh = parts_.kernels.mesh(b);
-  alignas(32) float volume[lanes], gauge[lanes]{};
-  parts_.kernels(b).volume(mesh.faces, x(b), volume);
+  const std::vector<KernelTriangle>& faces = parts_.meshes(b).faces;
+  float volume[lanes], gauge[lanes]{};
+  force_kernels(b.width).volume(used(b), faces, x(b), volume);
   for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
-  parts_.kernels(b).pressure(mesh.faces, x(b), gauge, f(b));
+  force_kernels(b.width).pressure(used(b), faces, x(b), gauge, f(b));
 }
 
 void Motion::shape_matching(const Batch& b) {
-  const KernelMesh& mesh = parts_.kernels.mesh(b);
+  const KernelMesh& mesh = parts_.meshes(b);
   if (mesh.shape.empty()) return;
   ShapeMoments<float> moments;
   ShapePose<float> pose{};
-  parts_.kernels(b).shape_moments(mesh.shape, x(b), moments);
+  force_kernels(b.width).shape_moments(used(b), mesh.shape, x(b), moments);
   fit_shape(moments, b.used, pose);
-  parts_.kernels(b).shape_pull(mesh.shape, pose, static_cast<float>(shape_stiffness(*b.model)), x(b), f(b));
+  force_kernels(b.width).shape_pull(used(b), mesh.shape, pose, static_cast<float>(shape_stiffness(*b.model)), x(b),
+                                    f(b));
 }
 
 void Motion::penalty_forces(const Batch& b) {
@@ -107,12 +116,18 @@ void Motion::pull(const Batch& b, float h) {
 
 void Motion::kick(const Batch& b, float h) {
   const glm::vec3 g = h * glm::vec3(gravity_);
-  parts_.kernels(b).kick({b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b),
-                         v(b));
+  state_kernels(b.width).kick(
+      used(b), {b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
+}
+
+void Motion::accelerations(const Batch& b) {
+  const glm::vec3 g(gravity_);
+  state_kernels(b.width).accelerate(
+      used(b), {b.particles(), float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
 }
 
 void Motion::drift(const Batch& b, float h) {
-  parts_.kernels(b).drift(b.particles(), h, b.moves.data(), v(b), field(parts_.state.x, b.base));
+  state_kernels(b.width).drift(used(b), b.particles(), h, b.moves.data(), v(b), field(parts_.state.x, b.base));
 }
 
 VectorArray& Motion::array(Quantity q) {
@@ -120,53 +135,22 @@ VectorArray& Motion::array(Quantity q) {
   return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
 }
 
-/// Calls operation(place in the arrays, 1 or 0 for whether its lane moves).
-template <class Operation>
-void Motion::each_value(const Batch& b, Operation operation) {
-  const auto run = [&, moves = b.moves](auto width) {
-    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) operation(at + l, moves[l]);
-  };
-  if (b.width == one_lane)
-    run(std::integral_constant<std::size_t, one_lane>());
-  else
-    run(std::integral_constant<std::size_t, lanes>());
-}
-
 void Motion::copy(const Batch& b, Quantity from, Quantity to) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = array(from)[k].data();
-    float* target = array(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] = moves > 0 ? source[i] : target[i]; });
-  }
+  state_kernels(b.width).copy(used(b), b.particles(), b.moves.data(), field(array(from), b.base),
+                              field(array(to), b.base));
 }
 
 void Motion::add(const Batch& b, Quantity to, float times, Quantity q) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = array(q)[k].data();
-    float* target = array(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] += moves > 0 ? times * source[i] : 0; });
-  }
+  state_kernels(b.width).add(used(b), b.particles(), b.moves.data(), times, field(array(q), b.base),
+                             field(array(to), b.base));
 }
 
 void Motion::scale(const Batch& b, Quantity q, float times) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    float* target = array(q)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] *= moves > 0 ? times : 1; });
-  }
+  state_kernels(b.width).scale(used(b), b.particles(), b.moves.data(), times, field(array(q), b.base));
 }
 
 void Motion::clear(const Batch& b, Quantity q) {
-  for (auto& c : array(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
-}
-
-void Motion::accelerations(const Batch& b) {
-  const auto inverse_mass = float(1 / b.model->particle_mass);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto g = float(gravity_[int(k)]);
-    float* a = parts_.state.f[k].data();
-    each_value(b, [=](std::size_t i, float) { a[i] = a[i] * inverse_mass + g; });
-  }
+  state_kernels(b.width).clear(used(b), b.particles(), field(array(q), b.base));
 }
 
 }  // namespace softbody

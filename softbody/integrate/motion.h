@@ -7,7 +7,7 @@
 
 #include "softbody/forces/hand.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_kernels.h"
+#include "softbody/integrate/batch_meshes.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
@@ -27,7 +27,7 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 /// What a Motion acts on. All of these must outlive it.
 struct MotionParts {
   State& state;
-  const BatchKernels& kernels;
+  const BatchMeshes& meshes;
   const Hand& hand;
   PenaltyContact& penalty;
   SolidContact& solids;
@@ -78,8 +78,6 @@ class Motion {
   Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
-  template <class Operation>
-  void each_value(const Batch& batch, Operation operation);
   void run_stages(const Batch& batch, std::span<const ForceStage> stages);
   void structural_springs(const Batch& batch);
   void bend_springs(const Batch& batch);

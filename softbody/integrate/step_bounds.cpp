@@ -6,6 +6,8 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
+#include "softbody/forces/kernels.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 namespace {
@@ -22,17 +24,18 @@ double StepBounds::stiffness_per_mass(const Batch& b) {
   double stiffest = softbody::stiffness_per_mass(p, {});
   if (!p.has_gas) return stiffest;
   for (auto& component : area_) component.assign(b.values(), 0);
-  const Kernels& kernels = kernels_(b);
-  const KernelMesh& mesh = kernels_.mesh(b);
+  const ForceKernels& kernels = force_kernels(b.width);
+  const KernelMesh& mesh = meshes_(b);
+  const auto used = std::size_t(b.used);
   const Field<const float> x = field(state_.x, b.base);
-  alignas(32) float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
+  float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
   std::fill(std::begin(one), std::end(one), 1.0f);
-  kernels.volume(mesh.faces, x, volume);
-  kernels.medians(mesh.faces, x, two_medians);
-  kernels.pressure(mesh.faces, x, one, field(area_));
-  kernels.square_sum(b.particles(), field(area_), area2);
+  kernels.volume(used, mesh.faces, x, volume);
+  kernels.medians(used, mesh.faces, x, two_medians);
+  kernels.pressure(used, mesh.faces, x, one, field(area_));
+  state_kernels(b.width).square_sum(used, b.particles(), field(area_), area2);
   for (const KernelSprings* list : {&mesh.structural, &mesh.bend, &mesh.shear})
-    kernels.stretch(*list, field(area_), stretch);
+    kernels.stretch(used, *list, field(area_), stretch);
   for (int l = 0; l < b.used; ++l)
     stiffest = std::max(stiffest, softbody::stiffness_per_mass(p, {volume[l], area2[l], stretch[l], two_medians[l]}));
   return stiffest;
@@ -66,7 +69,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
     own_step = std::min(own_step, integrator.stable_step(stiffest, p.spring_damping_bound / p.particle_mass));
-    const Extent motion = kernels_.extent(b, state_.v, state_.v);
+    const Extent motion = state_.extent(b, state_.v, state_.v);
     if (!solids_.near(b).empty())
       min_substeps = std::max(min_substeps, motion.max_length() * seconds / (0.1 * p.radius));
     deformation_rate = std::max(deformation_rate, motion.max_diagonal() / (0.1 * p.radius));
@@ -83,7 +86,7 @@ int StepBounds::trusted_substeps(std::span<const Batch* const> moving, double h)
   for (const Batch* b : moving) {
     const double radius = b->model->radius, pressed = std::max(0.25 * double(penalty_.thickness), 0.05 * radius);
     const double way = penalty_.pairs.empty() ? 0.2 * radius : std::min(pressed, 0.2 * radius);
-    trusted = std::min(trusted, way / (kernels_.max_particle_speed(state_, *b) * h));
+    trusted = std::min(trusted, way / (state_.max_particle_speed(*b) * h));
   }
   return static_cast<int>(trusted);
 }
@@ -92,7 +95,7 @@ double StepBounds::rounding_velocity(std::span<const Batch* const> moving, doubl
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
   for (const Batch* b : moving) {
-    const Extent e = kernels_.extent(*b, state_.x, state_.v);
+    const Extent e = state_.extent(*b, state_.x, state_.v);
     for (int l = 0; l < b->used; ++l)
       for (const LaneVector* corner : {&e.lo, &e.hi})
         farthest = std::max(

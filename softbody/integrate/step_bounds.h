@@ -3,7 +3,7 @@
 
 #include "softbody/contact/solid_contact.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_kernels.h"
+#include "softbody/integrate/batch_meshes.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/substeps.h"
 
@@ -12,8 +12,8 @@ namespace softbody {
 class StepBounds {
  public:
   /// All of these must outlive this.
-  StepBounds(const State& state, const BatchKernels& kernels, const PenaltyContact& penalty, const SolidContact& solids)
-      : state_(state), kernels_(kernels), penalty_(penalty), solids_(solids) {}
+  StepBounds(const State& state, const BatchMeshes& meshes, const PenaltyContact& penalty, const SolidContact& solids)
+      : state_(state), meshes_(meshes), penalty_(penalty), solids_(solids) {}
 
   /// Returns the bounds for the next `seconds` with this integrator.
   SubstepBound measure(const Integrator& integrator, double seconds);
@@ -29,7 +29,7 @@ class StepBounds {
   double stiffness_per_mass(const Batch& batch);
 
   const State& state_;
-  const BatchKernels& kernels_;
+  const BatchMeshes& meshes_;
   const PenaltyContact& penalty_;
   const SolidContact& solids_;
   VectorArray area_;                    // m^2, scratch

@@ -44,9 +44,6 @@ glm::dvec3 angular_momentum(const World& world);  // about the world's origin
 /// Forces of springs and gas at rest, by plain loops.
 std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
-/// The instruction sets that this processor has.
-std::vector<Isa> isas();
-
 double uniform(std::mt19937& random, double lo, double hi);
 /// Components from -size to size, drawn in their order.
 glm::dvec3 random_vector(std::mt19937& random, double size);

@@ -8,8 +8,9 @@
 
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/equilibrium.h"
+#include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/kernels.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -71,16 +72,18 @@ TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
     x.push_back(r * (v * glm::dvec3(1, 1.3, 0.8)) + random_vector(random, 0.05) + glm::dvec3(1, 2, 3));
 
   // Through the kernels of every instruction set, in float; energy and its differences in double.
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     LaneField field(x.size()), force(x.size());
     std::vector<ShapePoint<float>> shape;
     for (const glm::dvec3& q : p->goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
     for (std::size_t i = 0; i < x.size(); ++i) field.set(i, 5, x[i]);
     ShapeMoments<float> moments;
     ShapePose<float> pose{};
-    kernels(isa).shape_moments(shape, std::as_const(field).field(), moments);
+    force_kernels(lanes).shape_moments(lanes, shape, std::as_const(field).field(), moments);
     fit_shape(moments, lanes, pose);
-    kernels(isa).shape_pull(shape, pose, float(shape_stiffness(*p)), std::as_const(field).field(), force.field());
+    force_kernels(lanes).shape_pull(lanes, shape, pose, float(shape_stiffness(*p)), std::as_const(field).field(),
+                                    force.field());
 
     const double scale = shape_stiffness(*p) * 0.5;
     glm::dvec3 total(0.0), torque(0.0);

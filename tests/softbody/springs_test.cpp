@@ -3,9 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
-#include "softbody/integrate/kernels.h"
+#include "softbody/contact/kernels.h"
+#include "softbody/forces/kernels.h"
+#include "softbody/state/kernels.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -30,9 +34,9 @@ std::vector<KernelSpring<float>> random_springs(std::mt19937& random, std::uint3
   return springs;
 }
 
-class Springs : public testing::TestWithParam<Isa> {
+class Springs : public tests::OnEveryTarget {
  protected:
-  const Kernels& k = kernels(GetParam());
+  const ForceKernels& k = force_kernels(lanes);
 };
 
 TEST_P(Springs, OneSpringHasTheClosedFormInEachLane) {
@@ -41,7 +45,7 @@ TEST_P(Springs, OneSpringHasTheClosedFormInEachLane) {
   x.randomise(random, 1);
   v.randomise(random, 3);
   const std::vector<KernelSpring<float>> spring{{0, lanes, 0.8f, 120.0f, 2.5f}};
-  k.springs(spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 expected = pull(x, v, spring[0], l);
     EXPECT_NEAR(glm::distance(f.at(0, l), expected), 0, 2e-6 * (glm::length(expected) + 100)) << "lane " << l;
@@ -53,7 +57,7 @@ TEST_P(Springs, AStretchedSpringPullsAndASqueezedOnePushes) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) x.set(1, l, {0.25 * (l + 1), 0, 0});
   const std::vector<KernelSpring<float>> spring{{0, lanes, 1.0f, 8.0f, 0.0f}};
-  k.springs(spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(8 * (0.25 * (l + 1) - 1), 0, 0)), 0, 1e-5) << "lane " << l;
 }
@@ -66,7 +70,7 @@ TEST_P(Springs, TheDamperActsOnTheRelativeSpeedAlongTheSpringOnly) {
     v.set(1, l, {-7, 9, 4});
   }
   const std::vector<KernelSpring<float>> damper{{0, lanes, 2.0f, 50.0f, 3.0f}};  // at its rest length
-  k.springs(damper, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  k.springs(lanes, damper, std::as_const(x).field(), std::as_const(v).field(), f.field());
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(0, 0, 3.0 * (4 - l))), 0, 1e-5) << "c (dv . dx) / |dx|";
 }
@@ -80,7 +84,7 @@ TEST_P(Springs, OfLengthZeroPullsNowhere) {
   }
   x.set(1, 5, {1, 2, 4});  // its neighbours do not disturb a lane
   const std::vector<KernelSpring<float>> spring{{0, lanes, 0.5f, 100.0f, 1.0f}};
-  k.springs(spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
   for (int l = 0; l < lanes; ++l)
     EXPECT_EQ(f.at(0, l), l == 5 ? glm::dvec3(0, 0, 50) : glm::dvec3(0.0)) << "lane " << l;
 }
@@ -92,7 +96,7 @@ TEST_P(Springs, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   x.randomise(random, 1);
   v.randomise(random, 2);
   const auto springs = random_springs(random, n, 300);
-  k.springs(springs, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  k.springs(lanes, springs, std::as_const(x).field(), std::as_const(v).field(), f.field());
   for (int l = 0; l < lanes; ++l) {
     std::vector<glm::dvec3> expected(n, glm::dvec3(0.0));
     for (const auto& s : springs) {
@@ -112,8 +116,7 @@ TEST_P(Springs, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, Springs, testing::ValuesIn(isas()),
-                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+INSTANTIATE_TEST_SUITE_P(All, Springs, testing::ValuesIn(tests::targets()), tests::target_name);
 
 /// Everything that the kernels of one instruction set make of the same random state.
 struct Trace {
@@ -128,8 +131,10 @@ struct Trace {
   }
 };
 
-Trace trace(Isa isa) {
-  const Kernels& k = kernels(isa);
+Trace trace(std::int64_t target) {
+  const tests::UseTarget use(target);
+  const ForceKernels& k = force_kernels(lanes);
+  const StateKernels& state = state_kernels(lanes);
   std::mt19937 random(3);
   const Mesh mesh = icosphere(1, 0.5);
   const std::size_t n = mesh.vertices.size();
@@ -141,8 +146,8 @@ Trace trace(Isa isa) {
   const auto springs = random_springs(random, std::uint32_t(n), 120);
   std::vector<KernelTriangle> faces;
   for (const auto& [a, b, c] : mesh.triangles) faces.push_back({a * lanes, b * lanes, c * lanes});
-  alignas(32) float moves[lanes]{1, 1, 0, 1, 1, 1, 1, 0}, gauge[lanes]{1, 200, 3e3f, -4, 5, 6, 7, 8};
-  alignas(32) float returned[lanes]{};
+  float moves[lanes], gauge[lanes], returned[lanes]{};
+  for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 2 ? 0.0f : 1.0f, gauge[l] = float(l * l * l - 50);
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
@@ -151,39 +156,41 @@ Trace trace(Isa isa) {
   for (int l = 0; l < lanes; ++l) solid.place.y[l] = -0.45f + 0.01f * float(l);
   const auto constant = [](const LaneField& f) { return f.field(); };
   for (int step = 0; step < 5; ++step) {
-    k.springs(springs, constant(t.x), constant(t.v), t.f.field());
-    k.volume(faces, constant(t.x), t.volume.data());
-    k.pressure(faces, constant(t.x), gauge, t.f.field());
-    k.kick({n, 0.01f, 0.0f, -0.098f, 0.01f, moves}, constant(t.f), t.v.field());
+    k.springs(lanes, springs, constant(t.x), constant(t.v), t.f.field());
+    k.volume(lanes, faces, constant(t.x), t.volume.data());
+    k.pressure(lanes, faces, constant(t.x), gauge, t.f.field());
+    state.kick(lanes, {n, 0.01f, 0.0f, -0.098f, 0.01f, moves}, constant(t.f), t.v.field());
     const LaneField before = t.v;
     solid.before = before.field();
     for (std::size_t shape = 0; shape < std::size(shapes); ++shape) {
       solid.shape = shapes[shape];
-      t.acted[shape] |= k.solid(solid, constant(t.x), t.v.field());
+      t.acted[shape] |= act_by_solid(lanes, lanes, solid, constant(t.x), t.v.field());
     }
-    k.drift(n, 0.01f, moves, constant(t.v), t.x.field());
-    k.extent(n, constant(t.x), constant(t.v), t.extent);
+    state.drift(lanes, n, 0.01f, moves, constant(t.v), t.x.field());
+    state.extent(lanes, n, constant(t.x), constant(t.v), t.extent);
   }
   return t;
 }
 
 TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
-  const Trace baseline = trace(Isa::baseline);
+  const Trace baseline = trace(tests::targets().back());
   for (const unsigned acted : baseline.acted) EXPECT_NE(acted, 0u) << "or a solid took no part";
-  for (const Isa isa : isas()) EXPECT_TRUE(trace(isa) == baseline);
+  for (const std::int64_t target : tests::targets()) EXPECT_TRUE(trace(target) == baseline);
 }
 
 TEST(Kernels, KickAndDriftLeaveBodiesThatDoNotMoveAlone) {
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     std::mt19937 random(4);
     LaneField x(3), v(3), f(3);
     x.randomise(random, 1);
     v.randomise(random, 1);
     f.randomise(random, 1);
     const LaneField x0 = x, v0 = v;
-    alignas(32) float moves[lanes]{1, 0, 1, 1, 0, 1, 1, 1};
-    kernels(isa).kick({3, 0.5f, 0.25f, -1, 2, moves}, std::as_const(f).field(), v.field());
-    kernels(isa).drift(3, 0.125f, moves, std::as_const(v).field(), x.field());
+    float moves[lanes];
+    for (int l = 0; l < lanes; ++l) moves[l] = l % 3 == 1 ? 0.0f : 1.0f;
+    state_kernels(lanes).kick(lanes, {3, 0.5f, 0.25f, -1, 2, moves}, std::as_const(f).field(), v.field());
+    state_kernels(lanes).drift(lanes, 3, 0.125f, moves, std::as_const(v).field(), x.field());
     for (std::size_t i = 0; i < 3; ++i)
       for (int l = 0; l < lanes; ++l) {
         const glm::dvec3 dv = double(moves[l]) * (0.5 * f.at(i, l) + glm::dvec3(0.25, -1, 2));
@@ -194,13 +201,14 @@ TEST(Kernels, KickAndDriftLeaveBodiesThatDoNotMoveAlone) {
 }
 
 TEST(Kernels, ExtentIsTheBoxAndTheFastestOfEachLane) {
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     std::mt19937 random(5);
     LaneField x(20), v(20);
     x.randomise(random, 4);
     v.randomise(random, 4);
     Extent e;
-    kernels(isa).extent(20, std::as_const(x).field(), std::as_const(v).field(), e);
+    state_kernels(lanes).extent(lanes, 20, std::as_const(x).field(), std::as_const(v).field(), e);
     for (int l = 0; l < lanes; ++l) {
       glm::dvec3 lo = x.at(0, l), hi = lo;
       double speed2 = 0;

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/integrate/motion.h"
 #include "softbody/integrate/integrator_steps.h"
 
@@ -10,34 +11,34 @@ namespace softbody {
 void Motion::project_gas(const Batch& b, Quantity d, float h) {
   const BodyModel& p = *b.model;
   if (!p.has_gas) return;
-  alignas(32) float volume[lanes], unit[lanes];
+  float volume[lanes], unit[lanes];
   double square[lanes]{};
   std::fill_n(unit, lanes, 1.0f);
   clear(b, forces);
-  const std::vector<KernelTriangle>& faces = parts_.kernels.mesh(b).faces;
-  parts_.kernels(b).volume(faces, x(b), volume);
-  parts_.kernels(b).pressure(faces, x(b), unit, f(b));
-  const auto width = std::size_t(b.width);
+  const std::vector<KernelTriangle>& faces = parts_.meshes(b).faces;
+  force_kernels(b.width).volume(b.used, faces, x(b), volume);
+  force_kernels(b.width).pressure(b.used, faces, x(b), unit, f(b));
+  const auto width = std::size_t(b.width), used = std::size_t(b.used);
   for (const auto& gradient : parts_.state.f)
     for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
+      for (std::size_t l = 0; l < used; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
   const double h2_m = double(h) * double(h) / p.particle_mass;
   float shift[lanes];
-  for (std::size_t l = 0; l < width; ++l) {
+  for (std::size_t l = 0; l < used; ++l) {
     const double gauge = p.gas.gauge(double(volume[l]));
     shift[l] = b.moves[l] * float(h2_m * gauge / (1 - p.gas.slope(double(volume[l])) * h2_m * square[l]));
   }
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) array(d)[k][at + l] += shift[l] * parts_.state.f[k][at + l];
+      for (std::size_t l = 0; l < used; ++l) array(d)[k][at + l] += shift[l] * parts_.state.f[k][at + l];
 }
 
 void Motion::project_springs(const Batch& b, Quantity x0, Quantity d, float h) {
   const ProjectArguments arguments{h, float(1 / b.model->particle_mass), b.moves.data()};
-  const KernelMesh& mesh = parts_.kernels.mesh(b);
+  const KernelMesh& mesh = parts_.meshes(b);
   for (const KernelSprings* list : {&mesh.structural, &mesh.bend, &mesh.shear})
-    parts_.kernels(b).project_springs(arguments, *list, field(std::as_const(array(x0)), b.base),
-                                      field(array(d), b.base));
+    force_kernels(b.width).project_springs(b.used, arguments, *list, field(std::as_const(array(x0)), b.base),
+                                           field(array(d), b.base));
 }
 
 void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {

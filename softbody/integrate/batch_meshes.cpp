@@ -1,4 +1,4 @@
-#include "softbody/integrate/batch_kernels.h"
+#include "softbody/integrate/batch_meshes.h"
 
 namespace softbody {
 namespace {
@@ -23,7 +23,7 @@ KernelMesh::KernelMesh(const BodyModel& model, int width)
   for (const glm::dvec3& q : model.goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
 }
 
-void BatchKernels::update(const State& state) {
+void BatchMeshes::update(const State& state) {
   of_batch_.resize(state.batches().size());
   for (const Batch& b : state.batches()) {
     OfBatch& own = of_batch_[b.index];
@@ -33,12 +33,6 @@ void BatchKernels::update(const State& state) {
       if (other.mesh && other.model == b.model && other.width == b.width) own.mesh = other.mesh;
     if (!own.mesh) own.mesh = std::make_shared<const KernelMesh>(*b.model, b.width);
   }
-}
-
-Extent BatchKernels::extent(const Batch& b, const VectorArray& boxed, const VectorArray& measured) const {
-  Extent e{};
-  (*this)(b).extent(b.particles(), field(boxed, b.base), field(measured, b.base), e);
-  return e;
 }
 
 }  // namespace softbody
