@@ -24,11 +24,12 @@ double Dynamics::stiffness_per_mass(const Batch& b) const {
   const BodyModel& p = *b.model;
   double stiffest = softbody::stiffness_per_mass(p, {});
   if (!p.has_gas) return stiffest;
-  for (auto& component : area_) component.assign(b.values(), 0);
+  for (auto& component : area_) component.resize(b.values());
   const Field<float> area{area_[0].data(), area_[1].data(), area_[2].data()};
   const ForceKernels& kernels = force_kernels(b.width);
   float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
   std::fill(std::begin(one), std::end(one), 1.0f);
+  state_kernels(b.width).clear(b.used, b.particles(), area);
   kernels.volume(b.used, b.mesh->faces, at(x_, b), volume);
   kernels.medians(b.used, b.mesh->faces, at(x_, b), two_medians);
   kernels.pressure(b.used, b.mesh->faces, at(x_, b), one, area);
@@ -64,8 +65,10 @@ SubstepBound Dynamics::bound(double seconds) const {
     if (!penalty_.pairs.empty()) {
       const auto k = static_cast<float>(p.material.contact_stiffness);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
-      const float* own = penalty_damping_.data() + b.base;
-      damper += double(*std::max_element(own, own + b.values()));
+      float most = 0;
+      for (const float *own = penalty_damping_.data() + b.base, *end = own + b.values(); own < end; own += b.width)
+        most = std::max(most, *std::max_element(own, own + b.used));
+      damper += double(most);
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
     own_step = std::min(own_step, integrator_->stable_step(stiffest, p.spring_damping_bound / p.particle_mass));
@@ -216,9 +219,7 @@ void Dynamics::run(int count, float h, bool first, const std::function<void()>& 
     for (int s = 0; s < count; ++s) {
       if (has_restitution_)
         for (Batch* b : worker.batches())
-          for (std::size_t k = 0; k < 3; ++k)
-            std::copy_n(v_[k].begin() + std::ptrdiff_t(b->base), b->values(),
-                        before_[k].begin() + std::ptrdiff_t(b->base));
+          state_kernels(b->width).copy(b->used, b->particles(), b->moves.data(), at(v_, *b), at(before_, *b));
       integrator_->advance(*this, worker, {h, first && s == 0});
       if (has_surface_) since_found_[std::size_t(worker.index())] += h;
       if (!after_substep) continue;

@@ -39,20 +39,19 @@ std::shared_ptr<const KernelMesh> Dynamics::mesh_of(const std::shared_ptr<const 
   return std::make_shared<const KernelMesh>(*model, width);
 }
 
-/// The only large body of a model is solved by itself: in eight lanes it takes eight times the memory and, as
-/// measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long. Two bodies already take 1.4 times as long apart as in
-/// lanes. What implicit steps may take is never solved by itself: they want all lanes.
+/// The first block of a model grows with its bodies: one of large bodies takes, as measured, 1.3 (2,562 vertices)
+/// to 1.6 times (50,000) as long in eight lanes as alone. Two bodies already take 1.4 times as long apart as in lanes.
 Batch& Dynamics::batch_with_free_lane(const std::shared_ptr<const BodyModel>& model) {
   bool alone = true;
   for (Batch& b : batches_) {
     if (b.model != model) continue;
-    if (b.width == one_lane && b.used > 0) widen(b);
+    if (b.used == b.width && b.width < lanes) widen(b);
     if (b.used < b.width) return b;
     alone = false;
   }
   Batch b;
   b.model = model;
-  b.width = alone && b.particles() > max_implicit_particles ? one_lane : lanes;
+  b.width = alone ? one_lane : lanes;
   b.mesh = mesh_of(model, b.width);
   b.base = append(b.values());
   return batches_.emplace_back(std::move(b));
@@ -66,19 +65,32 @@ std::size_t Dynamics::append(std::size_t values) {
   return base;
 }
 
-/// Gives a batch of one body eight lanes. What it had lies idle: an eighth more.
+/// Gives a full batch more lanes. What it had lies idle, unless it stands last.
 void Dynamics::widen(Batch& b) {
-  const std::size_t from = b.base;
-  b.mesh = mesh_of(b.model, lanes);
-  b.width = lanes;  // after it: mesh_of() looks at all batches
-  b.base = append(b.values());
+  const auto width = std::size_t(b.width), wider = std::size_t(next_width(b.width));
+  const std::size_t from = b.base, end = from + b.values();
+  const bool last = end == x_[0].size();
+  std::vector<std::vector<float>> before;
   for (auto* components : {&x_, &v_, &f_})
-    for (auto& c : *components)
-      for (std::size_t i = 0; i < b.particles(); ++i) c[b.base + i * lanes] = c[from + i];
-  for (PenaltyPair& p : penalty_.pairs) {
-    if (p.body_a == b.body[0]) p.slot_a = b.base + (p.slot_a - from) * lanes;
-    if (p.body_b == b.body[0]) p.slot_b = b.base + (p.slot_b - from) * lanes;
-  }
+    for (auto& c : *components) {
+      before.emplace_back(c.begin() + std::ptrdiff_t(from), c.begin() + std::ptrdiff_t(end));
+      if (last) c.resize(from);
+    }
+  b.mesh = mesh_of(b.model, int(wider));
+  b.width = int(wider);  // after it: mesh_of() looks at all batches
+  b.base = append(b.values());
+  auto values = before.begin();
+  for (auto* components : {&x_, &v_, &f_})
+    for (auto& c : *components) {
+      for (std::size_t i = 0; i < b.particles(); ++i)
+        std::copy_n(values->data() + i * width, width, c.data() + b.base + i * wider);
+      ++values;
+    }
+  const auto move = [&](BodyId body, std::size_t& slot) {
+    const std::size_t at = slot - from;
+    if (&batches_[bodies_[body].batch] == &b) slot = b.base + at / width * wider + at % width;
+  };
+  for (PenaltyPair& p : penalty_.pairs) move(p.body_a, p.slot_a), move(p.body_b, p.slot_b);
 }
 
 BodyId Dynamics::add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity) {

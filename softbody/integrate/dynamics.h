@@ -217,13 +217,14 @@ class Dynamics {
   void prepare_implicit(float h);
   void count_implicit_work();
   const ImplicitMatrix& implicit_matrix(const Batch& batch, double h) const;
-  std::array<bool, lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                                      double h) const;
-  std::array<bool, lanes> find_penalty_pairs(const Batch& batch, ImplicitWork& work, double h) const;
+  std::array<bool, implicit_lanes> find_planes(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
+                                               double h) const;
+  std::array<bool, implicit_lanes> find_penalty_pairs(const Batch& batch, ImplicitWork& work, double h) const;
   void correct_solver_momentum(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                               const std::array<bool, lanes>& which, double h) const;
-  std::array<bool, lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work,
-                                            double h) const;
+                               const std::array<bool, implicit_lanes>& which, double h) const;
+  std::array<bool, implicit_lanes> second_order_step(const Batch& batch, const ImplicitFrames& frames,
+                                                     ImplicitWork& work, double h) const;
+  void solve_implicit(ImplicitWork& work, Batch& batch, Quantity mean, Quantity rest, double h);
   void first_order_step(const Batch& batch, const ImplicitFrames& frames, ImplicitWork& work, double h) const;
   void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
   void mark_contacted(BodyId id) { batches_[bodies_[id].batch].contacted |= 1u << bodies_[id].lane; }

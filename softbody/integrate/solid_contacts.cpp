@@ -59,9 +59,9 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
     const SolidSurface s = surface_at(solid, bodies_[b.body[std::size_t(l)]].origin + 0.5 * (lo + hi));
     return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= max_travel(b, e, l, seconds);
   };
-  bool any = false;
-  for (int l = 0; l < b.used; ++l) any = any || near(l);
-  if (!any) return;
+  unsigned lanes_near = 0;
+  for (int l = 0; l < b.used; ++l) lanes_near |= unsigned(near(l)) << l;
+  if (!lanes_near) return;
   const double thickness = b.model->material.thickness;
   SolidArguments& s = b.near_solids.emplace_back();
   s.particles = b.particles();
@@ -74,6 +74,7 @@ void Dynamics::prepare_solid(Batch& b, const Extent& e, double seconds, const So
     const glm::dvec3 place = place_of(solid, thickness, origin) - origin;
     s.place.x[l] = float(place.x), s.place.y[l] = float(place.y), s.place.z[l] = float(place.z);
   }
+  s.near = lanes_near;
   s.moves = b.moves.data();
   s.impulse = {b.impulse.x, b.impulse.y, b.impulse.z};
   s.returned = b.returned.data();

@@ -19,7 +19,7 @@ namespace {
 
 glm::dvec3 at(const Lanes& f, std::size_t particle, std::size_t lane) { return LaneView{f, lane}(particle); }
 void put(Lanes& f, std::size_t particle, std::size_t lane, const glm::dvec3& value) {
-  write(f, particle * lanes + lane, value);
+  write(f, particle * implicit_lanes + lane, value);
 }
 
 /// Four particles in lane 2 that fly and spin as one, the same in lane 5, which has the world's frame.
@@ -28,7 +28,7 @@ struct Flight {
   const glm::dvec3 velocity{1, -2, 3}, spin{0.5, 4, -6}, gravity{0, -9.81, 0}, fall = h * h / 2 * gravity;
   const std::vector<glm::dvec3> places{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -2, 0}};  // from the centre
   const glm::dvec3 centre{7, 8, 9};
-  Lanes x = Lanes(3 * 4 * lanes), v = x;
+  Lanes x = Lanes(3 * 4 * implicit_lanes), v = x;
   Flight() {
     for (const std::size_t lane : {2u, 5u})
       for (std::size_t i = 0; i < 4; ++i) {
@@ -39,7 +39,7 @@ struct Flight {
   }
   glm::dvec3 middle() const { return (places[0] + places[1] + places[2] + places[3]) / 4.0; }
   ImplicitFrames frames() const {
-    std::array<bool, lanes> which{};
+    std::array<bool, implicit_lanes> which{};
     which[2] = true;
     return ImplicitFrames(x, v, which, h, gravity).falling(fall);
   }
@@ -110,13 +110,13 @@ TEST(ImplicitFrames, TurnPenaltyPairs) {
 
 /// Along an axis to which all is near, what swings looks like a fast spin.
 TEST(ImplicitFrames, DoNotFollowATremor) {
-  Lanes x(3 * 4 * lanes), v = x;
+  Lanes x(3 * 4 * implicit_lanes), v = x;
   const double thin = 1e-3;
   for (std::size_t i = 0; i < 4; ++i) {
     put(x, i, 0, {double(i) - 1.5, i % 2 ? thin : -thin, i < 2 ? thin : -thin});
     put(v, i, 0, glm::cross(glm::dvec3(50, 0, 2), at(x, i, 0)));
   }
-  std::array<bool, lanes> which{};
+  std::array<bool, implicit_lanes> which{};
   which[0] = true;
   const ImplicitFrames frames(x, v, which, 1e-3, glm::dvec3(0.0));
   EXPECT_LT(glm::distance(frames.turn(0, {0, 1, 0}) / 1e-3, glm::cross(glm::dvec3(0, 0, 2), glm::dvec3(0, 1, 0))), 0.1);
@@ -140,7 +140,7 @@ struct Moving {
 /// Smooth, and what meets it stays there.
 PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double min_displacement,
                    const glm::dvec3& force = glm::dvec3(0.0)) {
-  return {.at = particle * lanes + lane,
+  return {.at = particle * implicit_lanes + lane,
           .friction = 0,
           .restitution = 0,
           .normal = normal,
@@ -185,7 +185,7 @@ TEST(Dissipate, RemovesTheEnergyGain) {
 /// With the force `force` whatever moves.
 LinearPenaltyPair penalty_pair(std::size_t particle, std::size_t lane, const glm::dvec3& normal,
                                const glm::dvec3& force) {
-  return {.at = particle * lanes + lane, .normal = normal, .slopes = {}, .force = force};
+  return {.at = particle * implicit_lanes + lane, .normal = normal, .slopes = {}, .force = force};
 }
 
 /// A plane, a penalty pair and gravity act on a ball; what lanes beside it feel has no part in it.

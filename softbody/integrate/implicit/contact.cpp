@@ -140,26 +140,27 @@ glm::dvec3 ImplicitSolver::contact_force(const ImplicitProblem& p, const PlaneCo
 
 /// The prediction stops as one where planes stop it: behind, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
-  std::array<bool, lanes> any{};
-  for (const PlaneContact& c : *p.planes) any[c.at % lanes] = true;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  std::array<bool, implicit_lanes> any{};
+  for (const PlaneContact& c : *p.planes) any[c.at % implicit_lanes] = true;
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!any[l]) continue;
     glm::dvec3 meant(0.0);
-    for (std::size_t i = l; i < stride_; i += lanes) meant += moved(p, x_, i) / double(particles_);
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) meant += moved(p, x_, i) / double(particles_);
     const glm::dvec3 less =
-        stop_at(*p.planes, l, p.h, meant, [&](std::size_t i) { return moved(p, x_, i * lanes + l) - meant; }) - meant;
-    for (std::size_t i = l; i < stride_; i += lanes) add(x_, i, less);
+        stop_at(*p.planes, l, p.h, meant, [&](std::size_t i) { return moved(p, x_, i * implicit_lanes + l) - meant; }) -
+        meant;
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) add(x_, i, less);
   }
 }
 
 /// Rounds that each leave a fraction of the error where the matrix says what the body does. Returns in which lanes they
 /// have come to an end.
-std::array<bool, lanes> ImplicitSolver::solve_contact_forces(const ImplicitProblem& p) {
+std::array<bool, implicit_lanes> ImplicitSolver::solve_contact_forces(const ImplicitProblem& p) {
   constexpr int max_rounds = 30, look_every = 2;
   constexpr double enough_progress = 0.25;  // of the moves are left: where it is more, the end would not be reached
   const double enough = held_within * p.model.radius;
   contact_springs_ = false;
-  std::array<bool, lanes> held{};
+  std::array<bool, implicit_lanes> held{};
   given_up_ = {};
   moves_left_.fill(max_moves);
   PerLane last;
@@ -168,7 +169,7 @@ std::array<bool, lanes> ImplicitSolver::solve_contact_forces(const ImplicitProbl
     minimise(p, iterations_of_round);
     const PerLane moved = project_contacts(p);
     bool open = false;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       held[l] = !given_up_[l] && converged_[l] && moved[l] <= enough;
       const bool look = round % look_every == 0 && moved[l] > 0;
       const double less_than = look ? enough_progress * last[l] : none_found;
@@ -207,9 +208,9 @@ ImplicitSolver::PerLane ImplicitSolver::project_contacts(const ImplicitProblem& 
   direction_.assign(direction_.size(), 0.0);  // first the forces' changes, then what they move
   std::vector<PlaneContact>& planes = *p.planes;
   for (std::size_t first = 0; first < planes.size();) {
-    const std::size_t lane = planes[first].at % lanes;
+    const std::size_t lane = planes[first].at % implicit_lanes;
     std::size_t end = first;
-    while (end < planes.size() && planes[end].at % lanes == lane) ++end;
+    while (end < planes.size() && planes[end].at % implicit_lanes == lane) ++end;
     if (!given_up_[lane]) moved[lane] = project_contacts_of_lane(p, std::span(planes).subspan(first, end - first));
     first = end;
   }
@@ -223,7 +224,7 @@ ImplicitSolver::PerLane ImplicitSolver::project_contacts(const ImplicitProblem& 
 /// The forces of one lane's contacts that press or are passed. Adds their changes to direction_; returns what
 /// project_contacts() does.
 double ImplicitSolver::project_contacts_of_lane(const ImplicitProblem& p, std::span<PlaneContact> all) {
-  const std::size_t lane = all.front().at % lanes;
+  const std::size_t lane = all.front().at % implicit_lanes;
   glm::dmat3 rotation(1.0);
   if (p.matrix.rotates())
     for (int c = 0; c < 3; ++c)
@@ -241,10 +242,11 @@ double ImplicitSolver::project_contacts_of_lane(const ImplicitProblem& p, std::s
   const glm::dmat3 back = glm::transpose(rotation);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j)
-      sweeps.set_compliance(
-          i, j,
-          rotation * p.matrix.compliance(Index(active[j].contact->at / lanes), Index(active[i].contact->at / lanes)) *
-              back);
+      sweeps.set_compliance(i, j,
+                            rotation *
+                                p.matrix.compliance(Index(active[j].contact->at / implicit_lanes),
+                                                    Index(active[i].contact->at / implicit_lanes)) *
+                                back);
   const double moves_before = moves_left_[lane];
   const auto [most, last] = sweeps.run(1e-9 * p.model.radius, moves_left_[lane]);
   work_ += (moves_before - moves_left_[lane]) * work_of_a_move;

@@ -37,10 +37,10 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
-    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
+    if (c.at % implicit_lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
-    if (s.at % lanes != lane) continue;
-    const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
+    if (s.at % implicit_lanes != lane) continue;
+    const glm::dvec3 moved = end_x(s.at / implicit_lanes) - x(s.at / implicit_lanes);
     sum += std::clamp(glm::dot(s.force_after(moved), moved), 0.0, s.max_work);
   }
   return sum;
@@ -83,7 +83,7 @@ bool dissipate(const BodyModel& p, ImplicitWork& work, std::size_t lane, double 
   for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v(i) - kept(i), v(i) - kept(i));
   if (!std::isfinite(energy) || !(energy <= most * slowed)) return false;
   const double part = std::sqrt(1 - energy / slowed);
-  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * lanes + lane, kept(i) + part * (v(i) - kept(i)));
+  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * implicit_lanes + lane, kept(i) + part * (v(i) - kept(i)));
   return true;
 }
 

@@ -14,14 +14,14 @@ class ImplicitFrames {
  public:
   /// Makes frames for a step of h from x, v (m and m/s, in the world), for the lanes `which`; the frame of other lanes
   /// is the world's. The origins fall by h^2 gravity, as in a step of first order.
-  ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
+  ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, implicit_lanes>& which, double h,
                  const glm::dvec3& gravity);
   /// Returns frames for the lanes `which` only; the frame of other lanes is the world's.
-  ImplicitFrames subset(const std::array<bool, lanes>& which) const;
+  ImplicitFrames subset(const std::array<bool, implicit_lanes>& which) const;
   /// Returns the same frames with origins that fall by `fall` (m).
   ImplicitFrames falling(const glm::dvec3& fall) const;
   /// Returns 1 for each lane that has a frame of its own, else 0.
-  std::array<float, lanes> moves() const;
+  std::array<float, implicit_lanes> moves() const;
   /// Returns the rigid motion, in the world, that the body of a lane with a frame has at the start.
   const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
@@ -53,7 +53,7 @@ class ImplicitFrames {
   template <class Change>
   void for_each(Lanes& x, Lanes& v, const Change& change) const;
 
-  std::array<Frame, lanes> frames_;
+  std::array<Frame, implicit_lanes> frames_;
   double h_;
   glm::dvec3 gravity_, fall_;
 };

@@ -19,9 +19,10 @@ double missing(const ImplicitWork& work, const PlaneContact& c) {
 
 }  // namespace
 
-std::array<bool, lanes> behind_planes(const ImplicitWork& work) {
-  std::array<bool, lanes> behind{};
-  for (const PlaneContact& c : work.planes) behind[c.at % lanes] = behind[c.at % lanes] || missing(work, c) > 0;
+std::array<bool, implicit_lanes> behind_planes(const ImplicitWork& work) {
+  std::array<bool, implicit_lanes> behind{};
+  for (const PlaneContact& c : work.planes)
+    behind[c.at % implicit_lanes] = behind[c.at % implicit_lanes] || missing(work, c) > 0;
   return behind;
 }
 
@@ -43,18 +44,18 @@ bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, st
                                 const glm::dvec3& gravity) {
   constexpr double share = 0.1;
   glm::dvec3 gained(0.0), given(0.0);
-  for (std::size_t at = lane; at < work.x.size() / 3; at += lanes)
+  for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes)
     gained += p.particle_mass * (read(work.end_v, at) - read(work.v, at) - h * gravity);
   for (const PlaneContact& c : work.planes)
-    if (c.at % lanes == lane) given += h * c.force;
+    if (c.at % implicit_lanes == lane) given += h * c.force;
   for (const LinearPenaltyPair& s : work.penalty_pairs)
-    if (s.at % lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
+    if (s.at % implicit_lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
   return glm::distance(gained, given) <=
          share * (glm::length(given) + h * p.material.mass * glm::length(gravity)) + 1e-6 * p.material.mass;
 }
 
 void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const glm::dvec3& gravity) {
-  const std::size_t particles = work.x.size() / (3 * lanes);
+  const std::size_t particles = work.x.size() / (3 * implicit_lanes);
   const LaneView x{work.x, lane}, v{work.v, lane};
   const RigidMotion m = rigid_motion(particles, x, v);
   // With a share of its spin, turning as fast: by how much of that spin's energy the body would have more.
@@ -70,8 +71,8 @@ void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const g
       gain += glm::dot(velocity, velocity);
       before += glm::dot(v(i), v(i));
       spinning += glm::dot(round, round);
-      write(work.end_x, i * lanes + lane, place);
-      write(work.end_v, i * lanes + lane, velocity);
+      write(work.end_x, i * implicit_lanes + lane, place);
+      write(work.end_v, i * implicit_lanes + lane, velocity);
     }
     constexpr double rounding = 1e-9;
     return gain - before <= rounding * before ? 0 : (gain - before) / spinning;
@@ -86,7 +87,7 @@ void rigid_fallback_step(ImplicitWork& work, std::size_t lane, double h, const g
       move(about, 0);
   }
   for (PlaneContact& c : work.planes)
-    if (c.at % lanes == lane) c.force = glm::dvec3(0.0);
+    if (c.at % implicit_lanes == lane) c.force = glm::dvec3(0.0);
 }
 
 }  // namespace softbody

@@ -24,8 +24,8 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   for (int pass = 0; !stands && pass < plane_passes; ++pass) {
     stands = true;
     for (const PlaneContact& c : planes) {
-      if (c.at % lanes != lane) continue;
-      const double more = c.min_displacement - glm::dot(shift + aside(c.at / lanes), c.normal);
+      if (c.at % implicit_lanes != lane) continue;
+      const double more = c.min_displacement - glm::dot(shift + aside(c.at / implicit_lanes), c.normal);
       if (!(more > 0)) continue;
       shift += more * c.normal;
       stands = false;
@@ -37,7 +37,7 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
 }
 
 /// Returns the lanes in which work.end_x is behind one of work.planes.
-std::array<bool, lanes> behind_planes(const ImplicitWork& work);
+std::array<bool, implicit_lanes> behind_planes(const ImplicitWork& work);
 
 /// Moves each particle that ends behind its planes in front of them. A solve that has not converged leaves such
 /// particles.

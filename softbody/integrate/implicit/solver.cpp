@@ -14,11 +14,13 @@
 namespace softbody {
 
 ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
-    : kernels_(kernels), particles_(p.mesh.vertices.size()), stride_(particles_ * lanes) {
+    : kernels_(kernels), particles_(p.mesh.vertices.size()), stride_(particles_ * implicit_lanes) {
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
+    for (const Spring& s : *list)
+      springs_.push_back({s.i * implicit_lanes, s.j * implicit_lanes, s.rest, s.stiffness, s.damping});
   if (p.has_gas)
-    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
+    for (const auto& [a, b, c] : p.mesh.triangles)
+      faces_.push_back({a * implicit_lanes, b * implicit_lanes, c * implicit_lanes});
   for (Lanes* v : {&target_, &goal_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &scratch_})
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
@@ -27,7 +29,7 @@ ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernel
 
 ImplicitWork::ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels) : solver(model, kernels) {
   for (Lanes* lane_field : {&x, &v, &end_v, &stage_x, &stage_v, &a, &stage_a, &frame_displacement})
-    lane_field->resize(3 * model.mesh.vertices.size() * lanes);
+    lane_field->resize(3 * model.mesh.vertices.size() * implicit_lanes);
 }
 
 ImplicitSolver::PerLane ImplicitSolver::product(const Lanes& a, const Lanes& b) const {
@@ -46,12 +48,13 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   x_ = *p.x;
   stop_at_planes(p);
   max_step_.fill(0);
-  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
+  for (std::size_t i = 0; i < 3 * stride_; ++i)
+    max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
   for (double& r : max_step_) r = p.model.radius + std::sqrt(r / double(particles_));
 }
 
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dmat3 covariance(0.0);
     for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - x(0), p.matrix.shape()[i]);
@@ -64,14 +67,14 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 /// Where the shape that the body keeps would have its particles, were it as predicted.
 void ImplicitSolver::place_goal(const ImplicitProblem& p) {
   const std::vector<glm::dvec3>& shape = p.model.goal;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dvec3 centre(0.0);
     for (std::size_t i = 0; i < particles_; ++i) centre += x(i) / double(particles_);
     glm::dmat3 covariance(0.0);
     for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - centre, shape[i]);
     const glm::dmat3 r = best_rotation(covariance);
-    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * lanes + l, centre + r * shape[i]);
+    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * implicit_lanes + l, centre + r * shape[i]);
   }
 }
 
@@ -79,9 +82,9 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
   std::fill(g.begin(), g.end(), 0.0);
   kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
   if (p.model.has_gas) {
-    alignas(64) double volume[lanes], gauge[lanes];
+    alignas(64) double volume[implicit_lanes], gauge[implicit_lanes];
     kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
+    for (std::size_t l = 0; l < implicit_lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
     kernels_.pressure(faces_, field(x), gauge, field(g));
   }
   if (!p.model.goal.empty()) {
@@ -90,8 +93,8 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
   }
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
-  for (std::size_t i = 0; i < 3 * stride_; i += lanes)
-    for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
@@ -139,14 +142,14 @@ void ImplicitSolver::direction(const ImplicitProblem& p) {
     const std::size_t i = back(age);
     weight[i] = product(steps_[i], direction_);
     PerLane less;
-    for (std::size_t l = 0; l < lanes; ++l) less[l] = -(weight[i][l] *= curvature_[i][l]);
+    for (std::size_t l = 0; l < implicit_lanes; ++l) less[l] = -(weight[i][l] *= curvature_[i][l]);
     add_scaled(less, changes_[i], direction_);
   }
   apply_matrix(p, direction_);
   for (std::size_t age = remembered_; age-- > 0;) {
     const std::size_t i = back(age);
     PerLane more = product(changes_[i], direction_);
-    for (std::size_t l = 0; l < lanes; ++l) more[l] = weight[i][l] - curvature_[i][l] * more[l];
+    for (std::size_t l = 0; l < implicit_lanes; ++l) more[l] = weight[i][l] - curvature_[i][l] * more[l];
     add_scaled(more, steps_[i], direction_);
   }
   for (double& d : direction_) d = -d;
@@ -155,7 +158,7 @@ void ImplicitSolver::direction(const ImplicitProblem& p) {
 /// trial = x + step * direction and its gradient, the step so short that the slope has not turned steeply upwards.
 void ImplicitSolver::line_search(const ImplicitProblem& p) {
   const PerLane slope = product(gradient_, direction_), length2 = product(direction_, direction_);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     // No particle is to leap over its body: beyond lie other slopes. A slope upwards: at the minimum, or lost. What has
     // converged stays, whatever the others in the batch still need.
     step_[l] = std::min(1.0, max_step_[l] / std::sqrt(length2[l] / double(particles_)));
@@ -167,14 +170,14 @@ void ImplicitSolver::line_search(const ImplicitProblem& p) {
     gradient(p, trial_, trial_gradient_);
     const PerLane end = product(trial_gradient_, direction_);
     bool all = true;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       if (step_[l] <= 0 || end[l] <= -0.9 * slope[l]) continue;
       const double secant = slope[l] / (slope[l] - end[l]);
       step_[l] *= std::isfinite(secant) ? std::clamp(secant, 0.1, 0.6) : 0.1;
       all = false;
     }
     if (!all && halving < max_halvings) continue;
-    for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       if (!std::isfinite(end[l])) stay(l);
     return;
   }
@@ -182,7 +185,7 @@ void ImplicitSolver::line_search(const ImplicitProblem& p) {
 
 /// No step in a lane whose direction leads out of the numbers.
 void ImplicitSolver::stay(std::size_t lane) {
-  for (std::size_t i = lane; i < 3 * stride_; i += lanes) {
+  for (std::size_t i = lane; i < 3 * stride_; i += implicit_lanes) {
     trial_[i] = x_[i];
     trial_gradient_[i] = gradient_[i];
   }
@@ -198,7 +201,7 @@ void ImplicitSolver::remember() {
     y[i] = trial_gradient_[i] - gradient_[i];
   }
   const PerLane sy = product(s, y), yy = product(y, y), ss = product(s, s);
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < implicit_lanes; ++l)
     curvature_[newest_][l] = sy[l] > 1e-10 * std::sqrt(ss[l] * yy[l]) ? 1 / sy[l] : 0;
 }
 
@@ -216,7 +219,7 @@ bool ImplicitSolver::minimise(const ImplicitProblem& p, int iterations) {
     std::swap(gradient_, trial_gradient_);
     const PerLane square = product(steps_[newest_], steps_[newest_]);
     bool all = true;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       converged_[l] = square[l] <= enough * enough * double(particles_);
       all = all && converged_[l];
     }
@@ -234,7 +237,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
     minimise(p, max_iterations);
     return x_;
   }
-  const std::array<bool, lanes> held = solve_contact_forces(p);
+  const std::array<bool, implicit_lanes> held = solve_contact_forces(p);
   if (std::ranges::find(held, false) == held.end()) return x_;
   const Lanes found = x_;
   const std::vector<PlaneContact> planes_before = *p.planes;
@@ -242,9 +245,9 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   predict(p);
   solve_penalty(p);
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (held[i % lanes]) x_[i] = found[i];
+    if (held[i % implicit_lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)
-    if (held[planes_before[i].at % lanes]) (*p.planes)[i] = planes_before[i];
+    if (held[planes_before[i].at % implicit_lanes]) (*p.planes)[i] = planes_before[i];
   return x_;
 }
 

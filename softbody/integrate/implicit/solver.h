@@ -29,7 +29,7 @@ namespace softbody {
 
 /// The plane of a solid that a particle must stay in front of, and the contact force.
 struct PlaneContact {
-  std::size_t at;  // particle * lanes + lane
+  std::size_t at;  // particle * implicit_lanes + lane
   double friction, restitution;
   glm::dvec3 normal;        // unit
   double min_displacement;  // m, that the particle has to move along the normal in this step
@@ -39,7 +39,7 @@ struct PlaneContact {
 
 /// The penalty contact between a particle of the batch and one of another body, to first order.
 struct LinearPenaltyPair {
-  std::size_t at;     // particle * lanes + lane
+  std::size_t at;     // particle * implicit_lanes + lane
   glm::dvec3 normal;  // unit, towards the particle
   PenaltyContact::Slopes slopes;
   glm::dvec3 force{0.0};  // N, on it at the start
@@ -75,7 +75,7 @@ class ImplicitSolver {
   double take_work() { return std::exchange(work_, 0.0); }
 
  private:
-  using PerLane = std::array<double, lanes>;
+  using PerLane = std::array<double, implicit_lanes>;
   static constexpr std::size_t history = 6;
   static constexpr int max_iterations = 40, iterations_of_round = 12, max_halvings = 6;
 
@@ -92,7 +92,7 @@ class ImplicitSolver {
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
-  std::array<bool, lanes> solve_contact_forces(const ImplicitProblem& p);
+  std::array<bool, implicit_lanes> solve_contact_forces(const ImplicitProblem& p);
   void solve_penalty(const ImplicitProblem& p);
   PerLane project_contacts(const ImplicitProblem& p);
   double project_contacts_of_lane(const ImplicitProblem& p, std::span<PlaneContact> planes);
@@ -114,10 +114,10 @@ class ImplicitSolver {
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;
   PerLane step_{}, max_step_{};  // max_step: m, of one iteration, the root of the mean square
-  alignas(64) double rotation_[9][lanes];
-  bool contact_springs_ = false;        // while they lead
-  std::array<bool, lanes> given_up_{};  // where contact forces by the matrix cannot be found
-  std::array<bool, lanes> converged_{};
+  alignas(64) double rotation_[9][implicit_lanes];
+  bool contact_springs_ = false;                 // while they lead
+  std::array<bool, implicit_lanes> given_up_{};  // where contact forces by the matrix cannot be found
+  std::array<bool, implicit_lanes> converged_{};
   PerLane moves_left_{};  // by contacts, before they are given up
   double work_ = 0;
 };
@@ -126,10 +126,11 @@ class ImplicitSolver {
 struct ImplicitWork {
   ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels);
   ImplicitSolver solver;
+  std::size_t first_lane = 0;                // of the batch, as lane 0 here: implicit steps take a part of it at a time
   Lanes x, v, end_x, end_v;                  // in the world
   Lanes local_x, local_v, stage_x, stage_v;  // in the lanes' frames
   Lanes a, stage_a, frame_displacement;
-  std::array<float, lanes> moves{};
+  std::array<float, implicit_lanes> moves{};
   std::vector<PlaneContact> planes;
   std::vector<LinearPenaltyPair> penalty_pairs;
 };

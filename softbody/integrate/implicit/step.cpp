@@ -18,6 +18,7 @@
 #include "softbody/integrate/implicit/stages.h"
 #include "softbody/integrate/integrator_steps.h"
 #include "softbody/scene/solids.h"
+#include "softbody/state/kernels.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
@@ -103,16 +104,19 @@ const ImplicitMatrix& Dynamics::implicit_matrix(const Batch& b, double h) const 
 }
 
 /// The planes of near solids before each particle; which lanes meet one by what moves them at the start.
-std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
-                                              double h) const {
-  std::array<bool, lanes> in_contact{};
-  const std::size_t n = b.particles() * lanes;
+std::array<bool, implicit_lanes> Dynamics::find_planes(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
+                                                       double h) const {
+  std::array<bool, implicit_lanes> in_contact{};
+  const std::size_t n = b.particles() * implicit_lanes;
+  constexpr unsigned part = (1u << implicit_lanes) - 1;  // bits
   work.planes.clear();
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
-    if (b.moves[lane] <= 0) continue;
-    for (const SolidArguments& s : b.near_solids)
-      for (std::size_t at = lane; at < n; at += lanes) {
-        const glm::dvec3 place(s.place.x[lane], s.place.y[lane], s.place.z[lane]);
+  for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
+    const std::size_t own = work.first_lane + lane;  // in the batch
+    if (b.moves[own] <= 0) continue;
+    for (const SolidArguments& s : b.near_solids) {
+      if (!(s.near >> work.first_lane & part)) continue;
+      for (std::size_t at = lane; at < n; at += implicit_lanes) {
+        const glm::dvec3 place(s.place.x[own], s.place.y[own], s.place.z[own]);
         const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
         const auto surface =
             std::visit([&](const auto& shape) { return body::surface_at(shape, as_vec<double>(x - place)); }, s.shape);
@@ -129,12 +133,13 @@ std::array<bool, lanes> Dynamics::find_planes(const Batch& b, const ImplicitFram
         work.planes.push_back(
             {at, double(s.friction), double(s.restitution), normal, min_displacement, std::max(0.0, out)});
       }
+    }
   }
   return in_contact;
 }
 
-std::array<bool, lanes> Dynamics::find_penalty_pairs(const Batch& b, ImplicitWork& work, double h) const {
-  std::array<bool, lanes> in_contact{};
+std::array<bool, implicit_lanes> Dynamics::find_penalty_pairs(const Batch& b, ImplicitWork& work, double h) const {
+  std::array<bool, implicit_lanes> in_contact{};
   work.penalty_pairs.clear();
   if (penalty_.pairs.empty()) return in_contact;
   const Field<const float> x{x_[0].data(), x_[1].data(), x_[2].data()}, v{v_[0].data(), v_[1].data(), v_[2].data()};
@@ -142,10 +147,13 @@ std::array<bool, lanes> Dynamics::find_penalty_pairs(const Batch& b, ImplicitWor
   const auto index = static_cast<std::size_t>(&b - batches_.data());
   for (std::uint32_t e = penalty_.first_end[index]; e < penalty_.first_end[index + 1]; ++e) {
     const PenaltyEnd& end = penalty_.ends[e];
+    const std::size_t slot = end.slot - b.base, lane = slot % std::size_t(b.width) - work.first_lane;
+    if (lane >= implicit_lanes) continue;  // of another part
     const PenaltyPair& pair = penalty_.pairs[end.pair];
     const PenaltyContact::Slopes slopes = penalty_.slopes(pair, x, v, float(h));
     if (slopes.spring <= 0) continue;
-    const std::size_t other = end.sign > 0 ? pair.slot_b : pair.slot_a, at = end.slot - b.base;
+    const std::size_t other = end.sign > 0 ? pair.slot_b : pair.slot_a;
+    const std::size_t at = slot / std::size_t(b.width) * implicit_lanes + lane;
     const bool moves = bodies_[end.sign > 0 ? pair.body_b : pair.body_a].moves();
     LinearPenaltyPair s{.at = at, .normal = double(end.sign) * glm::dvec3(pair.normal), .slopes = slopes};
     s.force = double(end.sign) * glm::dvec3(penalty_.force[end.pair]);
@@ -155,7 +163,7 @@ std::array<bool, lanes> Dynamics::find_penalty_pairs(const Batch& b, ImplicitWor
     s.max_work = double(PenaltyContact::approach_limit) * penalty_.energy(pair, x) +
                  double(penalty_.max_force(pair)) * glm::length(s.partner);
     work.penalty_pairs.push_back(s);
-    in_contact[at % lanes] = true;
+    in_contact[lane] = true;
   }
   return in_contact;
 }
@@ -163,17 +171,17 @@ std::array<bool, lanes> Dynamics::find_penalty_pairs(const Batch& b, ImplicitWor
 /// Restores what the solve has lost of the lanes' linear and angular momentum, in end_v: springs and gas change
 /// neither, gravity and the other forces by as much as they act.
 void Dynamics::correct_solver_momentum(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
-                                       const std::array<bool, lanes>& which, double h) const {
+                                       const std::array<bool, implicit_lanes>& which, double h) const {
   const std::size_t n = b.particles();
   const double mass = b.model->particle_mass;
   const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
-  for (std::size_t l = 0; l < lanes; ++l) {
-    if (!which[l] || b.moves[l] <= 0) continue;
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
+    if (!which[l] || b.moves[work.first_lane + l] <= 0) continue;
     const LaneView end_x{work.end_x, l};
     const RigidMotion &before = frames.start(l), after = rigid_motion(n, end_x, LaneView{work.end_v, l});
     glm::dvec3 total(0.0), torque(0.0);
     for (const LinearPenaltyPair& s : work.penalty_pairs) {
-      if (s.at % lanes != l) continue;
+      if (s.at % implicit_lanes != l) continue;
       const glm::dvec3 end = read(work.end_x, s.at), force = s.force_after(end - read(work.x, s.at));
       total += force;
       torque += glm::cross(end - after.centre, force);
@@ -181,21 +189,21 @@ void Dynamics::correct_solver_momentum(const Batch& b, const ImplicitFrames& fra
     const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + gravity) - after.velocity;
     const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
     for (std::size_t i = 0; i < n; ++i)
-      softbody::add(work.end_v, i * lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
+      softbody::add(work.end_v, i * implicit_lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
   }
 }
 
 /// end_x and end_v of the two stages; which lanes have converged. Springs, gas and dampers enter by Alexander's method,
 /// what else acts in a frame by the explicit one that goes with it (Ascher, Ruuth and Spiteri 1997, "Implicit-explicit
 /// Runge-Kutta methods", (2,2,2)).
-std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const ImplicitFrames& frames, ImplicitWork& work,
-                                                    double h) const {
+std::array<bool, implicit_lanes> Dynamics::second_order_step(const Batch& b, const ImplicitFrames& frames,
+                                                             ImplicitWork& work, double h) const {
   const double length = implicit_stage * h, second = 1 / (2 * implicit_stage);  // the second stage's share in them
   enter(frames, work);
   ImplicitProblem problem = problem_of(b, implicit_matrix(b, length), length, work);
-  std::array<bool, lanes> converged;
+  std::array<bool, implicit_lanes> converged;
   work.end_x = work.solver.solve(problem);
-  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
+  for (int l = 0; l < implicit_lanes; ++l) converged[std::size_t(l)] = work.solver.converged(l);
   for (std::size_t i = 0; i < work.end_x.size(); ++i) {
     const double v = work.end_v[i] = (work.end_x[i] - work.local_x[i]) / length;
     work.stage_x[i] = work.local_x[i] + (1 - implicit_stage) * h * v;
@@ -206,7 +214,8 @@ std::array<bool, lanes> Dynamics::second_order_step(const Batch& b, const Implic
     work.stage_a[i] = work.a[i] + second / implicit_stage * (work.stage_a[i] - work.a[i]);
   problem.x = &work.stage_x, problem.v = &work.stage_v, problem.a = &work.stage_a;
   work.end_x = work.solver.solve(problem);
-  for (int l = 0; l < lanes; ++l) converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
+  for (int l = 0; l < implicit_lanes; ++l)
+    converged[std::size_t(l)] = converged[std::size_t(l)] && work.solver.converged(l);
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.stage_x[i]) / length;
   frames.leave(work.end_x, work.end_v);
   return converged;
@@ -217,7 +226,7 @@ void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, Im
   enter(frames, work);
   std::vector<PlaneContact> planes = work.planes;
   std::vector<LinearPenaltyPair> penalty_pairs = work.penalty_pairs;
-  for (PlaneContact& c : planes) c.normal = frames.enter(c.at % lanes, c.normal);
+  for (PlaneContact& c : planes) c.normal = frames.enter(c.at % implicit_lanes, c.normal);
   for (LinearPenaltyPair& s : penalty_pairs) s = frames.enter(s);
   ImplicitProblem problem = problem_of(b, implicit_matrix(b, h), h, work);
   problem.planes = &planes, problem.penalty_pairs = &penalty_pairs;
@@ -225,24 +234,37 @@ void Dynamics::first_order_step(const Batch& b, const ImplicitFrames& frames, Im
   for (std::size_t i = 0; i < work.end_x.size(); ++i) work.end_v[i] = (work.end_x[i] - work.local_x[i]) / h;
   frames.leave(work.end_x, work.end_v);
   for (std::size_t i = 0; i < planes.size(); ++i)
-    work.planes[i].force = frames.leave(planes[i].at % lanes, planes[i].force);
+    work.planes[i].force = frames.leave(planes[i].at % implicit_lanes, planes[i].force);
 }
 
 void Dynamics::solve_implicit(const Worker& worker, Batch& b, Quantity mean, Quantity rest, float step) {
-  const double h = double(step);
-  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
   ImplicitWork& work = implicit_steps_->work[std::size_t(worker.index())].at(b.model);
-  const std::size_t stride = b.particles() * lanes;
+  for (work.first_lane = 0; work.first_lane < std::size_t(b.used); work.first_lane += implicit_lanes)
+    solve_implicit(work, b, mean, rest, double(step));
+  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
+  if (has_restitution_) state_kernels(b.width).clear(b.used, b.particles(), at(before_, b));
+}
+
+void Dynamics::solve_implicit(ImplicitWork& work, Batch& b, Quantity mean, Quantity rest, double h) {
+  std::array<bool, implicit_lanes> moving{}, free{}, again{};  // free: no contact; again: takes a step of first order
+  for (std::size_t l = 0; l < implicit_lanes; ++l) moving[l] = b.moves[work.first_lane + l] > 0;
+  if (std::ranges::count(moving, true) == 0) return;
+  const glm::dvec3 gravity = has_gravity_ ? scene_.gravity : glm::dvec3(0.0);
+  const std::size_t stride = b.particles() * implicit_lanes;
+  const std::size_t used = std::min(std::size_t(b.used) - work.first_lane, std::size_t(implicit_lanes));
+  const auto slot = [&](std::size_t i) {  // in the state's arrays
+    return b.base + i / implicit_lanes * std::size_t(b.width) + work.first_lane + i % implicit_lanes;
+  };
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < stride; ++i) {
-      work.x[k * stride + i] = double(x_[k][b.base + i]);
-      work.v[k * stride + i] = double(v_[k][b.base + i]);
+      const bool taken = i % implicit_lanes < used;
+      work.x[k * stride + i] = taken ? double(x_[k][slot(i)]) : 0;
+      work.v[k * stride + i] = taken ? double(v_[k][slot(i)]) : 0;
     }
-  std::array<bool, lanes> moving{}, free{}, again{};  // free: no contact; again: takes a step of first order
-  for (std::size_t l = 0; l < lanes; ++l) moving[l] = b.moves[l] > 0;
   const ImplicitFrames frames(work.x, work.v, moving, h, gravity);
-  const std::array<bool, lanes> solid = find_planes(b, frames, work, h), in_pair = find_penalty_pairs(b, work, h);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  const std::array<bool, implicit_lanes> solid = find_planes(b, frames, work, h),
+                                         in_pair = find_penalty_pairs(b, work, h);
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     free[l] = moving[l] && !solid[l] && !in_pair[l];
     again[l] = moving[l] && !free[l];
   }
@@ -250,48 +272,44 @@ void Dynamics::solve_implicit(const Worker& worker, Batch& b, Quantity mean, Qua
   if (std::ranges::count(free, true) > 0) {
     const auto planes = std::exchange(work.planes, {});
     const auto penalty_pairs = std::exchange(work.penalty_pairs, {});
-    const std::array<bool, lanes> converged =
+    const std::array<bool, implicit_lanes> converged =
         second_order_step(b, frames.subset(free).falling(h * h / 2 * gravity), work, h);
     correct_solver_momentum(b, frames, work, free, h);
     x = work.end_x, v = work.end_v;
     work.planes = planes;
     work.penalty_pairs = penalty_pairs;
-    const std::array<bool, lanes> behind = behind_planes(work);
-    for (std::size_t l = 0; l < lanes; ++l)
+    const std::array<bool, implicit_lanes> behind = behind_planes(work);
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       if (free[l]) again[l] = !converged[l] || behind[l] || energy_gain(*b.model, work, l, gravity, false) > 0;
   }
   if (std::ranges::count(again, true) > 0) {
-    std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % lanes]; });
+    std::erase_if(work.planes, [&](const PlaneContact& c) { return !again[c.at % implicit_lanes]; });
     first_order_step(b, frames.subset(again), work, h);
-    std::array<bool, lanes> apart = again;
+    std::array<bool, implicit_lanes> apart = again;
     for (const PlaneContact& c : work.planes)
-      if (c.force != glm::dvec3(0.0)) apart[c.at % lanes] = false;
+      if (c.force != glm::dvec3(0.0)) apart[c.at % implicit_lanes] = false;
     correct_solver_momentum(b, frames, work, apart, h);
     clear_planes(work, h);
-    for (std::size_t l = 0; l < lanes; ++l)
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       if (again[l] && (!satisfies_momentum_balance(*b.model, work, l, h, gravity) ||
                        !dissipate(*b.model, work, l, energy_gain(*b.model, work, l, gravity, !apart[l]), !apart[l])))
         rigid_fallback_step(work, l, h, gravity);
     for (std::size_t i = 0; i < x.size(); ++i)
-      if (again[i % lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
+      if (again[i % implicit_lanes]) x[i] = work.end_x[i], v[i] = work.end_v[i];
     for (const PlaneContact& c : work.planes) {
-      const std::size_t l = c.at % lanes;
+      const std::size_t l = work.first_lane + c.at % implicit_lanes;
       const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
       b.impulse.x[l] += float(impulse.x), b.impulse.y[l] += float(impulse.y), b.impulse.z[l] += float(impulse.z);
       b.returned[l] += float(c.restitution * glm::length(impulse));
     }
   }
-  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
-  if (has_restitution_)
-    for (LaneArray<float>& component : before_)
-      std::fill_n(component.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
   Components &during = components(mean), &after = components(rest);
   for (std::size_t k = 0; k < 3; ++k)
     for (std::size_t i = 0; i < stride; ++i) {
-      if (b.moves[i % lanes] <= 0) continue;
+      if (!moving[i % implicit_lanes]) continue;
       const double mean_v = (x[k * stride + i] - work.x[k * stride + i]) / h;
-      during[k][b.base + i] = float(mean_v);
-      after[k][b.base + i] = float(v[k * stride + i] - mean_v);
+      during[k][slot(i)] = float(mean_v);
+      after[k][slot(i)] = float(v[k * stride + i] - mean_v);
     }
 }
 
