@@ -62,9 +62,7 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
 
 unsigned ActBySolid(int width, std::size_t used, const SolidArguments& s, Field<const float> x, Field<float> v) {
   return std::visit(
-      [&](const auto& shape) {
-        return width == one_lane ? act_by<one_lane>(shape, used, s, x, v) : act_by<lanes>(shape, used, s, x, v);
-      },
+      [&](const auto& shape) { return with_width(width, [&](auto w) { return act_by<w>(shape, used, s, x, v); }); },
       s.shape);
 }
 

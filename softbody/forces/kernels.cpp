@@ -51,7 +51,9 @@ struct Kernels {
                                       stretch, pressure,        shape_moments, shape_pull};
 };
 
-const ForceKernels& Table(int width) { return width == one_lane ? Kernels<one_lane>::table : Kernels<lanes>::table; }
+const ForceKernels& Table(int width) {
+  return with_width(width, [](auto w) -> const ForceKernels& { return Kernels<w>::table; });
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

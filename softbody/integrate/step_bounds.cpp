@@ -23,13 +23,14 @@ double StepBounds::stiffness_per_mass(const Batch& b) {
   const BodyModel& p = *b.model;
   double stiffest = softbody::stiffness_per_mass(p, {});
   if (!p.has_gas) return stiffest;
-  for (auto& component : area_) component.assign(b.values(), 0);
+  for (auto& component : area_) component.resize(b.values());
   const ForceKernels& kernels = force_kernels(b.width);
   const KernelMesh& mesh = meshes_(b);
   const auto used = std::size_t(b.used);
   const Field<const float> x = field(state_.x, b.base);
   float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
   std::fill(std::begin(one), std::end(one), 1.0f);
+  state_kernels(b.width).clear(used, b.particles(), field(area_));
   kernels.volume(used, mesh.faces, x, volume);
   kernels.medians(used, mesh.faces, x, two_medians);
   kernels.pressure(used, mesh.faces, x, one, field(area_));
@@ -64,8 +65,10 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     if (pairs) {
       const auto k = static_cast<float>(p.material[contact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
-      const float* own = penalty_damping_.data() + b.base;
-      damper += double(*std::max_element(own, own + b.values()));
+      float most = 0;
+      for (const float *own = penalty_damping_.data() + b.base, *end = own + b.values(); own < end; own += b.width)
+        most = std::max(most, *std::max_element(own, own + b.used));
+      damper += double(most);
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
     own_step = std::min(own_step, integrator.stable_step(stiffest, p.spring_damping_bound / p.particle_mass));

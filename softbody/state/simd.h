@@ -84,10 +84,10 @@ requires(n > register_lanes<T>) struct WideOf<T, n> {
 template <class T, int n>
 using Wide = typename WideOf<T, n>::Values;
 
-/// What a kernel computes with at a time, in a batch of so many lanes: a register, or one value of a body that is
-/// alone.
+/// What a kernel computes with at a time, in a block of so many lanes: as many as a register holds, or one value of a
+/// body that is alone.
 template <class T, int width, int n = register_lanes<T>>
-using Run = std::conditional_t<width == one_lane, T, Lane<T, n>>;
+using Run = std::conditional_t<width == one_lane, T, Lane<T, std::min(n, width)>>;
 
 template <class V>
 struct Values {

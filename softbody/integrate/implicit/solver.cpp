@@ -22,12 +22,12 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
     : kernels_(kernels),
       particles_(p.mesh.vertices.size()),
-      stride_(particles_ * lanes),
+      stride_(particles_ * implicit_lanes),
       minimiser_(particles_, kernels) {
   for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
+    for (const Spring& s : *list) springs_.push_back({s.i * implicit_lanes, s.j * implicit_lanes, s.rest, s.stiffness, s.damping});
   if (p.has_gas)
-    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
+    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * implicit_lanes, b * implicit_lanes, c * implicit_lanes});
   for (Lanes* v : {&target_, &goal_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
 }
 
@@ -37,27 +37,27 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   x_ = *p.x;
   stop_at_planes(p);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
-  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
+  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
   for (double& r : max_step_) r = p.model.radius + std::sqrt(r / double(particles_));
 }
 
 /// Stops each body as a whole where its planes stop it. Behind them, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
   LaneMask any;
-  for (const PlaneContact& c : p.planes) any.set(c.at % lanes);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (const PlaneContact& c : p.planes) any.set(c.at % implicit_lanes);
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!any[l]) continue;
     glm::dvec3 meant(0.0);
-    for (std::size_t i = l; i < stride_; i += lanes) meant += p.displacement(x_, i) / double(particles_);
-    const auto aside = [&](std::size_t i) { return p.displacement(x_, i * lanes + l) - meant; };
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) meant += p.displacement(x_, i) / double(particles_);
+    const auto aside = [&](std::size_t i) { return p.displacement(x_, i * implicit_lanes + l) - meant; };
     const glm::dvec3 less = stop_at(p.planes, l, p.h, meant, aside) - meant;
-    for (std::size_t i = l; i < stride_; i += lanes) add(x_, i, less);
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) add(x_, i, less);
   }
 }
 
 /// Sets the rotation of the matrix to that of each body's shape as predicted.
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dmat3 covariance(0.0);
     for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - x(0), p.matrix.shape()[i]);
@@ -70,14 +70,14 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 /// Sets the goal to where the shape that the body keeps would have its particles if they were as predicted.
 void ImplicitSolver::place_goal(const ImplicitProblem& p) {
   const std::vector<glm::dvec3>& shape = p.model.goal;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dvec3 centre(0.0);
     for (std::size_t i = 0; i < particles_; ++i) centre += x(i) / double(particles_);
     glm::dmat3 covariance(0.0);
     for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - centre, shape[i]);
     const glm::dmat3 r = best_rotation(covariance);
-    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * lanes + l, centre + r * shape[i]);
+    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * implicit_lanes + l, centre + r * shape[i]);
   }
 }
 
@@ -86,9 +86,9 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
   std::fill(g.begin(), g.end(), 0.0);
   kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
   if (p.model.has_gas) {
-    alignas(64) double volume[lanes], gauge[lanes];
+    alignas(64) double volume[implicit_lanes], gauge[implicit_lanes];
     kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
+    for (std::size_t l = 0; l < implicit_lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
     kernels_.pressure(faces_, field(x), gauge, field(g));
   }
   if (!p.model.goal.empty()) {
@@ -97,8 +97,8 @@ void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g
   }
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
-  for (std::size_t i = 0; i < 3 * stride_; i += lanes)
-    for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
@@ -147,8 +147,8 @@ PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask
   PerLane moved{}, once;
   push_.assign(push_.size(), 0.0);
   for (std::size_t first = 0, end = 0; first < p.planes.size(); first = end) {
-    const std::size_t lane = p.planes[first].at % lanes;
-    while (end < p.planes.size() && p.planes[end].at % lanes == lane) ++end;
+    const std::size_t lane = p.planes[first].at % implicit_lanes;
+    while (end < p.planes.size() && p.planes[end].at % implicit_lanes == lane) ++end;
     if (which[lane])
       moved[lane] = contact_.update(p, p.planes.subspan(first, end - first), x_, rotation(p, lane), push_);
   }
@@ -173,7 +173,7 @@ LaneMask ImplicitSolver::solve_contact(const ImplicitProblem& p) {
   for (int round = 0; round < max_rounds && !(held | given_up).all(); ++round) {
     minimise(p, iterations_of_round);
     const PerLane moved = update_contact_forces(p, ~given_up);
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       held[l] = !given_up[l] && minimiser_.converged()[l] && moved[l] <= enough;
       const bool look = round % look_every == 0 && moved[l] > 0;
       const double less_than = look ? enough_progress * last[l] : anything;
@@ -218,9 +218,9 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   predict(p);
   solve_contact_by_springs(p);
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (held[i % lanes]) x_[i] = found[i];
+    if (held[i % implicit_lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)
-    if (held[planes_before[i].at % lanes]) p.planes[i] = planes_before[i];
+    if (held[planes_before[i].at % implicit_lanes]) p.planes[i] = planes_before[i];
   return x_;
 }
 
