@@ -29,7 +29,7 @@ struct KernelMesh {
 struct Batch {
   std::shared_ptr<const BodyModel> model;
   std::shared_ptr<const KernelMesh> mesh;
-  int width = lanes;  // or one_lane, see Dynamics::batch_with_free_lane()
+  int width = lanes;  // or less, see Dynamics::batch_with_free_lane()
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
