@@ -36,7 +36,8 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
   const V zero{};
   unsigned acted = 0;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
-    const V moves = load<V>(s.moves + first);
+    const V moves = select_bits(s.near >> first, load<V>(s.moves + first));
+    if (!any_above(moves, zero)) continue;
     const Vec<V> place{load<V>(s.place.x + first), load<V>(s.place.y + first), load<V>(s.place.z + first)};
     Vec<V> impulse = load<V>(s.impulse, first);
     V most{}, returned = load<V>(s.returned + first);

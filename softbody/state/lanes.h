@@ -4,6 +4,7 @@
 // by Highway, every instruction set, and gives the same bits on each: 16 lanes are one run of 16, two of 8 or four
 // of 4. Runs without a body take no time.
 
+#include <cassert>
 #include <cstddef>
 #include <new>
 #include <type_traits>
@@ -20,16 +21,11 @@ constexpr int next_width(int width) { return width == one_lane ? 4 : 2 * width; 
 /// Calls f(constant) with a block's width, which is known only at run time.
 template <class F>
 decltype(auto) with_width(int width, const F& f) {
-  switch (width) {
-    case one_lane:
-      return f(std::integral_constant<int, one_lane>());
-    case 4:
-      return f(std::integral_constant<int, 4>());
-    case 8:
-      return f(std::integral_constant<int, 8>());
-    default:
-      return f(std::integral_constant<int, lanes>());
-  }
+  if (width == one_lane) return f(std::integral_constant<int, one_lane>());
+  if (width == 4) return f(std::integral_constant<int, 4>());
+  if (width == 8) return f(std::integral_constant<int, 8>());
+  assert(width == lanes);
+  return f(std::integral_constant<int, lanes>());
 }
 /// Number of bodies that implicit steps solve side by side, in double: all or a part of a block.
 inline constexpr int implicit_lanes = 8;

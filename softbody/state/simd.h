@@ -182,10 +182,19 @@ HWY_INLINE bool any_above(Lane<T, n> a, Lane<T, n> b) {
   return !hn::AllFalse(typename Lane<T, n>::Tag(), (a > b).raw);
 }
 
+/// Returns the values of the lanes whose bit is set, and 0 for others.
+template <class T, int n>
+HWY_INLINE Lane<T, n> select_bits(std::uint64_t bits, Lane<T, n> values) {
+  const typename Lane<T, n>::Tag tag;
+  return Lane<T, n>(
+      hn::IfThenElseZero(hn::LoadMaskBits(tag, reinterpret_cast<const std::uint8_t*>(&bits)), values.raw));
+}
+
 template <int n>
 HWY_INLINE Lane<double, n> widened(Lane<float, n> v) {
   return Lane<double, n>(hn::PromoteTo(typename Lane<double, n>::Tag(), v.raw));
 }
+/// v: finite, or what comes of it depends on the target.
 template <int n>
 HWY_INLINE Lane<float, n> narrowed(Lane<double, n> v) {
   return Lane<float, n>(hn::DemoteTo(typename Lane<float, n>::Tag(), v.raw));
