@@ -50,8 +50,8 @@ mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/isa state/lane_math state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/best_rotation forces/gas forces/grab forces/kernel_types forces/material_keys forces/pair_energy forces/penalty_contact
-forces/shape_matching forces/springs
+forces/best_rotation forces/bound forces/coordinates forces/force forces/gas forces/hand forces/material_keys
+forces/model_forces forces/pair_energy forces/penalty_contact forces/shape_matching forces/springs forces/table
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
 world/measures world/body_model_set world/snapshot world/world

@@ -1,51 +1,67 @@
 #pragma once
 // Arguments of the kernels of forces. Arrays over lanes use only their first value for a body that is solved alone.
 
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <tuple>
 
-#include "softbody/state/lanes.h"
+#include "softbody/forces/bound.h"
+#include "softbody/forces/model_forces.h"
 
 namespace softbody {
 
-/// A spring for the kernels: particle indices are already multiplied by the width of the batch.
+/// Bodies of one model in lanes, of which `used` lanes have a body, and the forces on them.
 template <class Real>
-struct KernelSpring {
-  std::uint32_t i, j;
-  Real rest, stiffness, damping;
+struct LaneBodies {
+  const BodyModel& model;
+  int used;
+  Field<const Real> x;  // m
+  Field<Real> f;        // N
 };
 
-template <class Real>
-using KernelSpringsOf = std::vector<KernelSpring<Real>>;
-using KernelSprings = KernelSpringsOf<float>;
+/// Dampers see no motion.
+struct Still {};
 
-/// Corners of a face, already multiplied by the width of the batch.
-using KernelTriangle = std::array<std::uint32_t, 3>;
-
-/// A particle's place in the goal shape, relative to the mean of all; see shape_matching.h.
-template <class Real>
-struct ShapePoint {
-  Real x, y, z;
+/// Dampers see velocities.
+struct Moving {
+  Field<const float> v;  // m/s
 };
 
-/// Moments of the body in each lane: the mean of x, and the sum of x q^T with the places q of ShapePoint. Column c of
-/// the matrix begins at 3 c.
-template <class Real>
-struct ShapeMoments {
-  alignas(64) Real mean[3][lanes], covariance[9][lanes];
+/// Dampers see how far particles have gone since the start of an implicit step of h seconds. They act along the
+/// directions that their coordinates had then, so that the damping has a potential. `frame`: what particles go without
+/// leaving their places in a frame that moves with the body.
+struct SinceStart {
+  double inverse_h;  // 1/s
+  Field<const double> x, frame;
 };
 
-/// Pose of the goal shape: x = centre + rotation q. Column c of the rotation begins at 3 c.
-template <class Real>
-struct ShapePose {
-  alignas(64) Real centre[3][lanes], rotation[9][lanes];
+/// XPBD's displacements d in a step of h seconds that started at x0.
+struct Projection {
+  float h;                  // s
+  const float* moves;       // 0 or 1 for each lane
+  Field<const float> x0;    // m
+  Field<float> d, scratch;  // m; scratch: room for as much
 };
 
-struct ProjectArguments {
-  float h;             // s
-  float inverse_mass;  // 1/kg, of a particle
-  const float* moves;  // 0 or 1 for each lane
+namespace detail {
+template <class F, class Real>
+struct HeldOf {
+  using type = Nothing;
 };
+template <class F, class Real>
+requires requires { typename F::template Held<Real>; }
+struct HeldOf<F, Real> {
+  using type = typename F::template Held<Real>;
+};
+}  // namespace detail
+
+/// What a force finds once from all particles of the bodies.
+template <class F, class Real>
+using HeldOf = typename detail::HeldOf<F, Real>::type;
+
+namespace detail {
+template <class Real, class... F>
+std::tuple<typename HeldOf<F, Real>::type...> held_of(List<F...>);
+}
+/// What forces find once from all particles.
+using HeldForces = decltype(detail::held_of<double>(Forces{}));
 
 }  // namespace softbody

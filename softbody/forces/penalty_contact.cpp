@@ -9,6 +9,19 @@
 
 namespace softbody {
 
+/// The given stiffness is for the particles of the paper's sphere. If a body has more particles, more of them share a
+/// contact, so they share the stiffness, too.
+void PenaltyContact::adapt(Material& material, const MeshSource& source) {
+  constexpr double stated_for = 162;  // vertices
+  if (source.kind == "file") material[stiffness] *= std::min(1.0, stated_for / double(source.vertex_count()));
+}
+
+void PenaltyContact::add(const ForceBatch& b) const {
+  if (pairs.empty()) return;
+  for (std::uint32_t e = first_end[b.index]; e < first_end[b.index + 1]; ++e)
+    softbody::add(b.f, ends[e].slot, ends[e].sign * force[ends[e].pair]);
+}
+
 void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {
   const float h = thickness;
   for (std::size_t i = part.begin; i < part.end; ++i) {

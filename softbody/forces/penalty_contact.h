@@ -23,6 +23,7 @@
 #include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
+#include "softbody/forces/force.h"
 #include "softbody/forces/pair_energy.h"
 #include "softbody/model/key.h"
 #include "softbody/state/body.h"
@@ -49,11 +50,18 @@ struct PenaltyEnd {
 };
 
 struct PenaltyContact {
+  static constexpr std::string_view key = "contact-response";
   static constexpr auto stiffness =
       Key("contact_stiffness", "N/m", 100, {0, 1e9},
           "Stiffness of vertex-vertex contact (§2.3), shared among the contacts of a vertex.",
           {"Contact", "%.0f N/m", 1, 1000, true}, {.place = 30});
   static constexpr std::array keys{&stiffness};
+  static constexpr bool internal = false;
+
+  static const char* why_not(const ForceFacts& facts) { return facts.why_no_vertex_contact; }
+  static void adapt(Material& material, const MeshSource& source);
+  /// Adds the forces that evaluate() has found.
+  void add(const ForceBatch& batch) const;
 
   static constexpr float rebound_speed = 2.0f;   // v, m/s
   static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor

@@ -2,17 +2,61 @@
 // Springs: Hooke's law with a damper along the spring.
 
 #include <array>
+#include <optional>
+#include <vector>
 
+#include "softbody/forces/coordinates.h"
+#include "softbody/forces/force.h"
 #include "softbody/model/key.h"
 
 namespace softbody {
+
+template <class Real>
+struct SpringOf {
+  Index i, j;
+  Real rest;       // m
+  Real stiffness;  // N/m
+  Real damping;    // N s/m, along the spring
+
+  template <class T>
+  SB_INLINE T pull(T length) const {
+    return stiffness * (length - rest);
+  }
+  Real stored(Real length) const { return stiffness / 2 * (length - rest) * (length - rest); }
+};
+using Spring = SpringOf<double>;
 
 /// The limits of a material's springs. Damping is stated as a share of the critical damping of a spring between its two
 /// particles: c = 2 zeta sqrt(k m / 2).
 inline constexpr Key::Limits spring_stiffness{0, 1e9}, spring_damping_ratio{0, 10};
 
+/// What the three kinds of springs share.
+struct Springs {
+  static constexpr bool internal = true;
+  static constexpr auto coordinate = Coordinate::length;
+  static constexpr const char* absent = "no body has such springs";
+
+  struct Data {
+    std::vector<Spring> exact;
+    std::vector<SpringOf<float>> rounded;  // the same
+  };
+  template <class At>
+  SB_INLINE static void visit(const Data& d, const At& at) {
+    if constexpr (std::is_same_v<typename At::Real, float>)
+      for (const SpringOf<float>& spring : d.rounded) at(Length{spring.i, spring.j}, spring);
+    else
+      for (const Spring& spring : d.exact) at(Length{spring.i, spring.j}, spring);
+  }
+
+ protected:
+  static std::optional<Data> join(const BodyModel& model, const std::vector<Edge>& pairs, double stiffness,
+                                  double damping_ratio);
+  static double share(const MeshSource& source);  // of the stiffness
+};
+
 /// Along the edges of the mesh.
-struct StructuralSprings {
+struct StructuralSprings : Springs {
+  static constexpr std::string_view key = "structural-springs";
   static constexpr auto stiffness =
       Key("structural.stiffness", "N/m", 300, spring_stiffness, "Stiffness of the springs along the edges of the mesh.",
           {"Springs", "%.0f N/m", 10, 3000, true});
@@ -20,10 +64,16 @@ struct StructuralSprings {
       Key("structural.damping_ratio", "", 0.1, spring_damping_ratio,
           "Damping of the structural springs. 1 is critical damping.", {"  damping", "%.2f", 0, 1});
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.edges, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Between the two vertices opposite an edge; on grids over one particle.
-struct BendSprings {
+struct BendSprings : Springs {
+  static constexpr std::string_view key = "bend-springs";
   static constexpr auto stiffness = Key("bend.stiffness", "N/m", 75, spring_stiffness,
                                         "Stiffness of the springs between the two vertices opposite an edge, on grids "
                                         "over one vertex. They resist folding.",
@@ -31,16 +81,27 @@ struct BendSprings {
   static constexpr auto damping_ratio =
       Key("bend.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of the bend springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.bend_pairs, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Both diagonals of each quad of a grid.
-struct ShearSprings {
+struct ShearSprings : Springs {
+  static constexpr std::string_view key = "shear-springs";
   static constexpr auto stiffness = Key("shear.stiffness", "N/m", 0, spring_stiffness,
                                         "Stiffness of the diagonal springs of grids. Other meshes have none.",
                                         {"Shear springs", "%.0f N/m", 0, 1000, true});
   static constexpr auto damping_ratio =
       Key("shear.damping_ratio", "", 0, spring_damping_ratio, "Damping of the shear springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.shear_pairs, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 }  // namespace softbody

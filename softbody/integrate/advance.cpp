@@ -19,24 +19,9 @@ constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a mome
 
 }  // namespace
 
-double Dynamics::stiffness_per_mass(const Batch& b) const {
-  const BodyModel& p = *b.model;
-  double stiffest = softbody::stiffness_per_mass(p, {});
-  if (!p.has_gas) return stiffest;
+ForceBound Dynamics::own_bound(const Batch& b) const {
   for (auto& component : area_) component.assign(b.values(), 0);
-  const Field<float> area{area_[0].data(), area_[1].data(), area_[2].data()};
-  const Kernels& kernels = kernels_of(b);
-  alignas(32) float volume[lanes], area2[lanes], stretch[lanes]{}, two_medians[lanes], one[lanes];
-  std::fill(std::begin(one), std::end(one), 1.0f);
-  kernels.volume(b.mesh->faces, at(x_, b), volume);
-  kernels.medians(b.mesh->faces, at(x_, b), two_medians);
-  kernels.pressure(b.mesh->faces, at(x_, b), one, area);
-  kernels.square_sum(b.particles(), area, area2);
-  for (const KernelSprings* list : {&b.mesh->structural, &b.mesh->bend, &b.mesh->shear})
-    kernels.stretch(*list, area, stretch);
-  for (int l = 0; l < b.used; ++l)
-    stiffest = std::max(stiffest, softbody::stiffness_per_mass(p, {volume[l], area2[l], stretch[l], two_medians[l]}));
-  return stiffest;
+  return force_set_.bound({*b.model, b.used, at(x_, b), {area_[0].data(), area_[1].data(), area_[2].data()}}, b.width);
 }
 
 SubstepBound Dynamics::bound(double seconds) const {
@@ -57,22 +42,22 @@ SubstepBound Dynamics::bound(double seconds) const {
   for (const Batch& b : batches_) {
     if (!moves(b)) continue;
     const BodyModel& p = *b.model;
-    double stiffest = stiffness_per_mass(b);
-    double damper = p.spring_damping_bound;
-    lone_step = std::min(lone_step, integrator_->stable_step(stiffest, damper / p.particle_mass));
+    const ForceBound own = own_bound(b);
+    double stiffest = own.stiffness, damper = own.damping;
+    lone_step = std::min(lone_step, integrator_->stable_step(stiffest, damper));
     if (!penalty_.pairs.empty()) {
       const auto k = static_cast<float>(p.material[PenaltyContact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
-      const float* own = penalty_damping_.data() + b.base;
-      damper += double(*std::max_element(own, own + b.values()));
+      const float* pairs = penalty_damping_.data() + b.base;
+      damper += double(*std::max_element(pairs, pairs + b.values())) / p.particle_mass;
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
-    own_step = std::min(own_step, integrator_->stable_step(stiffest, p.spring_damping_bound / p.particle_mass));
+    own_step = std::min(own_step, integrator_->stable_step(stiffest, own.damping));
     const Extent motion = extent(b, v_, v_);
     if (!b.near_solids.empty()) min_substeps = std::max(min_substeps, motion.max_length() * seconds / (0.1 * p.radius));
     deformation_rate = std::max(deformation_rate, motion.max_diagonal() / (0.1 * p.radius));
     stiffness = std::max(stiffness, stiffest);
-    damping = std::max(damping, damper / p.particle_mass);
+    damping = std::max(damping, damper);
   }
   return {std::min(own_step, integrator_->stable_step(stiffness, damping)), min_substeps, deformation_rate,
           1 / lone_step};
@@ -138,6 +123,8 @@ void Dynamics::begin_frame(double seconds) {
   resize_scratch();
   for (const PenaltyPair& p : penalty_.pairs) mark_contacted(p.body_a), mark_contacted(p.body_b);
   if (grab_) mark_contacted(grab_->body);
+  for (Batch* b : crew_.moving())
+    if (has_external_force(*b->model)) b->contacted = ~0u;
 }
 
 FrameResult Dynamics::advance(double seconds, const std::function<void()>& after_substep) {

@@ -11,34 +11,6 @@
 #include "softbody/integrate/dynamics.h"
 
 namespace softbody {
-namespace {
-
-KernelSprings kernel_springs(const std::vector<Spring>& springs, Index width) {
-  KernelSprings list;
-  list.reserve(springs.size());
-  for (const Spring& s : springs)
-    list.push_back({s.i * width, s.j * width, float(s.rest), float(s.stiffness), float(s.damping)});
-  return list;
-}
-
-}  // namespace
-
-KernelMesh::KernelMesh(const BodyModel& model, int width)
-    : structural(kernel_springs(model.structural, Index(width))),
-      bend(kernel_springs(model.bend, Index(width))),
-      shear(kernel_springs(model.shear, Index(width))) {
-  const auto w = Index(width);
-  faces.reserve(model.mesh.triangles.size());
-  for (const auto& [i, j, k] : model.mesh.triangles) faces.push_back({i * w, j * w, k * w});
-  for (const glm::dvec3& q : model.goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
-}
-
-std::shared_ptr<const KernelMesh> Dynamics::mesh_of(const std::shared_ptr<const BodyModel>& model, int width) const {
-  for (const Batch& b : batches_)
-    if (b.model == model && b.width == width) return b.mesh;
-  return std::make_shared<const KernelMesh>(*model, width);
-}
-
 /// The only large body of a model is solved by itself: in eight lanes it takes eight times the memory and, as
 /// measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long. Two bodies already take 1.4 times as long apart as in
 /// lanes. What implicit steps may take is never solved by itself: they want all lanes.
@@ -53,7 +25,6 @@ Batch& Dynamics::batch_with_free_lane(const std::shared_ptr<const BodyModel>& mo
   Batch b;
   b.model = model;
   b.width = alone && b.particles() > max_implicit_particles ? one_lane : lanes;
-  b.mesh = mesh_of(model, b.width);
   b.base = append(b.values());
   return batches_.emplace_back(std::move(b));
 }
@@ -69,8 +40,7 @@ std::size_t Dynamics::append(std::size_t values) {
 /// Gives a batch of one body eight lanes. What it had lies idle: an eighth more.
 void Dynamics::widen(Batch& b) {
   const std::size_t from = b.base;
-  b.mesh = mesh_of(b.model, lanes);
-  b.width = lanes;  // after it: mesh_of() looks at all batches
+  b.width = lanes;
   b.base = append(b.values());
   for (auto* components : {&x_, &v_, &f_})
     for (auto& c : *components)
@@ -131,11 +101,8 @@ void Dynamics::remove(BodyId id) {
 }
 
 void Dynamics::replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to) {
-  for (Batch& b : batches_) {
-    if (b.model != from) continue;
-    b.mesh = mesh_of(to, b.width);
-    b.model = to;
-  }
+  for (Batch& b : batches_)
+    if (b.model == from) b.model = to;
 }
 
 void Dynamics::update_moves(const Body& body) {

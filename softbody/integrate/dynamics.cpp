@@ -4,8 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/shape_matching.h"
-
 namespace softbody {
 
 Extent Dynamics::extent(const Batch& b, const Components& boxed, const Components& measured) const {
@@ -17,26 +15,7 @@ Extent Dynamics::extent(const Batch& b, const Components& boxed, const Component
 double Dynamics::max_particle_speed(const Batch& b) const { return extent(b, x_, v_).max_length(); }
 
 void Dynamics::set_plan(const Plan& plan) {
-  static constexpr std::pair<Stage, BatchStage> springs_and_gas[] = {
-      {Stage::structural_springs, &Dynamics::structural_springs},
-      {Stage::bend_springs, &Dynamics::bend_springs},
-      {Stage::shear_springs, &Dynamics::shear_springs},
-      {Stage::gas_pressure, &Dynamics::gas_pressure},
-  };
-  static constexpr std::pair<Stage, BatchStage> others[] = {
-      {Stage::shape_matching, &Dynamics::shape_matching},
-      {Stage::contact_response, &Dynamics::penalty_forces},
-  };
-  force_stages_.clear();
-  other_force_stages_.clear();
-  for (const auto& [stage, run] : springs_and_gas)
-    if (plan.has(stage)) force_stages_.push_back(run);
-  for (const auto& [stage, run] : others) {
-    if (!plan.has(stage)) continue;
-    force_stages_.push_back(run);
-    other_force_stages_.push_back(run);
-  }
-  if (plan.has(Stage::grab)) force_stages_.push_back(&Dynamics::grab_force);  // last: it reckons with the others
+  force_set_.set_plan(plan.forces());
   resistance_.set_plan(plan);
   has_gravity_ = plan.has(Stage::gravity);
   has_restitution_ = plan.has(Stage::restitution);
@@ -44,7 +23,7 @@ void Dynamics::set_plan(const Plan& plan) {
   has_solid_features_ = plan.has(Stage::solid_features);
   self_contact_ = scene_.collision.self_collision;
   if (!has_surface_) surface_.clear();
-  if (!plan.has(Stage::contact_response)) penalty_.pairs.clear();
+  if (!plan.has(stage_of<PenaltyContact>)) penalty_.pairs.clear();
 }
 
 void Dynamics::set_integrator(const Integrator& integrator) {
@@ -99,45 +78,47 @@ void Dynamics::surface_contacts(const Worker& worker, float h, float since_start
                  {v_[0].data(), v_[1].data(), v_[2].data()}, h, [&] { worker.barrier(); });
 }
 
-void Dynamics::run_stages(Batch& b, std::span<const BatchStage> stages) {
-  clear(b, softbody::forces);
-  for (const BatchStage stage : stages) (this->*stage)(b);
-}
-
-void Dynamics::all_forces(Batch& b) { run_stages(b, force_stages_); }
-void Dynamics::other_forces(Batch& b) { run_stages(b, other_force_stages_); }
-
-void Dynamics::structural_springs(Batch& b) {
-  kernels_of(b).springs(b.mesh->structural, at(x_, b), at(v_, b), at(f_, b));
-}
-void Dynamics::bend_springs(Batch& b) { kernels_of(b).springs(b.mesh->bend, at(x_, b), at(v_, b), at(f_, b)); }
-void Dynamics::shear_springs(Batch& b) { kernels_of(b).springs(b.mesh->shear, at(x_, b), at(v_, b), at(f_, b)); }
-
-void Dynamics::gas_pressure(Batch& b) {
-  if (!b.model->has_gas) return;
-  const Gas& gas = b.model->gas;
-  alignas(32) float volume[lanes], gauge[lanes]{};
-  kernels_of(b).volume(b.mesh->faces, at(x_, b), volume);
-  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
-  kernels_of(b).pressure(b.mesh->faces, at(x_, b), gauge, at(f_, b));
-}
-
-void Dynamics::shape_matching(Batch& b) {
-  if (b.mesh->shape.empty()) return;
-  ShapeMoments<float> moments;
-  ShapePose<float> pose{};
-  kernels_of(b).shape_moments(b.mesh->shape, at(x_, b), moments);
-  fit_shape(moments, b.used, pose);
-  kernels_of(b).shape_pull(b.mesh->shape, pose, static_cast<float>(shape_stiffness(*b.model)), at(x_, b), at(f_, b));
-}
-
-void Dynamics::penalty_forces(Batch& b) {
-  if (penalty_.pairs.empty()) return;
-  const auto index = static_cast<std::size_t>(&b - batches_.data());
-  for (std::uint32_t e = penalty_.first_end[index]; e < penalty_.first_end[index + 1]; ++e) {
-    const PenaltyEnd& end = penalty_.ends[e];
-    for (std::size_t k = 0; k < 3; ++k) f_[k][end.slot] += end.sign * penalty_.force[end.pair][int(k)];
+/// Calls act(ForceSet, ForceBatch) for a batch in the substep at hand.
+template <class Act>
+void Dynamics::with_forces(Batch& b, Act act) {
+  HeldPoint held{};
+  const bool holds = grab_ && &batches_[bodies_[grab_->body].batch] == &b;
+  if (holds) {
+    held.position = grabbed_point();
+    for (std::size_t i = 0; i < 3; ++i) held.corners[i] = slot(bodies_[grab_->body], grab_->corners[i]);
   }
+  const auto field = [](Components& c) { return Field<float>{c[0].data(), c[1].data(), c[2].data()}; };
+  act(force_set_, ForceBatch{*b.model, std::size_t(&b - batches_.data()), b.base, b.width, b.used, b.moves.data(),
+                             field(x_), field(v_), field(f_), step_, scene_.gravity, holds ? &held : nullptr});
+}
+
+void Dynamics::all_forces(Batch& b) {
+  clear(b, softbody::forces);
+  with_forces(b, [](const ForceSet& set, const ForceBatch& batch) { set.add(batch); });
+}
+
+void Dynamics::other_forces(Batch& b) {
+  clear(b, softbody::forces);
+  with_forces(b, [](const ForceSet& set, const ForceBatch& batch) { set.add_unprojected(batch); });
+}
+
+void Dynamics::project(Batch& b, Quantity x0, Quantity d) {
+  const auto field = [this](Quantity q) {
+    Components& c = components(q);
+    return Field<float>{c[0].data(), c[1].data(), c[2].data()};
+  };
+  with_forces(b, [&](const ForceSet& set, const ForceBatch& batch) { set.project(batch, field(x0), field(d)); });
+}
+
+void Dynamics::pull(Batch& b) {
+  with_forces(b, [](const ForceSet& set, const ForceBatch& batch) { set.kick(batch); });
+}
+
+glm::dvec3 Dynamics::grabbed_point() const {
+  glm::dvec3 point(0.0);
+  for (int i = 0; i < 3; ++i)
+    point += grab_->weights[i] * particle(grab_->body, grab_->corners[std::size_t(i)]).position;
+  return point;
 }
 
 void Dynamics::kick(Batch& b, float h) {

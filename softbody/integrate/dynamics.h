@@ -7,8 +7,7 @@
 
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/surface_contact.h"
-#include "softbody/forces/grab.h"
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/forces/force_set.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/dynamics_state.h"
 #include "softbody/integrate/integrators.h"
@@ -51,15 +50,20 @@ struct FrameResult {
 class Dynamics {
  public:
   Dynamics(const Scene& scene, const Crew& crew, Isa isa)
-      : scene_(scene), crew_(crew), wide_(kernels(isa, lanes)), narrow_(kernels(isa, one_lane)), isa_(isa) {}
+      : scene_(scene),
+        crew_(crew),
+        wide_(kernels(isa, lanes)),
+        narrow_(kernels(isa, one_lane)),
+        isa_(isa),
+        force_set_(isa) {}
 
   BodyId add(std::shared_ptr<const BodyModel> model, const glm::dvec3& position, const glm::dvec3& velocity);
   /// Removes a body; the ids of later bodies move up by one. The bodies of set_vertices() must still contain it.
   void remove(BodyId body);
   /// Bodies of the model `from` go on as bodies of `to`, of the same mesh, from where they are.
   void replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to);
-  /// What pulls a body; nothing: nobody does. The plan must have Stage::grab while one does.
-  void grab(const std::optional<Grab>& grab);
+  /// What pulls a body; nothing: nobody does. The plan must have the hand's stage while one does.
+  void grab(const std::optional<Grab>& grab) { grab_ = grab; }
   const std::optional<Grab>& grabbed() const { return grab_; }
   glm::dvec3 grabbed_point() const;  // m; of the body that is grabbed
   void set_plan(const Plan& plan);
@@ -98,7 +102,7 @@ class Dynamics {
   // What integrators are made of, beside what a Worker says. The arithmetic leaves lanes alone that do not move.
   void contact_forces(const Worker& worker, float h);  // of its part of the contacts, for all_forces() of all
   void all_forces(Batch& batch);                       // at the current positions and velocities
-  void other_forces(Batch& batch);                     // all but those of springs, gas and hand
+  void other_forces(Batch& batch);                     // all but those that project() and pull() stand for
   void kick(Batch& batch, float h);                    // v += h (f / m + g)
   void accelerations(Batch& batch);                    // f = f / m + g
   void drift(Batch& batch, float h);                   // x += h v
@@ -107,13 +111,10 @@ class Dynamics {
   void contacts(const Worker& worker, float h) { contacts(worker, h, 0); }
   /// The same for the positions that a substep of h ends with.
   void contacts_at_end(const Worker& worker, float h) { contacts(worker, h, h); }
-  // XPBD, on displacements d in this step, which starts at x0; project_gas() wants the positions to be x0 + d.
-  void project_gas(Batch& batch, Quantity d, float h);
-  void project_springs(Batch& batch, Quantity x0, Quantity d, float h);
-  /// What the hand does in a step of h, on velocities that hold what all else does. For who takes other_forces().
-  void pull(Batch& batch, float h) {
-    if (grab_) grab_impulse(batch, h);
-  }
+  /// XPBD, on displacements d in this step of h, which starts at x0; the positions have to be x0 + d.
+  void project(Batch& batch, Quantity x0, Quantity d);
+  /// What the hand does in a step, on velocities that hold what all else does. For who takes other_forces().
+  void pull(Batch& batch);
   /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
   /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all bodies.
   void solve_implicit(const Worker& worker, Batch& batch, Quantity mean, Quantity rest, float h);
@@ -140,7 +141,6 @@ class Dynamics {
   void set_calm_frames(BodyId id, int frames) { bodies_[id].calm_frames = frames; }
 
  private:
-  using BatchStage = void (Dynamics::*)(Batch&);
   using Components = std::array<LaneArray<float>, 3>;
 
   std::size_t slot(const Body& body, Index vertex) const {
@@ -155,14 +155,14 @@ class Dynamics {
   }
   BatchView view(const Batch& b) { return {b, kernels_of(b), at(x_, b), at(v_, b)}; }
   const Kernels& kernels_of(const Batch& b) const { return b.width == one_lane ? narrow_ : wide_; }
-  std::shared_ptr<const KernelMesh> mesh_of(const std::shared_ptr<const BodyModel>& model, int width) const;
   Batch& batch_with_free_lane(const std::shared_ptr<const BodyModel>& model);
   std::size_t append(std::size_t values);
   void widen(Batch& batch);
   Components& components(Quantity q);
   template <class Operation>
   void each_value(Batch& batch, Operation operation);
-  void run_stages(Batch& batch, std::span<const BatchStage> stages);
+  template <class Act>
+  void with_forces(Batch& batch, Act act);
   void contacts(const Worker& worker, float h, float since_start);
   void surface_contacts(const Worker& worker, float h, float since_start);
   void solids(const Worker& worker, float h);
@@ -171,16 +171,6 @@ class Dynamics {
   void find_solid_features(Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
   bool solid_features(Batch& batch, float h);
   bool solid_feature(Batch& batch, SolidFeature& feature);
-  void structural_springs(Batch& batch);
-  void bend_springs(Batch& batch);
-  void shear_springs(Batch& batch);
-  void gas_pressure(Batch& batch);
-  void shape_matching(Batch& batch);
-  void penalty_forces(Batch& batch);
-  void grab_force(Batch& batch);
-  void grab_impulse(Batch& batch, float h);
-  bool is_grabbed(const Batch& batch) const;
-  glm::dvec3 grab_pull(const BodyModel& model, float h, const glm::dvec3& velocity) const;
   void move_lane(Batch& batch, int from, int to);
   static bool moves(const Batch& batch);
   std::size_t particle_count() const;                   // of all bodies, those that do not move too
@@ -215,7 +205,7 @@ class Dynamics {
   int max_explicit_substeps() const;
   SubstepBound bound(double seconds) const;  // in the state at hand
   static int count_substeps(const SubstepBound& bound, double seconds, double at_least);
-  double stiffness_per_mass(const Batch& batch) const;  // of the body for which it is largest
+  ForceBound own_bound(const Batch& batch) const;  // of the body for which it is largest
   double rounding_velocity(double step) const;
   void choose_integrator(double seconds);
   void resize_scratch();
@@ -242,7 +232,7 @@ class Dynamics {
   const Integrator *chosen_ = nullptr, *integrator_ = nullptr;
   std::string_view why_;
   std::optional<int> fixed_substeps_;
-  std::vector<BatchStage> force_stages_, other_force_stages_;
+  ForceSet force_set_;
   Resistance resistance_;
   bool has_gravity_ = false, has_restitution_ = false;
   std::vector<Batch> batches_;
@@ -254,7 +244,7 @@ class Dynamics {
   std::vector<Components> scratch_;
   Components before_;  // velocities at the start of the substep, if the scene has restitution
   std::shared_ptr<ImplicitSteps> implicit_steps_;  // what they keep; none before the first
-  PenaltyContact penalty_;
+  PenaltyContact& penalty_ = force_set_.of<PenaltyContact>();
   SurfaceContact surface_;
   bool has_surface_ = false, self_contact_ = false, has_solid_features_ = false;
   std::vector<float> since_found_;  // s, as each thread counts them
@@ -263,7 +253,7 @@ class Dynamics {
   std::array<std::vector<float>, 3> world_positions_, velocity_;  // world, for surface_
   std::vector<PenaltyPair> pairs_before_;                         // of the frame before
   std::vector<std::uint32_t> contacts_of_;                        // a vertex, in the frame at hand
-  std::optional<Grab> grab_;
+  std::optional<Grab>& grab_ = force_set_.of<Hand>().grab;
   float step_ = 0;  // s, of the substep at hand
   SubstepHysteresis substep_hysteresis_;
   MaxWork max_work_;

@@ -8,7 +8,6 @@
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_law.h"
 #include "softbody/contact/surface_contact.h"
-#include "softbody/forces/kernel_types.h"
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/kernels.h"
 #include "softbody/integrate/substeps.h"
@@ -17,19 +16,10 @@
 
 namespace softbody {
 
-/// A body model's springs, faces and shape as the kernels want them, shared by all its batches of one width.
-struct KernelMesh {
-  KernelMesh(const BodyModel& model, int width);
-  KernelSprings structural, bend, shear;
-  std::vector<KernelTriangle> faces;
-  std::vector<ShapePoint<float>> shape;  // empty if it is not kept
-};
-
 /// Up to `width` bodies of one model. Its values start at `base` in every array of the state. What stands here for
 /// each lane has room for the widest.
 struct Batch {
   std::shared_ptr<const BodyModel> model;
-  std::shared_ptr<const KernelMesh> mesh;
   int width = lanes;  // or one_lane, see Dynamics::batch_with_free_lane()
   std::size_t base = 0;
   int used = 0;  // lanes taken

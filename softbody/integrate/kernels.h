@@ -3,10 +3,8 @@
 // variant is compiled from the same source without fused arithmetic, so all give the same bits.
 
 #include <cstddef>
-#include <span>
 
 #include "softbody/contact/solid_law.h"
-#include "softbody/forces/kernel_types.h"
 #include "softbody/state/isa.h"
 #include "softbody/state/kernel_types.h"
 
@@ -14,17 +12,6 @@ namespace softbody {
 
 /// For batches of one width.
 struct Kernels {
-  void (*springs)(std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v, Field<float> f);
-  void (*project_springs)(const ProjectArguments&, std::span<const KernelSpring<float>>, Field<const float> x,
-                          Field<float> d);
-  void (*volume)(std::span<const KernelTriangle>, Field<const float> x, float* volume);
-  void (*medians)(std::span<const KernelTriangle>, Field<const float> x, float* largest);
-  void (*stretch)(std::span<const KernelSpring<float>>, Field<const float> a, float* sum);
-  void (*square_sum)(std::size_t particles, Field<const float> a, float* sum);
-  void (*pressure)(std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure, Field<float> f);
-  void (*shape_moments)(std::span<const ShapePoint<float>>, Field<const float> x, ShapeMoments<float>&);
-  void (*shape_pull)(std::span<const ShapePoint<float>>, const ShapePose<float>&, float stiffness, Field<const float> x,
-                     Field<float> f);
   void (*kick)(const KickArguments&, Field<const float> f, Field<float> v);
   unsigned (*solid)(const SolidArguments&, Field<const float> x, Field<float> v);  // the lanes it acted in, as bits
   void (*drift)(std::size_t particles, float h, const float* moves, Field<const float> v, Field<float> x);

@@ -2,29 +2,26 @@
 // A plan lists the stages of a step that a scene needs, and says why the others are left out. It is made when the scene
 // is loaded or changes. A stage that is left out costs no call.
 
+#include <bitset>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "softbody/forces/table.h"
+
 namespace softbody {
 
-struct BodyModel;
 struct Scene;
 
-/// In the order in which a step runs them.
+/// In the order in which a step runs them. The forces of the table stand between surface_contact and gravity: see
+/// stage_of.
 enum class Stage {
   arrive,
-  contact_response,
   surface_contact,
-  structural_springs,
-  bend_springs,
-  shear_springs,
-  gas_pressure,
-  shape_matching,
-  grab,
-  gravity,
+  first_force,
+  gravity = first_force + int(force_count),
   integrate,
   restitution,
   solid_spheres,
@@ -41,6 +38,10 @@ enum class Stage {
   count
 };
 
+/// The stage of a force.
+template <class F>
+inline constexpr Stage stage_of = Stage(int(Stage::first_force) + int(index_of<F>));
+
 /// Returns the stage's key in the plan of `simulate --json`, e.g. "bend-springs".
 std::string_view stage_key(Stage stage);
 
@@ -53,6 +54,7 @@ struct Plan {
   std::vector<Stage> stages;      // in order
   std::vector<LeftOut> left_out;  // in order
   bool has(Stage stage) const;
+  ForceMask forces() const;
 };
 
 /// What a world has besides its scene's own bodies.

@@ -19,6 +19,8 @@ inline constexpr int one_lane = 1;  // the width of a batch whose body is solved
 
 /// Forces inlining, so that a function is compiled for the instruction set of its caller.
 #define SB_INLINE [[gnu::always_inline]] inline
+/// The same for a lambda, before its body.
+#define SB_LAMBDA __attribute__((always_inline))
 
 /// Eight doubles as two vectors that fit into registers. Compilers keep wider vectors in memory, which is several times
 /// slower.
@@ -102,9 +104,13 @@ template <class Real>
 struct Field {
   Real *x, *y, *z;
   operator Field<const Real>() const requires(!std::is_const_v<Real>) { return {x, y, z}; }
+  Field from(std::size_t index) const { return {x + index, y + index, z + index}; }
 };
 
 inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
+inline void add(Field<float> f, std::size_t slot, const glm::vec3& more) {
+  f.x[slot] += more.x, f.y[slot] += more.y, f.z[slot] += more.z;
+}
 
 /// The vectors of one body in a field, by its particles: the first one's stands at `first`, the next ones' `stride`
 /// values after each other.

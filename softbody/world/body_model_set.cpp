@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "softbody/forces/model_forces.h"
 #include "softbody/integrate/equilibrium.h"
 
 namespace softbody {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "softbody/forces/grab.h"
+#include "softbody/forces/hand.h"
 
 namespace softbody {
 

@@ -65,7 +65,7 @@ double World::State::needed_substeps(const BodyModel& p, float thickness) const 
   const auto friction = float(law::common_friction(p.material[contact::friction], max_friction));
   const double k =
       stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
-  const double own = p.spring_damping_bound, all = own + PenaltyContact::damping_bound(contact, friction, thickness);
+  const double own = damping_bound(p), all = own + PenaltyContact::damping_bound(contact, friction, thickness);
   const auto stable_step = options.integrator.integrator().stable_step;
   return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
 }
@@ -87,7 +87,7 @@ void World::State::set_integrator() {
 
 /// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
 void World::State::check_stability(const BodyModelSet& all, const Plan& with) const {
-  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
+  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(stage_of<PenaltyContact>);
   for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
 }
 
@@ -164,7 +164,7 @@ void World::step(const std::function<void()>& after_substep) {
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
   const float thickness = s.penalty_thickness;
-  if (s.plan.has(Stage::contact_response)) {
+  if (s.plan.has(stage_of<PenaltyContact>)) {
     s.penalty_thickness =
         std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.options.frame_time));  // 5 cm/s
     s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
@@ -192,7 +192,7 @@ void World::step(const std::function<void()>& after_substep) {
   s.update_positions();
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = s.plan.has(Stage::contact_response) &&
+  const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
   s.report.total_ms = ms_since(start) - looking_ms;
@@ -288,7 +288,7 @@ BodyState World::body(BodyId body) const {
 PairEnergies World::pair_energies() const {
   const State& s = *state_;
   PairEnergies energies{.last = s.dynamics.penalty_energies(), .next = {}};
-  if (s.plan.has(Stage::contact_response))
+  if (s.plan.has(stage_of<PenaltyContact>))
     energies.next = s.dynamics.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   return energies;
 }

@@ -12,7 +12,7 @@
 
 #include "collide/methods.h"
 #include "softbody/contact/contacts.h"
-#include "softbody/forces/grab.h"
+#include "softbody/forces/hand.h"
 #include "softbody/forces/pair_energy.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/max_work.h"

@@ -2,8 +2,8 @@
 // The loops of implicit steps, in double, for eight bodies at a time. Included where they are compiled for an
 // instruction set.
 
-#include "softbody/forces/kernel_bodies.h"
 #include "softbody/integrate/implicit/kernels.h"
+#include "softbody/state/kernel_bodies.h"
 
 namespace softbody::body {
 
@@ -75,25 +75,6 @@ SB_INLINE void substitute(const CholeskyFactor& f, double* x, double* z) {
   for (const CholeskyFactor::Supernode& run : f.supernodes) substitute_forward(f, run, z);
   for (std::size_t i = f.supernodes.size(); i-- > 0;) substitute_back(f, f.supernodes[i], z);
   for (std::size_t i = 0; i < n; ++i) store(x + i * lanes, load<V>(z + f.place[i] * lanes));
-}
-
-/// Hooke's springs at x, and their dampers for the displacements x - from within the step, along the directions at
-/// `from`: fixed, so that the damping has a potential.
-SB_INLINE void implicit_springs(std::span<const KernelSpring<double>> list, double inverse_h, Field<const double> x,
-                                Field<const double> from, Field<double> f) {
-  using V = Lane<double, lanes>;
-  const V tiny = V{} + 1e-12;  // m
-  for (const KernelSpring<double>& s : list) {
-    const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i);
-    const V length = square_root(dot(dx, dx));
-    Vec<V> force = (s.stiffness * (length - s.rest) / larger(length, tiny)) * dx;
-    if (s.damping > 0) {
-      const Vec<V> along = load<V>(from, s.j) - load<V>(from, s.i);
-      force = force + (s.damping * inverse_h * dot(dx - along, along) / larger(dot(along, along), tiny * tiny)) * along;
-    }
-    store(f, s.i, load<V>(f, s.i) + force);
-    store(f, s.j, load<V>(f, s.j) - force);
-  }
 }
 
 /// v = R v, or R^T v if `back`, for each particle; rotation: column c of R at 3 c.

@@ -6,44 +6,33 @@ namespace softbody {
 namespace {
 
 using Field64 = Field<double>;
-using ConstField64 = Field<const double>;
-using Springs64 = std::span<const KernelSpring<double>>;
-using Triangles = std::span<const KernelTriangle>;
 
 // One table an instruction set, as in integrate/kernels.cpp.
-#define SB_IMPLICIT_TABLE(name, target)                                                                         \
-  struct name {                                                                                                 \
-    target static void springs(Springs64 s, double inverse_h, ConstField64 x, ConstField64 from, Field64 f) {   \
-      body::implicit_springs(s, inverse_h, x, from, f);                                                         \
-    }                                                                                                           \
-    target static void volume(Triangles t, ConstField64 x, double* r) { body::volume<double, lanes>(t, x, r); } \
-    target static void pressure(Triangles t, ConstField64 x, const double* p, Field64 f) {                      \
-      body::pressure<double, lanes>(t, x, p, f);                                                                \
-    }                                                                                                           \
-    target static void substitute(const CholeskyFactor& c, double* x, double* z) { body::substitute(c, x, z); } \
-    target static void turn(std::size_t n, const double (*r)[lanes], bool back, Field64 v) {                    \
-      body::turn(n, r, back, v);                                                                                \
-    }                                                                                                           \
-    target static void inner_product(std::size_t n, const double* a, const double* b, double* r) {              \
-      body::inner_product(n, a, b, r);                                                                          \
-    }                                                                                                           \
-    target static void inner_product_shared(std::size_t n, const double* a, const double* b, double* r) {       \
-      body::inner_product_shared(n, a, b, r);                                                                   \
-    }                                                                                                           \
-    target static void add_scaled(std::size_t n, const double* t, const double* a, double* y) {                 \
-      body::add_scaled(n, t, a, y);                                                                             \
-    }                                                                                                           \
-    target static void add_scaled_shared(std::size_t n, const double* t, const double* a, double* y) {          \
-      body::add_scaled_shared(n, t, a, y);                                                                      \
-    }                                                                                                           \
-    static constexpr ImplicitKernels table{                                                                     \
-        springs,    volume,           pressure, substitute, turn, inner_product, inner_product_shared,          \
-        add_scaled, add_scaled_shared};                                                                         \
+#define SB_IMPLICIT_TABLE(name, isa, target)                                                                        \
+  struct name {                                                                                                     \
+    target static void substitute(const CholeskyFactor& c, double* x, double* z) { body::substitute(c, x, z); }     \
+    target static void turn(std::size_t n, const double (*r)[lanes], bool back, Field64 v) {                        \
+      body::turn(n, r, back, v);                                                                                    \
+    }                                                                                                               \
+    target static void inner_product(std::size_t n, const double* a, const double* b, double* r) {                  \
+      body::inner_product(n, a, b, r);                                                                              \
+    }                                                                                                               \
+    target static void inner_product_shared(std::size_t n, const double* a, const double* b, double* r) {           \
+      body::inner_product_shared(n, a, b, r);                                                                       \
+    }                                                                                                               \
+    target static void add_scaled(std::size_t n, const double* t, const double* a, double* y) {                     \
+      body::add_scaled(n, t, a, y);                                                                                 \
+    }                                                                                                               \
+    target static void add_scaled_shared(std::size_t n, const double* t, const double* a, double* y) {              \
+      body::add_scaled_shared(n, t, a, y);                                                                          \
+    }                                                                                                               \
+    static constexpr ImplicitKernels table{isa,        substitute,       turn, inner_product, inner_product_shared, \
+                                           add_scaled, add_scaled_shared};                                          \
   };
 
-SB_IMPLICIT_TABLE(BaselineImplicit, )
+SB_IMPLICIT_TABLE(BaselineImplicit, Isa::baseline, )
 #if SB_X86
-SB_IMPLICIT_TABLE(Avx2Implicit, [[gnu::target("avx2")]])
+SB_IMPLICIT_TABLE(Avx2Implicit, Isa::avx2, [[gnu::target("avx2")]])
 #endif
 
 }  // namespace

@@ -2,11 +2,10 @@
 // The inner loops of implicit steps, chosen for the processor at hand.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "softbody/forces/kernel_types.h"
 #include "softbody/state/isa.h"
+#include "softbody/state/lanes.h"
 
 namespace softbody {
 
@@ -26,11 +25,7 @@ struct CholeskyFactor {
 
 /// For implicit steps of eight bodies, in double; see kernel_bodies.h.
 struct ImplicitKernels {
-  void (*springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
-                  Field<const double> from, Field<double> f);
-  void (*volume)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
-  void (*pressure)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
-                   Field<double> f);
+  Isa isa;
   void (*substitute)(const CholeskyFactor&, double* x, double* scratch);
   void (*turn)(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);

@@ -9,17 +9,15 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/forces/best_rotation.h"
-#include "softbody/forces/shape_matching.h"
 
 namespace softbody {
 
 ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
-    : kernels_(kernels), particles_(p.mesh.vertices.size()), stride_(particles_ * lanes) {
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) springs_.push_back({s.i * lanes, s.j * lanes, s.rest, s.stiffness, s.damping});
-  if (p.has_gas)
-    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * lanes, b * lanes, c * lanes});
-  for (Lanes* v : {&target_, &goal_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &scratch_})
+    : kernels_(kernels),
+      forces_(implicit_force_kernels(kernels.isa)),
+      particles_(p.mesh.vertices.size()),
+      stride_(particles_ * lanes) {
+  for (Lanes* v : {&target_, &x_, &trial_, &gradient_, &trial_gradient_, &direction_, &scratch_})
     v->resize(3 * stride_);
   for (auto* list : {&steps_, &changes_})
     for (Lanes& v : *list) v.resize(3 * stride_);
@@ -61,33 +59,9 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
   }
 }
 
-/// Where the shape that the body keeps would have its particles, were it as predicted.
-void ImplicitSolver::place_goal(const ImplicitProblem& p) {
-  const std::vector<glm::dvec3>& shape = p.model.goal;
-  for (std::size_t l = 0; l < lanes; ++l) {
-    const LaneView x{x_, l};
-    glm::dvec3 centre(0.0);
-    for (std::size_t i = 0; i < particles_; ++i) centre += x(i) / double(particles_);
-    glm::dmat3 covariance(0.0);
-    for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - centre, shape[i]);
-    const glm::dmat3 r = best_rotation(covariance);
-    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * lanes + l, centre + r * shape[i]);
-  }
-}
-
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
-  if (p.model.has_gas) {
-    alignas(64) double volume[lanes], gauge[lanes];
-    kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
-    kernels_.pressure(faces_, field(x), gauge, field(g));
-  }
-  if (!p.model.goal.empty()) {
-    const double pull = shape_stiffness(p.model);
-    for (std::size_t i = 0; i < 3 * stride_; ++i) g[i] += pull * (goal_[i] - x[i]);
-  }
+  forces_.add({p.model, lanes, field(x), field(g)}, held_, {1 / p.h, field(*p.x), field(*p.frame_displacement)});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += lanes)
@@ -229,7 +203,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   remembered_ = 0;
   predict(p);
   if (p.matrix.rotates()) fit_rotation(p);
-  if (!p.model.goal.empty()) place_goal(p);
+  forces_.hold({p.model, lanes, field(std::as_const(x_)), {}}, held_);
   if (p.planes->empty()) {
     minimise(p, max_iterations);
     return x_;

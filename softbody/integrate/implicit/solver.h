@@ -20,7 +20,7 @@
 #include <memory>
 #include <utility>
 
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/forces/kernels.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/matrix.h"
 #include "softbody/state/lanes.h"
@@ -88,7 +88,6 @@ class ImplicitSolver {
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
   void fit_rotation(const ImplicitProblem& p);
-  void place_goal(const ImplicitProblem& p);
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   glm::dvec3 contact_force(const ImplicitProblem& p, const PlaneContact& c, const glm::dvec3& u) const;
@@ -106,10 +105,10 @@ class ImplicitSolver {
   void remember();
 
   const ImplicitKernels& kernels_;
+  const ImplicitForceKernels& forces_;
   std::size_t particles_, stride_;  // stride: of a component
-  KernelSpringsOf<double> springs_;
-  std::vector<KernelTriangle> faces_;
-  Lanes target_, goal_, x_, trial_, gradient_, trial_gradient_, direction_, scratch_;
+  HeldForces held_;                 // found where the solve begins
+  Lanes target_, x_, trial_, gradient_, trial_gradient_, direction_, scratch_;
   std::array<Lanes, history> steps_, changes_;
   std::array<PerLane, history> curvature_;  // 1 / (step . change), or 0
   std::size_t remembered_ = 0, newest_ = 0;

@@ -304,7 +304,7 @@ void implicit_step(Dynamics& dynamics, const Worker& worker, const Substep& subs
   worker.barrier();  // no thread still reads the velocities for penalty contacts
   for (Batch* batch : worker.batches()) {
     dynamics.copy(*batch, mean, velocities);
-    dynamics.pull(*batch, substep.h);
+    dynamics.pull(*batch);
   }
   dynamics.contacts(worker, substep.h);
   for (Batch* batch : worker.batches()) {

@@ -2,9 +2,9 @@
 // A hand: a damped spring that pulls one point of a body's surface to a target.
 
 #include <array>
+#include <optional>
 
-#include <glm/vec3.hpp>
-
+#include "softbody/forces/force.h"
 #include "softbody/state/body.h"
 
 namespace softbody {
@@ -34,5 +34,21 @@ inline glm::dvec3 pull(double k, double c, double m, double h, const glm::dvec3&
   const double damping = c + h * k;
   return (k * stretch - damping * v) / (1 + h * damping / m);
 }
+
+/// The force takes into account what all others do in the step, so it stands last in the table.
+struct Hand {
+  static constexpr std::string_view key = "grab";
+  static constexpr bool internal = false;
+
+  static const char* why_not(const ForceFacts& facts) { return facts.held ? nullptr : "nobody holds a body"; }
+  void add(const ForceBatch& batch) const;
+  /// Adds what the hand does in the step to velocities that hold what all else does.
+  void kick(const ForceBatch& batch) const;
+
+  std::optional<Grab> grab;
+
+ private:
+  glm::dvec3 force(const ForceBatch& batch, const glm::dvec3& velocity) const;
+};
 
 }  // namespace softbody

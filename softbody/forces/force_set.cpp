@@ -1,0 +1,75 @@
+#include "softbody/forces/force_set.h"
+
+#include <algorithm>
+
+namespace softbody {
+namespace {
+
+LaneBodies<float> lanes_of(const ForceBatch& b) { return {b.model, b.used, b.x.from(b.base), b.f.from(b.base)}; }
+
+}  // namespace
+
+/// takes(Name<F>{}): whether a force of the plan is added.
+template <class Takes>
+void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
+  const ForceKernels& kernels = force_kernels(isa_, b.width);
+  const LaneBodies<float> bodies = lanes_of(b);
+  const Moving motion{Field<const float>(b.v).from(b.base)};
+  for_each_force(Forces{}, [&]<class F>(Name<F> name) {
+    if (!taken_[index_of<F>] || !takes(name)) return;
+    if constexpr (HasElements<F>)
+      kernels.add[index_of<F>](bodies, motion);
+    else
+      of<F>().add(b);
+  });
+}
+
+void ForceSet::add(const ForceBatch& b) const {
+  add_if(b, [](auto) { return true; });
+}
+
+void ForceSet::add_unprojected(const ForceBatch& b) const {
+  add_if(b, [&]<class F>(Name<F>) {
+    return !is_projected<F>() && !requires { of<F>().kick(b); };
+  });
+}
+
+void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
+  const ForceKernels& kernels = force_kernels(isa_, b.width);
+  const LaneBodies<float> bodies = lanes_of(b);
+  const Projection projection{b.h, b.moves, x0.from(b.base), d.from(b.base), b.f.from(b.base)};
+  for (const bool volumes : {true, false})
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (is_projected<F>())
+        if (taken_[index_of<F>] && volumes == (F::coordinate == Coordinate::volume))
+          kernels.project[index_of<F>](bodies, projection);
+    });
+}
+
+void ForceSet::kick(const ForceBatch& b) const {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (requires { of<F>().kick(b); })
+      if (taken_[index_of<F>]) of<F>().kick(b);
+  });
+}
+
+ForceBound ForceSet::bound(const LaneBodies<float>& b, int width) const {
+  const BodyModel& p = b.model;
+  double stiffest = stiffness_per_mass(p, {});
+  if (p.forces->pressure > 0) {
+    SurfaceShape shapes[lanes];
+    force_kernels(isa_, width).measure_surfaces(b, shapes);
+    for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
+  }
+  return {stiffest, damping_bound(p) / p.particle_mass};
+}
+
+bool has_external_force(const BodyModel& model) {
+  bool any = false;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (HasElements<F>) any = any || (!F::internal && data<F>(model));
+  });
+  return any;
+}
+
+}  // namespace softbody
