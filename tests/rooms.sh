@@ -13,14 +13,14 @@ collide/surface: collide/core
 collide/oracle: collide/core collide/surface
 collide: collide/core collide/methods collide/exact
 softbody/mesh:
-softbody/state: softbody/mesh
-softbody/model: collide/core collide/surface softbody/mesh softbody/state softbody/contact softbody/forces
+softbody/model: collide/core collide/surface softbody/mesh softbody/contact softbody/forces
+softbody/state: softbody/mesh softbody/model
 softbody/contact: collide/core collide/surface softbody/mesh softbody/state softbody/model
 softbody/forces: collide/core softbody/mesh softbody/state softbody/model softbody/contact
 softbody/scene: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
-softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene
-softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
-softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate
+softbody/integrate/implicit: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces
+softbody/integrate: collide/core collide/surface softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate/implicit
+softbody/integrate/methods: softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 softbody/world: collide softbody/mesh softbody/state softbody/model softbody/contact softbody/forces softbody/scene softbody/integrate softbody/integrate/implicit
 engine:
 engine/render: engine
@@ -50,8 +50,8 @@ mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/isa state/lane_math state/lanes
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/best_rotation forces/bound forces/coordinates forces/force forces/gas forces/hand forces/material_keys
-forces/model_forces forces/pair_energy forces/penalty_contact forces/shape_matching forces/springs forces/table
+forces/best_rotation forces/bound forces/coordinates forces/gas forces/grab forces/material_keys forces/pair_energy
+forces/shape_matching forces/springs
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan
 world/measures world/body_model_set world/snapshot world/world

@@ -8,7 +8,8 @@
 
 #include "app/reference/body_shape.h"
 #include "softbody/forces/bound.h"
-#include "softbody/forces/model_forces.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "softbody/scene/solids.h"
 
 namespace app::reference {
@@ -65,22 +66,14 @@ BodyState state_of(const softbody::World& world, softbody::BodyId body) {
 
 std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
   // Detection and sleep move nothing: a body that sleeps has come to rest.
-  constexpr std::array known{softbody::stage_of<softbody::StructuralSprings>,
-                             softbody::stage_of<softbody::BendSprings>,
-                             softbody::stage_of<softbody::ShearSprings>,
-                             softbody::stage_of<softbody::GasPressure>,
-                             Stage::gravity,
-                             Stage::integrate,
-                             Stage::solid_spheres,
-                             Stage::ground,
-                             Stage::solid_planes,
-                             Stage::solid_boxes,
-                             Stage::solid_capsules,
-                             Stage::detect,
-                             Stage::sleep};
+  constexpr std::array<std::string_view, 13> known{
+      "structural-springs", "bend-springs",  "shear-springs", "gas-pressure", "gravity",
+      "integrate",          "solid-spheres", "ground",        "solid-planes", "solid-boxes",
+      "solid-capsules",     "detect",        "sleep"};
   if (world.scene().bodies.size() != 1) return "several bodies";
   for (const Stage stage : world.plan().stages)
-    if (std::ranges::find(known, stage) == known.end()) return std::string(softbody::stage_key(stage));
+    if (std::ranges::find(known, softbody::stage_key(stage)) == known.end())
+      return std::string(softbody::stage_key(stage));
   return {};
 }
 
@@ -97,7 +90,7 @@ void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state
 void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
   const auto& faces = model_.mesh.triangles;
   const double volume = volume_of(state.x, faces);
-  const softbody::Gas& gas = *softbody::data<softbody::GasPressure>(model_);
+  const softbody::Gas& gas = *softbody::gas_of(model_);
   const double gauge = absolute_pressure(gas, volume) - ambient_pressure(gas, volume);
   for (const auto& [i, j, k] : faces) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
@@ -108,7 +101,7 @@ void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const
 std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
   std::vector<dvec3> a(state.x.size(), scene_.gravity);
   softbody::for_each_spring(model_, [&](const softbody::Spring& s) { add_spring(s, state, a); });
-  if (softbody::data<softbody::GasPressure>(model_)) add_gas(state, a);
+  if (softbody::gas_of(model_)) add_gas(state, a);
   return a;
 }
 
@@ -163,8 +156,7 @@ double ReferenceBody::energy(const BodyState& state) const {
     const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
     energy += 0.5 * s.stiffness * stretch * stretch;
   });
-  if (const auto* gas = softbody::data<softbody::GasPressure>(model_))
-    energy += gas_energy(*gas, volume_of(state.x, model_.mesh.triangles));
+  if (const auto* gas = softbody::gas_of(model_)) energy += gas_energy(*gas, volume_of(state.x, model_.mesh.triangles));
   return energy;
 }
 

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/forces/model_forces.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/measures.h"
 
 namespace app::render {
@@ -115,7 +115,7 @@ void add_contacts(const softbody::World& world, Points positions, engine::FrameD
     const bool inside = body[contact.a] == body[contact.b];
     add_contact(positions, contact, inside ? contact_inside_colour : contact_between_colour, lines, points);
   }
-  for (const softbody::SolidContact& contact : softbody::solid_contacts(world)) {
+  for (const softbody::SolidContactPoint& contact : softbody::solid_contacts(world)) {
     points.points.push_back({positions[contact.vertex], glm::vec4(contact_solid_colour, 1.0f)});
   }
   frame.lines.push_back(std::move(lines));

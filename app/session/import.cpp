@@ -11,7 +11,6 @@
 
 #include "app/base/text.h"
 #include "softbody/contact/keys.h"
-#include "softbody/forces/penalty_contact.h"
 #include "softbody/forces/springs.h"
 #include "softbody/mesh/obj_file.h"
 #include "softbody/model/body_model.h"
@@ -97,7 +96,7 @@ Material imported_material(double extent) {
   m[Material::mass] = std::clamp(extent * extent * extent, 0.01, 1000.0);
   m.set(softbody::StructuralSprings::keys, {200 * m[Material::mass], 0.1});
   m.set(softbody::BendSprings::keys, {50 * m[Material::mass], 0.1});
-  m[softbody::PenaltyContact::stiffness] = 100 * m[Material::mass];
+  m[softbody::contact::stiffness] = 100 * m[Material::mass];
   m[Material::internal_damping] = 10;
   m[softbody::contact::rebound_speed] = 2;
   m[softbody::contact::rolling_resistance] = 0.3;

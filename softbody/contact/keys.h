@@ -20,6 +20,10 @@ inline constexpr auto rolling_resistance =
     Key("rolling_resistance", "", 0.02, {0, 10},
         "Coefficient of rolling resistance on solids: the torque over the radius times the normal force.",
         {"Rolling", "%.2f", 0, 1}, {.place = 25});
-inline constexpr std::array keys{&rebound_speed, &friction, &restitution, &rolling_resistance};
+inline constexpr auto stiffness =
+    Key("contact_stiffness", "N/m", 100, {0, 1e9},
+        "Stiffness of vertex-vertex contact (§2.3), shared among the contacts of a vertex.",
+        {"Contact", "%.0f N/m", 1, 1000, true}, {.place = 30});
+inline constexpr std::array keys{&rebound_speed, &friction, &restitution, &rolling_resistance, &stiffness};
 
 }  // namespace softbody::contact

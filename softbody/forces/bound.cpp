@@ -126,6 +126,8 @@ void ModelForces::set_bounds(std::size_t particles) {
   pair_damping = pair_bound(particles, damping) / 2;
 }
 
+double damping_bound(const BodyModel& p) { return p.forces->pair_damping + p.forces->path_damping; }
+
 double stable_step(double k_m, double c_m) {
   // Twice the sum of a row bounds a spring matrix: each spring stands on its diagonal and beside it (Gershgorin).
   const double omega2 = 2 * k_m, gamma = 2 * c_m;

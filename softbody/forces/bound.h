@@ -32,6 +32,9 @@ SurfaceShape measure_surface(const BodyModel& model, const std::vector<glm::dvec
 /// particle.
 double stiffness_per_mass(const BodyModel& model, const SurfaceShape& surface);
 
+/// Returns the damping (N s/m) at one particle, for stable_step().
+double damping_bound(const BodyModel& model);
+
 /// Returns 0.8 times the largest stable step of semi-implicit Euler in s, for the sums k_m of stiffness/mass (1/s^2)
 /// and c_m of damping/mass (1/s) at one particle: omega^2 <= 2 k_m, h = 0.8 (2/omega)(sqrt(1 + z^2) - z), z = 2 c_m /
 /// (2 omega).

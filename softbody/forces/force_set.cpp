@@ -5,22 +5,25 @@
 namespace softbody {
 namespace {
 
-LaneBodies<float> lanes_of(const ForceBatch& b) { return {b.model, b.used, b.x.from(b.base), b.f.from(b.base)}; }
+LaneBodies<float> lanes_of(const ForceBatch& b) {
+  const State& state = b.state;
+  return {*b.batch.model, b.batch.used, field(state.x, b.batch.base), field(b.state.f, b.batch.base)};
+}
 
 }  // namespace
 
 /// takes(Name<F>{}): whether a force of the plan is added.
 template <class Takes>
 void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
-  const ForceKernels& kernels = force_kernels(isa_, b.width);
+  const ForceKernels& kernels = force_kernels(isa_, b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
-  const Moving motion{Field<const float>(b.v).from(b.base)};
+  const Moving motion{field(b.state.v, b.batch.base)};
   for_each_force(Forces{}, [&]<class F>(Name<F> name) {
     if (!taken_[index_of<F>] || !takes(name)) return;
     if constexpr (HasElements<F>)
       kernels.add[index_of<F>](bodies, motion);
     else
-      of<F>().add(b);
+      std::get<const F&>(objects_).add(b);
   });
 }
 
@@ -30,14 +33,14 @@ void ForceSet::add(const ForceBatch& b) const {
 
 void ForceSet::add_unprojected(const ForceBatch& b) const {
   add_if(b, [&]<class F>(Name<F>) {
-    return !is_projected<F>() && !requires { of<F>().kick(b); };
+    return !is_projected<F>() && !requires(const F& force) { force.kick(b); };
   });
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
-  const ForceKernels& kernels = force_kernels(isa_, b.width);
+  const ForceKernels& kernels = force_kernels(isa_, b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
-  const Projection projection{b.h, b.moves, x0.from(b.base), d.from(b.base), b.f.from(b.base)};
+  const Projection projection{float(b.h), b.batch.moves.data(), x0, d, bodies.f};
   for (const bool volumes : {true, false})
     for_each_force(Forces{}, [&]<class F>(Name<F>) {
       if constexpr (is_projected<F>())
@@ -48,17 +51,18 @@ void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> 
 
 void ForceSet::kick(const ForceBatch& b) const {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (requires { of<F>().kick(b); })
-      if (taken_[index_of<F>]) of<F>().kick(b);
+    if constexpr (requires(const F& force) { force.kick(b); })
+      if (taken_[index_of<F>]) std::get<const F&>(objects_).kick(b);
   });
 }
 
-ForceBound ForceSet::bound(const LaneBodies<float>& b, int width) const {
-  const BodyModel& p = b.model;
+ForceBound bound_of(Isa isa, const Batch& b, Field<const float> x, VectorArray& area) {
+  const BodyModel& p = *b.model;
   double stiffest = stiffness_per_mass(p, {});
   if (p.forces->pressure > 0) {
+    for (auto& component : area) component.assign(b.values(), 0);
     SurfaceShape shapes[lanes];
-    force_kernels(isa_, width).measure_surfaces(b, shapes);
+    force_kernels(isa, b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
     for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
   }
   return {stiffest, damping_bound(p) / p.particle_mass};

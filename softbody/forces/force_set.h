@@ -11,48 +11,35 @@ struct ForceBound {
   double damping = 0;    // 1/s
 };
 
-namespace detail {
-template <class... Force>
-std::tuple<Force...> objects_of(List<Force...>);
-}
-
 class ForceSet {
  public:
-  explicit ForceSet(Isa isa) : isa_(isa) {}
+  /// The objects of forces without elements; they must outlive this.
+  using Objects = std::tuple<const PenaltyContact&, const Hand&>;
+  ForceSet(Isa isa, const Objects& objects) : isa_(isa), objects_(objects) {}
 
   void set_plan(const ForceMask& taken) { taken_ = taken; }
 
-  /// Returns the object that a world has of a force.
-  template <class F>
-  F& of() {
-    return std::get<index_of<F>>(objects_);
-  }
-  template <class F>
-  const F& of() const {
-    return std::get<index_of<F>>(objects_);
-  }
-
-  /// Adds all forces on the bodies of a batch to batch.f.
+  /// Adds all forces on the bodies of a batch.
   void add(const ForceBatch& batch) const;
   /// The same without those that project() or kick() stands for.
   void add_unprojected(const ForceBatch& batch) const;
-  /// XPBD, on the displacements d in a step of batch.h that started at x0, when batch.x is x0 + d. It uses batch.f as
+  /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
   /// scratch. Forces that depend on the volume come first: what they move, the others see.
   void project(const ForceBatch& batch, Field<const float> x0, Field<float> d) const;
-  /// Changes batch.v by what some forces do in steps that are not made of forces alone.
+  /// Changes velocities by what some forces do in steps that are not made of forces alone.
   void kick(const ForceBatch& batch) const;
-
-  /// Returns the bound of the forces inside bodies. f: scratch, zero.
-  ForceBound bound(const LaneBodies<float>& bodies, int width) const;
 
  private:
   template <class Takes>
   void add_if(const ForceBatch& batch, Takes takes) const;
 
   Isa isa_;
+  Objects objects_;
   ForceMask taken_;
-  decltype(detail::objects_of(Forces{})) objects_;
 };
+
+/// Returns the bound of the forces inside the bodies of a batch, whose particles are at x. area: scratch.
+ForceBound bound_of(Isa isa, const Batch& batch, Field<const float> x, VectorArray& area);
 
 /// True if some force of a model acts on its bodies from outside.
 bool has_external_force(const BodyModel& model);

@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "softbody/forces/model_forces.h"
+
 namespace softbody {
 
 double Gas::ambient_energy(double v) const {
@@ -28,5 +30,7 @@ std::optional<Gas> GasPressure::make(const BodyModel& p, const MeshSource&) {
   const double volume = softbody::volume(p.mesh.vertices, p.mesh.triangles);
   return Gas{.amount = in * volume, .ambient = out, .rest_volume = volume};
 }
+
+const Gas* gas_of(const BodyModel& model) { return data<GasPressure>(model); }
 
 }  // namespace softbody

@@ -6,8 +6,7 @@
 #include <optional>
 
 #include "softbody/forces/coordinates.h"
-#include "softbody/forces/force.h"
-#include "softbody/model/key.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 
@@ -50,6 +49,9 @@ struct Gas {
  private:
   double linear_end() const { return 0.1 * rest_volume; }
 };
+
+/// Returns the gas of a model, or nullptr.
+const Gas* gas_of(const BodyModel& model);
 
 struct GasPressure {
   static constexpr std::string_view key = "gas-pressure";

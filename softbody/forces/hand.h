@@ -1,54 +1,39 @@
 #pragma once
-// A hand: a damped spring that pulls one point of a body's surface to a target.
+// The hand that pulls a body.
 
-#include <array>
 #include <optional>
+#include <string_view>
 
 #include "softbody/forces/force.h"
-#include "softbody/state/body.h"
+#include "softbody/forces/grab.h"
 
 namespace softbody {
 
-/// The point is p = the sum of weights * corners. The force on it is M w^2 (target - p) - 2 z M w p' with the body's
-/// mass M, w = 2 pi frequency and the damping ratio z: the body as a whole swings on the hand as a point mass would.
-struct Grab {
-  BodyId body = 0;
-  std::array<std::uint32_t, 3> corners{};  // vertices of the body, counted from its first
-  glm::dvec3 weights{1, 0, 0};             // of the corners; their sum is 1
-  glm::dvec3 target{0.0};                  // m
-  double frequency = 2.5;                  // Hz
-  double damping_ratio = 0.7;              // of the critical damping
-
-  bool operator==(const Grab&) const = default;
-};
-
-/// Returns the force (N) of a spring k and a damper c on a particle of mass m and velocity v, `stretch` (m) away from
-/// the target:
-///
-///   F = (k stretch - (c + h k) v) / (1 + h (c + h k) / m).
-///
-/// It is the impulse of an implicit Euler step of h seconds, over h, as in a soft constraint (Catto 2011). v includes
-/// what all other forces do in the step. The force acts like an additional mass of h (c + h k), so that no k and c are
-/// too stiff for any step of any integrator. If the other forces balance k * stretch, it is k * stretch.
-inline glm::dvec3 pull(double k, double c, double m, double h, const glm::dvec3& stretch, const glm::dvec3& v) {
-  const double damping = c + h * k;
-  return (k * stretch - damping * v) / (1 + h * damping / m);
-}
-
-/// The force takes into account what all others do in the step, so it stands last in the table.
-struct Hand {
+/// Pulls one body, or none. It acts last in a step, for its force depends on what all else does there: see pull().
+class Hand {
+ public:
   static constexpr std::string_view key = "grab";
   static constexpr bool internal = false;
-
   static const char* why_not(const ForceFacts& facts) { return facts.held ? nullptr : "nobody holds a body"; }
+
+  /// Takes a body in another's place; none: lets go.
+  void take(const std::optional<Grab>& grab);
+  const std::optional<Grab>& grab() const { return grab_; }
+  /// Returns whether the hand pulls this body.
+  bool holds(BodyId body) const { return grab_ && grab_->body == body; }
+  /// Follows the ids when a body is taken out of the world, and those after it move up by one.
+  void remove(BodyId body);
+
+  /// Adds its force to the forces, which must be complete but for gravity.
   void add(const ForceBatch& batch) const;
-  /// Adds what the hand does in the step to velocities that hold what all else does.
+  /// Adds its impulse to the velocities, which must hold what all else does in the step.
   void kick(const ForceBatch& batch) const;
 
-  std::optional<Grab> grab;
-
  private:
+  bool pulls(const ForceBatch& b) const { return grab_ && b.state.body(grab_->body).batch == b.batch.index; }
   glm::dvec3 force(const ForceBatch& batch, const glm::dvec3& velocity) const;
+
+  std::optional<Grab> grab_;
 };
 
 }  // namespace softbody

@@ -47,25 +47,6 @@ const typename F::Data* data(const BodyModel& model) {
   return found ? &*found : nullptr;
 }
 
-/// Returns one kind of a model's springs.
-template <class F>
-const std::vector<Spring>& springs(const BodyModel& model) {
-  static const std::vector<Spring> none;
-  const auto* found = data<F>(model);
-  return found ? found->exact : none;
-}
-
-/// Calls use(spring) for all springs of a model.
-void for_each_spring(const BodyModel& model, auto&& use) {
-  for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (std::is_base_of_v<Springs, F>)
-      for (const Spring& s : springs<F>(model)) use(s);
-  });
-}
-
-/// Returns the damping (N s/m) at one particle, for stable_step().
-inline double damping_bound(const BodyModel& model) { return model.forces->pair_damping + model.forces->path_damping; }
-
 /// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.
 std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
 

@@ -14,7 +14,6 @@
 // surfaces' normals, so that a particle that has slipped through is still pushed out; elsewhere it is the line between
 // the two. k is shared among the contacts of a particle: a wide contact layer is not stiffer.
 
-#include <array>
 #include <cmath>
 #include <cstdint>
 #include <span>
@@ -25,21 +24,26 @@
 #include "collide/core/detector.h"
 #include "softbody/forces/force.h"
 #include "softbody/forces/pair_energy.h"
-#include "softbody/model/key.h"
-#include "softbody/state/body.h"
-#include "softbody/state/lanes.h"
 
 namespace softbody {
 
+/// Contacts that a detector has found.
+struct DetectedContacts {
+  const collide::Bodies& vertices;
+  std::span<const BodyId> vertex_body;  // the body of each vertex
+  const std::vector<collide::Contact>& contacts;
+};
+
 struct PenaltyPair {
-  collide::Contact contact;    // the two vertices
-  std::size_t slot_a, slot_b;  // into the state's arrays
+  collide::Contact contact;  // the two vertices, over the whole world
   BodyId body_a, body_b;
-  glm::vec3 offset;         // origin of a minus origin of b, m
-  glm::vec3 normal;         // unit, from b to a
-  float stiffness;          // N/m
-  float friction;           // Coulomb
-  glm::vec3 stretch{0.0f};  // of the friction spring, m: how far a has slipped along b
+  Index vertex_a, vertex_b;    // of their bodies
+  std::size_t slot_a, slot_b;  // in the state's arrays
+  glm::vec3 offset;            // origin of a minus origin of b, m
+  glm::vec3 normal;            // unit, from b to a
+  float stiffness;             // N/m
+  float friction;              // Coulomb
+  glm::vec3 stretch{0.0f};     // of the friction spring, m: how far a has slipped along b
 };
 
 /// The end of a pair that falls to one batch.
@@ -51,15 +55,10 @@ struct PenaltyEnd {
 
 struct PenaltyContact {
   static constexpr std::string_view key = "contact-response";
-  static constexpr auto stiffness =
-      Key("contact_stiffness", "N/m", 100, {0, 1e9},
-          "Stiffness of vertex-vertex contact (§2.3), shared among the contacts of a vertex.",
-          {"Contact", "%.0f N/m", 1, 1000, true}, {.place = 30});
-  static constexpr std::array keys{&stiffness};
   static constexpr bool internal = false;
-
   static const char* why_not(const ForceFacts& facts) { return facts.why_no_vertex_contact; }
   static void adapt(Material& material, const MeshSource& source);
+
   /// Adds the forces that evaluate() has found.
   void add(const ForceBatch& batch) const;
 
@@ -82,12 +81,17 @@ struct PenaltyContact {
     float across_spring, across_damper;  // while it sticks
   };
   Slopes slopes(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
+  /// Takes the contacts for the coming frame, and hands the friction springs of those that were there before on to
+  /// them. thickness: of the contact layer, m. The contacts ascend.
+  void find(const DetectedContacts& detected, const State& state, float thickness);
   /// Hands the friction springs of `before` on to the same contacts of `pairs`; both ascend.
   void carry_over(std::span<const PenaltyPair> before);
-  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up. Slots are as before.
-  void remove(BodyId body, collide::Index first, collide::Index count);
-  /// Fills `ends`: batch_of(body) gives a body's batch.
-  void group(std::size_t batches, const auto& batch_of);
+  /// Finds again where the bodies' particles stand in the state's arrays, and how far apart their origins are.
+  void locate(const State& state);
+  /// Returns the ends of pairs that fall to a batch.
+  std::span<const PenaltyEnd> ends_of(const Batch& batch) const;
+  /// Forgets a body of `count` vertices from `first` on; bodies and vertices after it move up.
+  void remove(BodyId body, Index first, Index count);
 
   // What the law adds at one particle whose contacts share the stiffness k, for the stability bound.
   static float stiffness_bound(float k) { return (4.0f / 3 * approach_limit + 1) * k; }  // N/m
@@ -102,24 +106,12 @@ struct PenaltyContact {
   float predicted_damping(const PenaltyPair& pair, Field<const float> x, Field<const float> v, float seconds) const;
 
  private:
+  void add_pairs(const DetectedContacts& detected, const State& state);
+  void group(const State& state);
+
   static constexpr float sticking_damping = 0.5f;  // across n, over k h / v
   /// Of a contact as deep as can be, over k h / v: 1 along n, and Coulomb's limit, which that moves, across n.
   static float max_damping(float friction) { return std::sqrt(1 + friction * friction); }
 };
-
-void PenaltyContact::group(std::size_t batches, const auto& batch_of) {
-  first_end.assign(batches + 1, 0);
-  for (const PenaltyPair& p : pairs) {
-    ++first_end[batch_of(p.body_a) + 1];
-    ++first_end[batch_of(p.body_b) + 1];
-  }
-  for (std::size_t b = 0; b < batches; ++b) first_end[b + 1] += first_end[b];
-  std::vector<std::uint32_t> next(first_end.begin(), first_end.end() - 1);
-  ends.resize(2 * pairs.size());
-  for (std::uint32_t i = 0; i < pairs.size(); ++i) {
-    ends[next[batch_of(pairs[i].body_a)]++] = {pairs[i].slot_a, i, 1.0f};
-    ends[next[batch_of(pairs[i].body_b)]++] = {pairs[i].slot_b, i, -1.0f};
-  }
-}
 
 }  // namespace softbody

@@ -15,8 +15,7 @@
 #include <vector>
 
 #include "softbody/forces/coordinates.h"
-#include "softbody/forces/force.h"
-#include "softbody/model/key.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 

@@ -5,6 +5,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/forces/model_forces.h"
+
 namespace softbody {
 
 /// A net of equal springs has the stiffness of a sheet, however fine the net is (Young's modulus times thickness =
@@ -31,6 +33,22 @@ std::optional<Springs::Data> Springs::join(const BodyModel& p, const std::vector
 double Springs::share(const MeshSource& source) {
   constexpr double finest = 2000;  // vertices
   return source.kind == "file" ? std::min(1.0, finest / double(source.vertex_count())) : 1;
+}
+
+template <class Kind>
+const std::vector<Spring>& springs(const BodyModel& model) {
+  static const std::vector<Spring> none;
+  const auto* found = data<Kind>(model);
+  return found ? found->exact : none;
+}
+template const std::vector<Spring>& springs<StructuralSprings>(const BodyModel&);
+template const std::vector<Spring>& springs<BendSprings>(const BodyModel&);
+template const std::vector<Spring>& springs<ShearSprings>(const BodyModel&);
+
+void for_each_spring(const BodyModel& model, const std::function<void(const Spring&)>& use) {
+  for (const auto* list :
+       {&springs<StructuralSprings>(model), &springs<BendSprings>(model), &springs<ShearSprings>(model)})
+    for (const Spring& s : *list) use(s);
 }
 
 }  // namespace softbody

@@ -2,12 +2,12 @@
 // Springs: Hooke's law with a damper along the spring.
 
 #include <array>
+#include <functional>
 #include <optional>
 #include <vector>
 
 #include "softbody/forces/coordinates.h"
-#include "softbody/forces/force.h"
-#include "softbody/model/key.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
 
@@ -103,5 +103,12 @@ struct ShearSprings : Springs {
   }
   static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
+
+/// Returns the springs of one kind.
+template <class Kind>
+const std::vector<Spring>& springs(const BodyModel& model);
+
+/// Calls use(spring) for all springs of a model.
+void for_each_spring(const BodyModel& model, const std::function<void(const Spring&)>& use);
 
 }  // namespace softbody

@@ -12,7 +12,7 @@
 //   adapt(material, source)   changes the values of a material to fit a mesh
 //   Held, hold(), visit(data, held, at)   if its elements need what is found once from all particles
 //
-// Any other force is an object that each world has (ForceSet). It has
+// Any other force is an object of the solver. It has
 //   add(batch)         adds its forces on the bodies of a batch
 //   kick(batch)        changes velocities after all else has, in steps that are not made of forces alone
 //

@@ -6,7 +6,7 @@ Worker::Worker(const Crew& crew, int index) : crew_(crew), index_(index) {
   assert(index >= 0 && index < crew.active());
 }
 
-std::span<Batch* const> Worker::batches() const {
+std::span<const Batch* const> Worker::batches() const {
   const auto [begin, end] = part(crew_.moving().size());
   return std::span(crew_.moving()).subspan(begin, end - begin);
 }
@@ -17,7 +17,7 @@ void Worker::barrier() const {
   if (crew_.active() > 1) crew_.workers().barrier();
 }
 
-void Crew::take(std::vector<Batch*> moving, std::size_t particles) {
+void Crew::take(std::vector<const Batch*> moving, std::size_t particles) {
   moving_ = std::move(moving);
   active_ = particles >= min_shared_ ? workers_.threads() : 1;
 }

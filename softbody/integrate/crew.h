@@ -23,7 +23,7 @@ class Worker {
   /// Returns the number of this thread. Thread 0 is always at work.
   int index() const { return index_; }
   /// Returns the moving batches that this thread integrates. No other thread writes to them.
-  std::span<Batch* const> batches() const;
+  std::span<const Batch* const> batches() const;
   /// Returns this thread's part of `count` items, which all threads at work share.
   collide::Part part(std::size_t count) const;
   /// Waits until all threads at work have called it.
@@ -42,9 +42,9 @@ class Crew {
 
   /// Takes the batches that move in the coming frame, and how many particles they have in all. They must not be moved
   /// in memory as long as anybody asks for them.
-  void take(std::vector<Batch*> moving, std::size_t particles);
+  void take(std::vector<const Batch*> moving, std::size_t particles);
   /// Returns the batches that move in the frame at hand.
-  const std::vector<Batch*>& moving() const { return moving_; }
+  const std::vector<const Batch*>& moving() const { return moving_; }
   /// Returns how many threads are at work on them.
   int active() const { return active_; }
   /// Returns all threads that there are.
@@ -55,7 +55,7 @@ class Crew {
  private:
   collide::Workers& workers_;
   std::size_t min_shared_;
-  std::vector<Batch*> moving_;
+  std::vector<const Batch*> moving_;
   int active_ = 1;
 };
 

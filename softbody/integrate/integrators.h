@@ -1,6 +1,6 @@
 #pragma once
 // The one table of integrators. Each is a function that advances all bodies by one substep. It calls the operations of
-// Dynamics, so that all integrators share the same forces and contacts.
+// Motion, so that all integrators share the same forces and contacts.
 
 #include <optional>
 #include <span>
@@ -9,7 +9,7 @@
 
 namespace softbody {
 
-class Dynamics;
+class Motion;
 class Worker;
 
 struct Substep {
@@ -23,14 +23,14 @@ struct Integrator {
   std::string_view summary;
   int order;  // of convergence for smooth motion
   /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
-  void (*advance)(Dynamics& dynamics, const Worker& worker, const Substep& substep);
+  void (*advance)(Motion& motion, const Worker& worker, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
   /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
   double (*stable_step)(double k_m, double c_m);
   int substeps_per_step = 1;    // that the method makes of each step asked for
   int scratch = 0;              // copies of a field over all particles that it needs
   bool implicit = false;        // solves with the matrices of implicit/matrix.h
-  bool automatic = false;       // chooses another integrator for each frame, see Dynamics::choose_integrator()
+  bool automatic = false;       // chooses another integrator for each frame, see StepController::choose()
   bool by_damping = false;      // is stable only if every oscillation is damped enough
   bool staggered = false;       // its velocities belong to the middle of the last substep
   bool conserves_spin = false;  // conserves a free body's angular momentum up to rounding; all conserve the linear one

@@ -10,9 +10,6 @@ namespace softbody {
 /// Of a frame, unless the number of substeps is fixed.
 inline constexpr int max_substeps = 4000, max_implicit_steps = 1024;
 
-/// Of a body in implicit steps: the matrix grows faster than the springs.
-inline constexpr std::size_t max_implicit_particles = 1000;
-
 /// The most work of a frame in a world of 10,000 particles; it grows in proportion in larger worlds. Fixed substeps are
 /// bound by at_once only. The project's own scenes reach at most a third of `surface`.
 struct MaxWork {

@@ -35,7 +35,7 @@ void MomentumRestorer::note(const BatchView& b) {
   b.kernels.rigid_sums(b.batch.particles(), b.x, b.v, noted.sums);
 }
 
-void MomentumRestorer::restore(const glm::dvec3& fall, bool spin) const {
+void MomentumRestorer::restore(const glm::dvec3& fall, bool spin, std::span<const unsigned> pushed) const {
   for (const auto& [view, sums] : noted_) {
     const Batch& b = view.batch;
     const auto count = double(b.particles());
@@ -43,7 +43,7 @@ void MomentumRestorer::restore(const glm::dvec3& fall, bool spin) const {
     view.kernels.rigid_sums(b.particles(), view.x, view.v, now);
     RigidChange change{};
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
-      if (b.moves[l] <= 0 || (b.contacted >> l & 1u)) continue;
+      if (b.moves[l] <= 0 || (pushed[b.index] >> l & 1u)) continue;
       const RigidMotion before = rigid_motion(sums, l, count), after = rigid_motion(now, l, count);
       const glm::dvec3 push = before.velocity + fall - after.velocity;
       const glm::dvec3 turn = spin ? after.steady_spin_of(before.momentum - after.momentum) : glm::dvec3(0.0);

@@ -1,9 +1,10 @@
 #pragma once
 // Keeps the momenta of bodies in free flight from what rounding does to them.
 
+#include <span>
 #include <vector>
 
-#include "softbody/integrate/dynamics_state.h"
+#include "softbody/integrate/batch_kernels.h"
 #include "softbody/state/kernel_types.h"
 
 namespace softbody {
@@ -16,10 +17,11 @@ class MomentumRestorer {
   /// Notes the momenta that the bodies of a batch have now. The batch and its fields must stay where they are until
   /// restore() has been called, or this is gone.
   void note(const BatchView& batch);
-  /// Restores the momenta of all bodies that have been noted, that move, and whose bit in Batch::contacted is not set.
+  /// Restores the momenta of all bodies that have been noted and move, but of those that something has pushed. pushed:
+  /// of each batch of the state, a bit for each lane.
   /// The linear ones become the noted ones after a change of velocity by `fall` (m/s), which gravity makes. `spin`: the
   /// angular ones become the noted ones; else what the integrator itself does to them stays.
-  void restore(const glm::dvec3& fall, bool spin) const;
+  void restore(const glm::dvec3& fall, bool spin, std::span<const unsigned> pushed) const;
 
  private:
   struct Noted {

@@ -5,6 +5,7 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/forces/model_forces.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
@@ -102,43 +103,44 @@ struct Row {
   Why why_not;
 };
 
-constexpr Row other_stages[] = {
-    {Stage::arrive, "arrive", arrivals},
-    {Stage::surface_contact, "surface-contact", surface_contacts},
-    {Stage::gravity, "gravity", gravity},
-    {Stage::integrate, "integrate", needed},
-    {Stage::restitution, "restitution", restitution},
-    {Stage::solid_spheres, "solid-spheres", spheres},
-    {Stage::ground, "ground", ground},
-    {Stage::solid_planes, "solid-planes", planes},
-    {Stage::solid_boxes, "solid-boxes", boxes},
-    {Stage::solid_capsules, "solid-capsules", capsules},
-    {Stage::solid_features, "solid-features", solid_features},
-    {Stage::internal_damping, "internal-damping", damping},
-    {Stage::rebound_damping, "rebound-damping", rebound},
-    {Stage::rolling_resistance, "rolling-resistance", rolling},
-    {Stage::detect, "detect", contacts},
-    {Stage::sleep, "sleep", sleep},
+constexpr std::array before_forces{
+    Row{Stage::arrive, "arrive", arrivals},
+    Row{Stage::surface_contact, "surface-contact", surface_contacts},
 };
 
+constexpr std::array after_forces{
+    Row{Stage::gravity, "gravity", gravity},
+    Row{Stage::integrate, "integrate", needed},
+    Row{Stage::restitution, "restitution", restitution},
+    Row{Stage::solid_spheres, "solid-spheres", spheres},
+    Row{Stage::ground, "ground", ground},
+    Row{Stage::solid_planes, "solid-planes", planes},
+    Row{Stage::solid_boxes, "solid-boxes", boxes},
+    Row{Stage::solid_capsules, "solid-capsules", capsules},
+    Row{Stage::solid_features, "solid-features", solid_features},
+    Row{Stage::internal_damping, "internal-damping", damping},
+    Row{Stage::rebound_damping, "rebound-damping", rebound},
+    Row{Stage::rolling_resistance, "rolling-resistance", rolling},
+    Row{Stage::detect, "detect", contacts},
+    Row{Stage::sleep, "sleep", sleep},
+};
+
+/// In the order in which a step runs them.
 constexpr auto all_stages = [] {
-  std::array<Row, std::size_t(Stage::count)> rows{};
-  for (const Row& row : other_stages) rows[std::size_t(row.stage)] = row;
-  for_each_force(Forces{}, [&]<class F>(Name<F>) { rows[std::size_t(stage_of<F>)] = {stage_of<F>, F::key, force<F>}; });
+  std::array<Row, before_forces.size() + force_count + after_forces.size()> rows{};
+  auto next = std::ranges::copy(before_forces, rows.begin()).out;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) { *next++ = {stage_of<F>, F::key, force<F>}; });
+  std::ranges::copy(after_forces, next);
   return rows;
 }();
 
 }  // namespace
 
-std::string_view stage_key(Stage stage) { return all_stages[std::size_t(stage)].key; }
+std::string_view stage_key(Stage stage) { return std::ranges::find(all_stages, stage, &Row::stage)->key; }
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
 
-ForceMask Plan::forces() const {
-  ForceMask mask;
-  for_each_force(Forces{}, [&]<class F>(Name<F>) { mask[index_of<F>] = has(stage_of<F>); });
-  return mask;
-}
+bool Plan::has(std::string_view key) const { return std::ranges::find(stages, key, stage_key) != stages.end(); }
 
 Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyModel>>& models,
                const AddedBodies& added_bodies) {

@@ -2,26 +2,22 @@
 // A plan lists the stages of a step that a scene needs, and says why the others are left out. It is made when the scene
 // is loaded or changes. A stage that is left out costs no call.
 
-#include <bitset>
 #include <cstddef>
 #include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "softbody/forces/table.h"
-
 namespace softbody {
 
+struct BodyModel;
 struct Scene;
 
-/// In the order in which a step runs them. The forces of the table stand between surface_contact and gravity: see
-/// stage_of.
+/// A stage of a step. That of a force of the table (forces/table.h) is first_force plus its place there: see stage_of.
 enum class Stage {
   arrive,
   surface_contact,
-  first_force,
-  gravity = first_force + int(force_count),
+  gravity,
   integrate,
   restitution,
   solid_spheres,
@@ -35,12 +31,8 @@ enum class Stage {
   rolling_resistance,
   detect,
   sleep,
-  count
+  first_force
 };
-
-/// The stage of a force.
-template <class F>
-inline constexpr Stage stage_of = Stage(int(Stage::first_force) + int(index_of<F>));
 
 /// Returns the stage's key in the plan of `simulate --json`, e.g. "bend-springs".
 std::string_view stage_key(Stage stage);
@@ -51,10 +43,10 @@ struct LeftOut {
 };
 
 struct Plan {
-  std::vector<Stage> stages;      // in order
+  std::vector<Stage> stages;      // in the order in which a step runs them
   std::vector<LeftOut> left_out;  // in order
   bool has(Stage stage) const;
-  ForceMask forces() const;
+  bool has(std::string_view key) const;
 };
 
 /// What a world has besides its scene's own bodies.

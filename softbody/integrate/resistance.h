@@ -1,18 +1,13 @@
 #pragma once
 // What resists a body's motion as a whole, once a frame.
 
+#include "softbody/contact/solid_contact.h"
 #include "softbody/model/body_model.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
 
 struct Plan;
-
-/// What solids did to a body in a frame.
-struct SolidPush {
-  glm::dvec3 impulse{0.0};  // N s, along their normals
-  double returned = 0;      // N s, the part of its length that restitution gives back
-};
 
 /// The resistances are found from a body's rigid part v + w x r:
 /// internal damping relaxes the particles' velocities towards it, at the material's rate, and changes neither linear

@@ -2,8 +2,8 @@
 
 #include <mutex>
 
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/model_forces.h"
-#include "softbody/integrate/equilibrium.h"
 
 namespace softbody {
 namespace {

@@ -117,9 +117,9 @@ std::vector<BodyMeasures> measure_bodies(const World& world, double substep) {
   return list;
 }
 
-std::vector<SolidContact> solid_contacts(const World& world) {
+std::vector<SolidContactPoint> solid_contacts(const World& world) {
   constexpr double rounding = 1e-4;  // m: where a particle rests on a solid it keeps its thickness only up to rounding
-  std::vector<SolidContact> contacts;
+  std::vector<SolidContactPoint> contacts;
   const collide::Frame p = world.positions();
   for (BodyId body = 0; body < p.bodies->count(); ++body) {
     const double distance = world.model(body).material[Material::thickness] + rounding;

@@ -63,11 +63,11 @@ struct SolidDepth {
 /// Returns the largest depth of a point in one of the scene's solids; -infinity if the scene has none.
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point);
 
-struct SolidContact {
+struct SolidContactPoint {
   Index vertex;      // over the whole world
   glm::vec3 normal;  // out of the solid
 };
 /// Returns the vertices that touch solids.
-std::vector<SolidContact> solid_contacts(const World& world);
+std::vector<SolidContactPoint> solid_contacts(const World& world);
 
 }  // namespace softbody

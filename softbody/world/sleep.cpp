@@ -5,19 +5,18 @@
 
 namespace softbody {
 
-void Sleep::wake_touched(Dynamics& dynamics, std::span<const BodyId> vertex_body,
+void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
                          const std::vector<collide::Contact>& contacts) const {
   const auto wakes = [&](BodyId by, BodyId sleeper) {
-    return dynamics.body(sleeper).asleep && dynamics.body(by).moves() &&
-           dynamics.max_particle_speed(by) > 2 * rule_.speed;
+    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule_.speed;
   };
   BodyId last_a = std::numeric_limits<BodyId>::max(), last_b = last_a;
   for (const collide::Contact& c : contacts) {
     const BodyId a = vertex_body[c.a], b = vertex_body[c.b];
     if (a == b || (a == last_a && b == last_b)) continue;
     last_a = a, last_b = b;
-    if (wakes(a, b)) dynamics.set_asleep(b, false);
-    if (wakes(b, a)) dynamics.set_asleep(a, false);
+    if (wakes(a, b)) state.set_asleep(b, false);
+    if (wakes(b, a)) state.set_asleep(a, false);
   }
 }
 
@@ -26,24 +25,25 @@ BodyId Sleep::root(BodyId body) {
   return body;
 }
 
-void Sleep::settle(Dynamics& dynamics, std::span<const BodyId> vertex_body,
-                   const std::vector<collide::Contact>& contacts) {
-  const auto count = static_cast<BodyId>(dynamics.body_count());
+void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
+                   const std::vector<collide::surface::ItemPair>& interactions) {
+  const auto count = static_cast<BodyId>(state.body_count());
   parent_.resize(count);
   for (BodyId b = 0; b < count; ++b) parent_[b] = b;
   const auto join = [&](BodyId a, BodyId b) {
-    if (a != b && dynamics.body(a).moves() && dynamics.body(b).moves()) parent_[root(a)] = root(b);
+    if (a != b && state.body(a).moves() && state.body(b).moves()) parent_[root(a)] = root(b);
   };
   for (const collide::Contact& c : contacts) join(vertex_body[c.a], vertex_body[c.b]);
-  for (const collide::surface::ItemPair& pair : dynamics.surface_contact().interactions()) join(pair.a, pair.b);
+  for (const collide::surface::ItemPair& pair : interactions) join(pair.a, pair.b);
   std::vector<int> calm(count, std::numeric_limits<int>::max());  // of each island: the calm frames of its latest body
   for (BodyId b = 0; b < count; ++b) {
-    if (!dynamics.body(b).moves()) continue;
-    dynamics.set_calm_frames(b, dynamics.max_particle_speed(b) < rule_.speed ? dynamics.body(b).calm_frames + 1 : 0);
-    calm[root(b)] = std::min(calm[root(b)], dynamics.body(b).calm_frames);
+    if (!state.body(b).moves()) continue;
+    int& frames = state.memory(b).calm_frames;
+    frames = state.max_particle_speed(b) < rule_.speed ? frames + 1 : 0;
+    calm[root(b)] = std::min(calm[root(b)], frames);
   }
   for (BodyId b = 0; b < count; ++b)
-    if (dynamics.body(b).moves() && calm[root(b)] >= rule_.frames) dynamics.set_asleep(b, true);
+    if (state.body(b).moves() && calm[root(b)] >= rule_.frames) state.set_asleep(b, true);
 }
 
 }  // namespace softbody

@@ -1,7 +1,10 @@
 #pragma once
 // Puts bodies at rest to sleep. Islands of touching bodies fall asleep together, so that no sleeper loses its support.
 
-#include "softbody/integrate/dynamics.h"
+#include "collide/methods.h"
+#include "softbody/contact/surface_contact.h"
+#include "softbody/scene/scene.h"
+#include "softbody/state/state.h"
 
 namespace softbody {
 
@@ -10,11 +13,12 @@ class Sleep {
   explicit Sleep(SleepRule rule) : rule_(rule) {}
 
   /// Wakes sleepers that are touched by a body faster than twice the rule's speed. Call it before the frame's substeps.
-  void wake_touched(Dynamics& dynamics, std::span<const BodyId> vertex_body,
+  void wake_touched(State& state, std::span<const BodyId> vertex_body,
                     const std::vector<collide::Contact>& contacts) const;
   /// Counts calm frames, and puts islands to sleep whose bodies have all been calm for long enough. Bodies touch if
-  /// they have one of these contacts or, with surface contact, if their surfaces may interact. Call it after detection.
-  void settle(Dynamics& dynamics, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts);
+  /// they have one of these contacts or, with surface contact, are a pair of `interactions`. Call it after detection.
+  void settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
+              const std::vector<collide::surface::ItemPair>& interactions);
 
  private:
   BodyId root(BodyId body);

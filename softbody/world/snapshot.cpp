@@ -2,23 +2,23 @@
 
 #include <cassert>
 
-#include "softbody/world/world_state.h"
+#include "softbody/world/world_parts.h"
 
 namespace softbody {
 
 std::size_t Snapshot::bytes() const {
   const Values& all = *values;
   return sizeof(*this) + sizeof(all) + bytes_of(all.scene.bodies) + bytes_of(all.arrived) + bytes_of(all.added) +
-         all.dynamics.bytes();
+         all.solver.bytes();
 }
 
 Snapshot World::snapshot() const {
-  const State& s = *state_;
+  const Parts& s = *parts_;
   return {.frame = s.frame,
           .grab = grabbed(),
           .values = std::make_shared<const Snapshot::Values>(Snapshot::Values{.scene = s.scene,
                                                                               .models = s.models,
-                                                                              .dynamics = s.dynamics.save(),
+                                                                              .solver = s.solver.save(),
                                                                               .arrived = s.arrived,
                                                                               .added_bodies = s.added_bodies,
                                                                               .added = s.added,
@@ -33,7 +33,7 @@ Snapshot World::snapshot() const {
 
 void World::restore(const Snapshot& snapshot) {
   assert(snapshot.values);
-  State& s = *state_;
+  Parts& s = *parts_;
   const Snapshot::Values& from = *snapshot.values;
   s.scene = from.scene;
   s.models = from.models;
@@ -44,8 +44,8 @@ void World::restore(const Snapshot& snapshot) {
   s.report = from.report;
   s.update_plan();
   s.set_integrator();  // without a check: the state may be one that a new scene would be refused for
-  s.dynamics.restore(from.dynamics);
-  s.dynamics.grab(snapshot.grab);
+  s.solver.restore(from.solver);
+  s.solver.hand().take(snapshot.grab);
   s.arrived = from.arrived;
   s.drops = from.drops;
   s.drop_direction = from.drop_direction;
@@ -59,12 +59,12 @@ void World::restore(const Snapshot& snapshot) {
   s.detect();
 }
 
-/// Counts bodies and their vertices anew from `dynamics`.
-void World::State::count_vertices() {
+/// Counts bodies and their vertices anew from the solver's state.
+void World::Parts::count_vertices() {
   bodies = {};
   vertex_body.clear();
-  for (BodyId id = 0; id < dynamics.body_count(); ++id) {
-    bodies.add(dynamics.model(id).shape);
+  for (BodyId id = 0; id < solver.state().body_count(); ++id) {
+    bodies.add(solver.state().model(id).shape);
     vertex_body.resize(bodies.vertex_count(), id);
   }
 }

@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "softbody/forces/hand.h"
+#include "softbody/forces/grab.h"
 
 namespace softbody {
 

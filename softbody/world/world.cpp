@@ -6,10 +6,9 @@
 #include <utility>
 
 #include "softbody/contact/keys.h"
-#include "softbody/contact/law.h"
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/world_state.h"
+#include "softbody/world/world_parts.h"
 
 namespace softbody {
 namespace {
@@ -33,22 +32,22 @@ glm::vec3 rest_cell_size(const BodyModelSet& models, const collide::Settings& se
 
 }  // namespace
 
-World::State::State(Scene s, const Options& o)
+World::Parts::Parts(Scene s, const Options& o)
     : scene(std::move(s)),
       options(o),
       workers(o.threads),
       models(scene),
       plan(make_plan(scene, models.all())),
-      dynamics(scene, Crew(workers, o.min_shared_particles), o.isa),
+      solver(scene, Crew(workers, o.min_shared_particles), o.isa),
       sleep(scene.sleep),
       arrived(scene.bodies.size(), false),
       method(collide::find_method(scene.method)),
       detector(method->make()),
       settings(scene.collision),
       penalty_thickness(settings.tolerance) {
-  dynamics.set_max_work(options.max_work);
-  dynamics.set_vertices(bodies);
-  dynamics.set_plan(plan);
+  solver.steps().set_max_work(options.max_work);
+  solver.set_vertices(bodies);
+  solver.set_plan(plan);
   check_stability(models, plan);
   set_integrator();
   if (scene.default_cell_size) settings.cell_size = rest_cell_size(models, settings);
@@ -58,40 +57,34 @@ World::State::State(Scene s, const Options& o)
 }
 
 /// Returns the substeps that one frame needs for a contact layer of `thickness` (m).
-double World::State::needed_substeps(const BodyModel& p, float thickness) const {
+double World::Parts::needed_substeps(const BodyModel& p, float thickness) const {
   double max_friction = 0;
   for (const Material& m : scene.materials) max_friction = std::max(max_friction, m[contact::friction]);
-  const auto contact = float(p.material[PenaltyContact::stiffness]);
-  const auto friction = float(law::common_friction(p.material[contact::friction], max_friction));
-  const double k =
-      stiffness_per_mass(p, measure_surface(p, p.start)) + PenaltyContact::stiffness_bound(contact) / p.particle_mass;
-  const double own = damping_bound(p), all = own + PenaltyContact::damping_bound(contact, friction, thickness);
-  const auto stable_step = options.integrator.integrator().stable_step;
-  return options.frame_time / std::min(stable_step(k, own / p.particle_mass), stable_step(k, all / p.particle_mass));
+  return substeps_at_start(p, options.integrator.integrator(), options.frame_time, thickness, max_friction);
 }
 
 /// True if the integrator may choose implicit steps, so that no material is too stiff.
-bool World::State::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
+bool World::Parts::implicit_in_reserve(const BodyModelSet& all, const Plan& with) const {
   return options.integrator.integrator().automatic && !with.has(Stage::surface_contact) &&
          std::all_of(all.all().begin(), all.all().end(),
                      [](const auto& one) { return one->mesh.vertices.size() <= max_implicit_particles; });
 }
 
 /// Sets the integrator of the options, without a check of stability.
-void World::State::set_integrator() {
+void World::Parts::set_integrator() {
   report.integrator = &options.integrator.integrator();
   report.why = {};
-  dynamics.set_integrator(*report.integrator);
-  dynamics.set_fixed_substeps(options.integrator.substeps);
+  solver.steps().set_integrator(*report.integrator);
+  solver.steps().set_fixed_steps(options.integrator.substeps);
 }
 
 /// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
-void World::State::check_stability(const BodyModelSet& all, const Plan& with) const {
+void World::Parts::check_stability(const BodyModelSet& all, const Plan& with) const {
   const bool reserve = implicit_in_reserve(all, with), contacts = with.has(stage_of<PenaltyContact>);
   for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
 }
 
-void World::State::check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const {
+void World::Parts::check_stability(const BodyModel& p, bool implicit_in_reserve, bool contacts) const {
   const auto particles = p.mesh.vertices.size();
   if (options.integrator.integrator().implicit && particles > max_implicit_particles)
     throw SceneError("scene '" + scene.key + "': a body of " + std::to_string(particles) +
@@ -113,33 +106,37 @@ void World::State::check_stability(const BodyModel& p, bool implicit_in_reserve,
   throw SceneError(text.str());
 }
 
-BodyId World::State::add(const BodySource& source, const glm::dvec3& position) {
+BodyId World::Parts::add(const BodySource& source, const glm::dvec3& position) {
   const auto& model = models.of(source);
-  const BodyId id = dynamics.add(model, position, source.velocity);
+  const BodyId id = solver.state().add(model, position, source.velocity);
   bodies.add(model->shape);
   vertex_body.resize(bodies.vertex_count(), id);
   return id;
 }
 
-void World::State::arrive() {
+void World::Parts::arrive() {
   for (std::size_t i = 0; i < scene.bodies.size(); ++i) {
     const BodySource& source = scene.bodies[i];
     if (arrived[i] || source.appear > frame) continue;
     arrived[i] = true;
     add(source, source.position);
-    if (source.release > frame) dynamics.pin_body(bodies.count() - 1, true, source.release);
+    if (source.release <= frame) continue;
+    solver.state().set_pinned(bodies.count() - 1, true);
+    solver.state().memory(bodies.count() - 1).release = source.release;
   }
-  for (BodyId b = 0; b < bodies.count(); ++b)
-    if (dynamics.body(b).pinned && dynamics.body(b).release <= frame) dynamics.pin_body(b, false, 0);
+  for (BodyId b = 0; b < bodies.count(); ++b) {
+    const Body& body = solver.state().body(b);
+    if (body.pinned && body.memory.release <= frame) solver.state().set_pinned(b, false);
+  }
 }
 
-void World::State::update_positions() {
+void World::Parts::update_positions() {
   const std::size_t n = bodies.vertex_count();
   positions.x.resize(n), positions.y.resize(n), positions.z.resize(n);
-  dynamics.world_positions(positions.x, positions.y, positions.z);
+  solver.state().world_positions(positions.x, positions.y, positions.z);
 }
 
-void World::State::detect() {
+void World::Parts::detect() {
   const auto start = Clock::now();
   if (plan.has(Stage::detect))
     detector->detect(positions.frame(bodies), settings, workers, result);
@@ -148,26 +145,26 @@ void World::State::detect() {
   report.detect_ms = ms_since(start);
 }
 
-void World::State::wake_all() {
+void World::Parts::wake_all() {
   for (BodyId b = 0; b < bodies.count(); ++b)
-    if (dynamics.body(b).asleep) dynamics.set_asleep(b, false);
+    if (solver.state().body(b).asleep) solver.state().set_asleep(b, false);
 }
 
-World::World(Scene scene, const Options& options) : state_(new State(std::move(scene), options)) {}
-void World::DeleteState::operator()(State* state) const { delete state; }
+World::World(Scene scene, const Options& options) : parts_(new Parts(std::move(scene), options)) {}
+void World::DeleteParts::operator()(Parts* parts) const { delete parts; }
 
 void World::step(const std::function<void()>& after_substep) {
-  State& s = *state_;
+  Parts& s = *parts_;
   const auto start = Clock::now();
   if (s.plan.has(Stage::arrive)) s.arrive();
-  if (const auto& grab = grabbed()) s.dynamics.set_asleep(grab->body, false);  // a grabbed body stays awake
+  if (const auto& grab = grabbed()) s.solver.state().set_asleep(grab->body, false);  // a grabbed body stays awake
   ++s.frame;
-  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.dynamics, s.vertex_body, s.result.contacts);
+  if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), s.vertex_body, s.result.contacts);
   const float thickness = s.penalty_thickness;
   if (s.plan.has(stage_of<PenaltyContact>)) {
     s.penalty_thickness =
         std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.options.frame_time));  // 5 cm/s
-    s.dynamics.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
+    s.solver.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   }
   double looking_ms = 0;
   const auto look = [&] {
@@ -176,15 +173,15 @@ void World::step(const std::function<void()>& after_substep) {
     after_substep();
     looking_ms += ms_since(from);
   };
-  const FrameResult done = s.dynamics.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
-  s.dynamics.finish_frame(done.seconds);
+  const FrameResult done = s.solver.advance(s.options.frame_time, after_substep ? look : std::function<void()>());
+  s.solver.finish_frame(done.seconds);
   s.report.time += done.seconds;
   s.report.seconds = done.seconds;
   s.report.substeps = done.substeps;
-  s.report.last_substep = s.dynamics.last_substep();
-  s.report.integrator = &s.dynamics.used_integrator();
-  s.report.why = s.dynamics.why_integrator();
-  s.report.adds_energy = s.dynamics.surface_contact().adds_energy();
+  s.report.last_substep = s.solver.last_substep();
+  s.report.integrator = &s.solver.steps().integrator();
+  s.report.why = s.solver.steps().why();
+  s.report.adds_energy = s.solver.surface_contact().adds_energy();
   const bool whole = done.seconds == s.options.frame_time;
   if (!whole)
     s.penalty_thickness =
@@ -194,28 +191,29 @@ void World::step(const std::function<void()>& after_substep) {
   s.detect();
   const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
-  if (s.plan.has(Stage::sleep) && whole && !penalty_grows) s.sleep.settle(s.dynamics, s.vertex_body, s.result.contacts);
+  if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
+    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts, s.solver.surface_contact().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 
 void World::set_particles(BodyId body, std::span<const Particle> particles) {
-  State& s = *state_;
+  Parts& s = *parts_;
   assert(particles.size() == s.bodies.size(body));
-  s.dynamics.set_particles(body, particles);
+  s.solver.state().set_particles(body, particles);
   s.wake_all();
   s.update_positions();
   s.detect();
 }
 
-const Scene& World::scene() const { return state_->scene; }
-int World::frame() const { return state_->frame; }
-double World::frame_time() const { return state_->options.frame_time; }
-const Plan& World::plan() const { return state_->plan; }
-const collide::Settings& World::collision() const { return state_->settings; }
-const collide::Method& World::method() const { return *state_->method; }
+const Scene& World::scene() const { return parts_->scene; }
+int World::frame() const { return parts_->frame; }
+double World::frame_time() const { return parts_->options.frame_time; }
+const Plan& World::plan() const { return parts_->plan; }
+const collide::Settings& World::collision() const { return parts_->settings; }
+const collide::Method& World::method() const { return *parts_->method; }
 
 void World::set_method(std::string_view key) {
-  State& s = *state_;
+  Parts& s = *parts_;
   const collide::Method* found = collide::find_method(key);
   assert(found);
   s.method = found;
@@ -225,7 +223,7 @@ void World::set_method(std::string_view key) {
 }
 
 void World::set_integrator(const IntegratorChoice& choice) {
-  State& s = *state_;
+  Parts& s = *parts_;
   const IntegratorChoice before = s.options.integrator;
   s.options.integrator = choice;
   try {
@@ -238,10 +236,10 @@ void World::set_integrator(const IntegratorChoice& choice) {
   s.wake_all();
 }
 
-const IntegratorChoice& World::integrator_choice() const { return state_->options.integrator; }
+const IntegratorChoice& World::integrator_choice() const { return parts_->options.integrator; }
 
 void World::set_collision(const collide::Settings& settings, bool default_cell_size) {
-  State& s = *state_;
+  Parts& s = *parts_;
   assert(collide::problem(settings).empty());
   s.settings = s.scene.collision = settings;
   s.scene.default_cell_size = default_cell_size;
@@ -252,7 +250,7 @@ void World::set_collision(const collide::Settings& settings, bool default_cell_s
 }
 
 void World::set_contact_surface(ContactSurface surface) {
-  State& s = *state_;
+  Parts& s = *parts_;
   const ContactSurface before = std::exchange(s.scene.contact_surface, surface);
   s.update_plan();
   try {  // for surfaces there are no implicit steps in reserve
@@ -268,40 +266,39 @@ void World::set_contact_surface(ContactSurface surface) {
   s.wake_all();
 }
 
-const collide::Bodies& World::bodies() const { return state_->bodies; }
-collide::Frame World::positions() const { return state_->positions.frame(state_->bodies); }
-const BodyModel& World::model(BodyId body) const { return state_->dynamics.model(body); }
-Particle World::particle(BodyId body, Index vertex) const { return state_->dynamics.particle(body, vertex); }
-const collide::Result& World::detection() const { return state_->result; }
-const collide::Detector& World::detector() const { return *state_->detector; }
-std::span<const BodyId> World::vertex_body() const { return state_->vertex_body; }
-int World::needed_substeps() const { return state_->dynamics.needed_substeps(state_->options.frame_time); }
-std::uint64_t World::state_hash() const { return state_->dynamics.hash(); }
-const StepReport& World::last_step() const { return state_->report; }
+const collide::Bodies& World::bodies() const { return parts_->bodies; }
+collide::Frame World::positions() const { return parts_->positions.frame(parts_->bodies); }
+const BodyModel& World::model(BodyId body) const { return parts_->solver.state().model(body); }
+Particle World::particle(BodyId body, Index vertex) const { return parts_->solver.state().particle(body, vertex); }
+const collide::Result& World::detection() const { return parts_->result; }
+const collide::Detector& World::detector() const { return *parts_->detector; }
+std::span<const BodyId> World::vertex_body() const { return parts_->vertex_body; }
+int World::needed_substeps() const { return parts_->solver.needed_substeps(parts_->options.frame_time); }
+std::uint64_t World::state_hash() const { return parts_->solver.state().hash(); }
+const StepReport& World::last_step() const { return parts_->report; }
 
 BodyState World::body(BodyId body) const {
-  const Dynamics& dynamics = state_->dynamics;
-  const Body& b = dynamics.body(body);
-  return {b.number, b.origin, b.pinned, b.asleep, dynamics.solid_impulse(body)};
+  const Body& b = parts_->solver.state().body(body);
+  return {b.number, b.origin, b.pinned, b.asleep, parts_->solver.solid_contact().push(body).impulse};
 }
 
 PairEnergies World::pair_energies() const {
-  const State& s = *state_;
-  PairEnergies energies{.last = s.dynamics.penalty_energies(), .next = {}};
+  const Parts& s = *parts_;
+  PairEnergies energies{.last = s.solver.penalty_energies(), .next = {}};
   if (s.plan.has(stage_of<PenaltyContact>))
-    energies.next = s.dynamics.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
+    energies.next = s.solver.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   return energies;
 }
 
 std::vector<SurfaceContactPoint> World::surface_contacts() const {
-  return state_->dynamics.surface_contact().contact_points(state_->bodies);
+  return parts_->solver.surface_contact().contact_points(parts_->bodies);
 }
 
 bool World::all_at_rest() const {
-  const State& s = *state_;
+  const Parts& s = *parts_;
   if (std::find(s.arrived.begin(), s.arrived.end(), char(false)) != s.arrived.end()) return false;
   for (BodyId b = 0; b < s.bodies.count(); ++b)
-    if (!s.dynamics.body(b).asleep) return false;
+    if (!s.solver.state().body(b).asleep) return false;
   return true;
 }
 

@@ -12,7 +12,7 @@
 
 #include "collide/methods.h"
 #include "softbody/contact/contacts.h"
-#include "softbody/forces/hand.h"
+#include "softbody/forces/grab.h"
 #include "softbody/forces/pair_energy.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/max_work.h"
@@ -134,11 +134,11 @@ class World {
 
  private:
   friend struct WorldTestAccess;  // for tests of the solver
-  struct State;
-  struct DeleteState {
-    void operator()(State* state) const;
+  struct Parts;
+  struct DeleteParts {
+    void operator()(Parts* parts) const;
   };
-  std::unique_ptr<State, DeleteState> state_;
+  std::unique_ptr<Parts, DeleteParts> parts_;
 };
 
 /// Returns the scene's bodies and the added ones. A world of a scene with these bodies moves the same way, to the bit,

@@ -11,17 +11,17 @@
 
 #include "softbody/mesh/limits.h"
 #include "softbody/world/measures.h"
-#include "softbody/world/world_state.h"
+#include "softbody/world/world_parts.h"
 
 namespace softbody {
 
-void World::State::update_plan() {
+void World::Parts::update_plan() {
   plan = make_plan(scene, models.all(), added_bodies);
-  dynamics.set_plan(plan);
+  solver.set_plan(plan);
 }
 
 /// Throws SceneError if `number` more bodies would exceed max_particles.
-void World::State::check_capacity(const BodyModel& p, std::size_t number) const {
+void World::Parts::check_capacity(const BodyModel& p, std::size_t number) const {
   const std::uint64_t particles = bodies.vertex_count() + std::uint64_t{number} * p.mesh.vertices.size();
   if (particles <= max_particles) return;
   throw SceneError("scene '" + scene.key + "': there is no room for " + std::to_string(number) +
@@ -31,13 +31,13 @@ void World::State::check_capacity(const BodyModel& p, std::size_t number) const 
 
 /// Throws SceneError if a material would be too stiff with `number` more bodies. One body alone has no contacts; with
 /// two, the plan may get surface contact, and then `auto` cannot choose implicit steps for a stiff body.
-void World::State::check_stability_with(const BodyModelSet& all, std::size_t number) const {
+void World::Parts::check_stability_with(const BodyModelSet& all, std::size_t number) const {
   AddedBodies more = added_bodies;
   more.bodies += number;
   check_stability(all, make_plan(scene, all.all(), more));
 }
 
-void World::State::bodies_added(std::size_t number) {
+void World::Parts::bodies_added(std::size_t number) {
   added_bodies.bodies += number;
   update_plan();
   update_positions();
@@ -45,7 +45,7 @@ void World::State::bodies_added(std::size_t number) {
 }
 
 /// Returns the height at which a body dropped at `position` touches no other body.
-double World::State::clear_height(const BodyModel& p, const glm::dvec3& position) const {
+double World::Parts::clear_height(const BodyModel& p, const glm::dvec3& position) const {
   double height = position.y;
   const double clear = 1.3 * p.radius + settings.tolerance;
   for (Index i = 0; i < bodies.vertex_count(); ++i)
@@ -54,7 +54,7 @@ double World::State::clear_height(const BodyModel& p, const glm::dvec3& position
   return height;
 }
 
-void World::State::drop(const Dropper& dropper) {
+void World::Parts::drop(const Dropper& dropper) {
   // Each drop turns by the golden angle, so that no two fall alike.
   const double distance = dropper.spread * std::sqrt((drops++ % 16 + 0.5) / 16);
   const auto [c, n] = drop_direction;
@@ -66,7 +66,7 @@ void World::State::drop(const Dropper& dropper) {
   update_positions();
 }
 
-BodyId World::State::spawn(BodySource source) {
+BodyId World::Parts::spawn(BodySource source) {
   source.appear = frame;
   source.release = frame;
   const BodyId id = add(source, source.position);
@@ -74,10 +74,10 @@ BodyId World::State::spawn(BodySource source) {
   return id;
 }
 
-Dropper World::State::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
+Dropper World::Parts::dropper() const { return scene.dropper ? *scene.dropper : Dropper{.body = scene.bodies.front()}; }
 
 /// True if a new body at `position` would be outside all solids and no vertex of another body in its bounding box.
-bool World::State::is_clear(const BodyModel& p, const glm::dvec3& position) const {
+bool World::Parts::is_clear(const BodyModel& p, const glm::dvec3& position) const {
   glm::dvec3 lo = p.start.front(), hi = lo;
   for (const glm::dvec3& v : p.start) {
     if (solid_depth(scene, position + v).depth > -p.material[Material::thickness]) return false;
@@ -92,7 +92,7 @@ bool World::State::is_clear(const BodyModel& p, const glm::dvec3& position) cons
 }
 
 std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3& velocity) {
-  State& s = *state_;
+  Parts& s = *parts_;
   BodySource source = s.dropper().body;
   const BodyModel& p = *s.models.of(source);
   const double pace = std::min(p.radius, 0.5);  // m
@@ -108,7 +108,7 @@ std::optional<BodyId> World::throw_body(const glm::dvec3& from, const glm::dvec3
   return std::nullopt;
 }
 
-const std::vector<AddedBody>& World::added() const { return state_->added; }
+const std::vector<AddedBody>& World::added() const { return parts_->added; }
 
 std::vector<BodySource> body_sources(const World& world) {
   const std::vector<AddedBody>& added = world.added();
@@ -126,7 +126,7 @@ std::vector<BodySource> body_sources(const World& world) {
 }
 
 BodyId World::drop(int count) {
-  State& s = *state_;
+  Parts& s = *parts_;
   s.check_stability_with(s.models, std::size_t(count));
   Dropper dropper = s.dropper();
   s.check_capacity(*s.models.of(dropper.body), std::size_t(count));
@@ -138,7 +138,7 @@ BodyId World::drop(int count) {
 }
 
 BodyId World::add(const BodySource& source) {
-  State& s = *state_;
+  Parts& s = *parts_;
   BodyModelSet more = s.models;
   s.check_capacity(*more.add(source, s.scene.materials), 1);
   s.check_stability_with(more, 1);
@@ -149,7 +149,7 @@ BodyId World::add(const BodySource& source) {
 }
 
 /// Wakes the bodies near this one: they may rest on it, even if the detector reports no contact.
-void World::State::wake_near(BodyId body) {
+void World::Parts::wake_near(BodyId body) {
   const auto box = [&](BodyId b) {
     const Index first = bodies.first[b];
     glm::vec3 lo(positions.x[first], positions.y[first], positions.z[first]), hi = lo;
@@ -159,24 +159,24 @@ void World::State::wake_near(BodyId body) {
     }
     return std::pair(lo, hi);
   };
-  const float wake_distance = std::max(settings.tolerance, 0.25f * float(dynamics.model(body).mean_edge));
+  const float wake_distance = std::max(settings.tolerance, 0.25f * float(solver.state().model(body).mean_edge));
   const auto [lo, hi] = box(body);
   for (BodyId b = 0; b < bodies.count(); ++b) {
-    if (!dynamics.body(b).asleep) continue;
+    if (!solver.state().body(b).asleep) continue;
     const auto [low, high] = box(b);
     if (glm::all(glm::lessThan(low, hi + wake_distance)) && glm::all(glm::lessThan(lo, high + wake_distance)))
-      dynamics.set_asleep(b, false);
+      solver.state().set_asleep(b, false);
   }
 }
 
 void World::remove(BodyId body) {
-  State& s = *state_;
+  Parts& s = *parts_;
   s.wake_near(body);
-  s.dynamics.remove(body);
+  s.solver.remove(body);
   std::erase_if(s.added, [&](const AddedBody& one) { return one.body == body; });
   for (AddedBody& one : s.added) one.body -= one.body > body;
   s.count_vertices();
-  s.added_bodies.grabs = s.dynamics.grabbed().has_value();
+  s.added_bodies.grabs = s.solver.hand().grab().has_value();
   s.update_plan();
   s.update_positions();
   s.detector->forget();
@@ -184,24 +184,24 @@ void World::remove(BodyId body) {
 }
 
 void World::grab(const std::optional<Grab>& grab) {
-  State& s = *state_;
+  Parts& s = *parts_;
   assert(!grab || grab->body < s.bodies.count());
-  if (grab) s.dynamics.pin_body(grab->body, false, 0);
-  s.dynamics.grab(grab);
+  if (grab) s.solver.state().set_pinned(grab->body, false);
+  s.solver.hand().take(grab);
   s.added_bodies.grabs = grab.has_value();
   s.update_plan();
 }
 
-const std::optional<Grab>& World::grabbed() const { return state_->dynamics.grabbed(); }
+const std::optional<Grab>& World::grabbed() const { return parts_->solver.hand().grab(); }
 
 void World::set_gravity(const glm::dvec3& gravity) {
-  state_->scene.gravity = gravity;
-  state_->update_plan();
-  state_->wake_all();
+  parts_->scene.gravity = gravity;
+  parts_->update_plan();
+  parts_->wake_all();
 }
 
 void World::set_material(std::size_t index, const Material& material) {
-  State& s = *state_;
+  Parts& s = *parts_;
   assert(index <= s.scene.materials.size());
   if (index == s.scene.materials.size()) {
     s.scene.materials.push_back(material);
@@ -212,7 +212,7 @@ void World::set_material(std::size_t index, const Material& material) {
   s.check_stability(changed, s.plan);
   for (std::size_t i = 0; i < changed.all().size(); ++i) {
     const auto &from = s.models.all()[i], &to = changed.all()[i];
-    if (from != to) s.dynamics.replace(from, to);
+    if (from != to) s.solver.state().replace(from, to);
   }
   s.models = std::move(changed);
   s.scene.materials[index] = material;
@@ -221,14 +221,14 @@ void World::set_material(std::size_t index, const Material& material) {
 }
 
 void World::set_solids(const Scene& from) {
-  Scene& to = state_->scene;
+  Scene& to = parts_->scene;
   to.spheres = from.spheres;
   to.planes = from.planes;
   to.boxes = from.boxes;
   to.capsules = from.capsules;
   to.ground = from.ground;
-  state_->update_plan();
-  state_->wake_all();
+  parts_->update_plan();
+  parts_->wake_all();
 }
 
 }  // namespace softbody

@@ -170,11 +170,11 @@ TEST_F(SceneMouseTest, GrabsPullsAndThrows) {
   const glm::vec2 target = input.at + glm::vec2(150, -60);
   for (int i = 1; i <= 30; ++i) move(input.at + (target - input.at) * 0.2f);
   frame(90);
-  const glm::vec3 point(softbody::WorldTestAccess::dynamics(session.world()).grabbed_point());
+  const glm::vec3 point(softbody::grabbed_point(session.world()));
   EXPECT_LT(glm::distance(pixel_of(camera, point), target), 5);
   EXPECT_LT(glm::distance(body_pixel(1), target), 80);  // the body hangs from the mouse
   EXPECT_EQ(camera.orbit().azimuth, orbit.azimuth);
-  const glm::dvec3 held(softbody::WorldTestAccess::dynamics(session.world()).grabbed_point());
+  const glm::dvec3 held(softbody::grabbed_point(session.world()));
   EXPECT_NEAR(glm::distance(glm::dvec3(camera.eye()), held),
               glm::distance(glm::dvec3(camera.eye()), centre(session.world(), 0)), 1);
   for (int i = 0; i < 10; ++i) move(input.at - glm::vec2(25, 0));

@@ -9,7 +9,7 @@
 #include <cmath>
 
 #include "app/report/stability/cases.h"
-#include "softbody/forces/penalty_contact.h"
+#include "softbody/contact/keys.h"
 
 namespace app::test {
 namespace {
@@ -60,14 +60,14 @@ TEST(StabilityCell, CountsTheGainOfAJoinersFirstFrame) {
 /// Returns a ball with stiff penalty contact, and a second ball that joins.
 softbody::Scene joined_by(const softbody::BodySource& second) {
   softbody::Scene scene = balls({joiner(0, {0, 0, 0}), second});
-  scene.materials[0][softbody::PenaltyContact::stiffness] = 1e8;
+  scene.materials[0][softbody::contact::stiffness] = 1e8;
   scene.bodies[0].release = 1000;
   return scene;
 }
 
 TEST(StabilityCell, CreditsJoinersWithWhatPairsHoldWhereTheyJoin) {
   softbody::Scene scene = joined_by(joiner(3, {0.7, 0.01, 0.02}));
-  scene.materials[0][softbody::PenaltyContact::stiffness] = 1e3;
+  scene.materials[0][softbody::contact::stiffness] = 1e3;
   EXPECT_LE(run(scene, "auto", 12).energy, reference::stability_bounds.energy);
 }
 

@@ -57,9 +57,9 @@ class Soak {
         frame(i % picture_every == 0);
         const softbody::World& world = demo_.session.world();
         if (world.frame() == before) continue;
-        const softbody::Dynamics& dynamics = softbody::WorldTestAccess::dynamics(world);
-        const auto candidates = int(dynamics.surface_contact().search().features().size());
-        const int weight = dynamics.used_integrator().implicit ? implicit_substeps : 1;
+        const softbody::Solver& solver = softbody::WorldTestAccess::solver(world);
+        const auto candidates = int(solver.surface_contact().search().features().size());
+        const int weight = solver.steps().integrator().implicit ? implicit_substeps : 1;
         substeps += world.last_step().substeps * (weight + candidates / candidates_of_substep);
         if (world.last_step().seconds < world.frame_time()) substeps += cut_substeps;
       }
@@ -92,7 +92,7 @@ class Soak {
   void print_slow_frame(double seconds) const {
     const softbody::World& world = demo_.session.world();
     const softbody::StepReport& p = world.last_step();
-    const softbody::SurfaceContact& surface = softbody::WorldTestAccess::dynamics(world).surface_contact();
+    const softbody::SurfaceContact& surface = softbody::WorldTestAccess::solver(world).surface_contact();
     std::printf(
         "%-10s frame %llu: %.2f s of processor time after \"%s\"; %u bodies, %u vertices, %d substeps of %s, %.5f s "
         "simulated, %.0f ms to detect, %.0f ms to solve, with surface contact of %.3g a search and %.3g a substep\n",

@@ -149,10 +149,7 @@ TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
 INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
                          [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
 
-int width_of(const World& world, BodyId body) {
-  const DynamicsState state = WorldTestAccess::dynamics(world).save();
-  return state.batches[state.bodies[body].batch].width;
-}
+int width_of(const World& world, BodyId body) { return WorldTestAccess::solver(world).state().batch_of(body).width; }
 
 /// A ball of 2562 vertices just above the ground and one of another material just above it, both falling.
 Scene large_bodies(ContactSurface surface) {
@@ -257,7 +254,7 @@ TEST(LargeBody, MovesTheSameAmongOthers) {
     }
     World many(more, {.integrator = {.substeps = 100}});
     const auto last = static_cast<BodyId>(others);
-    EXPECT_EQ(std::pair(width_of(many, last), WorldTestAccess::dynamics(many).body(last).lane),
+    EXPECT_EQ(std::pair(width_of(many, last), WorldTestAccess::solver(many).state().body(last).lane),
               std::pair(lanes, others % lanes));
     run(many, 24);
     for (Index i = 0; i < alone.bodies().vertex_count(); ++i) {
@@ -313,7 +310,7 @@ TEST(LargeBody, ComesToAPlaceThatOneLeft) {
   EXPECT_EQ(std::pair(width_of(world, 0), width_of(world, 1)), std::pair(lanes, one_lane));
   world.remove(1);
   EXPECT_EQ(width_of(world, world.add(scene.bodies[1])), one_lane);
-  EXPECT_EQ(WorldTestAccess::dynamics(world).save().batches.size(), 2u);
+  EXPECT_EQ(WorldTestAccess::solver(world).state().batches().size(), 2u);
 }
 
 TEST(SmallBody, IsSolvedInLanes) {  // as implicit steps take it

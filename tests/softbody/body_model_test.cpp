@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "softbody/forces/bound.h"
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

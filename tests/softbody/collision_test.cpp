@@ -57,7 +57,7 @@ TEST(Collision, FrictionSpringsSlipOnceAStepInEveryExplicitIntegrator) {
     World world(scene, {.frame_time = 1e-4, .integrator = {integrator, 1}});
     run(world, 10);
     double sum = 0;
-    for (const PenaltyPair& pair : WorldTestAccess::dynamics(world).save().penalty_pairs)
+    for (const PenaltyPair& pair : WorldTestAccess::solver(world).save().penalty_pairs)
       sum += double(glm::length(pair.stretch));
     EXPECT_GT(sum, 5e-5) << integrator;
     return sum;
@@ -73,7 +73,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     Scene scene = lone_body(gas_ball());
     scene.materials.push_back(scene.materials[0]);
     Material &soft = scene.materials[softer_first ? 0 : 1], &hard = scene.materials[softer_first ? 1 : 0];
-    soft[PenaltyContact::stiffness] = 40, hard[PenaltyContact::stiffness] = 90;
+    soft[contact::stiffness] = 40, hard[contact::stiffness] = 90;
     soft[contact::friction] = 0.2, hard[contact::friction] = 0.8;
     add_body(scene, {0, 0.8, 0.1}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
@@ -88,7 +88,7 @@ TEST(Collision, PairsOfUnlikeBodiesHaveTheSofterContactAndTheMeanFriction) {
     };
     EXPECT_GT(std::erase_if(contacts, both_held), 0u);
     world.step();
-    const std::vector<PenaltyPair> pairs = WorldTestAccess::dynamics(world).save().penalty_pairs;
+    const std::vector<PenaltyPair> pairs = WorldTestAccess::solver(world).save().penalty_pairs;
     ASSERT_EQ(pairs.size(), contacts.size());
     std::vector<int> count(world.bodies().vertex_count(), 0);
     for (const collide::Contact& c : contacts) ++count[c.a], ++count[c.b];
@@ -138,7 +138,7 @@ TEST(Collision, ActsAlongTheSurfacesNormalsWhereClosedBodiesFaceEachOther) {
         ++(facing ? by_surfaces : by_line);
       }
       world.step();
-      const std::vector<PenaltyPair> pairs = WorldTestAccess::dynamics(world).save().penalty_pairs;
+      const std::vector<PenaltyPair> pairs = WorldTestAccess::solver(world).save().penalty_pairs;
       ASSERT_EQ(pairs.size(), expected.size());
       for (std::size_t i = 0; i < pairs.size(); ++i)
         EXPECT_LT(glm::distance(glm::dvec3(pairs[i].normal), expected[i]), 1e-3) << i;

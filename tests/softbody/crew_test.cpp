@@ -5,7 +5,7 @@
 #include <atomic>
 #include <stdexcept>
 
-#include "softbody/integrate/dynamics_state.h"
+#include "softbody/state/state.h"
 
 namespace softbody::test {
 namespace {
@@ -14,7 +14,7 @@ class CrewOfThree : public testing::Test {
  protected:
   /// `count` of the batches move, of 100 particles in all.
   void take(std::size_t count) {
-    std::vector<Batch*> moving;
+    std::vector<const Batch*> moving;
     for (std::size_t i = 0; i < count; ++i) moving.push_back(&batches_[i]);
     crew.take(std::move(moving), 100);
   }
@@ -30,9 +30,9 @@ TEST_F(CrewOfThree, SharesBatchesInTheirOrder) {
   for (const std::size_t count : {0, 1, 2, 3, 8}) {
     take(count);
     ASSERT_EQ(crew.active(), 3);
-    std::vector<Batch*> shared;
+    std::vector<const Batch*> shared;
     for (int i = 0; i < crew.active(); ++i)
-      for (Batch* b : Worker(crew, i).batches()) shared.push_back(b);
+      for (const Batch* b : Worker(crew, i).batches()) shared.push_back(b);
     EXPECT_EQ(shared, crew.moving());
   }
 }

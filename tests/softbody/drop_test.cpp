@@ -20,7 +20,7 @@ constexpr double touching = 0.01;  // the bodies keep 5 mm from solids
 std::set<BodyId> on_sphere(const World& world) {
   const SolidSphere& sphere = world.scene().spheres.front();
   std::set<BodyId> bodies;
-  for (const SolidContact& c : solid_contacts(world)) {
+  for (const SolidContactPoint& c : solid_contacts(world)) {
     const collide::Frame p = world.positions();
     const glm::dvec3 x(p.x[c.vertex], p.y[c.vertex], p.z[c.vertex]);
     if (glm::distance(x, sphere.centre) < sphere.radius + touching) bodies.insert(world.vertex_body()[c.vertex]);
@@ -66,7 +66,7 @@ TEST(Drop, ShowsWhatTheCaptionsSay) {
     EXPECT_LT(centre.y, 1.05 * radius) << "body " << b;
     EXPECT_GT(centre.y, 0.6 * radius) << "body " << b;
     std::size_t floor = 0;
-    for (const SolidContact& c : solid_contacts(world))
+    for (const SolidContactPoint& c : solid_contacts(world))
       floor += world.vertex_body()[c.vertex] == b && world.positions().y[c.vertex] < touching;
     EXPECT_GE(floor, 1u) << "body " << b << " is not on the floor";
   }

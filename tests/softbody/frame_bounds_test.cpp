@@ -127,13 +127,13 @@ TEST(StepController, LimitsTheWorkOfSurfaceContact) {
   };
   const auto of_substep = [](const World& world) {
     const StepReport& p = world.last_step();
-    return WorldTestAccess::dynamics(world).surface_contact().work_of_substep(float(p.seconds / p.substeps));
+    return WorldTestAccess::solver(world).surface_contact().work_of_substep(float(p.seconds / p.substeps));
   };
   // Candidates are found once, and looked at in one substep after the other; four are taken at a time, first one of
   // them.
   const World one = of_work(0);
   EXPECT_EQ(one.last_step().substeps, 1);
-  const collide::surface::SurfaceSearch& search = WorldTestAccess::dynamics(one).surface_contact().search();
+  const collide::surface::SurfaceSearch& search = WorldTestAccess::solver(one).surface_contact().search();
   const double half = 0.5 * double(search.features().size()), least = of_substep(one);
   ASSERT_GT(half, 0);
   EXPECT_GT(double(search.work()), 2 * half);
@@ -163,7 +163,7 @@ TEST(StepController, LimitsTheWorkOfSearchesForSurfaceContact) {
   };
   const auto work = [&](double bound, double h) {  // h: of a substep, s
     World world(scene, {.integrator = {"semi-implicit-euler"}, .max_work = {.surface = bound}});
-    const SurfaceContact& contact = WorldTestAccess::dynamics(world).surface_contact();
+    const SurfaceContact& contact = WorldTestAccess::solver(world).surface_contact();
     Work result;
     std::size_t last = 0;
     world.step([&] {
@@ -247,7 +247,7 @@ TEST(StepController, AllowsMoreCandidatesInLargerWorldsUpToALimit) {
 /// Those that were found before belong to another moment: nothing may look at them.
 TEST(StepController, EndsTheFrameAtTooManyCandidates) {
   const auto candidates = [](const World& world) {
-    return double(WorldTestAccess::dynamics(world).surface_contact().search().features().size());
+    return double(WorldTestAccess::solver(world).surface_contact().search().features().size());
   };
   World touching(touching_surfaces(), {});
   touching.step();

@@ -1,4 +1,5 @@
-#include "softbody/forces/hand.h"
+#include "softbody/forces/grab.h"
+#include "softbody/integrate/force_stage.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +33,7 @@ Grab on_top(const World& world) {
 /// Takes body 0 where it is and pulls by `stretch`.
 glm::dvec3 take(World& world, Grab grab, const glm::dvec3& stretch) {
   world.grab(grab);
-  const glm::dvec3 from = WorldTestAccess::dynamics(world).grabbed_point();
+  const glm::dvec3 from = grabbed_point(world);
   grab.target = from + stretch;
   world.grab(grab);
   return from;
@@ -68,7 +69,7 @@ TEST(Grab, AFreePointSwingsAsTheClosedFormSays) {
     world.step();
     const double t = frame * world.frame_time();
     const double left = stretch * std::exp(-decay * t) * (std::cos(swing * t) + decay / swing * std::sin(swing * t));
-    const glm::dvec3 moved = WorldTestAccess::dynamics(world).grabbed_point() - from;
+    const glm::dvec3 moved = grabbed_point(world) - from;
     ASSERT_NEAR(moved.x, stretch - left, 1e-3 * stretch) << frame;
     ASSERT_NEAR(moved.y, 0, 1e-6);
   }
@@ -88,7 +89,7 @@ TEST(Grab, AHangingBodySagsByItsWeight) {
       const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
       test::run(world, 180);
       const double rate = 2 * std::numbers::pi * grab.frequency;
-      const glm::dvec3 sag = hand - WorldTestAccess::dynamics(world).grabbed_point();
+      const glm::dvec3 sag = hand - grabbed_point(world);
       EXPECT_NEAR(sag.y, 9.81 / (rate * rate), 1e-3) << integrator.key << ", " << mass << " kg";
       EXPECT_LT(glm::length(glm::dvec2(sag.x, sag.z)), 5e-3);  // it may still swing a little
     }
@@ -105,7 +106,7 @@ TEST(Grab, ABodySagsByItsWeightInLongSubstepsToo) {
   const glm::dvec3 hand = take(world, grab, glm::dvec3(0.0));
   test::run(world, 180);
   const double rate = 2 * std::numbers::pi * grab.frequency;
-  EXPECT_NEAR(hand.y - WorldTestAccess::dynamics(world).grabbed_point().y, 9.81 / (rate * rate), 1e-3);
+  EXPECT_NEAR(hand.y - grabbed_point(world).y, 9.81 / (rate * rate), 1e-3);
 }
 
 TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
@@ -124,8 +125,7 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
         EXPECT_TRUE(m.finite) << frequency << " Hz, " << mass << " kg";
         EXPECT_LT(m.max_speed, 200) << frequency << " Hz, " << mass << " kg";
         if (frequency < 1e3 || ratio > 0) continue;
-        EXPECT_LT(glm::distance(WorldTestAccess::dynamics(world).grabbed_point(), from + glm::dvec3(0.5, 0.5, 0)),
-                  0.01);
+        EXPECT_LT(glm::distance(grabbed_point(world), from + glm::dvec3(0.5, 0.5, 0)), 0.01);
       }
     }
   }

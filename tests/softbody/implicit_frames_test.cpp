@@ -1,5 +1,4 @@
-// What implicit steps are made of beside the solver: the bodies' frames, the guard over their energy, and how they go
-// on where no solve is to be trusted.
+// What implicit steps are made of beside the solver: the bodies' frames, and the checks and corrections of a solve.
 
 #include <gtest/gtest.h>
 
@@ -8,19 +7,11 @@
 #include <limits>
 #include <random>
 
-#include "softbody/integrate/equilibrium.h"
-#include "softbody/integrate/implicit/energy.h"
-#include "softbody/integrate/implicit/frames.h"
 #include "softbody/integrate/implicit/planes.h"
-#include "tests/softbody/helpers.h"
+#include "tests/softbody/implicit_rig.h"
 
 namespace softbody::test {
 namespace {
-
-glm::dvec3 at(const Lanes& f, std::size_t particle, std::size_t lane) { return LaneView{f, lane}(particle); }
-void put(Lanes& f, std::size_t particle, std::size_t lane, const glm::dvec3& value) {
-  write(f, particle * lanes + lane, value);
-}
 
 /// Four particles in lane 2 that fly and spin as one, the same in lane 5, which has the world's frame.
 struct Flight {
@@ -38,11 +29,7 @@ struct Flight {
       }
   }
   glm::dvec3 middle() const { return (places[0] + places[1] + places[2] + places[3]) / 4.0; }
-  ImplicitFrames frames() const {
-    std::array<bool, lanes> which{};
-    which[2] = true;
-    return ImplicitFrames(x, v, which, h, gravity).falling(fall);
-  }
+  ImplicitFrames frames() const { return ImplicitFrames(x, v, mask({2}), h, gravity).falling(fall); }
 };
 
 TEST(ImplicitFrames, TakeARigidMotionAlong) {
@@ -116,38 +103,18 @@ TEST(ImplicitFrames, DoNotFollowATremor) {
     put(x, i, 0, {double(i) - 1.5, i % 2 ? thin : -thin, i < 2 ? thin : -thin});
     put(v, i, 0, glm::cross(glm::dvec3(50, 0, 2), at(x, i, 0)));
   }
-  std::array<bool, lanes> which{};
-  which[0] = true;
-  const ImplicitFrames frames(x, v, which, 1e-3, glm::dvec3(0.0));
+  const ImplicitFrames frames(x, v, mask({0}), 1e-3, glm::dvec3(0.0));
   EXPECT_LT(glm::distance(frames.turn(0, {0, 1, 0}) / 1e-3, glm::cross(glm::dvec3(0, 0, 2), glm::dvec3(0, 1, 0))), 0.1);
 }
 
-/// One lane's work of a step in which a ball's particles all move with 2 m/s.
-struct Moving {
-  std::shared_ptr<const BodyModel> model = make_body_model({}, gas_ball(1e4));
-  ImplicitWork work{*model, implicit_kernels(best_isa())};
+/// A ball in lane 1 whose particles all move with 2 m/s.
+struct Moving : ImplicitRig {
   double kinetic = 0.5 * model->material[Material::mass] * 4;  // J
   Moving() {
-    work.end_x = work.x;
-    for (std::size_t i = 0; i < model->mesh.vertices.size(); ++i) {
-      put(work.x, i, 1, model->start[i]);
-      put(work.v, i, 1, {2, 0, 0});
-    }
+    move(1, {2, 0, 0});
     work.end_x = work.x, work.end_v = work.v;
   }
 };
-
-/// Smooth, and what meets it stays there.
-PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double min_displacement,
-                   const glm::dvec3& force = glm::dvec3(0.0)) {
-  return {.at = particle * lanes + lane,
-          .friction = 0,
-          .restitution = 0,
-          .normal = normal,
-          .min_displacement = min_displacement,
-          .out = 0,
-          .force = force};
-}
 
 TEST(Dissipate, RemovesTheEnergyGain) {
   for (const bool pushed : {false, true}) {
@@ -182,12 +149,6 @@ TEST(Dissipate, RemovesTheEnergyGain) {
   }
 }
 
-/// With the force `force` whatever moves.
-LinearPenaltyPair penalty_pair(std::size_t particle, std::size_t lane, const glm::dvec3& normal,
-                               const glm::dvec3& force) {
-  return {.at = particle * lanes + lane, .normal = normal, .slopes = {}, .force = force};
-}
-
 /// A plane, a penalty pair and gravity act on a ball; what lanes beside it feel has no part in it.
 TEST(SatisfiesMomentumBalance, ComparesMomentumWithTheForces) {
   constexpr double h = 0.01;
@@ -220,52 +181,12 @@ TEST(ClearPlanes, LeavesNoParticleBehind) {
   const Lanes before_x = m.work.end_x, before_v = m.work.end_v;
   EXPECT_TRUE(behind_planes(m.work)[1]);
   EXPECT_FALSE(behind_planes(m.work)[2]);
-  clear_planes(m.work, h);
+  clear_planes(m.work, mask({1}), h);
   const glm::dvec3 moved = at(m.work.end_x, 3, 1) - at(before_x, 3, 1);
   EXPECT_NEAR(moved.y, 0.02, 1e-6) << "m: no farther than it needs";
   EXPECT_NEAR(glm::dot(moved, slanting), 0.025, 1e-6) << "m";
   EXPECT_LT(glm::distance(at(m.work.end_v, 3, 1) - at(before_v, 3, 1), moved / h), 1e-9);
   EXPECT_EQ(at(m.work.end_x, 4, 1), at(before_x, 4, 1));
-}
-
-TEST(RigidFallbackStep, LeavesARigidMotionAsItIs) {
-  std::mt19937 random(1);
-  for (int i = 0; i < 50; ++i) {
-    Moving m;
-    const glm::dvec3 velocity = random_vector(random, 5), spin = random_vector(random, 5);
-    const std::size_t n = m.model->mesh.vertices.size();
-    for (std::size_t k = 0; k < n; ++k) put(m.work.v, k, 1, velocity + glm::cross(spin, m.model->start[k]));
-    rigid_fallback_step(m.work, 1, 0.01, glm::dvec3(0.0));
-    const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
-    const RigidMotion start = rigid_motion(n, LaneView{m.work.x, 1}, LaneView{m.work.v, 1});
-    ASSERT_LT(glm::distance(end.momentum, start.momentum), 1e-3 * glm::length(start.momentum)) << "rest: energy";
-    ASSERT_LT(glm::distance(end.velocity, velocity), 1e-9);
-  }
-}
-
-TEST(RigidFallbackStep, KeepsItsSpinWhileItFalls) {
-  Moving m;
-  const std::size_t n = m.model->mesh.vertices.size();
-  const glm::dvec3 velocity(1, -2, 0), spin(0, 3, 0), gravity(0, -9.81, 0);
-  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, velocity + glm::cross(spin, m.model->start[i]));
-  rigid_fallback_step(m.work, 1, 0.01, gravity);
-  const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
-  EXPECT_LT(glm::distance(end.spin, spin), 0.01);
-  EXPECT_LT(glm::distance(end.velocity, velocity + 0.01 * gravity), 1e-9);
-}
-
-/// Its planes stop it, its spin goes on.
-TEST(RigidFallbackStep, KeepsSpinAndStopsAtPlanes) {
-  Moving m;
-  const std::size_t n = m.model->mesh.vertices.size();
-  const glm::dvec3 spin(0, 3, 0);
-  for (std::size_t i = 0; i < n; ++i) put(m.work.v, i, 1, glm::dvec3(2, -1, 0) + glm::cross(spin, m.model->start[i]));
-  for (std::size_t i = 0; i < n; ++i) m.work.planes.push_back(plane(i, 1, {0, 1, 0}, 0, {1, 1, 1}));
-  rigid_fallback_step(m.work, 1, 0.01, glm::dvec3(0.0));
-  const RigidMotion end = rigid_motion(n, LaneView{m.work.end_x, 1}, LaneView{m.work.end_v, 1});
-  EXPECT_LT(glm::distance(end.spin, spin), 0.01);
-  EXPECT_LT(glm::distance(end.velocity, glm::dvec3(2, 0, 0)), 1e-9);
-  EXPECT_EQ(m.work.planes[0].force, glm::dvec3(0.0));
 }
 
 }  // namespace

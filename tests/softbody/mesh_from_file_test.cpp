@@ -7,8 +7,9 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/deformation.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/mesh/obj_file.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"

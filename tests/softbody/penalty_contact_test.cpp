@@ -18,10 +18,12 @@ struct Pair {
     x.set(0, 0, apart);
     penalty.thickness = 0.1f;
     penalty.pairs.push_back({.contact = {0, 1},
-                             .slot_a = 0,
-                             .slot_b = 1,
                              .body_a = 0,
                              .body_b = 1,
+                             .vertex_a = 0,
+                             .vertex_b = 1,
+                             .slot_a = 0,
+                             .slot_b = 1,
                              .offset = offset,
                              .normal = glm::vec3(0, 1, 0),
                              .stiffness = 100,
@@ -127,10 +129,12 @@ TEST(PenaltyContact, FrictionSpringsArePassedOnToTheSameContactAcrossItsNewNorma
   PenaltyContact next;
   for (const collide::Contact c : {collide::Contact{0, 0}, {0, 1}, {0, 2}})
     next.pairs.push_back({.contact = c,
-                          .slot_a = 0,
-                          .slot_b = 1,
                           .body_a = 0,
                           .body_b = 1,
+                          .vertex_a = 0,
+                          .vertex_b = 1,
+                          .slot_a = 0,
+                          .slot_b = 1,
                           .offset = {},
                           .normal = glm::normalize(glm::vec3(1, 1, 0)),
                           .stiffness = 100,

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
+#include "softbody/integrate/force_stage.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -26,13 +27,19 @@ TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
   for (const char* toml : {"[[body]]\n", "[ground]\n[[body]]\n[[body]]\nrelease = 3\n"}) {
     const World world = world_of(toml);
     const Plan& plan = world.plan();
-    EXPECT_EQ(plan.stages.size() + plan.left_out.size(), std::size_t(Stage::count));
-    for (int s = 0; s < int(Stage::count); ++s) {
+    constexpr int count = int(Stage::first_force) + int(force_count);
+    EXPECT_EQ(plan.stages.size() + plan.left_out.size(), std::size_t(count));
+    for (int s = 0; s < count; ++s) {
       const auto stage = Stage(s);
       EXPECT_FALSE(stage_key(stage).empty());
       EXPECT_NE(plan.has(stage), !why(plan, stage).empty()) << stage_key(stage);
     }
-    EXPECT_TRUE(std::is_sorted(plan.stages.begin(), plan.stages.end()));
+    // As a step runs them: forces, in the order of their table, just before gravity.
+    const auto gravity = std::ranges::find(plan.stages, Stage::gravity);
+    const auto first = std::ranges::find_if(plan.stages, [](Stage s) { return s >= Stage::first_force; });
+    EXPECT_TRUE(std::is_sorted(plan.stages.begin(), first) && std::is_sorted(gravity, plan.stages.end()));
+    EXPECT_TRUE(std::is_sorted(first, gravity));
+    EXPECT_TRUE(std::all_of(first, gravity, [](Stage s) { return s >= Stage::first_force; }));
   }
 }
 

@@ -191,7 +191,7 @@ TEST(SceneFile, MaterialsAndSolids) {
   EXPECT_EQ(m[contact::friction], 0.35);
   EXPECT_EQ(m[contact::restitution], 0.625);
   EXPECT_EQ(m[contact::rolling_resistance], 0.15);
-  EXPECT_EQ(m[PenaltyContact::stiffness], 55);
+  EXPECT_EQ(m[contact::stiffness], 55);
   EXPECT_FALSE(m[Material::start_in_equilibrium]);
   ASSERT_EQ(s.spheres.size(), 2u);
   EXPECT_EQ(s.spheres[0].centre, glm::dvec3(1, 2, 3));

@@ -13,7 +13,7 @@ namespace {
 /// m/s, of the body that is fastest as a whole.
 double fastest_body(const World& world) {
   double fastest = 0;
-  for (BodyId body = 0; body < WorldTestAccess::dynamics(world).body_count(); ++body) {
+  for (BodyId body = 0; body < WorldTestAccess::solver(world).state().body_count(); ++body) {
     const auto count = static_cast<Index>(world.model(body).mesh.vertices.size());
     glm::dvec3 sum(0.0);
     for (Index v = 0; v < count; ++v) sum += world.particle(body, v).velocity;

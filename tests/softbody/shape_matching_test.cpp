@@ -8,9 +8,9 @@
 
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/deformation.h"
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
-#include "softbody/integrate/equilibrium.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

@@ -6,7 +6,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 
@@ -18,18 +18,16 @@ class SleepRules : public testing::Test {
  protected:
   SleepRules() {
     const auto model = make_body_model({}, spring_ball());
-    for (const double speed : {0.0, 0.5, 0.02}) dynamics.add(model, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
+    for (const double speed : {0.0, 0.5, 0.02}) state.add(model, glm::dvec3(0.0), glm::dvec3(speed, 0, 0));
     for (BodyId b = 0; b < 3; ++b) vertex_body.insert(vertex_body.end(), 162, b);
   }
   void settle(int frames, const std::vector<collide::Contact>& contacts) {
-    for (int i = 0; i < frames; ++i) sleep.settle(dynamics, vertex_body, contacts);
+    for (int i = 0; i < frames; ++i) sleep.settle(state, vertex_body, contacts, {});
   }
-  bool asleep(BodyId b) const { return dynamics.body(b).asleep; }
+  bool asleep(BodyId b) const { return state.body(b).asleep; }
   static collide::Contact touch(BodyId a, BodyId b) { return {a * 162 + 5, b * 162 + 7}; }
 
-  Scene scene = lone_body(spring_ball());
-  collide::Workers workers{1};
-  Dynamics dynamics{scene, Crew(workers, 0), best_isa()};
+  State state;
   Sleep sleep{{.speed = 0.1, .frames = 10}};
   std::vector<BodyId> vertex_body;
 };
@@ -41,7 +39,7 @@ TEST_F(SleepRules, CalmBodiesSleepAfterTheFramesOfTheRule) {
   EXPECT_TRUE(asleep(0));
   EXPECT_FALSE(asleep(1)) << "too fast";
   EXPECT_TRUE(asleep(2));
-  EXPECT_EQ(dynamics.max_particle_speed(2), 0) << "a sleeper stands still";
+  EXPECT_EQ(state.max_particle_speed(2), 0) << "a sleeper stands still";
 }
 
 TEST_F(SleepRules, AnIslandSleepsTogetherOrNotAtAll) {
@@ -55,7 +53,7 @@ TEST_F(SleepRules, AnIslandSleepsTogetherOrNotAtAll) {
 
 TEST_F(SleepRules, AnIslandWaitsForItsLastBody) {
   settle(5, {});
-  dynamics.set_calm_frames(2, 0);
+  state.memory(2).calm_frames = 0;
   settle(5, {touch(0, 2)});
   EXPECT_FALSE(asleep(0) || asleep(2));
   settle(5, {touch(0, 2)});
@@ -70,14 +68,14 @@ TEST_F(SleepRules, ContactsInsideOneBodyBindNothing) {
 TEST_F(SleepRules, AFastBodyWakesTheSleepersItTouchesAndASlowOneDoesNot) {
   settle(10, {});
   ASSERT_TRUE(asleep(0) && asleep(2));
-  sleep.wake_touched(dynamics, vertex_body, {touch(0, 2)});
+  sleep.wake_touched(state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(0) && asleep(2)) << "sleepers do not wake each other";
-  sleep.wake_touched(dynamics, vertex_body, {touch(0, 1)});
+  sleep.wake_touched(state, vertex_body, {touch(0, 1)});
   EXPECT_FALSE(asleep(0));
   EXPECT_TRUE(asleep(2));
-  sleep.wake_touched(dynamics, vertex_body, {touch(0, 2)});
+  sleep.wake_touched(state, vertex_body, {touch(0, 2)});
   EXPECT_TRUE(asleep(2)) << "0 is awake but stands";
-  sleep.wake_touched(dynamics, vertex_body, {touch(1, 2)});
+  sleep.wake_touched(state, vertex_body, {touch(1, 2)});
   EXPECT_FALSE(asleep(2));
 }
 
@@ -168,10 +166,10 @@ TEST(SleepInSurfaceContact, WhoCarriesSomethingThatMovesStaysAwake) {
   for (int i = 0; i < 60; ++i) {
     world.step();
     ASSERT_TRUE(world.detection().contacts.empty());
-    ASSERT_GT(WorldTestAccess::dynamics(world).max_particle_speed(0), 0.2) << "it slides";
+    ASSERT_GT(WorldTestAccess::solver(world).state().max_particle_speed(0), 0.2) << "it slides";
     EXPECT_FALSE(world.body(1).asleep) << world.frame();
   }
-  EXPECT_LT(WorldTestAccess::dynamics(world).max_particle_speed(1), 0.1) << "calm enough to sleep";
+  EXPECT_LT(WorldTestAccess::solver(world).state().max_particle_speed(1), 0.1) << "calm enough to sleep";
 }
 
 TEST(SleepWhereABodyIsRemoved, EndsForWhatIsAsNearAsSurfacesAreKeptApartHoweverSmallTheTolerance) {

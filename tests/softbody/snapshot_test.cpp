@@ -161,7 +161,7 @@ TEST(Snapshot, BringsTheSleepRuleOfItsScene) {
 /// After surfaces the contact layer grows from nothing, so that at first no tolerance is too wide.
 TEST(Snapshot, OfAWorldThatWouldNotBeAcceptedFromASceneIsPutBack) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0][PenaltyContact::stiffness] = 2e4;
+  scene.materials[0][contact::stiffness] = 2e4;
   scene.collision.tolerance = 0.5f;
   add_body(scene, {0, 1.05, 0}, glm::dvec3(0.0));
   constexpr double frame_time = 0.1;
@@ -193,7 +193,7 @@ TEST(Snapshot, ABodyTakesItsOwnSizeBesideItsParticles) {
     Scene scene = lone_body(spring_ball());
     for (int i = 1; i < bodies; ++i) add_body(scene, {2.0 * i, 0, 0}, glm::dvec3(0.0));
     const World world(scene, {});
-    return WorldTestAccess::dynamics(world).save().bytes();
+    return WorldTestAccess::solver(world).save().bytes();
   };
   EXPECT_EQ(bytes(8) - bytes(7), sizeof(Body));
 }

@@ -34,7 +34,7 @@ TEST(StepController, TakesTheSubstepsOfTheBodyThatNeedsMost) {
           stiffness_per_mass(p, measure_surface(p, x)), damping_bound(p) / p.particle_mass);
       most = std::max(most, world.frame_time() / step);
     }
-    EXPECT_NEAR(WorldTestAccess::dynamics(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
+    EXPECT_NEAR(WorldTestAccess::solver(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
   }
 }
 
@@ -44,7 +44,7 @@ TEST(StepController, TakesTheSubstepsOfTheLighterBodyInEitherOrder) {
     Scene scene = lone_body(spring_ball());
     scene.materials.push_back(scene.materials[0]);
     scene.materials[0][Material::mass] = first, scene.materials[1][Material::mass] = second;
-    for (Material& m : scene.materials) m[PenaltyContact::stiffness] = 1000;
+    for (Material& m : scene.materials) m[contact::stiffness] = 1000;
     add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
     scene.bodies[1].material = 1;
     World world(scene, {.integrator = {"semi-implicit-euler"}});
@@ -59,7 +59,7 @@ TEST(StepController, TakesTheSubstepsOfTheLighterBodyInEitherOrder) {
 /// The thinner a contact layer, the less of its bound is damping, and the more its stiffness.
 TEST(StepController, CountsTheStiffnessOfContacts) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0][PenaltyContact::stiffness] = 1e4;
+  scene.materials[0][contact::stiffness] = 1e4;
   scene.collision.tolerance = 1e-4f;
   const std::vector<glm::dvec3> start = World(scene, {}).model(0).start;
   const auto above = [](const glm::dvec3& a, const glm::dvec3& b) { return a.y < b.y; };

@@ -163,7 +163,7 @@ TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
   scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
   World world(scene, {});
   run(world, 3);
-  EXPECT_FALSE(WorldTestAccess::dynamics(world).surface_contact().search().features().empty());
+  EXPECT_FALSE(WorldTestAccess::solver(world).surface_contact().search().features().empty());
   EXPECT_LT(measure(world).max_speed, 1e-4);
 }
 
@@ -215,7 +215,7 @@ TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
   const auto rate = [&] {
     World world(scene, {});
     world.step();
-    return WorldTestAccess::dynamics(world).surface_contact().substep_rate();
+    return WorldTestAccess::solver(world).surface_contact().substep_rate();
   };
   const float alone = rate();
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -284,7 +284,7 @@ TEST(SurfaceContact, ASheetOnASlopingSheetSlidesOnlyAboveTheFrictionCone) {
   for (const double tangent : {0.3, 0.45, 0.55}) {
     World world(sheet_on_sheet(mu, tangent), {});
     run(world, 30);
-    EXPECT_GT(WorldTestAccess::dynamics(world).surface_contact().rows(), 0u);
+    EXPECT_GT(WorldTestAccess::solver(world).surface_contact().rows(), 0u);
     EXPECT_FALSE(world.last_step().adds_energy);
     const double cosine = 1 / std::sqrt(1 + tangent * tangent), pull = g * cosine * std::max(0.0, tangent - mu);
     EXPECT_NEAR(motion(world, 1).velocity.x, pull * 0.5, 1e-4) << tangent;
@@ -304,7 +304,7 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   }
   World world(scene, {});
   run(world, 20);
-  EXPECT_GT(WorldTestAccess::dynamics(world).surface_contact().interactions().size(), 70u);
+  EXPECT_GT(WorldTestAccess::solver(world).surface_contact().interactions().size(), 70u);
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "softbody/integrate/force_stage.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/world_test_access.h"
 
@@ -50,7 +51,7 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
       world.step();
-      max_rows = std::max(max_rows, WorldTestAccess::dynamics(world).surface_contact().rows());
+      max_rows = std::max(max_rows, WorldTestAccess::solver(world).surface_contact().rows());
     }
     return world.state_hash();
   };

@@ -192,7 +192,7 @@ TEST_F(HysteresisOfSubsteps, EndsWhileAllBodiesSleep) {
 /// They come and go, and are damped.
 TEST_F(HysteresisOfSubsteps, IgnoresContacts) {
   Scene scene = lone_body(spring_ball());
-  scene.materials[0][PenaltyContact::stiffness] = 1e4;
+  scene.materials[0][contact::stiffness] = 1e4;
   add_body(scene, {0, 1.02, 0}, glm::dvec3(0.0));
   World pair(scene, {.integrator = {"semi-implicit-euler"}});
   pair.step();

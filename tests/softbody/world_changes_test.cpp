@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/integrate/force_stage.h"
 #include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -35,7 +36,7 @@ std::vector<glm::dvec3> positions(const World& world, BodyId body) {
 void expect_consistent(const World& world) {
   const collide::Bodies& bodies = world.bodies();
   ASSERT_EQ(world.vertex_body().size(), bodies.vertex_count());
-  ASSERT_EQ(WorldTestAccess::dynamics(world).body_count(), bodies.count());
+  ASSERT_EQ(WorldTestAccess::solver(world).state().body_count(), bodies.count());
   const collide::Frame frame = world.positions();
   for (BodyId b = 0; b < bodies.count(); ++b) {
     ASSERT_EQ(world.vertex_body()[bodies.first[b]], b);

@@ -1,14 +1,23 @@
 #pragma once
 // A world's solver, for tests of the solver.
 
-#include "softbody/world/world_state.h"
+#include "softbody/world/world_parts.h"
 
 namespace softbody {
 
 struct WorldTestAccess {
-  static const Dynamics& dynamics(const World& world) { return world.state_->dynamics; }
+  static const Solver& solver(const World& world) { return world.parts_->solver; }
   /// m, of the penalty force: grows slowly towards the tolerance.
-  static float penalty_thickness(const World& world) { return world.state_->penalty_thickness; }
+  static float penalty_thickness(const World& world) { return world.parts_->penalty_thickness; }
 };
+
+/// Returns the point (m) that the hand holds.
+inline glm::dvec3 grabbed_point(const World& world) {
+  const Grab& grab = *world.grabbed();
+  glm::dvec3 point(0.0);
+  for (int i = 0; i < 3; ++i)
+    point += grab.weights[i] * world.particle(grab.body, grab.corners[std::size_t(i)]).position;
+  return point;
+}
 
 }  // namespace softbody

@@ -12,7 +12,7 @@
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
 #include "softbody/contact/law.h"
-#include "softbody/forces/model_forces.h"
+#include "softbody/forces/gas.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 
@@ -24,7 +24,7 @@ using softbody::BodyId;
 using softbody::World;
 
 double gas_energy(const softbody::BodyModel& p, const Particles& particles) {
-  const softbody::Gas* gas = softbody::data<softbody::GasPressure>(p);
+  const softbody::Gas* gas = softbody::gas_of(p);
   if (!gas) return 0;
   std::vector<dvec3> x;
   for (const softbody::Particle& q : particles) x.push_back(q.position);
@@ -169,7 +169,7 @@ reference::ReferenceDeviation compare(const World& world, const StabilityStart& 
 
 std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
                                                         std::span<const softbody::BodySource> joiners) {
-  if (!world.plan().has(softbody::stage_of<softbody::PenaltyContact>)) return {};
+  if (!world.plan().has("contact-response")) return {};
   const softbody::Snapshot before = world.snapshot();
   for (const softbody::BodySource& joiner : joiners) world.add(joiner);
   std::vector<softbody::PairEnergy> pairs = world.pair_energies().next;

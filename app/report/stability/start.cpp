@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/steps.h"
-#include "softbody/forces/model_forces.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"

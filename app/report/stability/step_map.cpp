@@ -7,7 +7,6 @@
 #include "app/report/solver/scenes.h"
 #include "app/report/steps.h"
 #include "softbody/forces/bound.h"
-#include "softbody/forces/model_forces.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {

@@ -2,19 +2,19 @@
 
 namespace softbody {
 
-ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
-                               const glm::dvec3& gravity)
-    : h_(h), gravity_(gravity), fall_(h * h * gravity) {
+ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, LaneMask which, double h, const glm::dvec3& gravity)
+    : active_(which), h_(h), gravity_(gravity), fall_(h * h * gravity) {
   for (std::size_t l = 0; l < lanes; ++l) {
     if (!which[l]) continue;
     const RigidMotion body = rigid_motion(x.size() / (3 * lanes), LaneView{x, l}, LaneView{v, l});
     const glm::dvec3 spin = body.steady_spin_of(body.momentum);  // any frame serves, if it does not jump about
-    frames_[l] = {true, body, spin, rotation(h * spin)};
+    frames_[l] = {body, spin, rotation(h * spin)};
   }
 }
 
-ImplicitFrames ImplicitFrames::subset(const std::array<bool, lanes>& which) const {
+ImplicitFrames ImplicitFrames::subset(LaneMask which) const {
   ImplicitFrames result = *this;
+  result.active_ &= which;
   for (std::size_t l = 0; l < lanes; ++l)
     if (!which[l]) result.frames_[l] = {};
   return result;
@@ -24,12 +24,6 @@ ImplicitFrames ImplicitFrames::falling(const glm::dvec3& fall) const {
   ImplicitFrames result = *this;
   result.fall_ = fall;
   return result;
-}
-
-std::array<float, lanes> ImplicitFrames::moves() const {
-  std::array<float, lanes> moves{};
-  for (std::size_t l = 0; l < lanes; ++l) moves[l] = frames_[l].active ? 1.0f : 0.0f;
-  return moves;
 }
 
 glm::dvec3 ImplicitFrames::velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const {
@@ -47,11 +41,11 @@ glm::dvec3 ImplicitFrames::free_displacement(std::size_t lane, const glm::dvec3&
   return h_ * f.body.velocity + fall_ + turn(lane, x) + f.turned * (h_ * own);
 }
 
-/// change(frame, x, v, at): of one particle of a lane that has a frame of its own.
+/// Calls change(frame, x, v, at) for each particle of the lanes that have a frame of their own.
 template <class Change>
 void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
   for (std::size_t l = 0; l < lanes; ++l) {
-    if (!frames_[l].active) continue;
+    if (!active_[l]) continue;
     for (std::size_t at = l; at < x.size() / 3; at += lanes) {
       glm::dvec3 place = read(x, at), velocity = read(v, at);
       change(frames_[l], place, velocity, at);
@@ -70,6 +64,12 @@ void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const 
   });
 }
 
+PlaneContact ImplicitFrames::enter(const PlaneContact& contact) const {
+  PlaneContact c = contact;
+  c.normal = enter(c.at % lanes, c.normal);
+  return c;
+}
+
 LinearPenaltyPair ImplicitFrames::enter(const LinearPenaltyPair& pair) const {
   LinearPenaltyPair s = pair;
   for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.start_separation}) *v = enter(s.at % lanes, *v);
@@ -82,7 +82,7 @@ void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) con
     std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
   for (std::size_t l = 0; l < lanes; ++l) {
     const glm::dvec3 spin = frames_[l].spin;
-    if (!frames_[l].active) continue;
+    if (!active_[l]) continue;
     for (std::size_t at = l; at < stride; at += lanes)
       write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
   }
@@ -94,7 +94,7 @@ void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
     middle[at % lanes] += place / double(x.size() / (3 * lanes));
   });
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
-    // The middle moves as what pushes the body has it, which is told in the world's directions.
+    // What pushes the body has set the velocity of its middle, in the world's directions: the frame's spin adds none.
     velocity += glm::cross(f.spin, place - middle[at % lanes]);
     velocity = f.body.velocity + h_ * gravity_ + f.turned * velocity;
     place = f.body.centre + h_ * f.body.velocity + fall_ + f.turned * place;

@@ -3,7 +3,9 @@
 // rotating body move along chords, so that the body swells, its velocities lag behind and its spin is lost. In a frame
 // that rotates with the body they do not.
 
-#include "softbody/integrate/implicit/solver.h"
+#include <array>
+
+#include "softbody/integrate/implicit/problem.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
@@ -14,38 +16,39 @@ class ImplicitFrames {
  public:
   /// Makes frames for a step of h from x, v (m and m/s, in the world), for the lanes `which`; the frame of other lanes
   /// is the world's. The origins fall by h^2 gravity, as in a step of first order.
-  ImplicitFrames(const Lanes& x, const Lanes& v, const std::array<bool, lanes>& which, double h,
-                 const glm::dvec3& gravity);
+  ImplicitFrames(const Lanes& x, const Lanes& v, LaneMask which, double h, const glm::dvec3& gravity);
   /// Returns frames for the lanes `which` only; the frame of other lanes is the world's.
-  ImplicitFrames subset(const std::array<bool, lanes>& which) const;
+  ImplicitFrames subset(LaneMask which) const;
   /// Returns the same frames with origins that fall by `fall` (m).
   ImplicitFrames falling(const glm::dvec3& fall) const;
-  /// Returns 1 for each lane that has a frame of its own, else 0.
-  std::array<float, lanes> moves() const;
+  /// Returns the lanes that have a frame of their own.
+  LaneMask active() const { return active_; }
   /// Returns the rigid motion, in the world, that the body of a lane with a frame has at the start.
   const RigidMotion& start(std::size_t lane) const { return frames_[lane].body; }
 
-  /// Transforms positions and velocities of the start into the frames. frame_displacement: set to how far (m) the frame
+  /// Transforms positions and velocities of the start into the frames. Sets frame_displacement to how far (m) the frame
   /// moves each particle along.
   void enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const;
-  /// Rotate directions from the world into a frame, and back.
+  // Rotate directions and contacts from the world into a frame, and directions back.
   glm::dvec3 enter(std::size_t lane, const glm::dvec3& v) const { return glm::transpose(frames_[lane].turned) * v; }
   glm::dvec3 leave(std::size_t lane, const glm::dvec3& v) const { return frames_[lane].turned * v; }
+  PlaneContact enter(const PlaneContact& contact) const;
   LinearPenaltyPair enter(const LinearPenaltyPair& pair) const;
   /// Sets `a` to the acceleration (m/s^2) that the frame adds to each particle.
   void accelerations(const Lanes& x, const Lanes& v, Lanes& a) const;
   /// Transforms positions and velocities of the end back into the world.
   void leave(Lanes& x, Lanes& v) const;
 
-  // For a particle with x, v at the start, in the world: its velocity without the frame's rotation; its displacement in
-  // the step by the frame's rotation, and the whole displacement if no force acts on it.
+  // For a particle with x, v at the start, in the world:
+  /// Returns its velocity (m/s) without the frame's rotation.
   glm::dvec3 velocity_without_spin(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
+  /// Returns its displacement (m) in the step by the frame's rotation.
   glm::dvec3 turn(std::size_t lane, const glm::dvec3& x) const;
+  /// Returns its displacement (m) in the step if no force acts on it.
   glm::dvec3 free_displacement(std::size_t lane, const glm::dvec3& x, const glm::dvec3& v) const;
 
  private:
   struct Frame {
-    bool active = false;
     RigidMotion body;        // at the start
     glm::dvec3 spin{0.0};    // rad/s, of the frame
     glm::dmat3 turned{1.0};  // by the end
@@ -53,6 +56,7 @@ class ImplicitFrames {
   template <class Change>
   void for_each(Lanes& x, Lanes& v, const Change& change) const;
 
+  LaneMask active_;
   std::array<Frame, lanes> frames_;
   double h_;
   glm::dvec3 gravity_, fall_;

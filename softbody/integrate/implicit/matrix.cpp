@@ -7,8 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
+#include "softbody/forces/equilibrium.h"
 #include "softbody/forces/visit.h"
-#include "softbody/integrate/equilibrium.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -23,7 +23,7 @@ using Shape = std::vector<glm::dvec3>;
 /// are sure to leave the matrix positive definite.
 enum class Tension { exact, pulling };
 
-/// Where the body is most of the time, if it is to be found at all.
+/// Returns the shape in which the body is in balance, or its starting shape if none is found.
 Shape balanced_shape(const BodyModel& p) {
   if (p.forces->pressure <= 0) return p.start;
   try {
@@ -114,14 +114,15 @@ Sparse assemble(const BodyModel& p, const Shape& x, double h, bool rotates, Tens
   return a;
 }
 
-/// Whether column c + 1 has entries in the same rows as column c, but for its own.
+/// Returns true if column c + 1 has entries in the same rows as column c, but for its own.
 bool goes_on(const Sparse& l, Eigen::Index c) {
   const auto* rows = l.innerIndexPtr();
   const auto first = l.outerIndexPtr()[c], next = l.outerIndexPtr()[c + 1], end = l.outerIndexPtr()[c + 2];
   return next - first == end - next + 1 && std::equal(rows + first + 1, rows + next, rows + next);
 }
 
-/// l: columns in order of their rows, each with its diagonal first.
+/// Adds the columns `first` to end - 1 as one supernode. `l`: columns in order of their rows, each with its diagonal
+/// first.
 void copy_run(const Sparse& l, Eigen::Index first, Eigen::Index end, CholeskyFactor& f) {
   const auto *start = l.outerIndexPtr(), *rows = l.innerIndexPtr();
   const auto w = std::size_t(end - first), all = std::size_t(start[first + 1] - start[first]);

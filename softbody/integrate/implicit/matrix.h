@@ -20,12 +20,13 @@ namespace softbody {
 
 class ImplicitMatrix {
  public:
-  /// h in s; `other`: one of the same body model, whose shape in balance need not be looked for a second time. Throws
-  /// SceneError if the matrix cannot be factored.
+  /// Makes the matrix for steps of h (s). `other`: one of the same body model, to take the shape in balance from.
+  /// Throws SceneError if the matrix cannot be factored.
   ImplicitMatrix(const BodyModel& model, double h, const ImplicitMatrix* other = nullptr);
   ~ImplicitMatrix();
 
-  /// Coupled components (unknown k * particles + i), in the frame of the starting shape; else one factor serves each.
+  /// Returns true if components are coupled (unknown k * particles + i), in the frame of the starting shape. Else the
+  /// factor serves each of them.
   bool rotates() const { return rotates_; }
   const CholeskyFactor& factor() const { return factor_; }
   const std::vector<glm::dvec3>& shape() const { return shape_; }  // m, the starting shape from its mean
@@ -36,8 +37,8 @@ class ImplicitMatrix {
 
   double contact_stiffness() const { return contact_stiffness_; }  // N/m, about that of one particle
 
-  /// How particle i moves (m/N) under a force on particle j, in the matrix's frame. Worked out once for each j, on any
-  /// thread.
+  /// Returns how particle i moves (m/N) under a force on particle j, in the matrix's frame. Works out what belongs to j
+  /// once, on whatever thread asks first.
   glm::dmat3 compliance(Index i, Index j) const;
 
  private:

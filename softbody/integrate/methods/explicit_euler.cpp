@@ -1,20 +1,20 @@
-#include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 
-void explicit_euler(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
+void explicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
   if (substep.first) {  // the velocities at hand may be another step's
-    dynamics.contacts(worker, substep.h);
+    motion.contacts(worker, substep.h);
     worker.barrier();
   }
-  dynamics.contact_forces(worker, substep.h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.all_forces(*batch);
-    dynamics.drift(*batch, substep.h);
-    dynamics.kick(*batch, substep.h);
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.all_forces(*batch);
+    motion.drift(*batch, substep.h);
+    motion.kick(*batch, substep.h);
   }
-  dynamics.contacts_at_end(worker, substep.h);
+  motion.contacts_at_end(worker, substep.h);
   worker.barrier();
 }
 

@@ -1,7 +1,7 @@
 #include <array>
 
-#include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 namespace {
@@ -10,42 +10,42 @@ constexpr Quantity start_x = scratch(0), start_v = scratch(1), mean_v = scratch(
 
 /// One of the four stages: takes its share of the means and goes on to where the next one stands, `ahead` seconds from
 /// the start.
-void stage(Dynamics& dynamics, Batch& batch, float weight, float ahead) {
-  dynamics.accelerations(batch);
-  dynamics.add(batch, mean_v, weight, velocities);
-  dynamics.add(batch, mean_a, weight, forces);
-  dynamics.copy(batch, start_x, positions);
-  dynamics.add(batch, positions, ahead, velocities);
-  dynamics.copy(batch, start_v, velocities);
-  dynamics.add(batch, velocities, ahead, forces);
+void stage(Motion& motion, const Batch& batch, float weight, float ahead) {
+  motion.accelerations(batch);
+  motion.add(batch, mean_v, weight, velocities);
+  motion.add(batch, mean_a, weight, forces);
+  motion.copy(batch, start_x, positions);
+  motion.add(batch, positions, ahead, velocities);
+  motion.copy(batch, start_v, velocities);
+  motion.add(batch, velocities, ahead, forces);
 }
 
 }  // namespace
 
-void runge_kutta_4(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
+void runge_kutta_4(Motion& motion, const Worker& worker, const Substep& substep) {
   constexpr std::array<float, 4> weight{1.0f / 6, 1.0f / 3, 1.0f / 3, 1.0f / 6}, ahead{0.5f, 0.5f, 1.0f, 0.0f};
   const float h = substep.h;
-  for (Batch* batch : worker.batches()) {
-    dynamics.copy(*batch, positions, start_x);
-    dynamics.copy(*batch, velocities, start_v);
-    dynamics.clear(*batch, mean_v);
-    dynamics.clear(*batch, mean_a);
+  for (const Batch* batch : worker.batches()) {
+    motion.copy(*batch, positions, start_x);
+    motion.copy(*batch, velocities, start_v);
+    motion.clear(*batch, mean_v);
+    motion.clear(*batch, mean_a);
   }
   for (std::size_t s = 0; s < 4; ++s) {
-    dynamics.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
-    for (Batch* batch : worker.batches()) dynamics.all_forces(*batch);
-    for (Batch* batch : worker.batches()) stage(dynamics, *batch, weight[s], ahead[s] * h);
+    motion.contact_forces(worker, s == 0 ? h : 0);  // friction's springs slip once a step
+    for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
+    for (const Batch* batch : worker.batches()) stage(motion, *batch, weight[s], ahead[s] * h);
     worker.barrier();
   }
-  for (Batch* batch : worker.batches()) dynamics.copy(*batch, mean_v, velocities);
-  dynamics.contacts(worker, h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.drift(*batch, h);
-    dynamics.add(*batch, velocities, -1, mean_v);  // what the contacts have changed
-    dynamics.add(*batch, velocities, 1, start_v);
-    dynamics.add(*batch, velocities, h, mean_a);
+  for (const Batch* batch : worker.batches()) motion.copy(*batch, mean_v, velocities);
+  motion.contacts(worker, h);
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, h);
+    motion.add(*batch, velocities, -1, mean_v);  // what the contacts have changed
+    motion.add(*batch, velocities, 1, start_v);
+    motion.add(*batch, velocities, h, mean_a);
   }
-  dynamics.contacts_at_end(worker, h);
+  motion.contacts_at_end(worker, h);
   worker.barrier();
 }
 

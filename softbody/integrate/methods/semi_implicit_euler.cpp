@@ -1,16 +1,16 @@
-#include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 
-void semi_implicit_euler(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
-  dynamics.contact_forces(worker, substep.h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.all_forces(*batch);
-    dynamics.kick(*batch, substep.h);
+void semi_implicit_euler(Motion& motion, const Worker& worker, const Substep& substep) {
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.all_forces(*batch);
+    motion.kick(*batch, substep.h);
   }
-  dynamics.contacts(worker, substep.h);
-  for (Batch* batch : worker.batches()) dynamics.drift(*batch, substep.h);
+  motion.contacts(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
   worker.barrier();  // the next contact forces read the positions of all bodies
 }
 

@@ -1,29 +1,29 @@
-#include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 
-void velocity_verlet(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
+void velocity_verlet(Motion& motion, const Worker& worker, const Substep& substep) {
   const float half = 0.5f * substep.h;
   if (substep.first) {
-    dynamics.contact_forces(worker, 0);
-    for (Batch* batch : worker.batches()) dynamics.all_forces(*batch);
+    motion.contact_forces(worker, 0);
+    for (const Batch* batch : worker.batches()) motion.all_forces(*batch);
   }
-  for (Batch* batch : worker.batches()) dynamics.kick(*batch, half);
-  dynamics.contacts(worker, substep.h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.drift(*batch, substep.h);
-    dynamics.copy(*batch, velocities, scratch(0));
-    dynamics.kick(*batch, half);  // the prediction
+  for (const Batch* batch : worker.batches()) motion.kick(*batch, half);
+  motion.contacts(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, substep.h);
+    motion.copy(*batch, velocities, scratch(0));
+    motion.kick(*batch, half);  // the prediction
   }
   worker.barrier();
-  dynamics.contact_forces(worker, substep.h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.all_forces(*batch);
-    dynamics.copy(*batch, scratch(0), velocities);
-    dynamics.kick(*batch, half);
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.all_forces(*batch);
+    motion.copy(*batch, scratch(0), velocities);
+    motion.kick(*batch, half);
   }
-  dynamics.contacts_at_end(worker, substep.h);
+  motion.contacts_at_end(worker, substep.h);
   worker.barrier();
 }
 

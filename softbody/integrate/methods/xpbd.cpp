@@ -1,24 +1,24 @@
-#include "softbody/integrate/dynamics.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 
-void xpbd(Dynamics& dynamics, const Worker& worker, const Substep& substep) {
+void xpbd(Motion& motion, const Worker& worker, const Substep& substep) {
   constexpr Quantity start = scratch(0), displacements = velocities;
-  dynamics.contact_forces(worker, substep.h);
-  for (Batch* batch : worker.batches()) {
-    dynamics.other_forces(*batch);
-    dynamics.kick(*batch, substep.h);
-    dynamics.copy(*batch, positions, start);
-    dynamics.drift(*batch, substep.h);
-    dynamics.scale(*batch, velocities, substep.h);
-    dynamics.project(*batch, start, displacements);
-    dynamics.scale(*batch, displacements, 1 / substep.h);
-    dynamics.copy(*batch, start, positions);  // hand and contacts see where the velocities lead to from here
-    dynamics.pull(*batch);
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.other_forces(*batch);
+    motion.kick(*batch, substep.h);
+    motion.copy(*batch, positions, start);
+    motion.drift(*batch, substep.h);
+    motion.scale(*batch, velocities, substep.h);
+    motion.project(*batch, start, displacements, substep.h);
+    motion.scale(*batch, displacements, 1 / substep.h);
+    motion.copy(*batch, start, positions);  // hand and contacts see where the velocities lead to from here
+    motion.pull(*batch, substep.h);
   }
-  dynamics.contacts(worker, substep.h);
-  for (Batch* batch : worker.batches()) dynamics.drift(*batch, substep.h);
+  motion.contacts(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.drift(*batch, substep.h);
   worker.barrier();
 }
 

@@ -8,7 +8,8 @@
 
 #include <cmath>
 
-#include "softbody/forces/model_forces.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "tests/bench/step/stepper.h"
 
 namespace bench {
@@ -135,7 +136,7 @@ class Bullet final : public Stepper {
     body.getCollisionShape()->setMargin(margin);
     body.m_cfg.kDF = btScalar(p.material.friction);
     body.m_cfg.kKHR = 1;  // with the default, 0.1, vertices sink 0.2 R into the solids
-    if (const auto* gas = softbody::data<softbody::GasPressure>(p))
+    if (const auto* gas = softbody::gas_of(p))
       body.m_cfg.kPR = btScalar(gas->amount - gas->ambient * p.start_volume);  // right at the start's volume
     body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
     body.m_cfg.collisions |=

@@ -1,4 +1,4 @@
-#include "softbody/integrate/equilibrium.h"
+#include "softbody/forces/equilibrium.h"
 
 #include <algorithm>
 #include <cmath>

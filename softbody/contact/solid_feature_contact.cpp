@@ -1,15 +1,12 @@
-// Dynamics: contacts of faces and edges with solids, where these are round or sharp.
+// SolidContact: faces and edges of bodies on solids that are round or sharp.
 
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <span>
 
 #include "collide/surface/closest_features.h"
-#include "softbody/contact/solid_features.h"
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_contact.h"
 #include "softbody/contact/surface_vectors.h"
-#include "softbody/integrate/dynamics.h"
 
 namespace softbody {
 namespace {
@@ -69,16 +66,17 @@ std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoint
 
 }  // namespace
 
-void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidCore> cores, const Approach& approach) {
-  const glm::dvec3 origin = bodies_[b.body[std::size_t(lane)]].origin;
-  const Field<const float> x = at(std::as_const(x_), b);
+void SolidContact::find_features(const Batch& b, int lane, std::span<const SolidCore> cores, const Approach& approach) {
+  OfBatch& own = of_batch_[b.index];
+  const glm::dvec3 origin = state_.body(b.body[std::size_t(lane)]).origin;
+  const Field<const float> x = field(std::as_const(state_.x), b.base);
   const auto position = [&](std::uint32_t v) {
     return read(x, std::size_t(v) * std::size_t(b.width) + std::size_t(lane));
   };
   const collide::surface::Surface& surface = *b.model->surface;
   for (const SolidCore& core : cores) {
     SolidFeature found{.lane = lane,
-                       .solid = b.near_solids.size() - 1,
+                       .solid = own.near.size() - 1,
                        .vertices = {},
                        .from = glm::vec3(core.from - origin),
                        .to = glm::vec3(core.to - origin),
@@ -95,39 +93,40 @@ void Dynamics::find_solid_features(Batch& b, int lane, std::span<const SolidCore
           continue;
         found.vertices.fill(SolidFeature::no_vertex);
         std::copy(feature.begin(), feature.end(), found.vertices.begin());
-        b.solid_features.push_back(found);
+        own.features.push_back(found);
       }
     };
     core.point() ? add(surface.triangles()) : add(surface.edges());
   }
 }
 
-/// One after another. True if any acted.
-bool Dynamics::solid_features(Batch& b, float h) {
+/// Applies solids to one feature after another. Returns true if any acted.
+bool SolidContact::apply_to_features(const Batch& b, float h) {
   bool acted = false;
-  for (SolidFeature& f : b.solid_features) {
+  for (SolidFeature& f : of_batch_[b.index].features) {
     f.free_travel -= f.speed * h;
-    if (f.free_travel <= 0) acted = solid_feature(b, f) || acted;
+    if (f.free_travel <= 0) acted = apply_to_feature(b, f) || acted;
   }
   return acted;
 }
 
-/// By the law of the particles' own contacts, on the closest point: an impulse there goes to the corners by their
+/// Applies the law of the particles' contacts to the closest point: an impulse there goes to the corners by their
 /// weights.
-bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
+bool SolidContact::apply_to_feature(const Batch& b, SolidFeature& f) {
+  OfBatch& own = of_batch_[b.index];
   constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
   const std::size_t corners = f.vertices[2] == SolidFeature::no_vertex ? 2 : 3, lane = std::size_t(f.lane);
-  const Field<float> v = at(v_, b);
+  const Field<float> v = field(state_.v, b.base);
   std::array<std::size_t, 3> slot{};
   std::array<glm::vec3, 3> x{};
   for (std::size_t k = 0; k < corners; ++k) {
     slot[k] = std::size_t(f.vertices[k]) * std::size_t(b.width) + lane;
-    x[k] = read(at(std::as_const(x_), b), slot[k]);
+    x[k] = read(field(std::as_const(state_.x), b.base), slot[k]);
   }
   const ClosestPoints m = closest_points(f, std::span(x).first(corners));
   f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
   if (*std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return false;
-  const SolidArguments& s = b.near_solids[f.solid];
+  const SolidArguments& s = own.near[f.solid];
   const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
   if (!surface) return false;
 
@@ -151,7 +150,7 @@ bool Dynamics::solid_feature(Batch& b, SolidFeature& f) {
   const float impulse = s.mass / square * change;
   s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
   s.returned[lane] += s.restitution * impulse;
-  b.contacted |= 1u << lane;
+  own.pushed |= 1u << lane;
   return true;
 }
 

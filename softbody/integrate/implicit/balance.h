@@ -1,9 +1,19 @@
 #pragma once
-// Energy balance of implicit steps.
+// Momentum and energy balance of implicit steps.
 
-#include "softbody/integrate/implicit/solver.h"
+#include "softbody/integrate/implicit/attempts.h"
 
 namespace softbody {
+
+/// Corrects end_v of the lanes so that their bodies end with the linear and angular momentum that is due: springs and
+/// gas change neither, gravity and penalty contacts do. Solids must not push the bodies. A solve that stops early loses
+/// some of both.
+void restore_momentum(const ImplicitStep& step, ImplicitWork& work, LaneMask which);
+
+/// Returns true if a step of h has changed the momentum of a lane's body by the impulse of gravity and contact forces,
+/// to within a tenth.
+bool satisfies_momentum_balance(const BodyModel& model, const ImplicitWork& work, std::size_t lane, double h,
+                                const glm::dvec3& gravity);
 
 /// Returns the energy (J) that the body in a lane has gained in a step from nowhere: the change of its elastic, gas,
 /// shape and kinetic energy minus the work of gravity, solids and penalty contacts. Returns 0 if the gain is

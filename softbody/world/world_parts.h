@@ -1,7 +1,7 @@
 #pragma once
 // Parts of a world. Only the files that implement World and tests of the solver include this.
 
-#include "softbody/integrate/dynamics.h"
+#include "softbody/integrate/solver.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/sleep.h"
 #include "softbody/world/snapshot.h"
@@ -20,8 +20,8 @@ struct Coordinates {
   collide::Frame frame(const collide::Bodies& bodies) const { return {x, y, z, &bodies}; }
 };
 
-struct World::State {
-  State(Scene s, const Options& o);
+struct World::Parts {
+  Parts(Scene s, const Options& o);
 
   BodyId add(const BodySource& source, const glm::dvec3& position);
   void arrive();
@@ -50,7 +50,7 @@ struct World::State {
   collide::Workers workers;
   BodyModelSet models;
   Plan plan;
-  Dynamics dynamics;
+  Solver solver;
   Sleep sleep;
   std::vector<char> arrived;  // for each body source of the scene
   AddedBodies added_bodies;
@@ -75,7 +75,7 @@ struct World::State {
 struct Snapshot::Values {
   Scene scene;  // with all changes
   BodyModelSet models;
-  DynamicsState dynamics;
+  SolverState solver;
   std::vector<char> arrived;
   AddedBodies added_bodies;
   std::vector<AddedBody> added;

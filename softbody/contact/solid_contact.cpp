@@ -1,0 +1,132 @@
+#include "softbody/contact/solid_contact.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/solid_placement.h"
+
+namespace softbody {
+namespace {
+
+/// Returns how far (m) the body in a lane may come within `seconds`: twice as far as its fastest particle goes now, and
+/// a tenth of its radius.
+double max_travel(const Batch& b, const Extent& e, int lane, const glm::dvec3& gravity, double seconds) {
+  const double fall = glm::length(gravity) * seconds;
+  return (2 * std::sqrt(double(e.length2[lane])) + fall) * seconds + 0.1 * b.model->radius +
+         b.model->material[Material::thickness];
+}
+
+}  // namespace
+
+void SolidContact::begin_frame() {
+  of_batch_.resize(state_.batches().size());
+  for (OfBatch& b : of_batch_) b = {};
+  if (has_restitution_) before_ = state_.v;
+}
+
+template <class Solid>
+void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity, double seconds) {
+  OfBatch& own = of_batch_[b.index];
+  const auto near = [&](int l) {  // the plane before the solid, as seen from the box's centre, cuts the box
+    const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
+    const SolidSurface s = surface_at(solid, state_.body(b.body[std::size_t(l)]).origin + 0.5 * (lo + hi));
+    return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= max_travel(b, e, l, gravity, seconds);
+  };
+  bool any = false;
+  for (int l = 0; l < b.used; ++l) any = any || near(l);
+  if (!any) return;
+  const double thickness = b.model->material[Material::thickness];
+  SolidArguments& s = own.near.emplace_back();
+  s.particles = b.particles();
+  s.mass = float(b.model->particle_mass);
+  s.friction = float(solid.friction);
+  s.restitution = float(solid.restitution);
+  s.shape = shape_of<float>(solid, thickness);
+  for (int l = 0; l < b.used; ++l) {
+    const glm::dvec3 origin = state_.body(b.body[std::size_t(l)]).origin;
+    const glm::dvec3 place = place_of(solid, thickness, origin) - origin;
+    s.place.x[l] = float(place.x), s.place.y[l] = float(place.y), s.place.z[l] = float(place.z);
+  }
+  s.moves = b.moves.data();
+  s.impulse = impulse(b);
+  s.returned = returned(b);
+  if (has_restitution_) s.before = field(std::as_const(before_), b.base);
+  if (!has_features_) return;
+  const std::vector<SolidCore> cores = cores_of(solid);
+  for (int l = 0; l < b.used; ++l) {
+    if (b.moves[std::size_t(l)] == 0) continue;
+    const double travel = max_travel(b, e, l, gravity, seconds);
+    find_features(b, l, cores,
+                  {core_radius(solid) + thickness,
+                   travel / seconds,
+                   travel,
+                   {glm::vec3(e.lo.x[l], e.lo.y[l], e.lo.z[l]), glm::vec3(e.hi.x[l], e.hi.y[l], e.hi.z[l])}});
+  }
+}
+
+template void SolidContact::add(const Batch&, const Extent&, const SolidSphere&, const glm::dvec3&, double);
+template void SolidContact::add(const Batch&, const Extent&, const SolidPlane&, const glm::dvec3&, double);
+template void SolidContact::add(const Batch&, const Extent&, const SolidBox&, const glm::dvec3&, double);
+template void SolidContact::add(const Batch&, const Extent&, const SolidCapsule&, const glm::dvec3&, double);
+
+void SolidContact::end_frame() {
+  pushes_.assign(state_.body_count(), {});
+  for (const Batch& b : state_.batches()) {
+    const OfBatch& own = of_batch_[b.index];
+    for (std::size_t l = 0; l < std::size_t(b.used); ++l)
+      pushes_[b.body[l]] = {{own.impulse.x[l], own.impulse.y[l], own.impulse.z[l]}, double(own.returned[l])};
+  }
+}
+
+void SolidContact::remove(BodyId body) {
+  if (body < pushes_.size()) pushes_.erase(pushes_.begin() + std::ptrdiff_t(body));
+}
+
+void SolidContact::note_velocities(const Batch& b) {
+  if (!has_restitution_) return;
+  for (std::size_t k = 0; k < 3; ++k) std::copy_n(&state_.v[k][b.base], b.values(), &before_[k][b.base]);
+}
+
+void SolidContact::clear_velocities(const Batch& b) {
+  if (!has_restitution_) return;
+  for (auto& component : before_) std::fill_n(&component[b.base], b.values(), 0.0f);
+}
+
+Field<float> SolidContact::impulse(const Batch& b) {
+  LaneVector& sum = of_batch_[b.index].impulse;
+  return {sum.x, sum.y, sum.z};
+}
+
+/// Particles first, then what lies between them, which may push particles back.
+void SolidContact::apply(const Batch& b, float h) {
+  if (apply_to_particles(b, h, false) && has_features_ && apply_to_features(b, h)) apply_to_particles(b, h, true);
+}
+
+/// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a
+/// groove: they take turns until what is left is slow, or for so long (Gauss and Seidel). Returns false if no solid is
+/// near.
+bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
+  constexpr int max_passes = 8;
+  constexpr float slack = 1e-4f;  // m/s
+  OfBatch& own = of_batch_[b.index];
+  unsigned acted = again ? ~0u : 0;
+  for (int pass = 0; pass < max_passes; ++pass) {
+    bool more = false;
+    for (SolidArguments& s : own.near) {
+      s.h = h;
+      s.slack = pass || again ? slack : 0;
+      const Kernel solid = b.width == one_lane ? narrow_ : wide_;
+      const unsigned now = solid(s, field(std::as_const(state_.x), b.base), field(state_.v, b.base));
+      more = more || (acted & now) || (pass && now);
+      acted |= now;
+      own.pushed |= now;
+    }
+    if (!more) break;
+  }
+  return !own.near.empty();
+}
+
+}  // namespace softbody

@@ -1,0 +1,90 @@
+#pragma once
+// Contact of bodies with solids, on the velocities of a substep: particles of all solids, and faces and edges where
+// solids are round or sharp.
+
+#include <span>
+#include <vector>
+
+#include "softbody/contact/solid_features.h"
+#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_surface.h"
+#include "softbody/state/state.h"
+
+namespace softbody {
+
+/// What solids did to a body in a frame.
+struct SolidPush {
+  glm::dvec3 impulse{0.0};  // N s, along their normals
+  double returned = 0;      // N s, the part of its length that restitution gives back
+};
+
+class SolidContact {
+ public:
+  /// Kernel of body::solid(): acts on one batch, returns the lanes in which it acted as bits.
+  using Kernel = unsigned (*)(const SolidArguments&, Field<const float> x, Field<float> v);
+
+  /// `wide`, `narrow`: the kernels for batches of all lanes and of one. The state must outlive this.
+  SolidContact(State& state, Kernel wide, Kernel narrow) : state_(state), wide_(wide), narrow_(narrow) {}
+
+  /// features: faces and edges meet solids, too. restitution: some solid throws back.
+  void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
+
+  // A frame: begin_frame(), add() for each batch that moves and each solid, substeps, end_frame().
+  void begin_frame();
+  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the batch's
+  /// positions and velocities now. gravity in m/s^2.
+  template <class Solid>
+  void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds);
+  /// Notes the pushes of the frame.
+  void end_frame();
+
+  // A substep.
+  /// Notes the velocities that a batch has at the start of a substep, which restitution needs.
+  void note_velocities(const Batch& batch);
+  /// Makes restitution take the batch for one that nothing moves: implicit steps throw back themselves.
+  void clear_velocities(const Batch& batch);
+  /// Changes the velocities of a batch so that in a step of h seconds no particle enters a solid.
+  void apply(const Batch& batch, float h);
+  /// Returns where the solids' impulses along their normals (N s) are summed for each lane of a batch.
+  Field<float> impulse(const Batch& batch);
+  /// Returns where the part of these impulses is summed that restitution gives back.
+  float* returned(const Batch& batch) { return of_batch_[batch.index].returned.data(); }
+
+  /// Returns the solids that the bodies of a batch may touch in this frame.
+  std::span<const SolidArguments> near(const Batch& batch) const {
+    return batch.index < of_batch_.size() ? std::span<const SolidArguments>(of_batch_[batch.index].near)
+                                          : std::span<const SolidArguments>();
+  }
+  /// Returns the lanes of a batch that solids may have pushed in this frame, as bits.
+  unsigned pushed(const Batch& batch) const { return of_batch_[batch.index].pushed; }
+
+  /// Returns what solids did to a body in the last frame.
+  SolidPush push(BodyId body) const { return body < pushes_.size() ? pushes_[body] : SolidPush{}; }
+  const std::vector<SolidPush>& pushes() const { return pushes_; }
+  void set_pushes(std::vector<SolidPush> pushes) { pushes_ = std::move(pushes); }
+  /// Forgets a body that is removed; the ids of later bodies move up.
+  void remove(BodyId body);
+
+ private:
+  struct OfBatch {
+    std::vector<SolidArguments> near;
+    std::vector<SolidFeature> features;               // of the bodies, that may meet the solids between vertices
+    LaneVector impulse{};                             // N s, along the normals
+    alignas(32) std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
+    unsigned pushed = 0;
+  };
+
+  bool apply_to_particles(const Batch& batch, float h, bool again);
+  void find_features(const Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
+  bool apply_to_features(const Batch& batch, float h);
+  bool apply_to_feature(const Batch& batch, SolidFeature& feature);
+
+  State& state_;
+  Kernel wide_, narrow_;
+  bool has_features_ = false, has_restitution_ = false;
+  VectorArray before_;  // velocities at the start of the substep, if there is restitution
+  std::vector<OfBatch> of_batch_;
+  std::vector<SolidPush> pushes_;  // of each body
+};
+
+}  // namespace softbody

@@ -1,0 +1,108 @@
+#include "softbody/integrate/contact_pass.h"
+
+#include <algorithm>
+#include <cmath>
+#include "softbody/contact/keys.h"
+
+namespace softbody {
+
+void ContactPass::set_plan(const Plan& plan) {
+  has_surfaces_ = plan.has(Stage::surface_contact);
+  if (!has_surfaces_) surfaces_.clear();
+}
+
+double ContactPass::wake_hit_sleepers(double seconds, std::size_t max_candidates) {
+  bool moving = false, sleeping = false;
+  for (BodyId id = 0; id < state_.body_count(); ++id) {
+    moving = moving || state_.body(id).moves();
+    sleeping = sleeping || state_.body(id).asleep;
+  }
+  if (!moving || !sleeping) return 0;
+  const double work = find(seconds, seconds, 0, max_candidates);
+  for (const collide::surface::SurfacePair& pair : surfaces_.search().pairs())
+    for (const auto& [sleeper, by] : {std::pair(pair.a, pair.b), std::pair(pair.b, pair.a)}) {
+      if (!state_.body(sleeper).asleep || !state_.body(by).moves() ||
+          state_.max_particle_speed(by) <= 2 * scene_.sleep.speed)
+        continue;
+      state_.set_asleep(sleeper, false);
+      found_ = 0;  // its candidates are others now that it moves
+    }
+  return work;
+}
+
+int ContactPass::predicted_substeps(double left, double h) const {
+  const double seconds = double(surfaces_.search().predicted_until()) - (found_ - left);
+  return std::max(1, int(std::min(seconds / h + 1e-3, 1e6)));
+}
+
+collide::Frame ContactPass::world_positions() {
+  for (auto* components : {&position_, &velocity_})
+    for (auto& c : *components) c.resize(vertices_->vertex_count());
+  state_.world_positions(position_[0], position_[1], position_[2]);
+  return {position_[0], position_[1], position_[2], vertices_};
+}
+
+collide::surface::Motion ContactPass::motion(const collide::Frame& now) {
+  for (BodyId id = 0; id < state_.body_count(); ++id)
+    for (Index v = 0; v < vertices_->size(id); ++v)
+      for (std::size_t k = 0; k < 3; ++k) velocity_[k][vertices_->first[id] + v] = state_.v[k][state_.slot(id, v)];
+  return {now, velocity_[0], velocity_[1], velocity_[2]};
+}
+
+double ContactPass::find(double left, double ahead, double least, std::size_t max_candidates) {
+  const collide::Frame now = world_positions();
+  const auto elapsed = float(found_ - left);
+  if (found_ > 0 && surfaces_.check_valid(now, elapsed, float(ahead))) return 0;
+  if (found_ > 0) {
+    surfaces_.update(motion(now), elapsed, float(ahead), crew_.workers());
+    return double(surfaces_.search().work());
+  }
+  found_ = left;
+  since_found_.assign(std::size_t(crew_.workers().threads()), 0.0f);
+  std::vector<collide::surface::SurfaceBody> traits;
+  std::vector<ContactBody> contacts;
+  for (BodyId id = 0; id < state_.body_count(); ++id) {
+    const Body& body = state_.body(id);
+    const BodyModel& p = state_.model(id);
+    const auto edge = float(p.mean_edge);
+    const float margin = std::clamp(0.5f * float(p.material[Material::thickness]), 0.001f * edge, 0.1f * edge);
+    traits.push_back({p.surface.get(), margin, 0, edge, body.moves()});
+    contacts.push_back({body.origin, state_.slot(id, 0), std::size_t(state_.batch_of(id).width),
+                        body.moves() ? float(1 / p.particle_mass) : 0.0f, float(p.material[contact::friction]),
+                        float(p.material[contact::restitution]), &p.shape->rest()});
+  }
+  surfaces_.find(motion(now), std::move(traits), std::move(contacts),
+                 {float(left), float(least), scene_.collision.self_collision, max_candidates}, float(ahead),
+                 crew_.workers());
+  return double(surfaces_.search().work());
+}
+
+void ContactPass::apply(const Worker& worker, float h, float since_start) {
+  const auto solids = [&] {
+    for (const Batch* batch : worker.batches()) solids_.apply(*batch, h);
+  };
+  apply_surfaces(worker, h, since_start);
+  solids();
+  for (int pass = 0; pass < SurfaceContact::max_passes && has_surfaces_ && surfaces_.needs_more_iterations(h); ++pass) {
+    worker.barrier();
+    if (!surfaces_.resolve_after_solids(worker.index(), crew_.active(), field(state_.v), h, [&] { worker.barrier(); }))
+      break;
+    solids();
+  }
+}
+
+void ContactPass::apply_surfaces(const Worker& worker, float h, float since_start) {
+  if (!has_surfaces_ || surfaces_.empty()) return;
+  const Field<const float> x = field(std::as_const(state_.x));
+  worker.barrier();  // the velocities of all bodies are there
+  surfaces_.make_rows(worker.index(), crew_.active(), x, field(state_.v),
+                      since_found_[std::size_t(worker.index())] + since_start, h);
+  worker.barrier();
+  surfaces_.solve(worker.index(), crew_.active(), x, field(state_.v), h, [&] { worker.barrier(); });
+}
+
+void ContactPass::advance(const Worker& worker, float h) {
+  if (has_surfaces_) since_found_[std::size_t(worker.index())] += h;
+}
+
+}  // namespace softbody

@@ -1,0 +1,67 @@
+#pragma once
+// Contacts on the velocities of a substep: the true surfaces of bodies first, then solids, then again those surfaces
+// that the solids have pushed into each other.
+
+#include <array>
+#include <vector>
+
+#include "softbody/contact/solid_contact.h"
+#include "softbody/contact/surface_contact.h"
+#include "softbody/integrate/crew.h"
+#include "softbody/integrate/plan.h"
+#include "softbody/scene/scene.h"
+#include "softbody/state/state.h"
+
+namespace softbody {
+
+class ContactPass {
+ public:
+  /// All of these must outlive this.
+  ContactPass(const Scene& scene, State& state, SolidContact& solids, const Crew& crew)
+      : scene_(scene), state_(state), solids_(solids), crew_(crew) {}
+
+  void set_plan(const Plan& plan);
+  /// Takes the world's list of bodies, which must outlive this.
+  void set_vertices(const collide::Bodies& vertices) { vertices_ = &vertices; }
+
+  void begin_frame() { found_ = 0; }
+  /// Wakes sleepers that a body comes near within `seconds` which is faster than twice the speed of sleep: a body that
+  /// sleeps through a hit stands like a wall. Returns the work, as MaxWork::surface counts it.
+  double wake_hit_sleepers(double seconds, std::size_t max_candidates);
+  /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those
+  /// that are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
+  double find(double left, double ahead, double least, std::size_t max_candidates);
+  /// Returns for how many substeps of h seconds the candidates may be taken, if they hold: at least one.
+  int predicted_substeps(double left, double h) const;
+
+  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
+  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
+  void apply(const Worker& worker, float h) { apply(worker, h, 0); }
+  /// Does the same for the positions that a substep of h ends with.
+  void apply_at_end(const Worker& worker, float h) { apply(worker, h, h); }
+  /// Counts a substep that this thread has done.
+  void advance(const Worker& worker, float h);
+
+  bool has_surfaces() const { return has_surfaces_; }
+  const SurfaceContact& surfaces() const { return surfaces_; }
+  SurfaceContact& surfaces() { return surfaces_; }
+
+ private:
+  void apply(const Worker& worker, float h, float since_start);
+  void apply_surfaces(const Worker& worker, float h, float since_start);
+  collide::Frame world_positions();
+  collide::surface::Motion motion(const collide::Frame& now);
+
+  const Scene& scene_;
+  State& state_;
+  SolidContact& solids_;
+  const Crew& crew_;
+  SurfaceContact surfaces_;
+  bool has_surfaces_ = false;
+  std::vector<float> since_found_;  // s, as each thread counts them
+  double found_ = 0;                // s before the end of the frame, when the candidates were found; 0: not yet
+  const collide::Bodies* vertices_ = nullptr;
+  std::array<std::vector<float>, 3> position_, velocity_;  // in the world, m and m/s
+};
+
+}  // namespace softbody

@@ -1,0 +1,73 @@
+#include "softbody/integrate/implicit/contact_search.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/law.h"
+#include "softbody/contact/solid_shapes.h"
+
+namespace softbody {
+namespace {
+
+/// Returns the surface of a solid as seen from x, in the frame of the body in a lane.
+SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const glm::dvec3& x) {
+  const body::Vec<double> d{x.x - double(s.place.x[lane]), x.y - double(s.place.y[lane]),
+                            x.z - double(s.place.z[lane])};
+  return std::visit([&](const auto& shape) { return body::surface_at(shape, d); }, s.shape);
+}
+
+}  // namespace
+
+LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
+                     ImplicitWork& work) {
+  LaneMask in_contact;
+  work.planes.clear();
+  for (std::size_t lane = 0; lane < lanes; ++lane) {
+    if (!moving[lane]) continue;
+    for (const SolidArguments& s : b.near_solids)
+      for (std::size_t at = lane; at < work.x.size() / 3; at += lanes) {
+        const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
+        const SurfaceAt<double> surface = surface_from(s, lane, x);
+        const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
+        const double out = law::min_move(surface.distance, h);
+        double min_displacement = out;
+        if (glm::dot(frames.free_displacement(lane, x, v), normal) < out) {
+          in_contact.set(lane);
+          // The spin takes the particle on, along its circle, so it is not what brings it to the plane.
+          const double approach = -glm::dot(frames.velocity_without_spin(lane, x, v), normal);
+          min_displacement = std::max(min_displacement, std::min(0.0, glm::dot(frames.turn(lane, x), normal)) +
+                                                            law::rebound(approach, h * double(s.restitution)));
+        }
+        work.planes.push_back(
+            {at, double(s.friction), double(s.restitution), normal, min_displacement, std::max(0.0, out)});
+      }
+  }
+  return in_contact;
+}
+
+LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, ImplicitWork& work) {
+  LaneMask in_contact;
+  work.penalty_pairs.clear();
+  const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
+  for (const PenaltyEnd& end : b.ends) {
+    const std::size_t at = end.slot - b.base;
+    if (!moving[at % lanes]) continue;
+    const PenaltyPair& pair = b.penalty.pairs[end.pair];
+    const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
+    if (slopes.spring <= 0) continue;
+    const auto [other, slot] = end.sign > 0 ? std::pair(pair.body_b, pair.slot_b) : std::pair(pair.body_a, pair.slot_a);
+    LinearPenaltyPair s{.at = at, .normal = double(end.sign) * glm::dvec3(pair.normal), .slopes = slopes};
+    s.force = double(end.sign) * glm::dvec3(b.penalty.force[end.pair]);
+    s.friction = double(pair.friction);
+    s.partner = b.is_moving(other) ? h * velocity(slot) : glm::dvec3(0.0);
+    s.start_separation = h * velocity(end.slot) - s.partner;
+    s.max_work = double(PenaltyContact::approach_limit) * b.penalty.energy(pair, b.x) +
+                 double(b.penalty.max_force(pair)) * glm::length(s.partner);
+    work.penalty_pairs.push_back(s);
+    in_contact.set(at % lanes);
+  }
+  return in_contact;
+}
+
+}  // namespace softbody

@@ -1,0 +1,59 @@
+#pragma once
+// The problem of one implicit step of the bodies in all lanes, and what touches them.
+
+#include <bitset>
+#include <span>
+
+#include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/implicit/matrix.h"
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+/// One flag a lane.
+using LaneMask = std::bitset<lanes>;
+
+/// The plane of a solid that a particle must stay in front of, and the contact force.
+struct PlaneContact {
+  std::size_t at;  // particle * lanes + lane
+  double friction, restitution;
+  glm::dvec3 normal;        // unit
+  double min_displacement;  // m, that the particle has to move along the normal in this step
+  double out;               // m, what of that takes it out of the solid
+  glm::dvec3 force{0.0};    // N
+};
+
+/// The penalty contact between a particle of the batch and one of another body, to first order.
+struct LinearPenaltyPair {
+  std::size_t at;     // particle * lanes + lane
+  glm::dvec3 normal;  // unit, towards the particle
+  PenaltyContact::Slopes slopes;
+  glm::dvec3 force{0.0};  // N, on it at the start
+  double friction = 0;
+  glm::dvec3 partner{0.0};           // m, how far the other particle is taken to move
+  glm::dvec3 start_separation{0.0};  // m, how far the two separate at the first velocities; in `force`
+  double max_work = 0;               // J, that it can do in the step, whatever force_after() says
+
+  /// Returns the force (N) after the particle has moved by u. It never pulls, and friction does not exceed its limit.
+  glm::dvec3 force_after(const glm::dvec3& u) const;
+};
+
+/// What is solved in one step, in the frames of the lanes.
+struct ImplicitProblem {
+  const BodyModel& model;
+  const ImplicitMatrix& matrix;
+  double h;                          // s
+  const float* moves;                // lanes values
+  const Lanes *x, *v;                // at the start
+  const Lanes* a;                    // m/s^2, what acts beside the forces
+  const Lanes* frame_displacement;   // m, what particles move without leaving their places here (implicit/frames.h)
+  std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
+  std::span<const LinearPenaltyPair> penalty_pairs{};
+
+  /// Returns the displacement (m) in this step of a particle whose position is now in `now`.
+  glm::dvec3 displacement(const Lanes& now, std::size_t at) const {
+    return read(now, at) - read(*x, at) + read(*frame_displacement, at);
+  }
+};
+
+}  // namespace softbody

@@ -1,0 +1,60 @@
+#pragma once
+// Implicit steps of batches of bodies.
+
+#include <array>
+#include <functional>
+#include <map>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "softbody/contact/solid_law.h"
+#include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/implicit/matrices.h"
+#include "softbody/integrate/implicit/work.h"
+#include "softbody/state/isa.h"
+
+namespace softbody {
+
+/// The start of a step of a batch, and what may touch it.
+struct ImplicitBatch {
+  const std::shared_ptr<const BodyModel>& model;
+  std::span<const float, lanes> moves;  // 0 or 1 for each lane
+  Field<const float> x, v;              // m and m/s, of all batches
+  std::size_t base;                     // where the values of this one start in them
+  glm::dvec3 gravity;                   // m/s^2
+  std::span<const SolidArguments> near_solids;
+  const PenaltyContact& penalty;          // evaluated at x, v
+  std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
+  std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
+};
+
+/// Where the end of a step goes. Lanes that do not move are left alone.
+struct ImplicitResult {
+  Field<float> mean, rest;  // m/s, of all batches: velocities that lead to the end, and what they change by there
+  Field<float> impulse;     // N s, a value a lane: the normal impulses of solids are added here ...
+  float* returned;          // ... and here their sizes times the restitution
+};
+
+/// Takes the steps, and owns the matrices and the workspaces that they need.
+class ImplicitSteps {
+ public:
+  explicit ImplicitSteps(Isa isa) : kernels_(implicit_kernels(isa)) {}
+
+  /// Forgets the body models that are not in use.
+  void retain(const std::function<bool(const BodyModel&)>& in_use);
+  /// Gets ready for steps of h (s) of the model's bodies on threads 0 to threads - 1. Throws SceneError as
+  /// ImplicitMatrix does.
+  void prepare(const std::shared_ptr<const BodyModel>& model, double h, int threads);
+  /// Takes a step of h, which must be prepared. Threads may take steps of different batches at the same time.
+  void advance(int thread, const ImplicitBatch& batch, const ImplicitResult& result, double h);
+  /// Returns the work of all threads since the last call, see ImplicitSolver::take_work().
+  double take_work();
+
+ private:
+  const ImplicitKernels& kernels_;
+  ImplicitMatrices matrices_;
+  std::vector<std::map<std::shared_ptr<const BodyModel>, ImplicitWork>> work_;  // of each thread
+};
+
+}  // namespace softbody

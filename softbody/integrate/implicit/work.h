@@ -1,0 +1,34 @@
+#pragma once
+// What a thread computes with while it solves steps of one body model.
+
+#include <vector>
+
+#include "softbody/integrate/implicit/solver.h"
+
+namespace softbody {
+
+class ImplicitFrames;
+
+/// The start and the end of a step of the bodies in all lanes, what touches them, and memory for the attempts.
+struct ImplicitWork {
+  ImplicitWork(const BodyModel& model, const ImplicitKernels& kernels);
+
+  /// Returns the problem of a step of h with the matrix, for the lanes that have a frame of their own: it begins at x,
+  /// v, and nothing touches the bodies.
+  ImplicitProblem problem(const BodyModel& model, const ImplicitMatrix& matrix, const ImplicitFrames& frames, double h);
+  /// Takes solved_x and solved_v back into the world and makes them the end of the lanes that have a frame of their
+  /// own. Leaves the other lanes as they are.
+  void finish(const ImplicitFrames& frames);
+
+  ImplicitSolver solver;
+  Lanes x, v, end_x, end_v;                      // m and m/s, in the world
+  std::vector<PlaneContact> planes;              // in the world, ordered by lanes ...
+  std::vector<LinearPenaltyPair> penalty_pairs;  // ... these in any order
+  Lanes local_x, local_v;                        // the start in the lanes' frames ...
+  Lanes solved_x, solved_v;                      // ... and the end, as it has been solved
+  Lanes a, frame_displacement;                   // of the frames, see ImplicitProblem
+  Lanes stage_x, stage_v, stage_a;               // where the second stage starts, and what acts in it
+  std::array<float, lanes> moves{};
+};
+
+}  // namespace softbody

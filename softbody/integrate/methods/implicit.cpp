@@ -1,0 +1,47 @@
+#include "softbody/integrate/implicit/steps.h"
+#include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
+
+namespace softbody {
+
+void Motion::solve_implicit(const Worker& worker, const Batch& b, Quantity mean, Quantity rest, float h) {
+  const State& state = parts_.state;
+  PenaltyContact& penalty = parts_.penalty;
+  parts_.implicit.advance(worker.index(),
+                          {.model = b.model,
+                           .moves = b.moves,
+                           .x = field(state.x),
+                           .v = field(state.v),
+                           .base = b.base,
+                           .gravity = gravity_,
+                           .near_solids = parts_.solids.near(b),
+                           .penalty = penalty,
+                           .ends = penalty.ends_of(b),
+                           .is_moving = [&state](BodyId body) { return state.body(body).moves(); }},
+                          {.mean = field(array(mean)),
+                           .rest = field(array(rest)),
+                           .impulse = parts_.solids.impulse(b),
+                           .returned = parts_.solids.returned(b)},
+                          double(h));
+  // What solids throw back is in the solve: for the velocities' contact nothing has come at them.
+  parts_.solids.clear_velocities(b);
+}
+
+void implicit_step(Motion& motion, const Worker& worker, const Substep& substep) {
+  constexpr Quantity mean = scratch(0), rest = scratch(1);
+  motion.contact_forces(worker, substep.h);
+  for (const Batch* batch : worker.batches()) motion.solve_implicit(worker, *batch, mean, rest, substep.h);
+  worker.barrier();  // no thread still reads the velocities for penalty contacts
+  for (const Batch* batch : worker.batches()) {
+    motion.copy(*batch, mean, velocities);
+    motion.pull(*batch, substep.h);
+  }
+  motion.contacts(worker, substep.h);
+  for (const Batch* batch : worker.batches()) {
+    motion.drift(*batch, substep.h);
+    motion.add(*batch, velocities, 1, rest);
+  }
+  worker.barrier();
+}
+
+}  // namespace softbody

@@ -1,0 +1,88 @@
+#pragma once
+// What integrators are made of: forces, contacts and the arithmetic on the vectors of all particles. Each function acts
+// on one batch, or on the part of a worker; the arithmetic leaves lanes alone that do not move.
+
+#include <vector>
+
+#include "softbody/forces/force_set.h"
+#include "softbody/integrate/batch_kernels.h"
+#include "softbody/integrate/contact_pass.h"
+#include "softbody/integrate/crew.h"
+#include "softbody/integrate/plan.h"
+#include "softbody/state/state.h"
+
+namespace softbody {
+
+class ImplicitSteps;
+
+/// One vector for each particle, which integrators compute with.
+struct Quantity {
+  int index;
+};
+inline constexpr Quantity positions{0}, velocities{1}, forces{2};
+constexpr Quantity scratch(int i) { return {3 + i}; }
+
+/// What a Motion acts on. All of these must outlive it.
+struct MotionParts {
+  State& state;
+  const BatchKernels& kernels;
+  const Hand& hand;
+  PenaltyContact& penalty;
+  SolidContact& solids;
+  ContactPass& contacts;
+  ImplicitSteps& implicit;
+};
+
+class Motion {
+ public:
+  explicit Motion(const MotionParts& parts)
+      : parts_(parts), forces_(parts.kernels.isa(), {parts.penalty, parts.hand}) {}
+
+  void set_plan(const Plan& plan);
+  /// Makes room for `scratch` vectors of each particle. gravity in m/s^2.
+  void begin_frame(int scratch, const glm::dvec3& gravity);
+  /// h: of the coming substeps, s.
+  void begin_substeps(float h) { h_ = h; }
+
+  /// Evaluates the penalty contacts of the worker's part, for all_forces() of all batches. h: s, for which friction
+  /// slips.
+  void contact_forces(const Worker& worker, float h);
+  void all_forces(const Batch& batch);      // at the current positions and velocities
+  void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
+  void kick(const Batch& batch, float h);   // v += h (f / m + g)
+  void accelerations(const Batch& batch);   // f = f / m + g
+  void drift(const Batch& batch, float h);  // x += h v
+  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
+  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
+  void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
+  /// Does the same for the positions that a substep of h ends with.
+  void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply_at_end(worker, h); }
+  /// XPBD, on displacements d in this step of h, which starts at x0. Wants the positions to be x0 + d.
+  void project(const Batch& batch, Quantity x0, Quantity d, float h);
+  /// Adds what the hand does in a step of h to velocities that hold what all else does, after other_forces().
+  void pull(const Batch& batch, float h);
+  /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
+  /// be added to them after drift(). Wants contact_forces() and the positions and velocities of all batches.
+  void solve_implicit(const Worker& worker, const Batch& batch, Quantity mean, Quantity rest, float h);
+  void copy(const Batch& batch, Quantity from, Quantity to);           // to = from
+  void add(const Batch& batch, Quantity to, float times, Quantity q);  // to += times q
+  void scale(const Batch& batch, Quantity q, float times);             // q *= times
+  void clear(const Batch& batch, Quantity q);                          // q = 0
+
+ private:
+  VectorArray& array(Quantity q);
+  Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
+  Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
+  Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
+  template <class Operation>
+  void each_value(const Batch& batch, Operation operation);
+  ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_}; }
+
+  MotionParts parts_;
+  ForceSet forces_;
+  std::vector<VectorArray> scratch_;
+  glm::dvec3 gravity_{0.0};
+  float h_ = 0;
+};
+
+}  // namespace softbody

@@ -1,0 +1,228 @@
+#include "softbody/integrate/solver.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "softbody/integrate/force_stage.h"
+#include "softbody/integrate/implicit/steps.h"
+#include "softbody/scene/solids.h"
+
+namespace softbody {
+namespace {
+
+constexpr int many_substeps = 64;  // fewer lose hardly more than 1e-5 of a momentum in a second, see MomentumRestorer
+
+}  // namespace
+
+std::size_t SolverState::bytes() const {
+  return bodies.bytes() + bytes_of(penalty_pairs) + bytes_of(pushes) + surface.bytes();
+}
+
+Solver::Solver(const Scene& scene, const Crew& crew, Isa isa)
+    : scene_(scene),
+      crew_(crew),
+      kernels_(isa),
+      solids_(state_, kernels(isa, lanes).solid, kernels(isa, one_lane).solid),
+      contacts_(scene, state_, solids_, crew_),
+      implicit_(std::make_unique<ImplicitSteps>(isa)),
+      motion_({state_, kernels_, hand_, penalty_, solids_, contacts_, *implicit_}),
+      bounds_(state_, kernels_, penalty_, solids_) {}
+
+Solver::~Solver() = default;
+
+void Solver::set_vertices(const collide::Bodies& vertices) {
+  vertices_ = &vertices;
+  contacts_.set_vertices(vertices);
+}
+
+void Solver::set_plan(const Plan& plan) {
+  has_gravity_ = plan.has(Stage::gravity);
+  motion_.set_plan(plan);
+  resistance_.set_plan(plan);
+  contacts_.set_plan(plan);
+  solids_.set_parts(plan.has(Stage::solid_features), plan.has(Stage::restitution));
+  if (!plan.has(stage_of<PenaltyContact>)) penalty_.pairs.clear();
+}
+
+void Solver::remove(BodyId body) {
+  penalty_.remove(body, vertices_->first[body], vertices_->size(body));
+  contacts_.surfaces().clear();  // found anew in the next frame
+  solids_.remove(body);
+  hand_.remove(body);
+  state_.remove(body);
+}
+
+void Solver::set_contacts(const DetectedContacts& detected, float thickness) {
+  penalty_.find(detected, state_, thickness);
+}
+
+std::vector<PairEnergy> Solver::penalty_energies() const {
+  PenaltyContact last = penalty_;
+  last.locate(state_);
+  return last.energies(field(state_.x));
+}
+
+std::vector<PairEnergy> Solver::penalty_energies(const DetectedContacts& detected, float thickness) const {
+  PenaltyContact coming = penalty_;
+  coming.find(detected, state_, thickness);
+  return coming.energies(field(state_.x));
+}
+
+glm::dvec3 Solver::gravity() const { return has_gravity_ ? scene_.gravity : glm::dvec3(0.0); }
+
+void Solver::begin_frame(double seconds) {
+  steps_.begin_frame(seconds, state_.particle_count());
+  contacts_.begin_frame();
+  if (contacts_.has_surfaces())
+    steps_.spend({.surface = contacts_.wake_hit_sleepers(seconds, steps_.max_candidates())});
+  solids_.begin_frame();
+  pushed_.assign(state_.batches().size(), 0);
+  std::vector<const Batch*> moving;
+  std::size_t particles = 0;
+  for (const Batch& b : state_.batches()) {
+    if (!b.any_moves()) continue;
+    moving.push_back(&b);
+    particles += b.particles() * std::size_t(b.used);
+    const Extent extent = kernels_.extent(b, state_.x, state_.v);
+    for_each_solid(scene_, [&](const auto& solid) { solids_.add(b, extent, solid, scene_.gravity, seconds); });
+  }
+  crew_.take(std::move(moving), particles);
+  if (steps_.automatic() && !crew_.moving().empty()) choose_integrator(seconds);
+  motion_.begin_frame(steps_.integrator().scratch, gravity());
+  for (const PenaltyPair& p : penalty_.pairs) mark_pushed(p.body_a), mark_pushed(p.body_b);
+  if (hand_.grab()) mark_pushed(hand_.grab()->body);
+  for (const Batch* b : crew_.moving())
+    if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
+}
+
+void Solver::choose_integrator(double seconds) {
+  const SubstepBound bound = bounds_.measure(*find_integrator("semi-implicit-euler"), seconds);
+  const auto& moving = crew_.moving();
+  steps_.choose(
+      bound,
+      {.near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
+       .penalty_pairs = !penalty_.pairs.empty(),
+       .surface_contact = contacts_.has_surfaces(),
+       .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
+       .rounding_velocity = bounds_.rounding_velocity(moving, bound.stable_step),
+       .sleep_speed = scene_.sleep.speed});
+}
+
+FrameResult Solver::advance(double seconds, const std::function<void()>& after_substep) {
+  begin_frame(seconds);
+  Frame frame{seconds};
+  if (!crew_.moving().empty()) {
+    do take_substeps(frame, after_substep);
+    while (frame.left > 0 && steps_.may_go_on(frame.substeps));
+    for (const Batch* b : crew_.moving()) pushed_[b->index] |= solids_.pushed(*b);
+    frame.momenta.restore((seconds - frame.left) * gravity(), steps_.integrator().conserves_spin, pushed_);
+  } else {
+    frame.left = 0;
+  }
+  solids_.end_frame();
+  return {frame.substeps, seconds - frame.left};
+}
+
+/// Takes as many substeps as what bounds them may be trusted for.
+void Solver::take_substeps(Frame& frame, const std::function<void()>& after_substep) {
+  const bool fixed = steps_.fixed(), implicit = steps_.integrator().implicit, surfaces = contacts_.has_surfaces();
+  const SurfaceContact& surface = contacts_.surfaces();
+  const auto pairs = double(penalty_.pairs.size());
+  const int most = steps_.max_substeps() - frame.substeps;
+  int stable = most;
+  if (!fixed) {
+    stable = steps_.stable_substeps(bounds_.measure(steps_.integrator(), frame.left), frame.left);
+    steps_.spend({.penalty = pairs});
+  }
+  if (surfaces) {
+    const double longest = frame.left / stable;
+    steps_.spend({.surface = contacts_.find(frame.left, longest, longest, steps_.max_candidates())});
+    for (const collide::surface::SurfacePair& p : surface.search().pairs()) mark_pushed(p.a), mark_pushed(p.b);
+  }
+  const int count = fixed ? stable : steps_.substeps(stable, double(surface.substep_rate()), frame.left);
+  if (frame.substeps == 0 && !implicit && count >= many_substeps)
+    for (const Batch* b : crew_.moving())
+      frame.momenta.note({*b, kernels_(*b), field(state_.x, b->base), field(state_.v, b->base)});
+  const double h = frame.left / count;
+  const auto trusted = [&] { return bounds_.trusted_substeps(crew_.moving(), h); };
+  int now = fixed ? count : std::clamp(trusted(), 1, count);
+  // Then it is looked whether the candidates still hold: at once where their speed decides the count.
+  if (!surface.empty()) now = std::min(now, fixed || count > stable ? 1 : 4);
+  if (surfaces) now = std::min(now, contacts_.predicted_substeps(frame.left, h));
+  now = std::min(now, most);
+  int done = 0;
+  const auto go_on = [&](int steps) {
+    run(steps, static_cast<float>(h), frame.substeps == 0, after_substep);
+    done += steps;
+    frame.substeps += steps;
+    steps_.spend({.surface = surface.empty() ? 0 : surface.work_of_substep(float(h)) * steps,
+                  .implicit = implicit_->take_work(),
+                  .penalty = pairs * steps});
+  };
+  if (frame.substeps == 0 && now > 1 && !fixed) {
+    go_on(1);  // what pulls at bodies that were moved by hand, or let go, shows in their speed only then
+    now = std::min(now, 1 + trusted());
+  }
+  // One implicit step can be a large part of the work that there may be.
+  while (done < now && (done == 0 || steps_.may_go_on(frame.substeps))) go_on(implicit ? 1 : now - done);
+  frame.left = done == count ? 0 : frame.left - done * h;
+}
+
+void Solver::prepare_implicit(float h) {
+  implicit_->retain([this](const BodyModel& model) {
+    return std::ranges::any_of(state_.batches(), [&](const Batch& b) { return b.model.get() == &model; });
+  });
+  for (const Batch* b : crew_.moving()) implicit_->prepare(b->model, double(h), crew_.active());
+}
+
+void Solver::run(int count, float h, bool first, const std::function<void()>& after_substep) {
+  last_substep_ = h;
+  motion_.begin_substeps(h);
+  const Integrator& integrator = steps_.integrator();
+  if (integrator.implicit) prepare_implicit(h);
+  crew_.run([&](const Worker& worker) {
+    for (int s = 0; s < count; ++s) {
+      for (const Batch* b : worker.batches()) solids_.note_velocities(*b);
+      integrator.advance(motion_, worker, {h, first && s == 0});
+      contacts_.advance(worker, h);
+      if (!after_substep) continue;
+      worker.barrier();
+      if (worker.index() == 0) after_substep();
+      worker.barrier();
+    }
+  });
+}
+
+void Solver::finish_frame(double seconds) {
+  for (BodyId id = 0; id < state_.body_count(); ++id) {
+    if (!state_.body(id).moves()) continue;
+    resistance_.apply(state_.model(id), state_.field_of(id, state_.x), state_.field_of(id, state_.v), solids_.push(id),
+                      seconds, state_.memory(id).impact);
+    state_.recentre(id);
+  }
+}
+
+int Solver::needed_substeps(double seconds) const {
+  PenaltyContact penalty = penalty_;
+  penalty.locate(state_);
+  return count_substeps(StepBounds(state_, kernels_, penalty, solids_).measure(steps_.integrator(), seconds), seconds,
+                        1);
+}
+
+SolverState Solver::save() const {
+  return {state_.saved(),   penalty_.thickness,          penalty_.pairs,
+          solids_.pushes(), contacts_.surfaces().save(), steps_.hysteresis()};
+}
+
+void Solver::restore(const SolverState& saved) {
+  state_.restore(saved.bodies);
+  penalty_.thickness = saved.penalty_thickness;
+  penalty_.pairs = saved.penalty_pairs;
+  solids_.begin_frame();
+  solids_.set_pushes(saved.pushes);
+  contacts_.surfaces().restore(saved.surface);
+  steps_.set_hysteresis(saved.substep_hysteresis);
+  crew_.take({}, 0);
+}
+
+}  // namespace softbody

@@ -1,0 +1,122 @@
+#pragma once
+// The solver moves all bodies of a world, frame by frame: it owns their state and everything that acts on it.
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "softbody/forces/hand.h"
+#include "softbody/forces/penalty_contact.h"
+#include "softbody/integrate/batch_kernels.h"
+#include "softbody/integrate/contact_pass.h"
+#include "softbody/integrate/crew.h"
+#include "softbody/integrate/momentum_restorer.h"
+#include "softbody/integrate/motion.h"
+#include "softbody/integrate/resistance.h"
+#include "softbody/integrate/step_bounds.h"
+#include "softbody/integrate/step_controller.h"
+#include "softbody/scene/scene.h"
+#include "softbody/state/state.h"
+
+namespace softbody {
+
+/// What a frame has simulated.
+struct FrameResult {
+  int substeps = 0;
+  double seconds = 0;
+};
+
+/// Everything that the solver remembers from one frame to the next.
+struct SolverState {
+  State bodies;
+  float penalty_thickness = 0;  // m
+  std::vector<PenaltyPair> penalty_pairs;
+  std::vector<SolidPush> pushes;
+  SurfaceContact::State surface;
+  SubstepHysteresis substep_hysteresis;
+
+  std::size_t bytes() const;
+};
+
+class Solver {
+ public:
+  /// The scene must outlive this.
+  Solver(const Scene& scene, const Crew& crew, Isa isa);
+  Solver(const Solver&) = delete;
+  ~Solver();
+
+  State& state() { return state_; }
+  const State& state() const { return state_; }
+  Hand& hand() { return hand_; }
+  const Hand& hand() const { return hand_; }
+  StepController& steps() { return steps_; }
+  const StepController& steps() const { return steps_; }
+  const SurfaceContact& surface_contact() const { return contacts_.surfaces(); }
+  const SolidContact& solid_contact() const { return solids_; }
+
+  /// Takes the world's list of bodies, which must outlive this and change with the state.
+  void set_vertices(const collide::Bodies& vertices);
+  void set_plan(const Plan& plan);
+  void set_integrator(const Integrator& integrator) { steps_.set_integrator(integrator); }
+  /// Removes a body. The world's list of bodies must still contain it.
+  void remove(BodyId body);
+
+  /// Takes the contacts for the coming frame. thickness: of the contact layer, m.
+  void set_contacts(const DetectedContacts& detected, float thickness);
+  /// Returns the stored energy (J) of each pair of the last frame now.
+  std::vector<PairEnergy> penalty_energies() const;
+  /// Returns the energy (J) that each pair of these contacts would store if it acted now.
+  std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
+
+  /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their
+  /// bound is measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
+  /// contacts. after_substep: called by one thread while the others wait.
+  FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
+  /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, and lets their
+  /// origins follow.
+  void finish_frame(double seconds);
+  /// Returns the substeps that the bounds ask for in the present state.
+  int needed_substeps(double seconds) const;
+  double last_substep() const { return double(last_substep_); }  // s, how long it was
+
+  SolverState save() const;
+  /// Goes on from there. The plan and the integrator stay as they are set.
+  void restore(const SolverState& saved);
+
+ private:
+  /// A frame in progress.
+  struct Frame {
+    double left;  // s
+    int substeps = 0;
+    MomentumRestorer momenta{};
+  };
+
+  glm::dvec3 gravity() const;
+  void mark_pushed(BodyId body) { pushed_[state_.batch_of(body).index] |= 1u << state_.body(body).lane; }
+  void begin_frame(double seconds);
+  void choose_integrator(double seconds);
+  void take_substeps(Frame& frame, const std::function<void()>& after_substep);
+  void prepare_implicit(float h);
+  void run(int substeps, float h, bool first, const std::function<void()>& after_substep);
+
+  const Scene& scene_;
+  Crew crew_;
+  BatchKernels kernels_;
+  State state_;
+  Hand hand_;
+  PenaltyContact penalty_;
+  SolidContact solids_;
+  ContactPass contacts_;
+  std::unique_ptr<ImplicitSteps> implicit_;
+  Motion motion_;
+  Resistance resistance_;
+  StepController steps_;
+  StepBounds bounds_;
+  const collide::Bodies* vertices_ = nullptr;
+  bool has_gravity_ = false;
+  std::vector<unsigned> pushed_;  // of each batch, bits: lanes that something may push in this frame
+  float last_substep_ = 0;        // s
+};
+
+}  // namespace softbody

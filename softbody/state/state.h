@@ -1,0 +1,123 @@
+#pragma once
+// Where the particles of all bodies are, how fast they go, and which body is in which lane. It knows no force, no
+// contact and no integrator.
+
+#include <array>
+#include <cassert>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "softbody/model/body_model.h"
+#include "softbody/state/body.h"
+#include "softbody/state/lanes.h"
+
+namespace softbody {
+
+/// Up to `width` bodies of one model, one in each lane. Their values start at `base` in every array of the state.
+struct Batch {
+  std::shared_ptr<const BodyModel> model;
+  Index index = 0;  // of this batch
+  int width = lanes;  // or one_lane
+  std::size_t base = 0;
+  int used = 0;  // lanes taken
+  std::array<BodyId, lanes> body{};
+  alignas(32) std::array<float, lanes> moves{};  // 1: integrated; 0: asleep, pinned or an empty lane
+
+  std::size_t particles() const { return model->mesh.vertices.size(); }
+  std::size_t values() const { return particles() * std::size_t(width); }  // of one array
+  bool any_moves() const;
+};
+
+/// What World, Sleep and Resistance remember of a body from one frame to the next.
+struct BodyMemory {
+  int release = 0;      // the frame until which it is pinned
+  int calm_frames = 0;  // for how many frames it has been slow enough to sleep
+  double impact = 0;    // m/s, the speed with which it came upon the solids that it touches
+};
+
+struct Body {
+  Index batch;
+  int lane;
+  std::uint32_t number = 0;  // stays when bodies before it are removed and ids move up
+  glm::dvec3 origin;  // m; particles' positions are stored relative to it, so that floats stay fine far from zero
+  bool pinned = false, asleep = false;
+  BodyMemory memory{};
+  bool moves() const { return !pinned && !asleep; }
+};
+
+/// The components of one vector for each particle of all bodies.
+using VectorArray = std::array<LaneArray<float>, 3>;
+
+inline Field<float> field(VectorArray& a, std::size_t base = 0) {
+  return {a[0].data() + base, a[1].data() + base, a[2].data() + base};
+}
+inline Field<const float> field(const VectorArray& a, std::size_t base = 0) {
+  return {a[0].data() + base, a[1].data() + base, a[2].data() + base};
+}
+
+class State {
+ public:
+  VectorArray x, v, f;  // m relative to the bodies' origins, m/s, N
+
+  BodyId add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position, const glm::dvec3& velocity);
+  /// Removes a body; the ids of later bodies move up by one.
+  void remove(BodyId body);
+  /// Gives the bodies of the model `from` the model `to`, of the same mesh. They stay where they are.
+  void replace(const std::shared_ptr<const BodyModel>& from, const std::shared_ptr<const BodyModel>& to);
+  void set_pinned(BodyId body, bool pinned);
+  /// A body that falls asleep loses its velocities.
+  void set_asleep(BodyId body, bool asleep);
+  /// Sets all particles of a body, one for each vertex, finite. The body's origin goes to their middle.
+  void set_particles(BodyId body, std::span<const Particle> particles);
+  /// Moves the body's origin after its particles if they have gone far.
+  void recentre(BodyId body);
+  BodyMemory& memory(BodyId body) { return bodies_[body].memory; }
+
+  std::span<const Batch> batches() const { return batches_; }
+  const Batch& batch_of(BodyId body) const { return batches_[bodies_[body].batch]; }
+  BodyId body_count() const { return static_cast<BodyId>(bodies_.size()); }
+  const Body& body(BodyId id) const { return bodies_[id]; }
+  const BodyModel& model(BodyId body) const { return *batch_of(body).model; }
+  /// Returns where the values of a vertex of a body stand in the arrays.
+  std::size_t slot(BodyId body, Index vertex) const {
+    const Batch& b = batch_of(body);
+    assert(vertex < b.particles());
+    return b.base + std::size_t(vertex) * std::size_t(b.width) + std::size_t(bodies_[body].lane);
+  }
+  /// Returns the vectors of one body in an array over all particles.
+  BodyField field_of(BodyId body, VectorArray& array) const {
+    return {field(array), slot(body, 0), std::size_t(batch_of(body).width)};
+  }
+  std::size_t particle_count() const;  // of all bodies, whether they move or not
+  Particle particle(BodyId body, Index vertex) const;
+  /// Returns the largest speed of a body's particles in m/s; infinity if one is not finite.
+  double max_particle_speed(BodyId body) const;
+  /// Writes the positions in the world, bodies in the order of their ids. Every span has one value for each vertex.
+  void world_positions(std::span<float> x, std::span<float> y, std::span<float> z) const;
+  /// Returns FNV-1a over the bits of origins, positions and velocities in the order of the ids.
+  std::uint64_t hash() const;
+
+  /// Returns a copy without the forces, which no frame takes over from the one before.
+  State saved() const;
+  /// Takes over a state that saved() has returned.
+  void restore(const State& saved);
+  std::size_t bytes() const;
+
+ private:
+  Batch& batch_with_free_lane(const std::shared_ptr<const BodyModel>& model);
+  std::size_t append(std::size_t values);
+  void widen(Batch& batch);
+  void move_lane(Batch& batch, int from, int to);
+  void update_moves(const Body& body);
+
+  std::vector<Batch> batches_;
+  std::vector<Body> bodies_;
+};
+
+/// The largest body of which implicit steps take more than one at a time, in particles.
+inline constexpr std::size_t max_implicit_particles = 1000;
+
+inline std::size_t bytes_of(const auto& list) { return list.size() * sizeof(list[0]); }
+
+}  // namespace softbody

@@ -1,0 +1,246 @@
+// Implicit steps of a batch: its matrices, what touches it, and the way from its start to its end.
+
+#include "softbody/integrate/implicit/steps.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "softbody/integrate/implicit/contact_search.h"
+#include "tests/softbody/implicit_rig.h"
+
+namespace softbody::test {
+namespace {
+
+/// A batch of balls that does not stand first in the arrays, on ground that lies at a height of its own for each lane.
+struct BatchRig {
+  static constexpr std::size_t base = 3 * lanes;
+  static constexpr double h = 0.01, nowhere = -100;  // s, and m: ground that nothing comes to
+  std::shared_ptr<const BodyModel> model = make_body_model({}, gas_ball(1e5));
+  std::array<float, lanes> moves{};
+  LaneField x{particles() + 3}, v = x, mean = x, rest = x;
+  glm::dvec3 gravity{0, -9.81, 0};
+  PenaltyContact penalty;
+  std::vector<SolidArguments> solids{1};
+  LaneVector impulse{};
+  std::array<float, lanes> returned{};
+
+  BatchRig() {
+    solids[0].shape = PlaneShape<float>{{0, 1, 0}};
+    std::fill_n(solids[0].place.y, lanes, float(nowhere));
+    for (std::size_t lane = 0; lane < lanes; ++lane) start(lane, glm::dvec3(0.0));
+    moves = {};
+  }
+  std::size_t particles() const { return model->mesh.vertices.size(); }
+  /// Starts a ball in a lane, that moves.
+  void start(std::size_t lane, const glm::dvec3& velocity) {
+    moves[lane] = 1;
+    for (std::size_t i = 0; i < particles(); ++i) {
+      x.set(3 + i, int(lane), model->start[i]);
+      v.set(3 + i, int(lane), velocity);
+    }
+  }
+  /// Puts the ground `gap` m below the ball in a lane.
+  void set_ground(std::size_t lane, double gap) {
+    double lowest = 0;
+    for (std::size_t i = 0; i < particles(); ++i) lowest = std::min(lowest, x.at(3 + i, int(lane)).y);
+    solids[0].place.y[lane] = float(lowest - gap);
+  }
+  ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) const {
+    return {model, moves, x.field(), v.field(), base, gravity, solids, penalty, ends, [](BodyId id) { return id < 2; }};
+  }
+  ImplicitResult result() { return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data()}; }
+  /// m/s, of a lane's ball as a whole.
+  glm::dvec3 velocity(const LaneField& f, int lane) const {
+    glm::dvec3 sum(0.0);
+    for (std::size_t i = 0; i < particles(); ++i) sum += f.at(3 + i, lane) / double(particles());
+    return sum;
+  }
+  /// The start as attempts see it.
+  ImplicitWork work() const {
+    ImplicitWork w(*model, implicit_kernels(best_isa()));
+    for (std::size_t i = 0; i < particles(); ++i)
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        put(w.x, i, lane, x.at(3 + i, int(lane)));
+        put(w.v, i, lane, v.at(3 + i, int(lane)));
+      }
+    return w;
+  }
+};
+
+TEST(ImplicitMatrices, KeepTheLastOnesOfEachModel) {
+  const auto model = make_body_model({}, gas_ball(1e4)), other = make_body_model({}, gas_ball(1e5));
+  ImplicitMatrices matrices;
+  const auto length = [](std::size_t i) { return 1e-2 / double(i + 1); };
+  std::vector<const ImplicitMatrix*> before;
+  matrices.prepare(other, 1e-2);
+  const ImplicitMatrix* of_other = &matrices.at(*other, 1e-2);
+  for (std::size_t i = 0; i < ImplicitMatrices::max_lengths; ++i) {
+    matrices.prepare(model, length(i));
+    before.push_back(&matrices.at(*model, length(i)));
+  }
+  matrices.prepare(model, length(0));  // so that the second one is the oldest
+  matrices.prepare(model, 1e-4);
+  EXPECT_EQ(std::size_t(model.use_count()), 1 + ImplicitMatrices::max_lengths) << "one is gone";
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (i == 1) continue;
+    EXPECT_EQ(&matrices.at(*model, length(i)), before[i]);
+  }
+  EXPECT_EQ(&matrices.at(*other, 1e-2), of_other);
+  matrices.retain([&](const BodyModel& m) { return &m == other.get(); });
+  EXPECT_EQ(model.use_count(), 1);
+  EXPECT_EQ(&matrices.at(*other, 1e-2), of_other);
+}
+
+/// Gaps in front of a particle may close, and overlaps are pushed out as the law of contact has it.
+TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
+  BatchRig rig;
+  rig.gravity = glm::dvec3(0.0);
+  for (const std::size_t lane : {0u, 1u, 2u}) rig.start(lane, {0, -2, 0});  // 2 cm in the step
+  rig.set_ground(0, 0.03);
+  rig.set_ground(1, 0.01);
+  rig.set_ground(2, -0.02);
+  rig.set_ground(3, 0.01);
+  ImplicitWork work = rig.work();
+  const LaneMask moving = mask({0, 1, 2});
+  const ImplicitFrames frames(work.x, work.v, moving, rig.h, rig.gravity);
+  EXPECT_EQ(find_planes(rig.batch(), frames, moving, rig.h, work), mask({1, 2}));
+  EXPECT_EQ(work.planes.size(), 3 * rig.particles()) << "none of lanes that do not move";
+  double least_gap[] = {1, 1, 1, 1}, most_out[] = {0, 0, 0, 0};
+  for (const PlaneContact& c : work.planes) {
+    EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
+    EXPECT_EQ(c.force, glm::dvec3(0.0));
+    EXPECT_EQ(c.out, std::max(0.0, c.min_displacement));
+    least_gap[c.at % lanes] = std::min(least_gap[c.at % lanes], -c.min_displacement);
+    most_out[c.at % lanes] = std::max(most_out[c.at % lanes], c.out);
+  }
+  EXPECT_NEAR(least_gap[0], 0.03, 1e-6);
+  EXPECT_NEAR(least_gap[1], 0.01, 1e-6);
+  EXPECT_NEAR(most_out[2], law::push_share * 0.02, 1e-6);
+}
+
+TEST(FindPlanes, ThrowsBackWhatComesFast) {
+  BatchRig rig;
+  rig.gravity = glm::dvec3(0.0);
+  rig.solids[0].restitution = 0.5f;
+  rig.start(0, {0, -2, 0});
+  rig.start(1, {0, -0.9 * law::impact_speed, 0});
+  for (const std::size_t lane : {0u, 1u}) rig.set_ground(lane, 0.001);
+  ImplicitWork work = rig.work();
+  const ImplicitFrames frames(work.x, work.v, mask({0, 1}), rig.h, rig.gravity);
+  ASSERT_EQ(find_planes(rig.batch(), frames, mask({0, 1}), rig.h, work), mask({0, 1}));
+  double most[] = {-1, -1};
+  for (const PlaneContact& c : work.planes) most[c.at % lanes] = std::max(most[c.at % lanes], c.min_displacement);
+  EXPECT_NEAR(most[0], 0.5 * 2 * rig.h, 1e-6) << "m: it leaves at half its speed";
+  EXPECT_NEAR(most[1], -0.001, 1e-6) << "m: it may close the gap";
+}
+
+/// Two pairs of particle 5 of the ball in lane 1, whose body is 0: with body 1, and with body 2, which does not move.
+struct PairRig : BatchRig {
+  PairRig() {
+    start(1, {0, -1, 0});
+    penalty.thickness = 0.1f;
+    for (const BodyId other : {BodyId(1), BodyId(2)}) {
+      x.set(other, 0, x.at(3 + 5, 1) + glm::dvec3(0.01, -0.05, 0));
+      v.set(other, 0, {0.5, 0.25, 0});
+      PenaltyPair pair{.contact = {5, 1000 + other},
+                       .body_a = 0,
+                       .body_b = other,
+                       .vertex_a = 5,
+                       .vertex_b = 0,
+                       .slot_a = base + 5 * lanes + 1,
+                       .slot_b = other * lanes,
+                       .offset = glm::vec3(0.0f),
+                       .normal = glm::vec3(0, 1, 0),
+                       .stiffness = 100,
+                       .friction = 0.5f};
+      ends.push_back({pair.slot_a, std::uint32_t(penalty.pairs.size()), 1});
+      penalty.pairs.push_back(pair);
+    }
+    penalty.force.resize(2);
+    penalty.evaluate({0, 2}, std::as_const(x).field(), std::as_const(v).field(), float(h));
+  }
+  std::vector<PenaltyEnd> ends;
+};
+
+TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
+  const PairRig rig;
+  ImplicitWork work = rig.work();
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({1, 2}), rig.h, work), mask({1}));
+  ASSERT_EQ(work.penalty_pairs.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const LinearPenaltyPair& s = work.penalty_pairs[i];
+    const glm::dvec3 partner = i == 0 ? rig.h * glm::dvec3(0.5, 0.25, 0) : glm::dvec3(0.0), own = {0, -rig.h, 0};
+    EXPECT_EQ(s.at, 5 * lanes + 1);
+    EXPECT_LT(glm::distance(s.partner, partner), 1e-9);
+    EXPECT_LT(glm::distance(s.start_separation, own - partner), 1e-9);
+    const glm::dvec3 force(rig.penalty.force[i]);
+    ASSERT_GT(force.y, 1) << "N";
+    EXPECT_LT(glm::distance(s.force, force), 1e-9);
+    // Where the particle goes on as at the start, the damper pulls no more than it does already.
+    const double pressed = -glm::dot(s.start_separation, s.normal);
+    EXPECT_NEAR(s.force_after(own).y, force.y + double(s.slopes.spring) * pressed, 1e-6);
+    EXPECT_GT(s.max_work, 0);
+  }
+}
+
+TEST(FindPenaltyPairs, LeavesOutBodiesThatDoNotMove) {
+  const PairRig rig;
+  ImplicitWork work = rig.work();
+  work.penalty_pairs.resize(1);
+  EXPECT_EQ(find_penalty_pairs(rig.batch(rig.ends), mask({0}), rig.h, work), LaneMask());
+  EXPECT_TRUE(work.penalty_pairs.empty());
+}
+
+TEST(ImplicitSteps, TakeABatchToItsEnd) {
+  BatchRig rig;
+  rig.start(0, {1, 0, 0});
+  rig.start(1, {0, -2, 0});
+  rig.set_ground(1, 0.001);
+  rig.set_ground(3, 0.001);
+  rig.solids[0].restitution = 0.25f;
+  const LaneField x = rig.x, v = rig.v;
+  ImplicitSteps steps(best_isa());
+  steps.prepare(rig.model, rig.h, 1);
+  steps.advance(0, rig.batch(), rig.result(), rig.h);
+  EXPECT_EQ(rig.x, x);
+  EXPECT_EQ(rig.v, v);
+  const glm::dvec3 fall = rig.h * rig.gravity;
+  EXPECT_LT(glm::distance(rig.velocity(rig.mean, 0), glm::dvec3(1, 0, 0) + fall / 2.0), 1e-6) << "second order";
+  EXPECT_LT(glm::distance(rig.velocity(rig.rest, 0), fall / 2.0), 1e-6);
+  const double mass = rig.model->material[Material::mass];
+  const glm::dvec3 gained = rig.velocity(rig.mean, 1) + rig.velocity(rig.rest, 1) - glm::dvec3(0, -2, 0) - fall;
+  EXPECT_GT(gained.y, 0.1) << "m/s";
+  EXPECT_NEAR(mass * gained.y, double(rig.impulse.y[1]), 0.1 * mass * gained.y);
+  EXPECT_NEAR(double(rig.returned[1]), 0.25 * double(rig.impulse.y[1]), 1e-6);
+  for (int lane = 2; lane < lanes; ++lane) {
+    EXPECT_EQ(rig.impulse.y[lane], 0);
+    EXPECT_EQ(rig.velocity(rig.mean, lane), glm::dvec3(0.0)) << "does not move";
+  }
+  for (std::size_t i = 0; i < 3; ++i) EXPECT_EQ(rig.mean.at(i, 0), glm::dvec3(0.0)) << "is of another batch";
+  EXPECT_GT(steps.take_work(), double(rig.particles()));
+  EXPECT_EQ(steps.take_work(), 0);
+}
+
+TEST(ImplicitSteps, GiveTheSameBitsOnAnyThreadAndAgain) {
+  BatchRig rig;
+  for (std::size_t lane = 0; lane < 3; ++lane) rig.start(lane, {0, -double(lane), 0});
+  rig.set_ground(1, 0.001);
+  rig.set_ground(2, 0.001);
+  ImplicitSteps steps(best_isa());
+  steps.prepare(rig.model, rig.h, 2);
+  steps.advance(0, rig.batch(), rig.result(), rig.h);
+  BatchRig other = rig;
+  steps.advance(1, other.batch(), other.result(), rig.h);
+  EXPECT_EQ(other.mean, rig.mean);
+  EXPECT_EQ(other.rest, rig.rest);
+  steps.retain([](const BodyModel&) { return false; });
+  EXPECT_EQ(rig.model.use_count(), 2) << "only the two batches have it";
+  steps.prepare(rig.model, rig.h, 1);
+  steps.advance(0, other.batch(), other.result(), rig.h);
+  EXPECT_EQ(other.mean, rig.mean);
+  EXPECT_EQ(other.rest, rig.rest);
+}
+
+}  // namespace
+}  // namespace softbody::test

@@ -1,0 +1,91 @@
+#include "softbody/contact/solid_contact.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "softbody/integrate/batch_kernels.h"
+#include "tests/softbody/helpers.h"
+
+namespace softbody::test {
+namespace {
+
+/// Two balls of radius 0.5 over a plane at height 0, the second of which does not move. They fall at 3 m/s.
+class SolidContactOverAPlane : public testing::Test {
+ protected:
+  SolidContactOverAPlane() {
+    Material material = spring_ball();
+    material[Material::thickness] = 0.01;
+    model = make_unbalanced_body_model({}, material);
+    for (int i = 0; i < 2; ++i) state.add(model, {2 * i, height, 1}, {0.1, -3, 0});
+    state.set_pinned(1, true);
+    kernels.update(state);
+  }
+  const Batch& batch() const { return state.batches()[0]; }
+  void begin_frame(double plane_height) {
+    solids.begin_frame();
+    const SolidPlane plane{.point = {0, plane_height, 0}, .normal = {0, 1, 0}, .friction = 0.5, .restitution = 0.25};
+    solids.add(batch(), kernels.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02);
+  }
+
+  static constexpr double height = 0.52;
+  static constexpr float h = 0.01f;  // s
+  std::shared_ptr<const BodyModel> model;
+  State state;
+  BatchKernels kernels{best_isa()};
+  SolidContact solids{state, softbody::kernels(best_isa(), lanes).solid, softbody::kernels(best_isa(), one_lane).solid};
+};
+
+TEST_F(SolidContactOverAPlane, KnowsNoSolidThatIsFarAway) {
+  begin_frame(-3);
+  EXPECT_TRUE(solids.near(batch()).empty());
+  const std::uint64_t before = state.hash();
+  solids.apply(batch(), h);
+  EXPECT_EQ(state.hash(), before);
+  EXPECT_EQ(solids.pushed(batch()), 0u);
+}
+
+TEST_F(SolidContactOverAPlane, KeepsParticlesOutAndSumsTheImpulse) {
+  begin_frame(0);
+  ASSERT_EQ(solids.near(batch()).size(), 1u);
+  const VectorArray before = state.v;
+  solids.apply(batch(), h);
+  EXPECT_EQ(solids.pushed(batch()), 1u) << "the lane that moves";
+  double gained = 0;
+  for (Index i = 0; i < batch().particles(); ++i) {
+    const std::size_t own = state.slot(0, i), other = state.slot(1, i);
+    ASSERT_GE(height + double(state.x[1][own] + h * state.v[1][own]), 0.01 - 1e-6);
+    ASSERT_EQ(state.v[1][other], before[1][other]);
+    gained += model->particle_mass * double(state.v[1][own] - before[1][own]);
+  }
+  EXPECT_GT(gained, 0);
+  solids.end_frame();
+  EXPECT_NEAR(solids.push(0).impulse.y, gained, 1e-5 * gained);
+  EXPECT_NEAR(solids.push(0).returned, 0.25 * gained, 1e-5 * gained);
+  EXPECT_EQ(solids.push(1).impulse, glm::dvec3(0.0));
+  solids.remove(0);
+  EXPECT_EQ(solids.push(0).impulse, glm::dvec3(0.0)) << "the push of the body that was the second";
+}
+
+TEST_F(SolidContactOverAPlane, ThrowsBackByTheVelocitiesThatWereNoted) {
+  solids.set_parts(false, true);
+  begin_frame(0);
+  const Index lowest = [&] {
+    Index low = 0;
+    for (Index i = 0; i < batch().particles(); ++i)
+      if (state.x[1][state.slot(0, i)] < state.x[1][state.slot(0, low)]) low = i;
+    return low;
+  }();
+  const std::size_t slot = state.slot(0, lowest);
+  solids.note_velocities(batch());
+  state.v[1][slot] = -4;  // what a force adds is not thrown back
+  solids.apply(batch(), h);
+  EXPECT_NEAR(state.v[1][slot], 0.25 * 3, 1e-6);
+  state.v[1][slot] = -4;
+  solids.clear_velocities(batch());
+  solids.apply(batch(), h);
+  EXPECT_NEAR(height + double(state.x[1][slot] + h * state.v[1][slot]), 0.01, 1e-6) << "it only stops";
+}
+
+}  // namespace
+}  // namespace softbody::test
