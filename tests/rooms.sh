@@ -47,7 +47,7 @@ app: app/base app/files app/cli app/report app/window collide softbody engine
 # They include only each other of softbody, so that no change of the solver reaches app.
 public="
 mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
-state/body state/isa state/lane_math state/lanes
+state/body state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
 forces/best_rotation forces/bound forces/coordinates forces/gas forces/grab forces/material_keys forces/pair_energy

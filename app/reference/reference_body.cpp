@@ -9,7 +9,6 @@
 #include "app/reference/body_shape.h"
 #include "softbody/forces/bound.h"
 #include "softbody/forces/gas.h"
-#include "softbody/forces/springs.h"
 #include "softbody/scene/solids.h"
 
 namespace app::reference {

@@ -1,7 +1,12 @@
-#pragma once
 // The law of contact, for everything that touches: solids, surfaces, penalty contact and implicit steps. V is float,
 // double or floats of all lanes, T the type of one value of it. app/reference has the law once more on purpose, because
-// it checks this one.
+// it checks this one. Compiled for each of Highway's targets, see state/simd.h.
+#if defined(SOFTBODY_CONTACT_LAW_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOFTBODY_CONTACT_LAW_H
+#undef SOFTBODY_CONTACT_LAW_H
+#else
+#define SOFTBODY_CONTACT_LAW_H
+#endif
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +14,10 @@
 
 #include "softbody/state/lane_math.h"
 
-namespace softbody::law {
+HWY_BEFORE_NAMESPACE();
+namespace softbody {
+namespace HWY_NAMESPACE {
+namespace law {
 
 /// Overlaps are pushed out by this share of their depth in a step ...
 inline constexpr double push_share = 0.1;
@@ -21,36 +29,35 @@ inline constexpr double impact_speed = 0.5;  // m/s
 /// Returns the least change of a gap in one step, in a unit of which a metre has `per_metre`: a gap may close but not
 /// turn into an overlap; an overlap (a negative gap) becomes smaller, by `most` at most.
 template <class V, class T>
-SB_INLINE V min_change(V gap, T per_metre, T most) {
-  const V zero{};
-  return gap > zero ? -gap * per_metre : body::smaller(-T(push_share) * per_metre * gap, zero + most);
+HWY_INLINE V min_change(V gap, T per_metre, T most) {
+  return body::select(gap > V(0), -gap * per_metre, body::smaller(-T(push_share) * per_metre * gap, V(most)));
 }
 
 /// Returns how far (m) two sides have to separate in a step of h, at least; negative: they may approach.
 template <class V, class T>
-SB_INLINE V min_move(V gap, T h) {
+HWY_INLINE V min_move(V gap, T h) {
   return min_change(gap, T(1), T(max_separation_speed) * h);
 }
 
 /// Returns how fast (m/s) they have to separate, from 1 / h.
 template <class V, class T>
-SB_INLINE V min_speed(V gap, T inverse_h) {
+HWY_INLINE V min_speed(V gap, T inverse_h) {
   return min_change(gap, inverse_h, T(max_separation_speed));
 }
 
 /// Returns the speed with which an impact at the speed `approach` is thrown back (Newton), or -infinity if it is not.
 template <class V, class T>
-SB_INLINE V rebound(V approach, T restitution) {
-  const V zero{}, none = zero - std::numeric_limits<T>::infinity();
+HWY_INLINE V rebound(V approach, T restitution) {
+  const V none(-std::numeric_limits<T>::infinity());
   if (!(restitution > 0)) return none;
-  return approach > zero + T(impact_speed) ? restitution * approach : none;
+  return body::select(approach > V(T(impact_speed)), restitution * approach, none);
 }
 
 /// Returns `drag`, shortened to `limit` where it is longer (Coulomb's cone): to nothing where the limit is 0.
 template <class Vector, class V>
-SB_INLINE Vector within_cone(const Vector& drag, V limit) {
-  const V zero{}, size = body::square_root(dot(drag, drag));
-  return (body::smaller(limit, size) / (size > zero ? size : zero + 1.0f)) * drag;
+HWY_INLINE Vector within_cone(const Vector& drag, V limit) {
+  const V size = body::square_root(dot(drag, drag));
+  return (body::smaller(limit, size) / body::select(size > V(0), size, V(1))) * drag;
 }
 
 /// Returns the coefficient of friction between two materials.
@@ -65,4 +72,9 @@ T common_restitution(T a, T b) {
   return std::max(a, b);
 }
 
-}  // namespace softbody::law
+}  // namespace law
+}  // namespace HWY_NAMESPACE
+}  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

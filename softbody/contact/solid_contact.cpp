@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_placement.h"
 
 namespace softbody {
@@ -118,8 +119,7 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
     for (SolidArguments& s : own.near) {
       s.h = h;
       s.slack = pass || again ? slack : 0;
-      const Kernel solid = b.width == one_lane ? narrow_ : wide_;
-      const unsigned now = solid(s, field(std::as_const(state_.x), b.base), field(state_.v, b.base));
+      const unsigned now = act_by_solid(b.width, std::size_t(b.used), s, field(std::as_const(state_.x), b.base), field(state_.v, b.base));
       more = more || (acted & now) || (pass && now);
       acted |= now;
       own.pushed |= now;

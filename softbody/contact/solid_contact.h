@@ -6,8 +6,9 @@
 #include <vector>
 
 #include "softbody/contact/solid_features.h"
-#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_surface.h"
+#include "softbody/contact/surface_contact.h"
 #include "softbody/state/state.h"
 
 namespace softbody {
@@ -20,19 +21,16 @@ struct SolidPush {
 
 class SolidContact {
  public:
-  /// Kernel of body::solid(): acts on one batch, returns the lanes in which it acted as bits.
-  using Kernel = unsigned (*)(const SolidArguments&, Field<const float> x, Field<float> v);
-
-  /// `wide`, `narrow`: the kernels for batches of all lanes and of one. The state must outlive this.
-  SolidContact(State& state, Kernel wide, Kernel narrow) : state_(state), wide_(wide), narrow_(narrow) {}
+  /// The state must outlive this.
+  explicit SolidContact(State& state) : state_(state) {}
 
   /// features: faces and edges meet solids, too. restitution: some solid throws back.
   void set_parts(bool features, bool restitution) { has_features_ = features, has_restitution_ = restitution; }
 
   // A frame: begin_frame(), add() for each batch that moves and each solid, substeps, end_frame().
   void begin_frame();
-  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the batch's
-  /// positions and velocities now. gravity in m/s^2.
+  /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the
+  /// batch's positions and velocities now. gravity in m/s^2.
   template <class Solid>
   void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds);
   /// Notes the pushes of the frame.
@@ -69,18 +67,18 @@ class SolidContact {
   struct OfBatch {
     std::vector<SolidArguments> near;
     std::vector<SolidFeature> features;               // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;                     // of these, in the substep at hand
     LaneVector impulse{};                             // N s, along the normals
-    alignas(32) std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
+    std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
     unsigned pushed = 0;
   };
 
   bool apply_to_particles(const Batch& batch, float h, bool again);
   void find_features(const Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
   bool apply_to_features(const Batch& batch, float h);
-  bool apply_to_feature(const Batch& batch, SolidFeature& feature);
+  void add_row(const Batch& batch, SolidFeature& feature, float h);
 
   State& state_;
-  Kernel wide_, narrow_;
   bool has_features_ = false, has_restitution_ = false;
   VectorArray before_;  // velocities at the start of the substep, if there is restitution
   std::vector<OfBatch> of_batch_;

@@ -6,6 +6,8 @@
 
 #include "collide/surface/closest_features.h"
 #include "softbody/contact/solid_contact.h"
+#include "softbody/contact/solid_law.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -45,23 +47,38 @@ ClosestPoints closest_points(const SolidFeature& f, std::span<const glm::vec3> x
   return m;
 }
 
-/// How far apart the two are: as seen from a round solid, which has the core inside. A box has it on its surface, so
-/// there it is along what is normal to both, also where they have crossed. Nothing where others are closer.
+/// The normal of both, if it points away from all of a box's sides that meet in the core: else others tell which side
+/// the body is on.
+std::optional<glm::vec3> outward_normal(const SolidFeature& f, const ClosestPoints& m, const BoxShape<float>& box) {
+  const float length = glm::length(m.across);
+  if (!m.inner || !(length > 0)) return std::nullopt;
+  const glm::vec3 n = (glm::dot(m.across, f.out) < 0 ? -1 / length : 1 / length) * m.across;
+  for (const glm::vec3& axis : box.axes)
+    if (glm::dot(n, axis) * glm::dot(f.out, axis) < 0) return std::nullopt;
+  return n;
+}
+
+/// How far apart the two are: as seen from a round solid, which has the core inside. A box has it on its surface: there
+/// a point that is inside has crossed along the normal of both, and leaves on the near side. All others are out of the
+/// box, and so far from the core as they are: also those beyond the far side of a thin one. Nothing where it cannot be
+/// told.
 std::optional<SurfaceAt<float>> gap_of(const SolidFeature& f, const ClosestPoints& m, const SolidShape<float>& shape,
                                        const glm::vec3& place) {
+  const glm::vec3 at = m.point - place;
+  const body::Vec<float> d{at.x, at.y, at.z};
   const auto* box = std::get_if<BoxShape<float>>(&shape);
-  if (!box) {
-    const glm::vec3 d = m.point - place;
-    return std::visit([&](const auto& s) { return body::surface_at(s, body::Vec<float>{d.x, d.y, d.z}); }, shape);
+  if (!box) return std::visit([&](const auto& s) { return body::surface_at(s, d); }, shape);
+  constexpr float rounding = 1e-6f;  // m
+  const bool inside = body::surface_at(*box, d).distance + box->radius <= rounding;
+  if (const auto n = outward_normal(f, m, *box)) {
+    const float apart = glm::dot(m.apart, *n);
+    if (apart >= 0 || (inside && glm::dot(*n, at) >= 0))
+      return SurfaceAt<float>{apart - box->radius, {n->x, n->y, n->z}};
   }
-  if (!m.inner || glm::dot(m.across, m.across) == 0) return std::nullopt;
-  glm::vec3 n = glm::normalize(m.across);
-  if (glm::dot(n, f.out) < 0) n = -n;
-  for (const body::Vec<float>& a : box->axes) {  // it points away from all of the box's sides that meet in the core
-    const glm::vec3 axis(a.x, a.y, a.z);
-    if (glm::dot(n, axis) * glm::dot(f.out, axis) < 0) return std::nullopt;
-  }
-  return SurfaceAt<float>{glm::dot(m.apart, n) - box->radius, {n.x, n.y, n.z}};
+  const float apart = glm::length(m.apart);
+  if (inside || !(apart > 0)) return std::nullopt;
+  const glm::vec3 n = m.apart / apart;
+  return SurfaceAt<float>{apart - box->radius, {n.x, n.y, n.z}};
 }
 
 }  // namespace
@@ -100,58 +117,65 @@ void SolidContact::find_features(const Batch& b, int lane, std::span<const Solid
   }
 }
 
-/// Applies solids to one feature after another. Returns true if any acted.
+/// Solves the rows of the features that may meet a solid, twice: what one pushes too far because of another is taken
+/// back. Returns true if any acted.
 bool SolidContact::apply_to_features(const Batch& b, float h) {
-  bool acted = false;
-  for (SolidFeature& f : of_batch_[b.index].features) {
+  constexpr int passes = 2;
+  OfBatch& own = of_batch_[b.index];
+  own.rows.clear();
+  for (SolidFeature& f : own.features) {
     f.free_travel -= f.speed * h;
-    if (f.free_travel <= 0) acted = apply_to_feature(b, f) || acted;
+    if (f.free_travel <= 0) add_row(b, f, h);
+  }
+  const Field<float> v = field(state_.v, b.base);
+  for (int pass = 0; pass < passes; ++pass)
+    for (ContactRow& row : own.rows) solve_row(row, v);
+  bool acted = false;
+  for (const ContactRow& row : own.rows) {
+    if (!(row.normal_impulse > 0)) continue;
+    acted = true;
+    const SolidFeature& f = own.features[row.feature];
+    softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
+    own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
+    own.pushed |= 1u << f.lane;
   }
   return acted;
 }
 
-/// Applies the law of the particles' contacts to the closest point: an impulse there goes to the corners by their
-/// weights.
-bool SolidContact::apply_to_feature(const Batch& b, SolidFeature& f) {
+/// Adds the row of a feature: by the law of the particles' contacts, for the closest point, whose corners share an
+/// impulse by their weights.
+void SolidContact::add_row(const Batch& b, SolidFeature& f, float h) {
   OfBatch& own = of_batch_[b.index];
   constexpr float on_vertex = 0.999f;  // a weight from which on the vertex itself keeps off
   const std::size_t corners = f.vertices[2] == SolidFeature::no_vertex ? 2 : 3, lane = std::size_t(f.lane);
-  const Field<float> v = field(state_.v, b.base);
-  std::array<std::size_t, 3> slot{};
+  ContactRow row{};
   std::array<glm::vec3, 3> x{};
   for (std::size_t k = 0; k < corners; ++k) {
-    slot[k] = std::size_t(f.vertices[k]) * std::size_t(b.width) + lane;
-    x[k] = read(field(std::as_const(state_.x), b.base), slot[k]);
+    row.slot[k] = std::uint32_t(f.vertices[k] * std::size_t(b.width) + lane);
+    x[k] = read(field(std::as_const(state_.x), b.base), row.slot[k]);
   }
   const ClosestPoints m = closest_points(f, std::span(x).first(corners));
   f.free_travel = 0.5f * (glm::length(m.apart) - f.distance);  // half: single particles may be faster than was foreseen
-  if (*std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return false;
+  if (f.free_travel > f.speed * h || *std::max_element(m.weight.begin(), m.weight.end()) > on_vertex) return;
   const SolidArguments& s = own.near[f.solid];
   const auto surface = gap_of(f, m, s.shape, {s.place.x[lane], s.place.y[lane], s.place.z[lane]});
-  if (!surface) return false;
+  if (!surface) return;
 
-  const body::Vec<float>& n = surface->normal;
-  body::Vec<float> velocity{}, before{};
-  float square = 0;
+  float mobility = 0;
   for (std::size_t k = 0; k < corners; ++k) {
-    const auto add_share = [&](body::Vec<float>& sum, Field<const float> of) {
-      const glm::vec3 u = m.weight[k] * read(of, slot[k]);
-      sum = sum + body::Vec<float>{u.x, u.y, u.z};
-    };
-    add_share(velocity, v);
-    if (s.restitution > 0) add_share(before, s.before);
-    square += m.weight[k] * m.weight[k];
+    row.weight[k] = m.weight[k];
+    row.mobility[k] = m.weight[k] / s.mass;
+    mobility += row.weight[k] * row.mobility[k];
   }
-  body::Vec<float> after = velocity;
-  const float change = body::respond(s, 1.0f, surface->distance, n, before, after);
-  if (change <= 0) return false;
-  const glm::vec3 gained(after.x - velocity.x, after.y - velocity.y, after.z - velocity.z);
-  for (std::size_t k = 0; k < corners; ++k) softbody::add(v, slot[k], m.weight[k] / square * gained);
-  const float impulse = s.mass / square * change;
-  s.impulse.x[lane] += impulse * n.x, s.impulse.y[lane] += impulse * n.y, s.impulse.z[lane] += impulse * n.z;
-  s.returned[lane] += s.restitution * impulse;
-  own.pushed |= 1u << lane;
-  return true;
+  row.mass = 1 / mobility;
+  row.normal = {surface->normal.x, surface->normal.y, surface->normal.z};
+  row.friction = s.friction;
+  row.target = law::min_speed(surface->distance, 1 / h);
+  if (s.restitution > 0 && glm::dot(relative_velocity(row, field(state_.v, b.base)), row.normal) < row.target)
+    row.target =
+        std::max(row.target, law::rebound(-glm::dot(relative_velocity(row, s.before), row.normal), s.restitution));
+  row.feature = std::uint32_t(&f - own.features.data());
+  own.rows.push_back(row);
 }
 
 }  // namespace softbody

@@ -4,7 +4,8 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/solid.h"
-#include "softbody/contact/solid_shapes.h"
+#include "softbody/contact/solid_arguments.h"
+#include "softbody/state/lane_math.h"
 
 namespace softbody {
 
@@ -21,17 +22,16 @@ SphereShape<Real> shape_of(const SolidSphere& s, double thickness) {
 }
 template <class Real>
 PlaneShape<Real> shape_of(const SolidPlane& p, double) {
-  return {as_vec<Real>(p.normal)};
+  return {glm::vec<3, Real>(p.normal)};
 }
 template <class Real>
 BoxShape<Real> shape_of(const SolidBox& b, double thickness) {
-  return {{as_vec<Real>(b.axes[0]), as_vec<Real>(b.axes[1]), as_vec<Real>(b.axes[2])},
-          as_vec<Real>(b.half_size),
-          Real(thickness)};
+  using Vector = glm::vec<3, Real>;
+  return {{Vector(b.axes[0]), Vector(b.axes[1]), Vector(b.axes[2])}, Vector(b.half_size), Real(thickness)};
 }
 template <class Real>
 CapsuleShape<Real> shape_of(const SolidCapsule& c, double thickness) {
-  return {as_vec<Real>(c.to - c.from), Real(c.radius + thickness)};
+  return {glm::vec<3, Real>(c.to - c.from), Real(c.radius + thickness)};
 }
 
 inline glm::dvec3 place_of(const SolidSphere& s, double, const glm::dvec3&) { return s.centre; }

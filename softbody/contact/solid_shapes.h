@@ -1,38 +1,21 @@
-#pragma once
 // The signed distance of a point from each kind of solid, with the surface's outward normal nearest to it: the one
 // place that knows the shapes. Written once for the kernels (V is one value a lane, Real is float) and for plain
 // doubles. All shapes are convex: the whole solid lies behind the plane through the nearest point of its surface, so a
 // particle that stays before this plane for a step passes through no solid, however thin it is and however fast the
-// particle.
+// particle. Compiled for each of Highway's targets, see state/simd.h.
+#if defined(SOFTBODY_CONTACT_SOLID_SHAPES_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOFTBODY_CONTACT_SOLID_SHAPES_H
+#undef SOFTBODY_CONTACT_SOLID_SHAPES_H
+#else
+#define SOFTBODY_CONTACT_SOLID_SHAPES_H
+#endif
 
-#include <variant>
-
+#include "softbody/contact/solid_arguments.h"
 #include "softbody/state/lane_math.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace softbody {
-
-// Shapes without their places. Points are seen from: a sphere's or box's centre, any point of a plane, `from` of a
-// capsule.
-template <class Real>
-struct SphereShape {
-  Real radius;
-};
-template <class Real>
-struct PlaneShape {
-  body::Vec<Real> normal;
-};
-template <class Real>
-struct BoxShape {
-  body::Vec<Real> axes[3], half_size;
-  Real radius;  // of the spheres that roll over its surface: edges and corners are round
-};
-template <class Real>
-struct CapsuleShape {
-  body::Vec<Real> segment;  // from its one end to the other
-  Real radius;
-};
-template <class Real>
-using SolidShape = std::variant<SphereShape<Real>, PlaneShape<Real>, BoxShape<Real>, CapsuleShape<Real>>;
+namespace HWY_NAMESPACE {
 
 template <class V>
 struct SurfaceAt {
@@ -44,24 +27,24 @@ namespace body {
 
 /// Of a sphere; at its very centre out is up.
 template <class Real, class V>
-SB_INLINE SurfaceAt<V> surface_at(const SphereShape<Real>& s, Vec<V> d) {
-  const V tiny = V{} + Real(1e-12);  // m
+HWY_INLINE SurfaceAt<V> surface_at(const SphereShape<Real>& s, Vec<V> d) {
+  const V tiny(Real(1e-12));  // m
   const V distance = square_root(dot(d, d));
   Vec<V> n = (Real(1) / larger(distance, tiny)) * d;
-  n.y = distance > tiny ? n.y : V{} + Real(1);
+  n.y = select(distance > tiny, n.y, V(1));
   return {distance - s.radius, n};
 }
 
 template <class Real, class V>
-SB_INLINE SurfaceAt<V> surface_at(const PlaneShape<Real>& p, Vec<V> d) {
-  const Vec<V> n{V{} + p.normal.x, V{} + p.normal.y, V{} + p.normal.z};
+HWY_INLINE SurfaceAt<V> surface_at(const PlaneShape<Real>& p, Vec<V> d) {
+  const Vec<V> n{V(p.normal.x), V(p.normal.y), V(p.normal.z)};
   return {dot(d, n), n};
 }
 
 /// Outside, the distance to the nearest point of the box; inside, that to the nearest face; less the radius.
 template <class Real, class V>
-SB_INLINE SurfaceAt<V> surface_at(const BoxShape<Real>& b, Vec<V> d) {
-  const V zero{}, one = zero + Real(1), tiny = zero + Real(1e-12);  // m
+HWY_INLINE SurfaceAt<V> surface_at(const BoxShape<Real>& b, Vec<V> d) {
+  const V zero{}, one(1), tiny(Real(1e-12));  // m
   const auto& [x, y, z] = b.axes;
   const Vec<V> q{x.x * d.x + x.y * d.y + x.z * d.z, y.x * d.x + y.y * d.y + y.z * d.z,
                  z.x * d.x + z.y * d.y + z.z * d.z};  // along the box's axes
@@ -70,24 +53,27 @@ SB_INLINE SurfaceAt<V> surface_at(const BoxShape<Real>& b, Vec<V> d) {
   const Vec<V> beyond{larger(a.x, zero), larger(a.y, zero), larger(a.z, zero)};
   const V outside = square_root(dot(beyond, beyond));
   const V inverse = Real(1) / larger(outside, tiny);
-  const V face_x = a.x >= larger(a.y, a.z) ? one : zero;
-  const V face_y = a.y >= a.z ? one - face_x : zero, face_z = one - face_x - face_y;
-  Vec<V> n{outside > tiny ? inverse * beyond.x : face_x, outside > tiny ? inverse * beyond.y : face_y,
-           outside > tiny ? inverse * beyond.z : face_z};
-  n = {q.x < zero ? -n.x : n.x, q.y < zero ? -n.y : n.y, q.z < zero ? -n.z : n.z};
-  return {(outside > tiny ? outside : larger(a.x, larger(a.y, a.z))) - b.radius,
+  const V face_x = select(a.x >= larger(a.y, a.z), one, zero);
+  const V face_y = select(a.y >= a.z, one - face_x, zero), face_z = one - face_x - face_y;
+  Vec<V> n = select(outside > tiny, inverse * beyond, Vec<V>{face_x, face_y, face_z});
+  n = {select(q.x < zero, -n.x, n.x), select(q.y < zero, -n.y, n.y), select(q.z < zero, -n.z, n.z)};
+  return {select(outside > tiny, outside, larger(a.x, larger(a.y, a.z))) - b.radius,
           {n.x * x.x + n.y * y.x + n.z * z.x, n.x * x.y + n.y * y.y + n.z * z.y, n.x * x.z + n.y * y.z + n.z * z.z}};
 }
 
 /// Of the sphere round the nearest point of the segment.
 template <class Real, class V>
-SB_INLINE SurfaceAt<V> surface_at(const CapsuleShape<Real>& c, Vec<V> d) {
-  const V zero{}, one = zero + Real(1);
-  const Vec<V> segment{zero + c.segment.x, zero + c.segment.y, zero + c.segment.z};
+HWY_INLINE SurfaceAt<V> surface_at(const CapsuleShape<Real>& c, Vec<V> d) {
+  const V zero{};
+  const Vec<V> segment{V(c.segment.x), V(c.segment.y), V(c.segment.z)};
   const V square = dot(segment, segment);
-  const V along = square > zero ? dot(d, segment) / square : zero;
-  return surface_at(SphereShape<Real>{c.radius}, d - smaller(larger(along, zero), one) * segment);
+  const V along = select(square > zero, dot(d, segment) / square, zero);
+  return surface_at(SphereShape<Real>{c.radius}, d - smaller(larger(along, zero), V(1)) * segment);
 }
 
 }  // namespace body
+}  // namespace HWY_NAMESPACE
 }  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,6 +1,7 @@
 #include "softbody/contact/solid_surface.h"
 
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/solid_shapes.h"
 
 namespace softbody {
 namespace {

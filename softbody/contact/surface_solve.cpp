@@ -12,7 +12,9 @@ void apply(const ContactRow& row, const glm::vec3& impulse, Field<float> v) {
   for (std::size_t k = 0; k < 4; ++k) add(v, row.slot[k], row.mobility[k] * impulse);
 }
 
-void iterate(ContactRow& row, Field<float> v) {
+}  // namespace
+
+void solve_row(ContactRow& row, Field<float> v) {
   glm::vec3 velocity = relative_velocity(row, v);
   const float speed = glm::dot(velocity, row.normal);
   const float held =
@@ -28,8 +30,6 @@ void iterate(ContactRow& row, Field<float> v) {
   apply(row, push * row.normal + (friction_impulse - row.friction_impulse), v);
   row.friction_impulse = friction_impulse;
 }
-
-}  // namespace
 
 /// Two bodies far inside each other move apart along the line of their centres, each as a whole: their shapes, momentum
 /// and angular momentum stay.
@@ -93,7 +93,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
   pass(all, [&](ContactRow& row) {
     if (row.normal_impulse > 0) apply(row, row.normal_impulse * row.normal + row.friction_impulse, v);
   });
-  const auto round = [&](ContactRow& row) { iterate(row, v); };
+  const auto round = [&](ContactRow& row) { solve_row(row, v); };
   if (needs_more_iterations(h))
     for (int i = iterations; i < max_iterations; ++i)
       pass([&](const Pair& p) { return needs_more_iterations(p, h); }, round, true);
@@ -101,7 +101,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
   pass(
       all,
       [&](ContactRow& row) {
-        iterate(row, v);
+        solve_row(row, v);
         if (row.feature == uncached) return;
         cached_[row.feature].normal_impulse = row.normal_impulse;
         cached_[row.feature].friction_impulse = row.friction_impulse;
@@ -128,7 +128,7 @@ bool SurfaceContact::resolve_after_solids(int thread, int threads, Field<float> 
   for_each_pair(thread, threads, barrier, [&](const Pair& p, std::span<ContactRow> rows) {
     if (!needs_more_iterations(p, h) || !violates_target(p, v, h)) return;
     mine = true;
-    for (ContactRow& row : rows) iterate(row, v);
+    for (ContactRow& row : rows) solve_row(row, v);
   });
   if (few_rows()) barrier();
   return std::any_of(thread_work_.begin(), thread_work_.begin() + threads,

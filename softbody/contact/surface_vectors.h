@@ -24,6 +24,10 @@ inline glm::vec3 relative_velocity(const ContactRow& row, Field<const float> v) 
   return velocity;
 }
 
+/// Changes the velocities so that one row meets its target and friction its cone, and adds to the row's impulses: one
+/// step of projected Gauss-Seidel.
+void solve_row(ContactRow& row, Field<float> v);
+
 /// v, or `otherwise` if it has no length to speak of; of unit length.
 inline glm::vec3 unit(const glm::vec3& v, const glm::vec3& otherwise) {
   const float length = glm::length(v);

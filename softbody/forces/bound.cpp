@@ -46,44 +46,18 @@ Vector start(Eigen::Index size) {
 
 /// Sums the pulls of all laws of the volume.
 struct SumPressures {
-  using Real = double;
-  using V = double;
   Jet volume;
   Jet& pull;
   void operator()(Volume, const auto& law) const { pull = pull + law.pull(volume); }
 };
 
 struct SumStretch {
-  using Real = double;
-  using V = double;
   const std::vector<glm::dvec3>& area;
   double& sum;
   void operator()(Length c, const auto& law) const {
     const glm::dvec3 d = area[c.i] - area[c.j];
     sum += law.stiffness * glm::dot(d, d);
   }
-};
-
-/// Of the elements of one force.
-struct Largest {
-  double stiffness = 0, damping = 0;  // at one particle, N/m and N s/m
-  double pressure = 0;                // Pa
-};
-
-struct CollectBounds {
-  using Real = double;
-  using V = double;
-  std::vector<WeightedPair>&stiffness, &damping;
-  Largest& largest;
-  void operator()(Length c, const auto& law) const {
-    stiffness.push_back({c.i, c.j, law.stiffness});
-    damping.push_back({c.i, c.j, law.damping});
-  }
-  void operator()(Volume, const auto& law) const { largest.pressure = law.scale(); }
-  void operator()(const Offset<double>&, const auto& law) const {
-    largest.stiffness = std::max(largest.stiffness, law.stiffness);
-  }
-  void operator()(Path, const auto& law) const { largest.damping = std::max(largest.damping, law.damping); }
 };
 
 }  // namespace
@@ -114,12 +88,16 @@ void ModelForces::set_bounds(std::size_t particles) {
   std::vector<WeightedPair> stiffness, damping;
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (HasElements<F>) {
-      if (!of<F>()) return;
-      Largest largest;
-      visit_elements<F>(*of<F>(), HeldOf<F, double>{}, CollectBounds{stiffness, damping, largest});
-      offset_stiffness += largest.stiffness / 2;
-      path_damping += largest.damping / 2;
-      pressure += largest.pressure;
+      const auto& own = of<F>();
+      if (!own) return;
+      if constexpr (F::coordinate == Coordinate::length)
+        for (const auto& law : F::template elements<double>(*own)) {
+          stiffness.push_back({law.i, law.j, law.stiffness});
+          damping.push_back({law.i, law.j, law.damping});
+        }
+      if constexpr (F::coordinate == Coordinate::volume) pressure += own->scale();
+      if constexpr (F::coordinate == Coordinate::offset) offset_stiffness += own->stiffness / 2;
+      if constexpr (F::coordinate == Coordinate::path) path_damping += own->damping / 2;
     }
   });
   pair_stiffness = pair_bound(particles, stiffness) / 2;
@@ -148,7 +126,7 @@ double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface) {
   // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
   // a row is at most two medians a face at i.
   Jet pull = 0;
-  visit_all<Coordinate::volume>(p, {}, SumPressures{Jet(surface.volume, 1), pull});
+  visit_forces<Coordinate::volume>(p, {}, SumPressures{Jet(surface.volume, 1), pull});
   const double l = 2 * f.pair_stiffness, s = pull.slope * surface.area2;
   const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
   const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
@@ -168,7 +146,7 @@ SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& 
     s.two_medians = std::max({s.two_medians, from_a + from_b, from_b + from_c, from_c + from_a});
   }
   for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
-  visit_all<Coordinate::length>(p, {}, SumStretch{area, s.stretch});
+  visit_forces<Coordinate::length>(p, {}, SumStretch{area, s.stretch});
   return s;
 }
 

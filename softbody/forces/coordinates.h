@@ -1,39 +1,40 @@
 #pragma once
-// Coordinates: numbers that the places of a body's particles give. A force is a law of one of them. It says for which
-// particles (visit()) and how strongly its law pulls (pull(), which works against the growth of the coordinate); how
-// that acts on the particles, in lanes and in double, in every integrator, in the matrix and in the stability bound, is
-// written once for each coordinate (kernel_bodies.h, bound.cpp, implicit/matrix.cpp).
+// Coordinates: numbers that the places of a body's particles give. A force is a law of one of them. It says which
+// elements it has and how strongly its law pulls (pull() works against the growth of the coordinate). How that acts on
+// the particles, in lanes and in double, in every integrator, in the matrix and in the stability bound, is written once
+// for each coordinate (kernel_bodies.h, bound.cpp, deformation.cpp, implicit/matrix.cpp).
 
 #include "softbody/mesh/mesh.h"
-#include "softbody/state/lane_math.h"
 
 namespace softbody {
 
-/// The distance between two particles. Its law has `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m),
-/// pull(length) in N and stored(length) in J.
+enum class Coordinate {
+  /// The distance between two particles. The force has elements<Real>(data): a list of laws with the particles i and j,
+  /// `stiffness` (N/m, the largest slope of pull()), `damping` (N s/m), pull(length) in N and stored(length) in J.
+  length,
+  /// The volume inside the mesh. The data are a law that has pull(volume) in Pa, stored(volume) and
+  /// stored_change(from, to) in J, and scale() in Pa, about the largest of its pressures.
+  volume,
+  /// The way of each particle from its place in a shape, which follows the body. The data have points<Real>(), the
+  /// shape, and `stiffness` (N/m).
+  offset,
+  /// The way of each particle through space. The data have `damping` (N s/m), and there is no other force.
+  path,
+};
+
+// Elements, as visitors see them.
 struct Length {
   Index i, j;
 };
-
-/// The volume inside the mesh. Its law has pull(volume) in Pa, stored(volume) and stored_change(from, to) in J, and
-/// scale() in Pa, about the largest of its pressures.
 struct Volume {};
-
-/// The way of particle i from a place. Its law has `stiffness` (N/m).
-template <class V>
 struct Offset {
   Index i;
-  body::Vec<V> place;
 };
-
-/// The way of particle i through space. Its law has `damping` (N s/m) and no other force.
 struct Path {
   Index i;
 };
 
-enum class Coordinate { length, volume, offset, path };
-
-/// A number and its derivative: the pull of a law at Jet{q, 1} has the law's stiffness as its slope.
+/// A number and its derivative: the pull of a law at Jet(q, 1) has the law's stiffness as its slope.
 struct Jet {
   double value, slope = 0;
 

@@ -9,32 +9,26 @@ namespace {
 
 using Shape = std::vector<glm::dvec3>;
 
-/// The energy of elements, but for those of the volume.
+/// The energy of elements whose coordinate is not the volume.
 struct SumElastic {
-  using Real = double;
-  using V = double;
   const Shape& x;
   double& sum;
   void operator()(Length c, const auto& law) const { sum += law.stored(glm::distance(x[c.i], x[c.j])); }
-  void operator()(Volume, const auto&) const {}
-  void operator()(const Offset<double>& c, const auto& law) const {
-    const glm::dvec3 away = x[c.i] - glm::dvec3(c.place.x, c.place.y, c.place.z);
+  void operator()(Offset c, const body::Vec<double>& place, const auto& law) const {
+    const glm::dvec3 away = x[c.i] - glm::dvec3(place.x, place.y, place.z);
     sum += law.stiffness / 2 * glm::dot(away, away);
   }
-  void operator()(Path, const auto&) const {}
 };
 
 template <class Act>
 struct EachVolumeLaw {
-  using Real = double;
-  using V = double;
   const Act& act;
   void operator()(Volume, const auto& law) const { act(law); }
 };
 
 template <class Act>
 void each_volume_law(const BodyModel& p, const Act& act) {
-  visit_all<Coordinate::volume>(p, {}, EachVolumeLaw<Act>{act});
+  visit_forces<Coordinate::volume>(p, {}, EachVolumeLaw<Act>{act});
 }
 
 }  // namespace
@@ -44,7 +38,8 @@ double elastic_energy(const BodyModel& p, const Shape& x) {
   for (int k = 0; k < 3; ++k)
     for (const glm::dvec3& place : x) component[std::size_t(k)].push_back(place[k]);
   double sum = 0;
-  visit_all(p, {component[0].data(), component[1].data(), component[2].data()}, SumElastic{x, sum});
+  visit_forces<Coordinate::length, Coordinate::offset>(
+      p, {component[0].data(), component[1].data(), component[2].data()}, SumElastic{x, sum});
   return sum;
 }
 

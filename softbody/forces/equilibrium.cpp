@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "softbody/forces/gas.h"
-#include "softbody/forces/kernel_bodies.h"
+#include "softbody/forces/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -23,7 +23,8 @@ class Relaxation {
   void evaluate() {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
     const LaneBodies<double> alone{model_, 1, field(x_), field(f_)};
-    visit_all(model_, alone.x, body::AddForces<double, one_lane, Still>{alone, {}});
+    const Still still;
+    visit_all(model_, alone.x, body::AddForces<double, one_lane, Still>{alone, still});
   }
 
   double largest_force() const {

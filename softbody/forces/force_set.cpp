@@ -15,7 +15,7 @@ LaneBodies<float> lanes_of(const ForceBatch& b) {
 /// takes(Name<F>{}): whether a force of the plan is added.
 template <class Takes>
 void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
-  const ForceKernels& kernels = force_kernels(isa_, b.batch.width);
+  const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
   const Moving motion{field(b.state.v, b.batch.base)};
   for_each_force(Forces{}, [&]<class F>(Name<F> name) {
@@ -38,7 +38,7 @@ void ForceSet::add_unprojected(const ForceBatch& b) const {
 }
 
 void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
-  const ForceKernels& kernels = force_kernels(isa_, b.batch.width);
+  const ForceKernels& kernels = force_kernels(b.batch.width);
   const LaneBodies<float> bodies = lanes_of(b);
   const Projection projection{float(b.h), b.batch.moves.data(), x0, d, bodies.f};
   for (const bool volumes : {true, false})
@@ -56,13 +56,13 @@ void ForceSet::kick(const ForceBatch& b) const {
   });
 }
 
-ForceBound bound_of(Isa isa, const Batch& b, Field<const float> x, VectorArray& area) {
+ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
   const BodyModel& p = *b.model;
   double stiffest = stiffness_per_mass(p, {});
   if (p.forces->pressure > 0) {
     for (auto& component : area) component.assign(b.values(), 0);
     SurfaceShape shapes[lanes];
-    force_kernels(isa, b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
+    force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
     for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
   }
   return {stiffest, damping_bound(p) / p.particle_mass};

@@ -15,7 +15,7 @@ class ForceSet {
  public:
   /// The objects of forces without elements; they must outlive this.
   using Objects = std::tuple<const PenaltyContact&, const Hand&>;
-  ForceSet(Isa isa, const Objects& objects) : isa_(isa), objects_(objects) {}
+  explicit ForceSet(const Objects& objects) : objects_(objects) {}
 
   void set_plan(const ForceMask& taken) { taken_ = taken; }
 
@@ -33,13 +33,12 @@ class ForceSet {
   template <class Takes>
   void add_if(const ForceBatch& batch, Takes takes) const;
 
-  Isa isa_;
   Objects objects_;
   ForceMask taken_;
 };
 
 /// Returns the bound of the forces inside the bodies of a batch, whose particles are at x. area: scratch.
-ForceBound bound_of(Isa isa, const Batch& batch, Field<const float> x, VectorArray& area);
+ForceBound bound_of(const Batch& batch, Field<const float> x, VectorArray& area);
 
 /// True if some force of a model acts on its bodies from outside.
 bool has_external_force(const BodyModel& model);

@@ -68,11 +68,6 @@ struct GasPressure {
 
   using Data = Gas;
   static std::optional<Gas> make(const BodyModel& model, const MeshSource&);
-
-  template <class At>
-  SB_INLINE static void visit(const Gas& gas, const At& at) {
-    at(Volume{}, gas);
-  }
 };
 
 }  // namespace softbody

@@ -8,13 +8,16 @@
 
 namespace softbody {
 
-/// Bodies of one model in lanes, of which `used` lanes have a body, and the forces on them.
+/// Bodies of one model side by side, the first `used` of them, and the forces on them.
 template <class Real>
 struct LaneBodies {
   const BodyModel& model;
   int used;
   Field<const Real> x;  // m
   Field<Real> f;        // N
+
+  /// Returns those from a lane on.
+  LaneBodies from(std::size_t lane) const { return {model, used - int(lane), x + lane, f + lane}; }
 };
 
 /// Dampers see no motion.
@@ -27,10 +30,11 @@ struct Moving {
 
 /// Dampers see how far particles have gone since the start of an implicit step of h seconds. They act along the
 /// directions that their coordinates had then, so that the damping has a potential. `frame`: what particles go without
-/// leaving their places in a frame that moves with the body.
+/// leaving their places in a frame that moves with the body, in `frame_time` seconds.
 struct SinceStart {
   double inverse_h;  // 1/s
   Field<const double> x, frame;
+  double inverse_frame_time;  // 1/s
 };
 
 /// XPBD's displacements d in a step of h seconds that started at x0.
@@ -39,29 +43,22 @@ struct Projection {
   const float* moves;       // 0 or 1 for each lane
   Field<const float> x0;    // m
   Field<float> d, scratch;  // m; scratch: room for as much
+
+  /// Returns that of the bodies from a lane on.
+  Projection from(std::size_t lane) const { return {h, moves + lane, x0 + lane, d + lane, scratch + lane}; }
 };
 
-namespace detail {
+/// What a force of a coordinate finds once from all particles: the poses of the shapes that offsets are from.
 template <class F, class Real>
-struct HeldOf {
-  using type = Nothing;
+struct HeldOf {};
+template <HasElements F, class Real>
+requires(F::coordinate == Coordinate::offset) struct HeldOf<F, Real> : ShapePose<Real> {
 };
-template <class F, class Real>
-requires requires { typename F::template Held<Real>; }
-struct HeldOf<F, Real> {
-  using type = typename F::template Held<Real>;
-};
-}  // namespace detail
-
-/// What a force finds once from all particles of the bodies.
-template <class F, class Real>
-using HeldOf = typename detail::HeldOf<F, Real>::type;
 
 namespace detail {
 template <class Real, class... F>
-std::tuple<typename HeldOf<F, Real>::type...> held_of(List<F...>);
+std::tuple<HeldOf<F, Real>...> held_of(List<F...>);
 }
-/// What forces find once from all particles.
 using HeldForces = decltype(detail::held_of<double>(Forces{}));
 
 }  // namespace softbody

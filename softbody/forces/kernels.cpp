@@ -1,74 +1,123 @@
 #include "softbody/forces/kernels.h"
 
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "softbody/forces/kernels.cpp"
+#include <hwy/foreach_target.h>
+
 #include "softbody/forces/kernel_bodies.h"
 
+HWY_BEFORE_NAMESPACE();
 namespace softbody {
+namespace HWY_NAMESPACE {
 namespace {
 
-/// Table: has the functions add<F>, project<F> and measure_surfaces, compiled for one instruction set.
-template <class Table>
-constexpr ForceKernels make_table() {
-  ForceKernels kernels{};
-  for_each_force(Forces{}, [&]<class F>(Name<F>) {
-    if constexpr (HasElements<F>) kernels.add[index_of<F>] = &Table::template add<F>;
-    if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Table::template project<F>;
+using namespace body;
+
+/// The kernels of one width: each run of lanes on its own.
+template <int width>
+struct Kernels {
+  using V = Run<float, width>;
+  static constexpr std::size_t step = lanes_of<V>;
+
+  template <class F>
+  static void add(const LaneBodies<float>& all, const Moving& motion) {
+    const auto* d = data<F>(all.model);
+    if (!d) return;
+    for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
+      const LaneBodies<float> b = all.from(l);
+      HeldOf<F, float> held;
+      hold<F, V, width>(*d, b.x, b.used, held);
+      const Moving moving{motion.v + l};
+      visit<F, V>(b.model, *d, held, AddForces<V, width, Moving>{b, moving});
+    }
+  }
+  template <class F>
+  static void project(const LaneBodies<float>& all, const Projection& p) {
+    const auto* d = data<F>(all.model);
+    if (!d) return;
+    for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
+      const LaneBodies<float> b = all.from(l);
+      const Projection own = p.from(l);
+      visit<F, V>(b.model, *d, {}, Project<V, width>{b, own, float(1 / b.model.particle_mass)});
+    }
+  }
+  static void measure_surfaces(const LaneBodies<float>& all, SurfaceShape* result) {
+    const std::vector<Triangle>& faces = all.model.mesh.triangles;
+    for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
+      const LaneBodies<float> b = all.from(first);
+      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{}, one[lanes];
+      std::fill_n(one, lanes, 1.0f);
+      body::volume<V, width>(faces, b.x, volumes);
+      medians<V, width>(faces, b.x, two_medians);
+      push_faces<V, width>(faces, b.x, one, b.f);
+      V square{}, sum{};
+      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
+        const Vec<V> a = load<V>(b.f, at);
+        square += dot(a, a);
+      }
+      store(area2, square);
+      for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+        if constexpr (HasElements<F>) {
+          if constexpr (F::coordinate == Coordinate::length)
+            if (const auto* d = data<F>(b.model)) visit<F, V>(b.model, *d, {}, AddStretch<V, width>{b.f, sum});
+        }
+      });
+      store(stretch, sum);
+      for (int l = 0; l < std::min(b.used, int(step)); ++l)
+        result[first + std::size_t(l)] = {volumes[l], area2[l], stretch[l], two_medians[l]};
+    }
+  }
+  static constexpr ForceKernels make() {
+    ForceKernels kernels{};
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (HasElements<F>) kernels.add[index_of<F>] = &Kernels::template add<F>;
+      if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
+    });
+    kernels.measure_surfaces = &Kernels::measure_surfaces;
+    return kernels;
+  }
+};
+template <int width>
+constexpr ForceKernels table = Kernels<width>::make();
+
+using W = Wide<double, lanes>;
+
+void hold_forces(const LaneBodies<double>& b, HeldForces& held) {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+    if constexpr (HasElements<F>)
+      if (const auto* d = data<F>(b.model)) hold<F, W, lanes>(*d, b.x, b.used, std::get<index_of<F>>(held));
   });
-  kernels.measure_surfaces = &Table::measure_surfaces;
-  return kernels;
 }
 
-// One table an instruction set and width. The bodies are inlined into functions that carry the target attribute; a
-// resolver of the linker (ifunc) would do the same but does not work under the sanitizers.
-#define SB_FORCE_TABLE(name, width, target)                                                                  \
-  struct name {                                                                                              \
-    template <class F>                                                                                       \
-    target static void add(const LaneBodies<float>& b, const Moving& motion) {                               \
-      body::add_force<F, width>(b, motion);                                                                  \
-    }                                                                                                        \
-    template <class F>                                                                                       \
-    target static void project(const LaneBodies<float>& b, const Projection& p) {                            \
-      body::project<F, width>(b, p);                                                                         \
-    }                                                                                                        \
-    target static void measure_surfaces(const LaneBodies<float>& b, SurfaceShape* shapes) {                  \
-      body::measure_surfaces<width>(b, shapes);                                                              \
-    }                                                                                                        \
-    target static void hold(const LaneBodies<double>& b, HeldForces& held) { body::hold_forces(b, held); }   \
-    target static void add_all(const LaneBodies<double>& b, const HeldForces& h, const SinceStart& s) {      \
-      body::add_forces<false>(b, h, s);                                                                      \
-    }                                                                                                        \
-    target static void add_external(const LaneBodies<double>& b, const HeldForces& h, const SinceStart& s) { \
-      body::add_forces<true>(b, h, s);                                                                       \
-    }                                                                                                        \
-  };
+template <bool external_only>
+void add_forces(const LaneBodies<double>& b, const HeldForces& held, const SinceStart& motion) {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+    if constexpr (HasElements<F>) {
+      if constexpr (!external_only || !F::internal)
+        if (const auto* d = data<F>(b.model))
+          visit<F, W>(b.model, *d, std::get<index_of<F>>(held), AddForces<W, lanes, SinceStart>{b, motion});
+    }
+  });
+}
 
-SB_FORCE_TABLE(Baseline, lanes, )
-SB_FORCE_TABLE(BaselineByItself, one_lane, )
-#if SB_X86
-SB_FORCE_TABLE(Avx2, lanes, [[gnu::target("avx2")]])
-SB_FORCE_TABLE(Avx2ByItself, one_lane, [[gnu::target("avx2")]])
-#endif
+constexpr ImplicitForceKernels implicit_table{hold_forces, add_forces<false>, add_forces<true>};
 
-template <class Table>
-constexpr ForceKernels table = make_table<Table>();
-template <class Table>
-constexpr ImplicitForceKernels implicit_table{&Table::hold, &Table::add_all, &Table::add_external};
+const ForceKernels& Table(int width) { return width == one_lane ? table<one_lane> : table<lanes>; }
+const ImplicitForceKernels& ImplicitTable() { return implicit_table; }
 
 }  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace softbody
+HWY_AFTER_NAMESPACE();
 
-const ForceKernels& force_kernels(Isa isa, int width) {
-#if SB_X86
-  if (isa == Isa::avx2) return width == one_lane ? table<Avx2ByItself> : table<Avx2>;
-#endif
-  (void)isa;
-  return width == one_lane ? table<BaselineByItself> : table<Baseline>;
-}
+#if HWY_ONCE
+namespace softbody {
 
-const ImplicitForceKernels& implicit_force_kernels(Isa isa) {
-#if SB_X86
-  if (isa == Isa::avx2) return implicit_table<Avx2>;
-#endif
-  (void)isa;
-  return implicit_table<Baseline>;
-}
+HWY_EXPORT(Table);
+HWY_EXPORT(ImplicitTable);
+
+const ForceKernels& force_kernels(int width) { return HWY_DYNAMIC_DISPATCH(Table)(width); }
+const ImplicitForceKernels& implicit_force_kernels() { return HWY_DYNAMIC_DISPATCH(ImplicitTable)(); }
 
 }  // namespace softbody
+#endif  // HWY_ONCE

@@ -1,11 +1,10 @@
 #pragma once
-// The kernels of forces: for the processor at hand, and for lanes or one body alone. Every variant is compiled from the
-// same source without fused arithmetic, so all give the same bits.
+// The kernels of forces over one batch of bodies. Vectorised with Highway, which chooses the processor's instruction
+// set at run time; the result is the same on every one.
 
 #include <array>
 
 #include "softbody/forces/kernel_types.h"
-#include "softbody/state/isa.h"
 
 namespace softbody {
 
@@ -13,10 +12,10 @@ namespace softbody {
 struct ForceKernels {
   std::array<void (*)(const LaneBodies<float>&, const Moving&), force_count> add;
   std::array<void (*)(const LaneBodies<float>&, const Projection&), force_count> project;
-  /// The surface of the body in each lane. f: room for dV/dx, and zero.
+  /// Measures the surface of the body in each lane. f: room for dV/dx, and zero.
   void (*measure_surfaces)(const LaneBodies<float>&, SurfaceShape*);
 };
-const ForceKernels& force_kernels(Isa isa, int width);
+const ForceKernels& force_kernels(int width);
 
 /// For implicit steps, in double.
 struct ImplicitForceKernels {
@@ -24,6 +23,6 @@ struct ImplicitForceKernels {
   void (*add)(const LaneBodies<double>&, const HeldForces&, const SinceStart&);
   void (*add_external)(const LaneBodies<double>&, const HeldForces&, const SinceStart&);  // those not internal
 };
-const ImplicitForceKernels& implicit_force_kernels(Isa isa);
+const ImplicitForceKernels& implicit_force_kernels();
 
 }  // namespace softbody

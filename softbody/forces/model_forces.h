@@ -3,18 +3,17 @@
 
 #include <optional>
 #include <tuple>
+#include <variant>
 #include <vector>
 
 #include "softbody/forces/table.h"
 
 namespace softbody {
 
-struct Nothing {};
-
 namespace detail {
 template <class F>
 struct DataOf {
-  using type = Nothing;
+  using type = std::monostate;
 };
 template <HasElements F>
 struct DataOf<F> {

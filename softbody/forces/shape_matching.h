@@ -16,6 +16,7 @@
 
 #include "softbody/forces/coordinates.h"
 #include "softbody/model/body_model.h"
+#include "softbody/state/lanes.h"
 
 namespace softbody {
 
@@ -31,13 +32,13 @@ struct ShapePoint {
 /// the matrix begins at 3 c.
 template <class Real>
 struct ShapeMoments {
-  alignas(64) Real mean[3][lanes], covariance[9][lanes];
+  Real mean[3][lanes], covariance[9][lanes];
 };
 
 /// Pose of the goal shape: x = centre + rotation q. Column c of the rotation begins at 3 c.
 template <class Real>
 struct ShapePose {
-  alignas(64) Real centre[3][lanes], rotation[9][lanes];
+  Real centre[3][lanes], rotation[9][lanes];
 };
 struct ShapeMatching {
   static constexpr std::string_view key = "shape-matching";
@@ -64,14 +65,6 @@ struct ShapeMatching {
     }
   };
   static std::optional<Data> make(const BodyModel& model, const MeshSource& source);
-
-  /// The pose of the goal is found once for all particles: by hold(), in shape_matching_kernel.h.
-  template <class Real>
-  using Held = ShapePose<Real>;
-  template <class Real, int width>
-  static void hold(const Data& data, Field<const Real> x, int used, ShapePose<Real>& pose);
-  template <class At>
-  static void visit(const Data& data, const ShapePose<typename At::Real>& pose, const At& at);
 };
 
 /// Finds the pose of the goal shape in each of the first `used` lanes; the other lanes of `pose` are not changed.

@@ -1,6 +1,8 @@
 #pragma once
 // Springs: Hooke's law with a damper along the spring.
 
+#include <hwy/base.h>
+
 #include <array>
 #include <functional>
 #include <optional>
@@ -18,8 +20,9 @@ struct SpringOf {
   Real stiffness;  // N/m
   Real damping;    // N s/m, along the spring
 
+  /// T: a number, a Jet or one number for each lane.
   template <class T>
-  SB_INLINE T pull(T length) const {
+  HWY_INLINE T pull(T length) const {
     return stiffness * (length - rest);
   }
   Real stored(Real length) const { return stiffness / 2 * (length - rest) * (length - rest); }
@@ -40,12 +43,12 @@ struct Springs {
     std::vector<Spring> exact;
     std::vector<SpringOf<float>> rounded;  // the same
   };
-  template <class At>
-  SB_INLINE static void visit(const Data& d, const At& at) {
-    if constexpr (std::is_same_v<typename At::Real, float>)
-      for (const SpringOf<float>& spring : d.rounded) at(Length{spring.i, spring.j}, spring);
+  template <class Real>
+  static const std::vector<SpringOf<Real>>& elements(const Data& d) {
+    if constexpr (std::is_same_v<Real, float>)
+      return d.rounded;
     else
-      for (const Spring& spring : d.exact) at(Length{spring.i, spring.j}, spring);
+      return d.exact;
   }
 
  protected:

@@ -7,16 +7,17 @@
 //   why_not(facts)     why a scene does not need it, or nullptr; without it: `absent`, if no body model has its data
 //
 // A force inside bodies is a law of a coordinate (coordinates.h). It has
-//   coordinate, Data, make(model, source): what the bodies of a model need, or nothing
-//   visit(data, at)    calls at(coordinate, law) for each of its elements; always inlined (SB_INLINE)
-//   adapt(material, source)   changes the values of a material to fit a mesh
-//   Held, hold(), visit(data, held, at)   if its elements need what is found once from all particles
+//   coordinate         which one
+//   Data, make(model, source)   what the bodies of a model need for the coordinate, or nothing
+//   adapt(material, source)     changes the values of a material to fit a mesh
 //
 // Any other force is an object of the solver. It has
 //   add(batch)         adds its forces on the bodies of a batch
 //   kick(batch)        changes velocities after all else has, in steps that are not made of forces alone
 //
 // Forces act in the order of the list.
+
+#include <hwy/base.h>
 
 #include <bitset>
 #include <cstddef>
@@ -42,7 +43,7 @@ struct Name {
 
 /// Calls use(Name<F>{}) for each force F of the list, in its order.
 template <class Use, class... Force>
-SB_INLINE constexpr void for_each_force(List<Force...>, Use&& use) {
+HWY_INLINE constexpr void for_each_force(List<Force...>, Use&& use) {
   (use(Name<Force>{}), ...);
 }
 

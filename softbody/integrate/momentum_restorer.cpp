@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
+#include "softbody/state/kernels.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
@@ -32,7 +33,7 @@ RigidMotion rigid_motion(const RigidSums& sums, std::size_t lane, double count) 
 
 void MomentumRestorer::note(const BatchView& b) {
   Noted& noted = noted_.emplace_back(Noted{b, {}});
-  b.kernels.rigid_sums(b.batch.particles(), b.x, b.v, noted.sums);
+  state_kernels(b.batch.width).rigid_sums(b.batch.used, b.batch.particles(), b.x, b.v, noted.sums);
 }
 
 void MomentumRestorer::restore(const glm::dvec3& fall, bool spin, std::span<const unsigned> pushed) const {
@@ -40,7 +41,7 @@ void MomentumRestorer::restore(const glm::dvec3& fall, bool spin, std::span<cons
     const Batch& b = view.batch;
     const auto count = double(b.particles());
     RigidSums now;
-    view.kernels.rigid_sums(b.particles(), view.x, view.v, now);
+    state_kernels(b.width).rigid_sums(b.used, b.particles(), view.x, view.v, now);
     RigidChange change{};
     for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
       if (b.moves[l] <= 0 || (pushed[b.index] >> l & 1u)) continue;
@@ -53,7 +54,7 @@ void MomentumRestorer::restore(const glm::dvec3& fall, bool spin, std::span<cons
       write(change.spin, l, turn);
       write(change.about, l, after.centre);
     }
-    view.kernels.add_rigid(b.particles(), change, view.x, view.v);
+    state_kernels(b.width).add_rigid(b.used, b.particles(), change, view.x, view.v);
   }
 }
 

@@ -1,10 +1,16 @@
 #include "softbody/integrate/motion.h"
-#include "softbody/integrate/force_stage.h"
 
-#include <algorithm>
 #include <utility>
 
+#include "softbody/integrate/force_stage.h"
+#include "softbody/state/kernels.h"
+
 namespace softbody {
+namespace {
+
+std::size_t used(const Batch& b) { return std::size_t(b.used); }
+
+}  // namespace
 
 void Motion::set_plan(const Plan& plan) {
   ForceMask taken;
@@ -44,11 +50,18 @@ void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
 
 void Motion::kick(const Batch& b, float h) {
   const glm::vec3 g = h * glm::vec3(gravity_);
-  parts_.kernels(b).kick({b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
+  state_kernels(b.width).kick(
+      used(b), {b.particles(), h / float(b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b), v(b));
+}
+
+void Motion::accelerations(const Batch& b) {
+  const glm::vec3 g(gravity_);
+  state_kernels(b.width).accelerate(
+      used(b), {b.particles(), float(1 / b.model->particle_mass), g.x, g.y, g.z, b.moves.data()}, f(b));
 }
 
 void Motion::drift(const Batch& b, float h) {
-  parts_.kernels(b).drift(b.particles(), h, b.moves.data(), v(b), field(parts_.state.x, b.base));
+  state_kernels(b.width).drift(used(b), b.particles(), h, b.moves.data(), v(b), field(parts_.state.x, b.base));
 }
 
 VectorArray& Motion::array(Quantity q) {
@@ -56,53 +69,22 @@ VectorArray& Motion::array(Quantity q) {
   return q.index < 3 ? *own[q.index] : scratch_[std::size_t(q.index - 3)];
 }
 
-/// Calls operation(place in the arrays, 1 or 0 for whether its lane moves).
-template <class Operation>
-void Motion::each_value(const Batch& b, Operation operation) {
-  const auto run = [&, moves = b.moves](auto width) {
-    for (std::size_t at = b.base; at < b.base + b.values(); at += width)
-      for (std::size_t l = 0; l < width; ++l) operation(at + l, moves[l]);
-  };
-  if (b.width == one_lane)
-    run(std::integral_constant<std::size_t, one_lane>());
-  else
-    run(std::integral_constant<std::size_t, lanes>());
-}
-
 void Motion::copy(const Batch& b, Quantity from, Quantity to) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = array(from)[k].data();
-    float* target = array(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] = moves > 0 ? source[i] : target[i]; });
-  }
+  state_kernels(b.width).copy(used(b), b.particles(), b.moves.data(), field(array(from), b.base),
+                              field(array(to), b.base));
 }
 
 void Motion::add(const Batch& b, Quantity to, float times, Quantity q) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const float* source = array(q)[k].data();
-    float* target = array(to)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] += moves > 0 ? times * source[i] : 0; });
-  }
+  state_kernels(b.width).add(used(b), b.particles(), b.moves.data(), times, field(array(q), b.base),
+                             field(array(to), b.base));
 }
 
 void Motion::scale(const Batch& b, Quantity q, float times) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    float* target = array(q)[k].data();
-    each_value(b, [=](std::size_t i, float moves) { target[i] *= moves > 0 ? times : 1; });
-  }
+  state_kernels(b.width).scale(used(b), b.particles(), b.moves.data(), times, field(array(q), b.base));
 }
 
 void Motion::clear(const Batch& b, Quantity q) {
-  for (auto& c : array(q)) std::fill_n(c.begin() + std::ptrdiff_t(b.base), b.values(), 0.0f);
-}
-
-void Motion::accelerations(const Batch& b) {
-  const auto inverse_mass = float(1 / b.model->particle_mass);
-  for (std::size_t k = 0; k < 3; ++k) {
-    const auto g = float(gravity_[int(k)]);
-    float* a = parts_.state.f[k].data();
-    each_value(b, [=](std::size_t i, float) { a[i] = a[i] * inverse_mass + g; });
-  }
+  state_kernels(b.width).clear(used(b), b.particles(), field(array(q), b.base));
 }
 
 }  // namespace softbody

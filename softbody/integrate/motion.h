@@ -5,7 +5,6 @@
 #include <vector>
 
 #include "softbody/forces/force_set.h"
-#include "softbody/integrate/batch_kernels.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
@@ -25,7 +24,6 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 /// What a Motion acts on. All of these must outlive it.
 struct MotionParts {
   State& state;
-  const BatchKernels& kernels;
   const Hand& hand;
   PenaltyContact& penalty;
   SolidContact& solids;
@@ -35,8 +33,7 @@ struct MotionParts {
 
 class Motion {
  public:
-  explicit Motion(const MotionParts& parts)
-      : parts_(parts), forces_(parts.kernels.isa(), {parts.penalty, parts.hand}) {}
+  explicit Motion(const MotionParts& parts) : parts_(parts), forces_({parts.penalty, parts.hand}) {}
 
   void set_plan(const Plan& plan);
   /// Makes room for `scratch` vectors of each particle. gravity in m/s^2.
@@ -74,8 +71,6 @@ class Motion {
   Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
-  template <class Operation>
-  void each_value(const Batch& batch, Operation operation);
   ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_}; }
 
   MotionParts parts_;

@@ -18,15 +18,14 @@ std::size_t SolverState::bytes() const {
   return bodies.bytes() + bytes_of(penalty_pairs) + bytes_of(pushes) + surface.bytes();
 }
 
-Solver::Solver(const Scene& scene, const Crew& crew, Isa isa)
+Solver::Solver(const Scene& scene, const Crew& crew)
     : scene_(scene),
       crew_(crew),
-      kernels_(isa),
-      solids_(state_, kernels(isa, lanes).solid, kernels(isa, one_lane).solid),
+      solids_(state_),
       contacts_(scene, state_, solids_, crew_),
-      implicit_(std::make_unique<ImplicitSteps>(isa)),
-      motion_({state_, kernels_, hand_, penalty_, solids_, contacts_, *implicit_}),
-      bounds_(state_, kernels_, penalty_, solids_) {}
+      implicit_(std::make_unique<ImplicitSteps>()),
+      motion_({state_, hand_, penalty_, solids_, contacts_, *implicit_}),
+      bounds_(state_, penalty_, solids_) {}
 
 Solver::~Solver() = default;
 
@@ -83,7 +82,7 @@ void Solver::begin_frame(double seconds) {
     if (!b.any_moves()) continue;
     moving.push_back(&b);
     particles += b.particles() * std::size_t(b.used);
-    const Extent extent = kernels_.extent(b, state_.x, state_.v);
+    const Extent extent = state_.extent(b, state_.x, state_.v);
     for_each_solid(scene_, [&](const auto& solid) { solids_.add(b, extent, solid, scene_.gravity, seconds); });
   }
   crew_.take(std::move(moving), particles);
@@ -141,8 +140,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   }
   const int count = fixed ? stable : steps_.substeps(stable, double(surface.substep_rate()), frame.left);
   if (frame.substeps == 0 && !implicit && count >= many_substeps)
-    for (const Batch* b : crew_.moving())
-      frame.momenta.note({*b, kernels_(*b), field(state_.x, b->base), field(state_.v, b->base)});
+    for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / count;
   const auto trusted = [&] { return bounds_.trusted_substeps(crew_.moving(), h); };
   int now = fixed ? count : std::clamp(trusted(), 1, count);
@@ -205,8 +203,7 @@ void Solver::finish_frame(double seconds) {
 int Solver::needed_substeps(double seconds) const {
   PenaltyContact penalty = penalty_;
   penalty.locate(state_);
-  return count_substeps(StepBounds(state_, kernels_, penalty, solids_).measure(steps_.integrator(), seconds), seconds,
-                        1);
+  return count_substeps(StepBounds(state_, penalty, solids_).measure(steps_.integrator(), seconds), seconds, 1);
 }
 
 SolverState Solver::save() const {

@@ -8,7 +8,6 @@
 
 #include "softbody/forces/hand.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_kernels.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/momentum_restorer.h"
@@ -42,7 +41,7 @@ struct SolverState {
 class Solver {
  public:
   /// The scene must outlive this.
-  Solver(const Scene& scene, const Crew& crew, Isa isa);
+  Solver(const Scene& scene, const Crew& crew);
   Solver(const Solver&) = delete;
   ~Solver();
 
@@ -102,7 +101,6 @@ class Solver {
 
   const Scene& scene_;
   Crew crew_;
-  BatchKernels kernels_;
   State state_;
   Hand hand_;
   PenaltyContact penalty_;

@@ -6,13 +6,14 @@
 
 #include "softbody/contact/keys.h"
 #include "softbody/contact/law.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 /// s, of substeps that are not fixed: forces are far from linear over longer ones.
-constexpr double max_step = 1.0 / 60;
+constexpr double longest_step = 1.0 / 60;
 
 }  // namespace
 
@@ -21,7 +22,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
   double own_step = infinite;         // s, of the body that bears the shortest, contacts damp it or not
   double lone_step = infinite;        // s, of the one that bears the shortest without contacts
   // Substeps that keep up with the fastest body near a solid; implicit steps have no bound of stability.
-  double min_substeps = std::max(1.0, seconds / max_step);
+  double min_substeps = std::max(1.0, seconds / longest_step);
   double deformation_rate = 0;  // 1/s: a bound by the present shape tells nothing of one far from it
   const bool pairs = !penalty_.pairs.empty();
   penalty_damping_.assign(pairs ? state_.x[0].size() : 0, 0);
@@ -33,7 +34,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
   for (const Batch& b : state_.batches()) {
     if (!b.any_moves()) continue;
     const BodyModel& p = *b.model;
-    const ForceBound own = bound_of(kernels_.isa(), b, field(state_.x, b.base), area_);
+    const ForceBound own = bound_of(b, field(state_.x, b.base), area_);
     double stiffest = own.stiffness, damper = own.damping;
     lone_step = std::min(lone_step, integrator.stable_step(stiffest, damper));
     if (pairs) {
@@ -44,7 +45,7 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
     own_step = std::min(own_step, integrator.stable_step(stiffest, own.damping));
-    const Extent motion = kernels_.extent(b, state_.v, state_.v);
+    const Extent motion = state_.extent(b, state_.v, state_.v);
     if (!solids_.near(b).empty())
       min_substeps = std::max(min_substeps, motion.max_length() * seconds / (0.1 * p.radius));
     deformation_rate = std::max(deformation_rate, motion.max_diagonal() / (0.1 * p.radius));
@@ -61,7 +62,7 @@ int StepBounds::trusted_substeps(std::span<const Batch* const> moving, double h)
   for (const Batch* b : moving) {
     const double radius = b->model->radius, pressed = std::max(0.25 * double(penalty_.thickness), 0.05 * radius);
     const double way = penalty_.pairs.empty() ? 0.2 * radius : std::min(pressed, 0.2 * radius);
-    trusted = std::min(trusted, way / (kernels_.max_particle_speed(state_, *b) * h));
+    trusted = std::min(trusted, way / (state_.max_particle_speed(*b) * h));
   }
   return static_cast<int>(trusted);
 }
@@ -70,7 +71,7 @@ double StepBounds::rounding_velocity(std::span<const Batch* const> moving, doubl
   constexpr double rounding = 1.0 / (1 << 24);
   double farthest = 0;
   for (const Batch* b : moving) {
-    const Extent e = kernels_.extent(*b, state_.x, state_.v);
+    const Extent e = state_.extent(*b, state_.x, state_.v);
     for (int l = 0; l < b->used; ++l)
       for (const LaneVector* corner : {&e.lo, &e.hi})
         farthest = std::max(

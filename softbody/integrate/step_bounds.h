@@ -3,7 +3,6 @@
 
 #include "softbody/contact/solid_contact.h"
 #include "softbody/forces/force_set.h"
-#include "softbody/integrate/batch_kernels.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/substeps.h"
 
@@ -12,8 +11,8 @@ namespace softbody {
 class StepBounds {
  public:
   /// All of these must outlive this.
-  StepBounds(const State& state, const BatchKernels& kernels, const PenaltyContact& penalty, const SolidContact& solids)
-      : state_(state), kernels_(kernels), penalty_(penalty), solids_(solids) {}
+  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids)
+      : state_(state), penalty_(penalty), solids_(solids) {}
 
   /// Returns the bounds for the next `seconds` with this integrator.
   SubstepBound measure(const Integrator& integrator, double seconds);
@@ -27,7 +26,6 @@ class StepBounds {
 
  private:
   const State& state_;
-  const BatchKernels& kernels_;
   const PenaltyContact& penalty_;
   const SolidContact& solids_;
   VectorArray area_;                    // m^2, scratch

@@ -11,11 +11,11 @@
 namespace softbody {
 
 struct LaneVector {
-  alignas(32) float x[lanes], y[lanes], z[lanes];
+  float x[lanes], y[lanes], z[lanes];
 };
 
 struct DoubleLaneVector {
-  alignas(64) double x[lanes], y[lanes], z[lanes];
+  double x[lanes], y[lanes], z[lanes];
 };
 
 struct KickArguments {
@@ -25,10 +25,14 @@ struct KickArguments {
   const float* moves;  // a value a lane, 0 or 1
 };
 
+inline Field<float> field(LaneVector& v) { return {v.x, v.y, v.z}; }
+inline Field<double> field(DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
+inline Field<const double> field(const DoubleLaneVector& v) { return {v.x, v.y, v.z}; }
+
 /// Bounds of two fields, for the body in each lane.
 struct Extent {
-  LaneVector lo, hi;                 // corners of the bounding box of the first field's vectors
-  alignas(32) float length2[lanes];  // squared length of the longest vector of the second field
+  LaneVector lo, hi;     // corners of the bounding box of the first field's vectors
+  float length2[lanes];  // squared length of the longest vector of the second field
 
   double max_length() const { return std::sqrt(double(*std::max_element(std::begin(length2), std::end(length2)))); }
   double max_diagonal() const {  // of the boxes
@@ -50,7 +54,7 @@ struct RigidSums {
 /// Velocity push + spin x (r - about) that is added to the particles of the lanes in which `acts` is 1; r as in
 /// RigidSums.
 struct RigidChange {
-  alignas(32) float acts[lanes];       // 0 or 1
+  float acts[lanes];                   // 0 or 1
   DoubleLaneVector push, spin, about;  // m/s, rad/s, m
 };
 

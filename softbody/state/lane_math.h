@@ -1,75 +1,98 @@
-#pragma once
-// Arithmetic written once for lanes and for plain numbers: V is one value for each lane, or a float or double.
+// Arithmetic written once for lanes and for plain numbers: V is one value for each lane, or a float or double. Compiled
+// for each of Highway's targets, see state/simd.h.
+#if defined(SOFTBODY_STATE_LANE_MATH_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOFTBODY_STATE_LANE_MATH_H
+#undef SOFTBODY_STATE_LANE_MATH_H
+#else
+#define SOFTBODY_STATE_LANE_MATH_H
+#endif
 
 #include <cmath>
-#include <cstdint>
-#include <cstring>
-#include <type_traits>
+#include <concepts>
 
-#include "softbody/state/lanes.h"
+#include "softbody/state/simd.h"
 
-namespace softbody::body {
+HWY_BEFORE_NAMESPACE();
+namespace softbody {
+namespace HWY_NAMESPACE {
+namespace body {
 
-SB_INLINE double square_root(double v) { return std::sqrt(v); }
-SB_INLINE float square_root(float v) { return std::sqrt(v); }
-
-template <class V>
-SB_INLINE V square_root(V v) {
-  V r;
-  for (int l = 0; l < lanes; ++l) r[l] = std::sqrt(v[l]);
-  return r;
+// As of lanes.
+template <std::floating_point T>
+HWY_INLINE T square_root(T v) {
+  return std::sqrt(v);
 }
-
-SB_INLINE DoubleLane square_root(DoubleLane v) {
-  for (int l = 0; l < 4; ++l) v.lo[l] = std::sqrt(v.lo[l]), v.hi[l] = std::sqrt(v.hi[l]);
-  return v;
+template <std::floating_point T>
+HWY_INLINE T select(bool condition, T a, T b) {
+  return condition ? a : b;
 }
-
-template <class V>
-SB_INLINE V larger(V a, V b) {
+template <std::floating_point T>
+HWY_INLINE T larger(T a, T b) {
   return a > b ? a : b;
 }
-
-SB_INLINE DoubleLane larger(const DoubleLane& a, const DoubleLane& b) {
-  return {a.lo > b.lo ? a.lo : b.lo, a.hi > b.hi ? a.hi : b.hi};
-}
-
-template <class V>
-SB_INLINE V smaller(V a, V b) {
+template <std::floating_point T>
+HWY_INLINE T smaller(T a, T b) {
   return a < b ? a : b;
 }
-
-/// True if a > b in any lane.
-template <class V>
-SB_INLINE bool any_above(V a, V b) {
-  if constexpr (std::is_floating_point_v<V>) {
-    return a > b;
-  } else {
-    const auto above = a > b;
-    std::uint64_t word[sizeof above / sizeof(std::uint64_t)], any = 0;
-    std::memcpy(word, &above, sizeof above);
-    for (const std::uint64_t w : word) any |= w;
-    return any != 0;
-  }
+template <std::floating_point T>
+HWY_INLINE bool any_above(T a, T b) {
+  return a > b;
 }
+template <std::floating_point T>
+HWY_INLINE unsigned lanes_above(T a, T b) {
+  return a > b;
+}
+HWY_INLINE double widened(float v) { return double(v); }
+HWY_INLINE float narrowed(double v) { return float(v); }
 
 /// Three components for all lanes.
 template <class V>
 struct Vec {
   V x, y, z;
-  SB_INLINE friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
-  SB_INLINE friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-  SB_INLINE friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
+  HWY_INLINE friend Vec operator+(Vec a, Vec b) { return {a.x + b.x, a.y + b.y, a.z + b.z}; }
+  HWY_INLINE friend Vec operator-(Vec a, Vec b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+  HWY_INLINE friend Vec operator*(V s, Vec a) { return {s * a.x, s * a.y, s * a.z}; }
 };
 
 template <class V>
-SB_INLINE V dot(Vec<V> a, Vec<V> b) {
+HWY_INLINE V dot(Vec<V> a, Vec<V> b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
 
 template <class V>
-SB_INLINE Vec<V> cross(Vec<V> a, Vec<V> b) {
+HWY_INLINE Vec<V> cross(Vec<V> a, Vec<V> b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-}  // namespace softbody::body
+template <class Mask, class V>
+HWY_INLINE Vec<V> select(Mask mask, Vec<V> a, Vec<V> b) {
+  return {select(mask, a.x, b.x), select(mask, a.y, b.y), select(mask, a.z, b.z)};
+}
+
+template <class V>
+HWY_INLINE auto widened(Vec<V> v) {
+  return Vec<decltype(widened(v.x))>{widened(v.x), widened(v.y), widened(v.z)};
+}
+template <class V>
+HWY_INLINE auto narrowed(Vec<V> v) {
+  return Vec<decltype(narrowed(v.x))>{narrowed(v.x), narrowed(v.y), narrowed(v.z)};
+}
+
+template <class V, class Real>
+HWY_INLINE Vec<V> load(Field<Real> f, std::size_t at) {
+  return {load<V>(f.x + at), load<V>(f.y + at), load<V>(f.z + at)};
+}
+
+template <class V, class Real>
+HWY_INLINE void store(Field<Real> f, std::size_t at, const Vec<V>& v) {
+  store(f.x + at, v.x);
+  store(f.y + at, v.y);
+  store(f.z + at, v.z);
+}
+
+}  // namespace body
+}  // namespace HWY_NAMESPACE
+}  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard

@@ -1,63 +1,20 @@
 #pragma once
-// Eight bodies of one model are solved side by side, one in each SIMD lane: value [particle * lanes + lane]. A body may
-// also be solved alone: value [particle]. The same source serves both widths and, by compiler vectors, every
-// instruction set, and gives the same bits on each.
+// Eight bodies of one model are solved side by side: value [particle * lanes + lane]. A body may also be solved alone:
+// value [particle]. The same source serves both widths and, by Highway, every instruction set, and gives the same bits
+// on each.
 
-#include <cmath>
-#include <cstring>
+#include <cstddef>
 #include <new>
 #include <type_traits>
 #include <vector>
 
 #include <glm/vec3.hpp>
 
-#include "softbody/state/isa.h"
-
 namespace softbody {
 
+/// Number of bodies of one model that are solved side by side.
+inline constexpr int lanes = 8;
 inline constexpr int one_lane = 1;  // the width of a batch whose body is solved alone
-
-/// Forces inlining, so that a function is compiled for the instruction set of its caller.
-#define SB_INLINE [[gnu::always_inline]] inline
-/// The same for a lambda, before its body.
-#define SB_LAMBDA __attribute__((always_inline))
-
-/// Eight doubles as two vectors that fit into registers. Compilers keep wider vectors in memory, which is several times
-/// slower.
-struct DoubleLane {
-  typedef double Half __attribute__((vector_size(4 * sizeof(double))));
-  Half lo, hi;
-
-  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, const DoubleLane& b) { return {a.lo + b.lo, a.hi + b.hi}; }
-  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, const DoubleLane& b) { return {a.lo - b.lo, a.hi - b.hi}; }
-  SB_INLINE friend DoubleLane operator*(const DoubleLane& a, const DoubleLane& b) { return {a.lo * b.lo, a.hi * b.hi}; }
-  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, const DoubleLane& b) { return {a.lo / b.lo, a.hi / b.hi}; }
-  SB_INLINE friend DoubleLane operator+(const DoubleLane& a, double b) { return {a.lo + b, a.hi + b}; }
-  SB_INLINE friend DoubleLane operator-(const DoubleLane& a, double b) { return {a.lo - b, a.hi - b}; }
-  SB_INLINE friend DoubleLane operator*(double a, const DoubleLane& b) { return {a * b.lo, a * b.hi}; }
-  SB_INLINE friend DoubleLane operator/(double a, const DoubleLane& b) { return {a / b.lo, a / b.hi}; }
-  SB_INLINE friend DoubleLane operator/(const DoubleLane& a, double b) { return {a.lo / b, a.hi / b}; }
-  SB_INLINE DoubleLane& operator+=(const DoubleLane& b) { return *this = *this + b; }
-  SB_INLINE DoubleLane& operator-=(const DoubleLane& b) { return *this = *this - b; }
-};
-
-template <class Real, int width>
-struct LaneOf;
-template <class Real>
-struct LaneOf<Real, one_lane> {
-  using Vector = Real;
-};
-template <>
-struct LaneOf<float, lanes> {
-  typedef float Vector __attribute__((vector_size(lanes * sizeof(float))));
-};
-template <>
-struct LaneOf<double, lanes> {
-  using Vector = DoubleLane;
-};
-/// One value for each of `width` bodies.
-template <class Real, int width>
-using Lane = typename LaneOf<Real, width>::Vector;
 
 /// Allocates memory that starts on a cache line.
 template <class T>
@@ -104,7 +61,7 @@ template <class Real>
 struct Field {
   Real *x, *y, *z;
   operator Field<const Real>() const requires(!std::is_const_v<Real>) { return {x, y, z}; }
-  Field from(std::size_t index) const { return {x + index, y + index, z + index}; }
+  Field operator+(std::size_t values) const { return {x + values, y + values, z + values}; }
 };
 
 inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }

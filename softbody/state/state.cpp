@@ -8,6 +8,8 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "softbody/state/kernels.h"
+
 namespace softbody {
 
 bool Batch::any_moves() const {
@@ -140,6 +142,12 @@ void State::recentre(BodyId id) {
     body.origin[k] += shift;
     for (Index i = 0; i < model(id).mesh.vertices.size(); ++i) x[std::size_t(k)][slot(id, i)] -= float(shift);
   }
+}
+
+Extent State::extent(const Batch& b, const VectorArray& boxed, const VectorArray& measured) const {
+  Extent e{};
+  state_kernels(b.width).extent(std::size_t(b.used), b.particles(), field(boxed, b.base), field(measured, b.base), e);
+  return e;
 }
 
 std::size_t State::particle_count() const {

@@ -10,6 +10,7 @@
 
 #include "softbody/model/body_model.h"
 #include "softbody/state/body.h"
+#include "softbody/state/kernel_types.h"
 #include "softbody/state/lanes.h"
 
 namespace softbody {
@@ -22,7 +23,7 @@ struct Batch {
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};
-  alignas(32) std::array<float, lanes> moves{};  // 1: integrated; 0: asleep, pinned or an empty lane
+  std::array<float, lanes> moves{};  // 1: integrated; 0: asleep, pinned or an empty lane
 
   std::size_t particles() const { return model->mesh.vertices.size(); }
   std::size_t values() const { return particles() * std::size_t(width); }  // of one array
@@ -89,6 +90,10 @@ class State {
   BodyField field_of(BodyId body, VectorArray& array) const {
     return {field(array), slot(body, 0), std::size_t(batch_of(body).width)};
   }
+  /// Returns the bounds of `boxed`, and the length of the longest vector of `measured`, for each body of a batch.
+  Extent extent(const Batch& batch, const VectorArray& boxed, const VectorArray& measured) const;
+  /// Returns the largest speed (m/s) of a batch's particles.
+  double max_particle_speed(const Batch& batch) const { return extent(batch, x, v).max_length(); }
   std::size_t particle_count() const;  // of all bodies, whether they move or not
   Particle particle(BodyId body, Index vertex) const;
   /// Returns the largest speed of a body's particles in m/s; infinity if one is not finite.
@@ -115,7 +120,7 @@ class State {
   std::vector<Body> bodies_;
 };
 
-/// The largest body of which implicit steps take more than one at a time, in particles.
+/// The most particles of a body in implicit steps: the matrix grows faster than the springs.
 inline constexpr std::size_t max_implicit_particles = 1000;
 
 inline std::size_t bytes_of(const auto& list) { return list.size() * sizeof(list[0]); }

@@ -38,7 +38,7 @@ World::Parts::Parts(Scene s, const Options& o)
       workers(o.threads),
       models(scene),
       plan(make_plan(scene, models.all())),
-      solver(scene, Crew(workers, o.min_shared_particles), o.isa),
+      solver(scene, Crew(workers, o.min_shared_particles)),
       sleep(scene.sleep),
       arrived(scene.bodies.size(), false),
       method(collide::find_method(scene.method)),

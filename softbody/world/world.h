@@ -19,7 +19,6 @@
 #include "softbody/integrate/plan.h"
 #include "softbody/scene/scene.h"
 #include "softbody/state/body.h"
-#include "softbody/state/isa.h"
 
 namespace softbody {
 
@@ -52,7 +51,6 @@ class World {
     int threads = 1;
     double frame_time = 1.0 / 60.0;  // s
     IntegratorChoice integrator{};
-    Isa isa = best_isa();
     /// With fewer particles of moving bodies, one thread moves them all: it is done before other threads have woken up.
     std::size_t min_shared_particles = 20'000;
     MaxWork max_work{};
@@ -68,7 +66,7 @@ class World {
   /// Returns everything that determines how the world continues.
   Snapshot snapshot() const;
   /// Puts the world into the state of the snapshot, settings included, and detects. It then continues, to the bit, as
-  /// the world of the snapshot did, which may be another world. Its threads, frame time and isa do not change.
+  /// the world of the snapshot did, which may be another world. Its threads and frame time do not change.
   void restore(const Snapshot& snapshot);
 
   // Changes between frames. Each of them detects again if contacts may have changed.

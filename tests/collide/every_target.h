@@ -1,14 +1,12 @@
 #pragma once
 // What the tests of the vector loops share: every target that this machine has, and points as runs.
 
-#include <gtest/gtest.h>
-#include <hwy/targets.h>
-
 #include <cmath>
 #include <limits>
 
 #include "collide/core/vertex_run.h"
 #include "states.h"
+#include "tests/every_target.h"
 
 namespace collide::test {
 
@@ -24,21 +22,11 @@ struct Points3 {
   VertexRun run() const { return {x.data(), y.data(), z.data(), static_cast<Index>(x.size())}; }
 };
 
-/// A test for each target, whose instructions it uses.
-class OnEveryTarget : public testing::TestWithParam<std::int64_t> {
+class OnEveryTarget : public tests::OnEveryTarget {
  protected:
-  void SetUp() override { hwy::SetSupportedTargetsForTest(GetParam()); }
-  void TearDown() override { hwy::SetSupportedTargetsForTest(0); }
   std::mt19937 random_{41};
 };
 
-inline std::vector<std::int64_t> targets() {
-  std::vector<std::int64_t> targets;
-  for (std::int64_t left = hwy::SupportedTargets(); left != 0; left &= left - 1) targets.push_back(left & -left);
-  return targets;
-}
-inline std::string target_name(const testing::TestParamInfo<std::int64_t>& target) {
-  return hwy::TargetName(target.param);
-}
+using tests::target_name, tests::targets;
 
 }  // namespace collide::test

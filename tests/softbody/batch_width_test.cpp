@@ -5,8 +5,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "softbody/contact/kernels.h"
 #include "softbody/forces/kernels.h"
+#include "softbody/state/kernels.h"
 #include "softbody/world/snapshot.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
 
@@ -28,9 +31,10 @@ struct SoloField {
 bool same_bits(float a, float b) { return !std::memcmp(&a, &b, sizeof a); }
 
 /// A small mesh in every lane, out of shape, and what the kernels ask for besides.
-class EveryKernel : public testing::TestWithParam<Isa> {
+class EveryKernel : public tests::OnEveryTarget {
  protected:
   EveryKernel() : x(n), v(n), f(n) {
+    for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 1 ? 0.0f : 1.0f;
     for (LaneField* field : {&x, &v, &f}) field->randomise(random, 0.2);
     for (std::size_t i = 0; i < n; ++i)
       for (int l = 0; l < lanes; ++l) x.set(i, l, x.at(i, l) + mesh.vertices[i]);
@@ -41,11 +45,12 @@ class EveryKernel : public testing::TestWithParam<Isa> {
   void expect_the_same(const Run& run) {
     LaneField all_x = x, all_v = v, all_f = f;
     float result[lanes]{};
-    run(kernels(GetParam(), lanes), lanes, 0, all_x.field(), all_v.field(), all_f.field(), result);
+    run(lanes, 0, all_x.field(), all_v.field(), all_f.field(), result);
     for (int l = 0; l < lanes; ++l) {
       SoloField own_x(x, l), own_v(v, l), own_f(f, l);
-      float own_result[lanes]{0, -2, -3, -4, -5, -6, -7, -8};
-      run(kernels(GetParam(), one_lane), one_lane, l, own_x.field(), own_v.field(), own_f.field(), own_result);
+      float own_result[lanes];
+      for (int other = 0; other < lanes; ++other) own_result[other] = -1.0f - float(other);
+      run(one_lane, l, own_x.field(), own_v.field(), own_f.field(), own_result);
       EXPECT_TRUE(own_x == SoloField(all_x, l) && own_v == SoloField(all_v, l) && own_f == SoloField(all_f, l)) << l;
       EXPECT_TRUE(same_bits(own_result[0], result[l])) << own_result[0] << " and " << result[l] << ", lane " << l;
       for (int other = 1; other < lanes; ++other) EXPECT_EQ(own_result[other], -1.0f - float(other)) << "written to";
@@ -57,7 +62,7 @@ class EveryKernel : public testing::TestWithParam<Isa> {
   const Mesh& mesh = model->mesh;
   const std::size_t n = mesh.vertices.size();
   LaneField x, v, f;
-  alignas(32) float moves[lanes]{1, 0, 1, 1, 1, 1, 0, 1};
+  float moves[lanes];
 };
 
 using Values = Field<float>;
@@ -67,37 +72,37 @@ TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
   for_each_force(Forces{}, [&]<class F>(Name<F>) {
     SCOPED_TRACE(F::key);
     if constexpr (HasElements<F>)
-      expect_the_same([&](const Kernels&, int width, int, Values xs, Values vs, Values fs, float*) {
-        force_kernels(GetParam(), width).add[index_of<F>](bodies(width, xs, fs), {vs});
+      expect_the_same([&](int width, int, Values xs, Values vs, Values fs, float*) {
+        force_kernels(width).add[index_of<F>](bodies(width, xs, fs), {vs});
       });
     if constexpr (is_projected<F>())
-      expect_the_same([&](const Kernels&, int width, int first, Values xs, Values vs, Values, float*) {
+      expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
         LaneField room(n);
-        force_kernels(GetParam(), width)
+        force_kernels(width)
             .project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
       });
   });
   for (const auto property :
        {&SurfaceShape::volume, &SurfaceShape::area2, &SurfaceShape::stretch, &SurfaceShape::two_medians})
-    expect_the_same([&](const Kernels&, int width, int, Values xs, Values, Values fs, float* result) {
+    expect_the_same([&](int width, int, Values xs, Values, Values fs, float* result) {
       SurfaceShape shapes[lanes];
       for (float* component : {fs.x, fs.y, fs.z}) std::fill_n(component, n * std::size_t(width), 0.0f);
-      force_kernels(GetParam(), width).measure_surfaces(bodies(width, xs, fs), shapes);
+      force_kernels(width).measure_surfaces(bodies(width, xs, fs), shapes);
       for (int l = 0; l < width; ++l) result[l] = float(shapes[l].*property);
     });
 }
 
 TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
-  expect_the_same([&](const Kernels& k, int, int first, Values, Values vs, Values fs, float*) {
-    k.kick({n, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
+  expect_the_same([&](int width, int first, Values, Values vs, Values fs, float*) {
+    state_kernels(width).kick(width, {n, 0.5f, 0.25f, -1, 2, moves + first}, fs, vs);
   });
-  expect_the_same([&](const Kernels& k, int, int first, Values xs, Values vs, Values, float*) {
-    k.drift(n, 0.125f, moves + first, vs, xs);
+  expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
+    state_kernels(width).drift(width, n, 0.125f, moves + first, vs, xs);
   });
   for (int which = 0; which < 7; ++which)
-    expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values, float* result) {
+    expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
       Extent e;
-      k.extent(n, xs, vs, e);
+      state_kernels(width).extent(width, n, xs, vs, e);
       const float* values[]{e.lo.x, e.lo.y, e.lo.z, e.hi.x, e.hi.y, e.hi.z, e.length2};
       std::copy_n(values[which], width, result);
     });
@@ -105,21 +110,21 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
 
 TEST_P(EveryKernel, OfRigidMotionGivesTheSameBits) {
   for (int which = 0; which < 15; ++which)
-    expect_the_same([&](const Kernels& k, int width, int, Values xs, Values vs, Values, float* result) {
+    expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {
       RigidSums s;
-      k.rigid_sums(n, xs, vs, s);
+      state_kernels(width).rigid_sums(width, n, xs, vs, s);
       const DoubleLaneVector* const vectors[]{&s.place, &s.velocity, &s.momentum, &s.square, &s.mixed};
       const DoubleLaneVector& sum = *vectors[which / 3];
       const double* const components[]{sum.x, sum.y, sum.z};
       std::copy_n(components[which % 3], width, result);
     });
-  expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values vs, Values, float*) {
+  expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
     RigidChange change{};
     for (int l = 0; l < width; ++l) {
       change.acts[l] = moves[first + l];
       change.push.x[l] = 0.1 * (first + l), change.spin.y[l] = 3, change.about.z[l] = 0.25;
     }
-    k.add_rigid(n, change, xs, vs);
+    state_kernels(width).add_rigid(width, n, change, xs, vs);
   });
 }
 
@@ -130,13 +135,13 @@ TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
       CapsuleShape<float>{{1, 0, 0.25f}, 0.2f}};
   unsigned acted = 0;
   for (const auto& one : shapes)
-    expect_the_same([&](const Kernels& k, int width, int first, Values xs, Values vs, Values fs, float* returned) {
+    expect_the_same([&](int width, int first, Values xs, Values vs, Values fs, float* returned) {
       LaneVector impulse{};
       SolidArguments solid{n, 0.02f, 0.5f, 0.25f, one, {}, moves + first, {impulse.x, impulse.y, impulse.z}, returned};
       for (int l = 0; l < width; ++l) returned[l] = 0, solid.place.y[l] = -0.45f + 0.01f * float(first + l);
       solid.h = 0.01f;
       solid.before = fs;
-      const unsigned now = k.solid(solid, xs, vs);
+      const unsigned now = act_by_solid(width, width, solid, xs, vs);
       if (width == lanes)
         acted = now;
       else
@@ -146,8 +151,7 @@ TEST_P(EveryKernel, OfSolidsGivesTheSameBits) {
     });
 }
 
-INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(isas()),
-                         [](const auto& one) { return one.param == Isa::baseline ? "baseline" : "avx2"; });
+INSTANTIATE_TEST_SUITE_P(All, EveryKernel, testing::ValuesIn(tests::targets()), tests::target_name);
 
 int width_of(const World& world, BodyId body) { return WorldTestAccess::solver(world).state().batch_of(body).width; }
 
@@ -295,7 +299,7 @@ TEST(LargeBodies, OfBothWidthsGoOnFromASnapshot) {
   run(world, 6);
   const Snapshot snapshot = world.snapshot();
   run(world, 6);
-  World fresh(lone_body(gas_ball()), {.isa = Isa::baseline});
+  World fresh(lone_body(gas_ball()), {});
   fresh.restore(snapshot);
   EXPECT_EQ(std::pair(width_of(fresh, 0), width_of(fresh, 1)), std::pair(one_lane, lanes));
   run(fresh, 6);

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_law.h"
-#include "softbody/integrate/kernels.h"
+#include "softbody/contact/solid_shapes.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -71,8 +73,9 @@ TEST(Friction, TurnsASlidingBallIntoARollingOne) {
 constexpr SphereShape<float> unit_sphere{1};
 
 /// The kernels on their own: one particle a lane.
-class SolidKernels : public testing::TestWithParam<Isa> {
+class SolidKernels : public tests::OnEveryTarget {
  protected:
+  SolidKernels() { std::fill_n(moves, lanes, 1.0f); }
   SolidArguments arguments(double friction, const SolidShape<float>& shape = PlaneShape<float>{{0, 1, 0}}) {
     SolidArguments s{.particles = 1,
                      .mass = 0.25f,
@@ -86,10 +89,10 @@ class SolidKernels : public testing::TestWithParam<Isa> {
     s.h = 0.01f;
     return s;
   }
-  const Kernels& k = kernels(GetParam());
-  alignas(32) float moves[lanes]{1, 1, 1, 1, 1, 1, 1, 1};
+  void act(const SolidArguments& s) { act_by_solid(lanes, lanes, s, std::as_const(x).field(), v.field()); }
+
+  float moves[lanes], returned[lanes]{};
   LaneVector impulse{};
-  alignas(32) float returned[lanes]{};
   LaneField x{1}, v{1};
 };
 
@@ -98,7 +101,7 @@ TEST_P(SolidKernels, LeaveParticlesThatDoNotReachTheSurfaceAlone) {
     x.set(0, l, {0, 0.05, 0});
     v.set(0, l, {1, -0.6 * l, 0});  // reaches -0.05 m from l = 9 on
   }
-  k.solid(arguments(1), std::as_const(x).field(), v.field());
+  act(arguments(1));
   for (int l = 0; l < lanes; ++l) {
     EXPECT_EQ(v.at(0, l).x, 1);
     EXPECT_EQ(impulse.y[l], 0);
@@ -111,7 +114,7 @@ TEST_P(SolidKernels, StopAParticleAtTheSurfaceAndTakeFrictionTimesTheImpulse) {
     x.set(0, l, {0, gap, 0});
     v.set(0, l, {3, -3.0 - l, 4});  // 2 m/s is as fast as it may go
   }
-  k.solid(arguments(0.5), std::as_const(x).field(), v.field());
+  act(arguments(0.5));
   for (int l = 0; l < lanes; ++l) {
     const double change = 3.0 + l - gap / h, kept = std::max(0.0, 1 - 0.5 * change / 5);
     EXPECT_NEAR(v.at(0, l).y, -gap / h, 1e-5);
@@ -126,7 +129,7 @@ TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
     x.set(0, l, {0, 0, 0});
     v.set(0, l, l < 4 ? glm::dvec3(1, 2, 0) : glm::dvec3(0.1, -5, 0));
   }
-  k.solid(arguments(10), std::as_const(x).field(), v.field());
+  act(arguments(10));
   for (int l = 0; l < lanes; ++l) {
     if (l < 4) {
       EXPECT_EQ(v.at(0, l), glm::dvec3(1, 2, 0));
@@ -138,7 +141,7 @@ TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
 
 TEST_P(SolidKernels, BringAParticleOutByATenthOfItsDepthAStepAtMost1MetreASecond) {
   for (int l = 0; l < lanes; ++l) x.set(0, l, {0, -0.04 * l, 0});
-  k.solid(arguments(0), std::as_const(x).field(), v.field());
+  act(arguments(0));
   for (int l = 0; l < lanes; ++l) EXPECT_NEAR(v.at(0, l).y, std::min(0.1 * 0.04 * l / 0.01, 1.0), 1e-5);
 }
 
@@ -155,7 +158,7 @@ TEST_P(SolidKernels, OfASphereActAlongItsRadiusInEachLane) {
     before.push_back(-2.0 * normal.back() + 4.0 * across);
     v.set(0, l, before.back());
   }
-  k.solid(s, std::as_const(x).field(), v.field());
+  act(s);
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 n = normal[std::size_t(l)], tangential = before[std::size_t(l)] + 2.0 * n;
     EXPECT_LT(glm::distance(v.at(0, l), tangential * (1 - 0.25 * 2 / 4)), 5e-4) << "lane " << l;
@@ -181,7 +184,7 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
       expected[l] = {float(speed.x), float(speed.y), float(speed.z)};
       acted += body::respond(s, 1.0f, surface.distance, surface.normal, {}, expected[l]) > 0;
     }
-    k.solid(s, std::as_const(x).field(), v.field());
+    act(s);
     for (int l = 0; l < lanes; ++l)
       ASSERT_EQ(v.at(0, l), glm::dvec3(expected[l].x, expected[l].y, expected[l].z)) << "lane " << l;
   }
@@ -191,12 +194,11 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
 
 TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {
   moves[3] = 0;
-  k.solid(arguments(1, unit_sphere), std::as_const(x).field(), v.field());
+  act(arguments(1, unit_sphere));
   for (int l = 0; l < lanes; ++l) EXPECT_EQ(v.at(0, l), glm::dvec3(0, l == 3 ? 0 : 1, 0));
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, SolidKernels, testing::ValuesIn(isas()),
-                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+INSTANTIATE_TEST_SUITE_P(All, SolidKernels, testing::ValuesIn(tests::targets()), tests::target_name);
 
 }  // namespace
 }  // namespace softbody::test

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/kernels.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -65,9 +66,9 @@ LaneField positions(const Solid& solid) {
   return x;
 }
 
-class Pressure : public testing::TestWithParam<Isa> {
+class Pressure : public tests::OnEveryTarget {
  protected:
-  const ForceKernels& k = force_kernels(GetParam(), lanes);
+  const ForceKernels& k = force_kernels(lanes);
   std::vector<Solid> solids{tetrahedron(), cube(), ball(0), ball(2)};
   /// Some with more pressure inside than outside.
   Gas gas_of(const Solid& solid) const {
@@ -135,8 +136,7 @@ TEST_P(Pressure, NetForceAndTorqueVanishAndGaugeZeroPushesNowhere) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, Pressure, testing::ValuesIn(isas()),
-                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+INSTANTIATE_TEST_SUITE_P(All, Pressure, testing::ValuesIn(tests::targets()), tests::target_name);
 
 const Gas gas{.amount = 60000, .ambient = 101325, .rest_volume = 0.5};
 

@@ -138,12 +138,6 @@ std::vector<glm::dvec3> forces(const BodyModel& p, const std::vector<glm::dvec3>
   return f;
 }
 
-std::vector<Isa> isas() {
-  std::vector<Isa> list{Isa::baseline};
-  if (best_isa() != Isa::baseline) list.push_back(best_isa());
-  return list;
-}
-
 // Not the library's distributions: those differ between standard libraries.
 double uniform(std::mt19937& random, double lo, double hi) { return lo + (hi - lo) * double(random()) / 4294967296.0; }
 

@@ -61,9 +61,6 @@ BodyModel only(const BodyModel& model) {
   return with_force<F>(model, *data<F>(model));
 }
 
-/// The instruction sets that this processor has.
-std::vector<Isa> isas();
-
 double uniform(std::mt19937& random, double lo, double hi);
 /// Components from -size to size, drawn in their order.
 glm::dvec3 random_vector(std::mt19937& random, double size);

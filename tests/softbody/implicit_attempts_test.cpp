@@ -144,7 +144,7 @@ TEST(FirstOrderStep, StopsAtPlanes) {
   EXPECT_LT(std::hypot(given.x, given.z), 1e-6 * given.y) << "the planes are smooth";
   const glm::dvec3 gained =
       rig.model->material[Material::mass] * (rig.end(1).velocity - rig.start(1).velocity - rig.h * rig.gravity);
-  EXPECT_LT(glm::distance(gained, given), 0.1 * given.y) << gained.y << " " << given.y;
+  EXPECT_LT(glm::distance(gained, given), 1e-4 * given.y) << gained.y << " " << given.y;
   EXPECT_EQ(rig.gain(1, true), 0);
 }
 

@@ -82,7 +82,7 @@ struct ImplicitRig {
   double h;  // s
   glm::dvec3 gravity{0.0};
   ImplicitMatrices matrices;
-  ImplicitWork work{*model, implicit_kernels(best_isa())};
+  ImplicitWork work{*model, implicit_kernels()};
 };
 
 /// Returns a mask of these lanes.

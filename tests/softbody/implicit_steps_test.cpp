@@ -58,7 +58,7 @@ struct BatchRig {
   }
   /// The start as attempts see it.
   ImplicitWork work() const {
-    ImplicitWork w(*model, implicit_kernels(best_isa()));
+    ImplicitWork w(*model, implicit_kernels());
     for (std::size_t i = 0; i < particles(); ++i)
       for (std::size_t lane = 0; lane < lanes; ++lane) {
         put(w.x, i, lane, x.at(3 + i, int(lane)));
@@ -200,7 +200,7 @@ TEST(ImplicitSteps, TakeABatchToItsEnd) {
   rig.set_ground(3, 0.001);
   rig.solids[0].restitution = 0.25f;
   const LaneField x = rig.x, v = rig.v;
-  ImplicitSteps steps(best_isa());
+  ImplicitSteps steps;
   steps.prepare(rig.model, rig.h, 1);
   steps.advance(0, rig.batch(), rig.result(), rig.h);
   EXPECT_EQ(rig.x, x);
@@ -227,7 +227,7 @@ TEST(ImplicitSteps, GiveTheSameBitsOnAnyThreadAndAgain) {
   for (std::size_t lane = 0; lane < 3; ++lane) rig.start(lane, {0, -double(lane), 0});
   rig.set_ground(1, 0.001);
   rig.set_ground(2, 0.001);
-  ImplicitSteps steps(best_isa());
+  ImplicitSteps steps;
   steps.prepare(rig.model, rig.h, 2);
   steps.advance(0, rig.batch(), rig.result(), rig.h);
   BatchRig other = rig;

@@ -32,7 +32,7 @@ Scene ball_above_ground(double stiffness, double height) {
 /// In lane 0: x = A^-1 x, the gas by Sherman and Morrison.
 void solve(const ImplicitMatrix& a, Lanes& x) {
   Lanes room(x.size());
-  implicit_kernels(best_isa()).substitute(a.factor(), x.data(), room.data());
+  implicit_kernels().substitute(a.factor(), x.data(), room.data());
   double along = 0;
   for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
   for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];
@@ -126,7 +126,7 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
   const auto p = make_body_model({}, gas_ball());
   const double h = 1.0 / 60, r = p->radius;
   const ImplicitMatrix matrix(*p, h);
-  ImplicitWork work(*p, implicit_kernels(best_isa()));
+  ImplicitWork work(*p, implicit_kernels());
   work.moves[0] = 1;
   const std::size_t n = p->mesh.vertices.size(), max_contacts = 300;
   for (std::size_t i = 0; i < n; ++i)
@@ -135,7 +135,7 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
     for (const double side : {1.0, -1.0}) work.planes.push_back({i * lanes, 0.5, 0, {side, 0, 0}, r, r});
   work.local_v.resize(work.x.size());
   const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.local_v, &work.a,
-                                        &work.frame_displacement, work.planes, work.penalty_pairs});
+                                        &work.frame_displacement, h, work.planes, work.penalty_pairs});
   EXPECT_TRUE(std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); }));
   const double iterations = (30 + 8) * 12, sweeps = 2 * 4e6 / 256;
   const double done = work.solver.take_work(), last_sweeps = 2 * double(max_contacts * max_contacts) / 256;

@@ -10,7 +10,7 @@
 namespace softbody::test {
 namespace {
 
-/// Three of eight lanes hold a body: the first two move.
+/// Three lanes hold a body: the first two move.
 class MomentumRestorerOfABatch : public testing::Test {
  protected:
   MomentumRestorerOfABatch() {
@@ -22,7 +22,7 @@ class MomentumRestorerOfABatch : public testing::Test {
       for (int l = 0; l < batch.used; ++l) x.set(i, l, batch.model->start[i]);
     v.randomise(random, 1);
   }
-  BatchView view() { return {batch, kernels(best_isa()), x.field(), v.field()}; }
+  BatchView view() { return {batch, x.field(), v.field()}; }
   RigidMotion motion(int lane) {
     const auto of_lane = [lane](LaneField& field) { return BodyField{field.field(), std::size_t(lane), lanes}; };
     return rigid_motion(batch.particles(), of_lane(x), of_lane(v));

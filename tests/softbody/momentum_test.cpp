@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -106,10 +107,10 @@ TEST(StiffBodies, FlyTheSameOnEveryProcessor) {
   Scene scene = lone_body(gas_ball(stiffness), {1, 2, 3});
   for (int i = 1; i < lanes + 2; ++i) add_body(scene, {0, 0, 2 * i}, {0.1 * i, 1, 0});
   std::vector<std::uint64_t> hashes;
-  for (const Isa isa : isas())
+  for (const std::int64_t target : tests::targets())
     for (const int threads : {1, 2}) {
-      World world(scene,
-                  {.threads = threads, .integrator = {"velocity-verlet"}, .isa = isa, .min_shared_particles = 0});
+      const tests::UseTarget use(target);
+      World world(scene, {.threads = threads, .integrator = {"velocity-verlet"}, .min_shared_particles = 0});
       run(world, 5);
       EXPECT_GE(world.last_step().substeps, 64);
       hashes.push_back(world.state_hash());

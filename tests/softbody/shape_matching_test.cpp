@@ -11,6 +11,7 @@
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -72,12 +73,12 @@ TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
     x.push_back(r * (v * glm::dvec3(1, 1.3, 0.8)) + random_vector(random, 0.05) + glm::dvec3(1, 2, 3));
 
   // Through the kernels of every instruction set, in float; energy and its differences in double.
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     LaneField field(x.size()), force(x.size());
     for (std::size_t i = 0; i < x.size(); ++i) field.set(i, 5, x[i]);
-    force_kernels(isa, lanes)
-        .add[index_of<ShapeMatching>]({*p, lanes, std::as_const(field).field(), force.field()},
-                                      {std::as_const(field).field()});
+    force_kernels(lanes).add[index_of<ShapeMatching>]({*p, lanes, std::as_const(field).field(), force.field()},
+                                                      {std::as_const(field).field()});
 
     const double scale = data<ShapeMatching>(*p)->stiffness * 0.5;
     glm::dvec3 total(0.0), torque(0.0);

@@ -4,7 +4,6 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/integrate/batch_kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -19,21 +18,19 @@ class SolidContactOverAPlane : public testing::Test {
     model = make_unbalanced_body_model({}, material);
     for (int i = 0; i < 2; ++i) state.add(model, {2 * i, height, 1}, {0.1, -3, 0});
     state.set_pinned(1, true);
-    kernels.update(state);
   }
   const Batch& batch() const { return state.batches()[0]; }
   void begin_frame(double plane_height) {
     solids.begin_frame();
     const SolidPlane plane{.point = {0, plane_height, 0}, .normal = {0, 1, 0}, .friction = 0.5, .restitution = 0.25};
-    solids.add(batch(), kernels.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02);
+    solids.add(batch(), state.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02);
   }
 
   static constexpr double height = 0.52;
   static constexpr float h = 0.01f;  // s
   std::shared_ptr<const BodyModel> model;
   State state;
-  BatchKernels kernels{best_isa()};
-  SolidContact solids{state, softbody::kernels(best_isa(), lanes).solid, softbody::kernels(best_isa(), one_lane).solid};
+  SolidContact solids{state};
 };
 
 TEST_F(SolidContactOverAPlane, KnowsNoSolidThatIsFarAway) {

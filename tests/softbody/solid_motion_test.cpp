@@ -6,7 +6,6 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/law.h"
-#include "softbody/integrate/kernels.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {

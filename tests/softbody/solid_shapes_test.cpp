@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/solid_shapes.h"
 #include "softbody/scene/solids.h"
 #include "tests/softbody/helpers.h"
 

@@ -3,10 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstring>
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/kernels.h"
 #include "softbody/forces/kernels.h"
-#include "softbody/integrate/kernels.h"
+#include "softbody/state/kernels.h"
+#include "tests/every_target.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -39,13 +42,13 @@ BodyModel model_of(std::size_t particles, const std::vector<SpringOf<float>>& sp
 }
 
 /// Adds the springs' forces.
-void add(Isa isa, const std::vector<SpringOf<float>>& springs, const LaneField& x, const LaneField& v, LaneField& f) {
-  force_kernels(isa, lanes)
+void add(const std::vector<SpringOf<float>>& springs, const LaneField& x, const LaneField& v, LaneField& f) {
+  force_kernels(lanes)
       .add[index_of<StructuralSprings>]({model_of(x.x.size() / lanes, springs), lanes, x.field(), f.field()},
                                         {v.field()});
 }
 
-class SpringForces : public testing::TestWithParam<Isa> {};
+class SpringForces : public tests::OnEveryTarget {};
 
 TEST_P(SpringForces, OneSpringHasTheClosedFormInEachLane) {
   std::mt19937 random(1);
@@ -53,7 +56,7 @@ TEST_P(SpringForces, OneSpringHasTheClosedFormInEachLane) {
   x.randomise(random, 1);
   v.randomise(random, 3);
   const std::vector<SpringOf<float>> spring{{0, 1, 0.8f, 120.0f, 2.5f}};
-  add(GetParam(), spring, x, v, f);
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 expected = pull(x, v, spring[0], l);
     EXPECT_NEAR(glm::distance(f.at(0, l), expected), 0, 2e-6 * (glm::length(expected) + 100)) << "lane " << l;
@@ -65,7 +68,7 @@ TEST_P(SpringForces, AStretchedSpringPullsAndASqueezedOnePushes) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) x.set(1, l, {0.25 * (l + 1), 0, 0});
   const std::vector<SpringOf<float>> spring{{0, 1, 1.0f, 8.0f, 0.0f}};
-  add(GetParam(), spring, x, v, f);
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(8 * (0.25 * (l + 1) - 1), 0, 0)), 0, 1e-5) << "lane " << l;
 }
@@ -78,7 +81,7 @@ TEST_P(SpringForces, TheDamperActsOnTheRelativeSpeedAlongTheSpringOnly) {
     v.set(1, l, {-7, 9, 4});
   }
   const std::vector<SpringOf<float>> damper{{0, 1, 2.0f, 50.0f, 3.0f}};  // at its rest length
-  add(GetParam(), damper, x, v, f);
+  add(damper, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(0, 0, 3.0 * (4 - l))), 0, 1e-5) << "c (dv . dx) / |dx|";
 }
@@ -92,7 +95,7 @@ TEST_P(SpringForces, OfLengthZeroPullsNowhere) {
   }
   x.set(1, 5, {1, 2, 4});  // its neighbours do not disturb a lane
   const std::vector<SpringOf<float>> spring{{0, 1, 0.5f, 100.0f, 1.0f}};
-  add(GetParam(), spring, x, v, f);
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_EQ(f.at(0, l), l == 5 ? glm::dvec3(0, 0, 50) : glm::dvec3(0.0)) << "lane " << l;
 }
@@ -104,7 +107,7 @@ TEST_P(SpringForces, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   x.randomise(random, 1);
   v.randomise(random, 2);
   const auto springs = random_springs(random, n, 300);
-  add(GetParam(), springs, x, v, f);
+  add(springs, x, v, f);
   for (int l = 0; l < lanes; ++l) {
     std::vector<glm::dvec3> expected(n, glm::dvec3(0.0));
     for (const auto& s : springs) {
@@ -124,8 +127,7 @@ TEST_P(SpringForces, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Isa, SpringForces, testing::ValuesIn(isas()),
-                         [](const auto& i) { return i.param == Isa::avx2 ? "avx2" : "baseline"; });
+INSTANTIATE_TEST_SUITE_P(All, SpringForces, testing::ValuesIn(tests::targets()), tests::target_name);
 
 /// Everything that the kernels of one instruction set make of the same random state.
 struct Trace {
@@ -140,8 +142,9 @@ struct Trace {
   }
 };
 
-Trace trace(Isa isa) {
-  const Kernels& k = kernels(isa);
+Trace trace(std::int64_t target) {
+  const tests::UseTarget use(target);
+  const StateKernels& state = state_kernels(lanes);
   std::mt19937 random(3);
   const Mesh mesh = icosphere(1, 0.5);
   const std::size_t n = mesh.vertices.size();
@@ -154,8 +157,8 @@ Trace trace(Isa isa) {
   BodyModel holds_gas;
   holds_gas.mesh = mesh;
   holds_gas = with_force<GasPressure>(holds_gas, {.amount = 20, .ambient = 30, .rest_volume = 0.5});
-  alignas(32) float moves[lanes]{1, 1, 0, 1, 1, 1, 1, 0};
-  alignas(32) float returned[lanes]{};
+  float moves[lanes], returned[lanes]{};
+  for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 2 ? 0.0f : 1.0f;
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
@@ -164,42 +167,44 @@ Trace trace(Isa isa) {
   for (int l = 0; l < lanes; ++l) solid.place.y[l] = -0.45f + 0.01f * float(l);
   const auto constant = [](const LaneField& f) { return f.field(); };
   for (int step = 0; step < 5; ++step) {
-    add(isa, springs, t.x, t.v, t.f);
+    add(springs, t.x, t.v, t.f);
     const LaneBodies<float> bodies{holds_gas, lanes, constant(t.x), t.f.field()};
     SurfaceShape surfaces[lanes];
-    force_kernels(isa, lanes).measure_surfaces(bodies, surfaces);
+    force_kernels(lanes).measure_surfaces(bodies, surfaces);
     for (int l = 0; l < lanes; ++l) t.volume[std::size_t(l)] = float(surfaces[l].volume);
-    force_kernels(isa, lanes).add[index_of<GasPressure>](bodies, {constant(t.v)});
-    k.kick({n, 0.01f, 0.0f, -0.098f, 0.01f, moves}, constant(t.f), t.v.field());
+    force_kernels(lanes).add[index_of<GasPressure>](bodies, {constant(t.v)});
+    state.kick(lanes, {n, 0.01f, 0.0f, -0.098f, 0.01f, moves}, constant(t.f), t.v.field());
     const LaneField before = t.v;
     solid.before = before.field();
     for (std::size_t shape = 0; shape < std::size(shapes); ++shape) {
       solid.shape = shapes[shape];
-      t.acted[shape] |= k.solid(solid, constant(t.x), t.v.field());
+      t.acted[shape] |= act_by_solid(lanes, lanes, solid, constant(t.x), t.v.field());
     }
-    k.drift(n, 0.01f, moves, constant(t.v), t.x.field());
-    k.extent(n, constant(t.x), constant(t.v), t.extent);
+    state.drift(lanes, n, 0.01f, moves, constant(t.v), t.x.field());
+    state.extent(lanes, n, constant(t.x), constant(t.v), t.extent);
   }
   return t;
 }
 
 TEST(Kernels, GiveTheSameBitsOnEveryInstructionSet) {
-  const Trace baseline = trace(Isa::baseline);
+  const Trace baseline = trace(tests::targets().back());
   for (const unsigned acted : baseline.acted) EXPECT_NE(acted, 0u) << "or a solid took no part";
-  for (const Isa isa : isas()) EXPECT_TRUE(trace(isa) == baseline);
+  for (const std::int64_t target : tests::targets()) EXPECT_TRUE(trace(target) == baseline);
 }
 
 TEST(Kernels, KickAndDriftLeaveBodiesThatDoNotMoveAlone) {
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     std::mt19937 random(4);
     LaneField x(3), v(3), f(3);
     x.randomise(random, 1);
     v.randomise(random, 1);
     f.randomise(random, 1);
     const LaneField x0 = x, v0 = v;
-    alignas(32) float moves[lanes]{1, 0, 1, 1, 0, 1, 1, 1};
-    kernels(isa).kick({3, 0.5f, 0.25f, -1, 2, moves}, std::as_const(f).field(), v.field());
-    kernels(isa).drift(3, 0.125f, moves, std::as_const(v).field(), x.field());
+    float moves[lanes];
+    for (int l = 0; l < lanes; ++l) moves[l] = l % 3 == 1 ? 0.0f : 1.0f;
+    state_kernels(lanes).kick(lanes, {3, 0.5f, 0.25f, -1, 2, moves}, std::as_const(f).field(), v.field());
+    state_kernels(lanes).drift(lanes, 3, 0.125f, moves, std::as_const(v).field(), x.field());
     for (std::size_t i = 0; i < 3; ++i)
       for (int l = 0; l < lanes; ++l) {
         const glm::dvec3 dv = double(moves[l]) * (0.5 * f.at(i, l) + glm::dvec3(0.25, -1, 2));
@@ -210,13 +215,14 @@ TEST(Kernels, KickAndDriftLeaveBodiesThatDoNotMoveAlone) {
 }
 
 TEST(Kernels, ExtentIsTheBoxAndTheFastestOfEachLane) {
-  for (const Isa isa : isas()) {
+  for (const std::int64_t target : tests::targets()) {
+    const tests::UseTarget use(target);
     std::mt19937 random(5);
     LaneField x(20), v(20);
     x.randomise(random, 4);
     v.randomise(random, 4);
     Extent e;
-    kernels(isa).extent(20, std::as_const(x).field(), std::as_const(v).field(), e);
+    state_kernels(lanes).extent(lanes, 20, std::as_const(x).field(), std::as_const(v).field(), e);
     for (int l = 0; l < lanes; ++l) {
       glm::dvec3 lo = x.at(0, l), hi = lo;
       double speed2 = 0;

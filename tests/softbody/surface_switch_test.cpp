@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "softbody/integrate/force_stage.h"
+#include "tests/every_target.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/world_test_access.h"
 
@@ -43,10 +44,10 @@ Scene sheets() {
 
 TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
   std::size_t max_rows = 0;
-  const auto hash = [&](const Scene& scene, int frames, int threads, Isa isa) {
+  const auto hash = [&](const Scene& scene, int frames, int threads, std::int64_t target) {
+    const tests::UseTarget use(target);
     World::Options options;
     options.threads = threads;
-    options.isa = isa;
     options.min_shared_particles = 0;
     World world(scene, options);
     for (int i = 0; i < frames; ++i) {
@@ -56,9 +57,9 @@ TEST(SurfaceContact, IsTheSameOnAnyThreadsAndInstructionSet) {
     return world.state_hash();
   };
   for (const auto& [scene, frames] : {std::pair(sizes(), 25), std::pair(sheets(), 10)}) {
-    const std::uint64_t expected = hash(scene, frames, 1, Isa::baseline);
-    for (const Isa isa : isas())
-      for (const int threads : {1, 2}) EXPECT_EQ(hash(scene, frames, threads, isa), expected) << threads;
+    const std::uint64_t expected = hash(scene, frames, 1, tests::targets().front());
+    for (const std::int64_t target : tests::targets())
+      for (const int threads : {1, 2}) EXPECT_EQ(hash(scene, frames, threads, target), expected) << threads;
   }
   EXPECT_GT(max_rows, 2000u);
 }

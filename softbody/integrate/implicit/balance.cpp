@@ -73,7 +73,8 @@ bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, st
   for (const LinearPenaltyPair& s : work.penalty_pairs)
     if (s.at % lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
   return glm::distance(gained, given) <=
-         share * (glm::length(given) + h * p.material[Material::mass] * glm::length(gravity)) + 1e-6 * p.material[Material::mass];
+         share * (glm::length(given) + h * p.material[Material::mass] * glm::length(gravity)) +
+             1e-6 * p.material[Material::mass];
 }
 
 double energy_gain(const BodyModel& p, const ImplicitWork& work, std::size_t lane, const glm::dvec3& gravity,

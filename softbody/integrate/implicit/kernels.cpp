@@ -1,48 +1,139 @@
 #include "softbody/integrate/implicit/kernels.h"
 
-#include "softbody/integrate/implicit/kernel_bodies.h"
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "softbody/integrate/implicit/kernels.cpp"
+#include <hwy/foreach_target.h>
 
+#include "softbody/state/lane_math.h"
+
+HWY_BEFORE_NAMESPACE();
 namespace softbody {
+namespace HWY_NAMESPACE {
 namespace {
 
-using Field64 = Field<double>;
+using namespace body;
+using V = Wide<double, lanes>;
 
-// One table an instruction set, as in integrate/kernels.cpp.
-#define SB_IMPLICIT_TABLE(name, isa, target)                                                                        \
-  struct name {                                                                                                     \
-    target static void substitute(const CholeskyFactor& c, double* x, double* z) { body::substitute(c, x, z); }     \
-    target static void turn(std::size_t n, const double (*r)[lanes], bool back, Field64 v) {                        \
-      body::turn(n, r, back, v);                                                                                    \
-    }                                                                                                               \
-    target static void inner_product(std::size_t n, const double* a, const double* b, double* r) {                  \
-      body::inner_product(n, a, b, r);                                                                              \
-    }                                                                                                               \
-    target static void inner_product_shared(std::size_t n, const double* a, const double* b, double* r) {           \
-      body::inner_product_shared(n, a, b, r);                                                                       \
-    }                                                                                                               \
-    target static void add_scaled(std::size_t n, const double* t, const double* a, double* y) {                     \
-      body::add_scaled(n, t, a, y);                                                                                 \
-    }                                                                                                               \
-    target static void add_scaled_shared(std::size_t n, const double* t, const double* a, double* y) {              \
-      body::add_scaled_shared(n, t, a, y);                                                                          \
-    }                                                                                                               \
-    static constexpr ImplicitKernels table{isa,        substitute,       turn, inner_product, inner_product_shared, \
-                                           add_scaled, add_scaled_shared};                                          \
-  };
-
-SB_IMPLICIT_TABLE(BaselineImplicit, Isa::baseline, )
-#if SB_X86
-SB_IMPLICIT_TABLE(Avx2Implicit, Isa::avx2, [[gnu::target("avx2")]])
-#endif
-
-}  // namespace
-
-const ImplicitKernels& implicit_kernels(Isa isa) {
-#if SB_X86
-  if (isa == Isa::avx2) return Avx2Implicit::table;
-#endif
-  (void)isa;
-  return BaselineImplicit::table;
+/// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
+void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
+  const std::size_t w = run.columns;
+  const double* v = f.value.data() + run.value;
+  double* own = z + run.first * lanes;
+  for (std::size_t j = 0; j < w; ++j, v += w) {
+    V sum = load<V>(own + j * lanes);
+    for (std::size_t i = 0; i < j; ++i) sum -= v[i] * load<V>(own + i * lanes);
+    store(own + j * lanes, v[j] * sum);
+  }
+  const std::uint32_t* row = f.row.data() + run.below;
+  std::size_t r = 0;
+  for (; r + 1 < run.rows; r += 2, v += 2 * w) {
+    double *below = z + row[r] * lanes, *next = z + row[r + 1] * lanes;
+    V a = load<V>(below), b = load<V>(next);
+    for (std::size_t i = 0; i < w; ++i) {
+      const V known = load<V>(own + i * lanes);
+      a -= v[i] * known;
+      b -= v[w + i] * known;
+    }
+    store(below, a);
+    store(next, b);
+  }
+  if (r == run.rows) return;
+  V a = load<V>(z + row[r] * lanes);
+  for (std::size_t i = 0; i < w; ++i) a -= v[i] * load<V>(own + i * lanes);
+  store(z + row[r] * lanes, a);
 }
 
+/// Likewise for the transpose, once what stands after the run is known.
+void substitute_back(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
+  const std::size_t w = run.columns;
+  const double *diagonal = f.value.data() + run.value, *below = diagonal + w * w;
+  const std::uint32_t* row = f.row.data() + run.below;
+  double* own = z + run.first * lanes;
+  std::size_t j = 0;
+  for (; j + 1 < w; j += 2) {
+    V a = load<V>(own + j * lanes), b = load<V>(own + (j + 1) * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) {
+      const V known = load<V>(z + row[r] * lanes);
+      a -= below[r * w + j] * known;
+      b -= below[r * w + j + 1] * known;
+    }
+    store(own + j * lanes, a);
+    store(own + (j + 1) * lanes, b);
+  }
+  if (j < w) {
+    V a = load<V>(own + j * lanes);
+    for (std::size_t r = 0; r < run.rows; ++r) a -= below[r * w + j] * load<V>(z + row[r] * lanes);
+    store(own + j * lanes, a);
+  }
+  for (j = w; j-- > 0;) {
+    V sum = load<V>(own + j * lanes);
+    for (std::size_t i = j + 1; i < w; ++i) sum -= diagonal[i * w + j] * load<V>(own + i * lanes);
+    store(own + j * lanes, diagonal[j * w + j] * sum);
+  }
+}
+
+/// Solves L L^T x = b in place for all lanes, x = b at first; `z` is room for as much.
+void substitute(const CholeskyFactor& f, double* x, double* z) {
+  const std::size_t n = f.place.size();
+  for (std::size_t i = 0; i < n; ++i) store(z + f.place[i] * lanes, load<V>(x + i * lanes));
+  for (const CholeskyFactor::Supernode& run : f.supernodes) substitute_forward(f, run, z);
+  for (std::size_t i = f.supernodes.size(); i-- > 0;) substitute_back(f, f.supernodes[i], z);
+  for (std::size_t i = 0; i < n; ++i) store(x + i * lanes, load<V>(z + f.place[i] * lanes));
+}
+
+/// v = R v, or R^T v if `back`, for each particle; rotation: column c of R at 3 c.
+void turn(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v) {
+  V r[3][3];  // row, column
+  for (int column = 0; column < 3; ++column)
+    for (int row = 0; row < 3; ++row) (back ? r[column][row] : r[row][column]) = load<V>(rotation[3 * column + row]);
+  for (std::size_t at = 0; at < particles * lanes; at += lanes) {
+    const Vec<V> a = load<V>(v, at);
+    store(v, at,
+          Vec<V>{r[0][0] * a.x + r[0][1] * a.y + r[0][2] * a.z, r[1][0] * a.x + r[1][1] * a.y + r[1][2] * a.z,
+                 r[2][0] * a.x + r[2][1] * a.y + r[2][2] * a.z});
+  }
+}
+
+/// A sum a lane.
+void inner_product(std::size_t count, const double* a, const double* b, double* result) {
+  V sum{};
+  for (std::size_t at = 0; at < count * lanes; at += lanes) sum += load<V>(a + at) * load<V>(b + at);
+  store(result, sum);
+}
+
+/// y += times * a, one factor a lane.
+void add_scaled(std::size_t count, const double* times, const double* a, double* y) {
+  const V t = load<V>(times);
+  for (std::size_t at = 0; at < count * lanes; at += lanes) store(y + at, load<V>(y + at) + t * load<V>(a + at));
+}
+
+/// y += times * a, a the same for all lanes.
+void add_scaled_shared(std::size_t count, const double* times, const double* a, double* y) {
+  const V t = load<V>(times);
+  for (std::size_t i = 0; i < count; ++i) store(y + i * lanes, load<V>(y + i * lanes) + a[i] * t);
+}
+
+void inner_product_shared(std::size_t count, const double* a, const double* b, double* result) {
+  V sum{};
+  for (std::size_t i = 0; i < count; ++i) sum += a[i] * load<V>(b + i * lanes);
+  store(result, sum);
+}
+
+constexpr ImplicitKernels table{substitute, turn, inner_product, inner_product_shared, add_scaled, add_scaled_shared};
+
+const ImplicitKernels& Table() { return table; }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
 }  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace softbody {
+
+HWY_EXPORT(Table);
+
+const ImplicitKernels& implicit_kernels() { return HWY_DYNAMIC_DISPATCH(Table)(); }
+
+}  // namespace softbody
+#endif  // HWY_ONCE

@@ -36,8 +36,6 @@ Shape balanced_shape(const BodyModel& p) {
 /// What the forces inside a body at x add to the matrix, but for how the pull of the volume changes with it: see
 /// volume_stiffness().
 struct Assemble {
-  using Real = double;
-  using V = double;
   const BodyModel& model;
   const Shape& x;
   double h;
@@ -90,7 +88,7 @@ struct Assemble {
       }
   }
 
-  void operator()(const Offset<double>& c, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
+  void operator()(Offset c, const body::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
   void operator()(Path c, const auto& law) const { add_to_diagonal(c.i, law.damping / h); }
   void add_to_diagonal(Index i, double value) const {
     for (int axis = 0; axis < (rotates ? 3 : 1); ++axis) {
@@ -153,8 +151,6 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
 }
 
 struct SumVolumeStiffness {
-  using Real = double;
-  using V = double;
   double volume;
   double& sum;
   void operator()(Volume, const auto& law) const { sum += stiffness_at(law, volume); }
@@ -163,7 +159,7 @@ struct SumVolumeStiffness {
 /// Returns by how much the pulls on the volume v grow with it, in Pa/m^3.
 double volume_stiffness(const BodyModel& p, double v) {
   double sum = 0;
-  visit_all<Coordinate::volume>(p, {}, SumVolumeStiffness{v, sum});
+  visit_forces<Coordinate::volume>(p, {}, SumVolumeStiffness{v, sum});
   return sum;
 }
 

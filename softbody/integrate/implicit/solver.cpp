@@ -20,7 +20,7 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 
 ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
     : kernels_(kernels),
-      forces_(implicit_force_kernels(kernels.isa)),
+      forces_(implicit_force_kernels()),
       particles_(p.mesh.vertices.size()),
       stride_(particles_ * lanes),
       minimiser_(particles_, kernels) {
@@ -66,7 +66,8 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 /// Sets g to the gradient at x: the mass times (x - target) / h^2, less the forces.
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  forces_.add({p.model, lanes, field(x), field(g)}, held_, {1 / p.h, field(*p.x), field(*p.frame_displacement)});
+  forces_.add({p.model, lanes, field(x), field(g)}, held_,
+              {1 / p.h, field(*p.x), field(*p.frame_displacement), 1 / p.frame_time});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += lanes)

@@ -12,7 +12,6 @@
 #include "softbody/forces/penalty_contact.h"
 #include "softbody/integrate/implicit/matrices.h"
 #include "softbody/integrate/implicit/work.h"
-#include "softbody/state/isa.h"
 
 namespace softbody {
 
@@ -39,7 +38,7 @@ struct ImplicitResult {
 /// Takes the steps, and owns the matrices and the workspaces that they need.
 class ImplicitSteps {
  public:
-  explicit ImplicitSteps(Isa isa) : kernels_(implicit_kernels(isa)) {}
+  ImplicitSteps() : kernels_(implicit_kernels()) {}
 
   /// Forgets the body models that are not in use.
   void retain(const std::function<bool(const BodyModel&)>& in_use);

@@ -8,6 +8,7 @@
 
 #include <cmath>
 
+#include "softbody/contact/keys.h"
 #include "softbody/forces/gas.h"
 #include "softbody/forces/springs.h"
 #include "tests/bench/step/stepper.h"
@@ -94,7 +95,7 @@ class Bullet final : public Stepper {
     auto body = std::make_unique<btRigidBody>(0, nullptr, shape.get());
     body->setWorldTransform(btTransform(btQuaternion::getIdentity(), centre));
     // Bullet multiplies it by the soft body's.
-    body->setFriction(btScalar(friction / mirror_.model(0).material.friction));
+    body->setFriction(btScalar(friction / mirror_.model(0).material[softbody::contact::friction]));
     world_.addRigidBody(body.get());
     solids_.push_back({std::move(shape), std::move(body)});
   }
@@ -134,7 +135,7 @@ class Bullet final : public Stepper {
     constexpr btScalar margin = 0.02;  // m; two of them fit between bodies at the start
     constexpr int clusters = 16;
     body.getCollisionShape()->setMargin(margin);
-    body.m_cfg.kDF = btScalar(p.material.friction);
+    body.m_cfg.kDF = btScalar(p.material[softbody::contact::friction]);
     body.m_cfg.kKHR = 1;  // with the default, 0.1, vertices sink 0.2 R into the solids
     if (const auto* gas = softbody::gas_of(p))
       body.m_cfg.kPR = btScalar(gas->amount - gas->ambient * p.start_volume);  // right at the start's volume

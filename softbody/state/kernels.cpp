@@ -1,0 +1,174 @@
+#include "softbody/state/kernels.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "softbody/state/kernels.cpp"
+#include <hwy/foreach_target.h>
+
+#include "softbody/state/lane_math.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace softbody {
+namespace HWY_NAMESPACE {
+namespace {
+
+using namespace body;
+using ConstField = Field<const float>;
+
+template <int width>
+void clear(std::size_t used, std::size_t particles, Field<float> a) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>)
+    for (std::size_t at = first; at < particles * width; at += width) store(a, at, Vec<V>{});
+}
+
+template <int width>
+void copy(std::size_t used, std::size_t particles, const float* moves, ConstField from, Field<float> to) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const auto moving = load<V>(moves + first) > V{};
+    for (std::size_t at = first; at < particles * width; at += width)
+      store(to, at, select(moving, load<V>(from, at), load<V>(to, at)));
+  }
+}
+
+template <int width>
+void add(std::size_t used, std::size_t particles, const float* moves, float times, ConstField a, Field<float> to) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const auto moving = load<V>(moves + first) > V{};
+    for (std::size_t at = first; at < particles * width; at += width)
+      store(to, at, load<V>(to, at) + select(moving, V(times) * load<V>(a, at), Vec<V>{}));
+  }
+}
+
+template <int width>
+void scale(std::size_t used, std::size_t particles, const float* moves, float times, Field<float> a) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const V factor = select(load<V>(moves + first) > V{}, V(times), V(1));
+    for (std::size_t at = first; at < particles * width; at += width) store(a, at, factor * load<V>(a, at));
+  }
+}
+
+template <int width>
+void square_sum(std::size_t used, std::size_t particles, ConstField a, float* sum) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    V all{};
+    for (std::size_t at = first; at < particles * width; at += width) {
+      const Vec<V> v = load<V>(a, at);
+      all += dot(v, v);
+    }
+    store(sum + first, all);
+  }
+}
+
+template <int width>
+void kick(std::size_t used, const KickArguments& k, ConstField f, Field<float> v) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const V moves = load<V>(k.moves + first), scale = k.h_over_mass * moves;
+    const Vec<V> g{k.gx * moves, k.gy * moves, k.gz * moves};
+    for (std::size_t at = first; at < k.particles * width; at += width)
+      store(v, at, load<V>(v, at) + scale * load<V>(f, at) + g);
+  }
+}
+
+template <int width>
+void accelerate(std::size_t used, const KickArguments& k, Field<float> f) {
+  using V = Run<float, width>;
+  const Vec<V> g{k.gx, k.gy, k.gz};
+  for (std::size_t first = 0; first < used; first += lanes_of<V>)
+    for (std::size_t at = first; at < k.particles * width; at += width)
+      store(f, at, V(k.h_over_mass) * load<V>(f, at) + g);
+}
+
+template <int width>
+void drift(std::size_t used, std::size_t particles, float h, const float* moves, ConstField v, Field<float> x) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const V step = h * load<V>(moves + first);
+    for (std::size_t at = first; at < particles * width; at += width)
+      store(x, at, load<V>(x, at) + step * load<V>(v, at));
+  }
+}
+
+template <int width>
+void extent(std::size_t used, std::size_t particles, ConstField boxed, ConstField measured, Extent& e) {
+  using V = Run<float, width>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    Vec<V> lo = load<V>(boxed, first), hi = lo;
+    V length2{};
+    for (std::size_t at = first; at < particles * width; at += width) {
+      const Vec<V> p = load<V>(boxed, at), u = load<V>(measured, at);
+      lo = {smaller(p.x, lo.x), smaller(p.y, lo.y), smaller(p.z, lo.z)};
+      hi = {larger(p.x, hi.x), larger(p.y, hi.y), larger(p.z, hi.z)};
+      length2 = larger(dot(u, u), length2);
+    }
+    store(field(e.lo), first, lo);
+    store(field(e.hi), first, hi);
+    store(e.length2 + first, length2);
+  }
+}
+
+/// Computes with floats as many at a time as a register holds doubles.
+template <int width>
+void rigid_sums(std::size_t used, std::size_t particles, ConstField x, ConstField v, RigidSums& sums) {
+  using V = Run<double, width>;
+  using F = Run<float, width, lanes_of<V>>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const Vec<V> origin = widened(load<F>(x, first));
+    Vec<V> place{}, velocity{}, momentum{}, square{}, mixed{};
+    for (std::size_t at = first; at < particles * width; at += width) {
+      const Vec<V> r = widened(load<F>(x, at)) - origin, u = widened(load<F>(v, at));
+      place = place + r;
+      velocity = velocity + u;
+      momentum = momentum + cross(r, u);
+      square = square + Vec<V>{r.x * r.x, r.y * r.y, r.z * r.z};
+      mixed = mixed + Vec<V>{r.y * r.z, r.z * r.x, r.x * r.y};
+    }
+    store(field(sums.place), first, place);
+    store(field(sums.velocity), first, velocity);
+    store(field(sums.momentum), first, momentum);
+    store(field(sums.square), first, square);
+    store(field(sums.mixed), first, mixed);
+  }
+}
+
+template <int width>
+void add_rigid(std::size_t used, std::size_t particles, const RigidChange& change, ConstField x, Field<float> v) {
+  using V = Run<double, width>;
+  using F = Run<float, width, lanes_of<V>>;
+  for (std::size_t first = 0; first < used; first += lanes_of<V>) {
+    const auto acts = load<F>(change.acts + first) > F{};
+    const Vec<V> push = load<V>(field(change.push), first), spin = load<V>(field(change.spin), first);
+    const Vec<V> centre = widened(load<F>(x, first)) + load<V>(field(change.about), first);
+    for (std::size_t at = first; at < particles * width; at += width) {
+      const Vec<F> before = load<F>(v, at);
+      const Vec<V> after = widened(before) + push + cross(spin, widened(load<F>(x, at)) - centre);
+      store(v, at, select(acts, narrowed(after), before));
+    }
+  }
+}
+
+template <int width>
+constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,        scale<width>,
+                             square_sum<width>, kick<width>,       accelerate<width>, drift<width>,
+                             extent<width>,     rigid_sums<width>, add_rigid<width>};
+
+const StateKernels& Table(int width) { return width == one_lane ? table<one_lane> : table<lanes>; }
+
+}  // namespace
+}  // namespace HWY_NAMESPACE
+}  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#if HWY_ONCE
+namespace softbody {
+
+HWY_EXPORT(Table);
+
+const StateKernels& state_kernels(int width) { return HWY_DYNAMIC_DISPATCH(Table)(width); }
+
+}  // namespace softbody
+#endif  // HWY_ONCE

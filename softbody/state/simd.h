@@ -1,0 +1,205 @@
+// Highway's registers as numbers, so that arithmetic which is written once computes with a register of bodies or with
+// one number. It is compiled once for each of Highway's targets: a file of kernels includes it, and what uses it, after
+// <hwy/foreach_target.h> only. All other files see it for the target that they are compiled for. This include guard is
+// Highway's.
+#if defined(SOFTBODY_STATE_SIMD_H) == defined(HWY_TARGET_TOGGLE)
+#ifdef SOFTBODY_STATE_SIMD_H
+#undef SOFTBODY_STATE_SIMD_H
+#else
+#define SOFTBODY_STATE_SIMD_H
+#endif
+
+#include <algorithm>
+#include <cstdint>
+#include <type_traits>
+
+#include <hwy/highway.h>
+
+#include "softbody/state/lanes.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace softbody {
+namespace HWY_NAMESPACE {
+namespace body {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+/// Number of values that a register holds; those of a block at most.
+template <class T>
+constexpr int register_lanes = std::min(lanes, static_cast<int>(hn::MaxLanes(hn::ScalableTag<T>())));
+
+/// n values side by side in one register. Operators are not forced inline: formulas of forces, which are compiled for no
+/// target before they are inlined into one, could not call them.
+template <class T, int n>
+struct Lane {
+  using Tag = hn::CappedTag<T, n>;
+  struct Mask {
+    hn::Mask<Tag> raw;
+  };
+  hn::Vec<Tag> raw;
+
+  Lane() = default;
+  HWY_ATTR Lane(T all) : raw(hn::Set(Tag(), all)) {}
+  HWY_INLINE explicit Lane(hn::Vec<Tag> values) : raw(values) {}
+
+  HWY_ATTR friend Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.raw, b.raw)); }
+  HWY_ATTR Lane operator-() const { return Lane(hn::Neg(raw)); }
+  HWY_INLINE Lane& operator+=(Lane b) { return *this = *this + b; }
+  HWY_INLINE Lane& operator-=(Lane b) { return *this = *this - b; }
+  HWY_INLINE friend Mask operator>(Lane a, Lane b) { return {hn::Gt(a.raw, b.raw)}; }
+  HWY_INLINE friend Mask operator<(Lane a, Lane b) { return {hn::Lt(a.raw, b.raw)}; }
+  HWY_INLINE friend Mask operator>=(Lane a, Lane b) { return {hn::Ge(a.raw, b.raw)}; }
+};
+
+/// What does not fit into one register, in two halves. Compilers keep wider vectors in memory, which is several times
+/// slower.
+template <class V>
+struct Pair {
+  V lo, hi;
+
+  Pair() = default;
+  template <class T>
+  requires std::is_arithmetic_v<T> HWY_ATTR Pair(T all) : lo(all), hi(all) {}
+  HWY_ATTR Pair(V low, V high) : lo(low), hi(high) {}
+
+  HWY_ATTR friend Pair operator+(const Pair& a, const Pair& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  HWY_ATTR friend Pair operator-(const Pair& a, const Pair& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  HWY_ATTR friend Pair operator*(const Pair& a, const Pair& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  HWY_ATTR friend Pair operator/(const Pair& a, const Pair& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  HWY_INLINE Pair& operator+=(const Pair& b) { return *this = *this + b; }
+  HWY_INLINE Pair& operator-=(const Pair& b) { return *this = *this - b; }
+};
+
+template <class T, int n>
+struct WideOf {
+  using Values = Lane<T, n>;
+};
+template <class T, int n>
+requires(n > register_lanes<T>) struct WideOf<T, n> {
+  using Values = Pair<typename WideOf<T, n / 2>::Values>;
+};
+/// n values side by side, in as many registers as they take.
+template <class T, int n>
+using Wide = typename WideOf<T, n>::Values;
+
+/// What a kernel computes with at a time, in a batch of so many lanes: a register, or one value of a body that is
+/// alone.
+template <class T, int width, int n = register_lanes<T>>
+using Run = std::conditional_t<width == one_lane, T, Lane<T, n>>;
+
+template <class V>
+struct Values {
+  using Type = V;
+  static constexpr int count = 1;
+};
+template <class T, int n>
+struct Values<Lane<T, n>> {
+  using Type = T;
+  static constexpr int count = n;
+};
+template <class V>
+struct Values<Pair<V>> {
+  using Type = typename Values<V>::Type;
+  static constexpr int count = 2 * Values<V>::count;
+};
+/// The type of one value of V.
+template <class V>
+using Value = typename Values<V>::Type;
+/// Number of values of V.
+template <class V>
+constexpr int lanes_of = Values<V>::count;
+
+/// Loads values that follow each other, one for each lane.
+template <class V>
+HWY_INLINE V load(const auto* p) {
+  if constexpr (std::is_floating_point_v<V>) {
+    return *p;
+  } else if constexpr (requires { V::lo; }) {
+    return {load<decltype(V::lo)>(p), load<decltype(V::hi)>(p + lanes_of<V> / 2)};
+  } else {
+    return V(hn::LoadU(typename V::Tag(), p));
+  }
+}
+
+template <class V>
+HWY_INLINE void store(auto* p, const V& v) {
+  if constexpr (std::is_floating_point_v<V>) {
+    *p = v;
+  } else if constexpr (requires { V::lo; }) {
+    store(p, v.lo);
+    store(p + lanes_of<V> / 2, v.hi);
+  } else {
+    hn::StoreU(v.raw, typename V::Tag(), p);
+  }
+}
+
+template <class T, int n>
+HWY_INLINE Lane<T, n> square_root(Lane<T, n> v) {
+  return Lane<T, n>(hn::Sqrt(v.raw));
+}
+template <class V>
+HWY_INLINE Pair<V> square_root(const Pair<V>& v) {
+  return {square_root(v.lo), square_root(v.hi)};
+}
+
+/// Returns a where the mask holds, else b.
+template <class T, int n>
+HWY_INLINE Lane<T, n> select(typename Lane<T, n>::Mask mask, Lane<T, n> a, Lane<T, n> b) {
+  return Lane<T, n>(hn::IfThenElse(mask.raw, a.raw, b.raw));
+}
+
+constexpr bool x86_registers = HWY_ARCH_X86 && HWY_TARGET != HWY_SCALAR && HWY_TARGET != HWY_EMU128;
+
+// a > b ? a : b, and a < b ? a : b, also where one is not a number, or both are zero: x86's own instructions do that.
+template <class T, int n>
+HWY_INLINE Lane<T, n> larger(Lane<T, n> a, Lane<T, n> b) {
+  if constexpr (x86_registers) return Lane<T, n>(hn::Max(a.raw, b.raw));
+  return select(a > b, a, b);
+}
+template <class T, int n>
+HWY_INLINE Lane<T, n> smaller(Lane<T, n> a, Lane<T, n> b) {
+  if constexpr (x86_registers) return Lane<T, n>(hn::Min(a.raw, b.raw));
+  return select(a < b, a, b);
+}
+template <class V>
+HWY_INLINE Pair<V> larger(const Pair<V>& a, const Pair<V>& b) {
+  return {larger(a.lo, b.lo), larger(a.hi, b.hi)};
+}
+
+/// Returns a bit for each lane in which a > b.
+template <class T, int n>
+HWY_INLINE unsigned lanes_above(Lane<T, n> a, Lane<T, n> b) {
+  std::uint64_t bits = 0;
+  hn::StoreMaskBits(typename Lane<T, n>::Tag(), (a > b).raw, reinterpret_cast<std::uint8_t*>(&bits));
+  return static_cast<unsigned>(bits);
+}
+
+/// True if a > b in any lane.
+template <class T, int n>
+HWY_INLINE bool any_above(Lane<T, n> a, Lane<T, n> b) {
+  return !hn::AllFalse(typename Lane<T, n>::Tag(), (a > b).raw);
+}
+
+template <int n>
+HWY_INLINE Lane<double, n> widened(Lane<float, n> v) {
+  return Lane<double, n>(hn::PromoteTo(typename Lane<double, n>::Tag(), v.raw));
+}
+template <int n>
+HWY_INLINE Lane<float, n> narrowed(Lane<double, n> v) {
+  return Lane<float, n>(hn::DemoteTo(typename Lane<float, n>::Tag(), v.raw));
+}
+
+}  // namespace body
+}  // namespace HWY_NAMESPACE
+
+#if HWY_ONCE
+using namespace HWY_NAMESPACE;
+#endif
+
+}  // namespace softbody
+HWY_AFTER_NAMESPACE();
+
+#endif  // include guard
