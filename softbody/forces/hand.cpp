@@ -7,6 +7,22 @@
 #include <glm/geometric.hpp>
 
 namespace softbody {
+namespace {
+
+HeldBody held_body(const ForceBatch& b, BodyId id) {
+  State& s = b.state;
+  return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), s.field_of(id, s.f)};
+}
+
+}  // namespace
+
+void Hand::add(const ForceBatch& b) const {
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_force(held_body(b, grab_->body), b.h, b.gravity);
+}
+
+void Hand::kick(const ForceBatch& b) const {
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_impulse(held_body(b, grab_->body), b.h);
+}
 
 void Hand::take(const std::optional<Grab>& grab) {
   assert(!grab || std::abs(grab->weights.x + grab->weights.y + grab->weights.z - 1) < 1e-6);
@@ -18,40 +34,34 @@ void Hand::remove(BodyId body) {
   if (grab_ && grab_->body > body) --grab_->body;
 }
 
-/// Returns the force on the point, which everything else would let go at `velocity` after the step.
-glm::dvec3 Hand::force(const ForceBatch& b, const glm::dvec3& velocity) const {
-  const BodyModel& p = *b.batch.model;
-  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = p.material[Material::mass];  // 1/s, kg
-  const double point_mass = p.particle_mass / glm::dot(grab_->weights, grab_->weights);
+/// On the point, which everything else would let go at `velocity` after a step of h.
+glm::dvec3 Hand::force(const HeldBody& body, double h, const glm::dvec3& velocity) const {
+  const double rate = 2 * std::numbers::pi * grab_->frequency, mass = body.model.material[Material::mass];  // 1/s, kg
+  const double point_mass = body.model.particle_mass / glm::dot(grab_->weights, grab_->weights);
   glm::dvec3 point(0.0);
-  for (int i = 0; i < 3; ++i)
-    point += grab_->weights[i] * b.state.particle(grab_->body, grab_->corners[std::size_t(i)]).position;
-  return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, b.h, grab_->target - point,
+  for (int i = 0; i < 3; ++i) point += grab_->weights[i] * (body.origin + body.x(grab_->corners[std::size_t(i)]));
+  return pull(mass * rate * rate, 2 * grab_->damping_ratio * mass * rate, point_mass, h, grab_->target - point,
               velocity);
 }
 
-void Hand::add(const ForceBatch& b) const {
-  if (!pulls(b)) return;
-  assert(b.h > 0);
-  const BodyField v = b.state.field_of(grab_->body, b.state.v), f = b.state.field_of(grab_->body, b.state.f);
-  const double h_over_mass = b.h / b.batch.model->particle_mass;
-  glm::dvec3 velocity = b.h * b.gravity;
+void Hand::add_force(const HeldBody& body, double h, const glm::dvec3& gravity) const {
+  assert(grab_ && h > 0);
+  const double h_over_mass = h / body.model.particle_mass;
+  glm::dvec3 velocity = h * gravity;
   for (int i = 0; i < 3; ++i) {
     const std::size_t corner = grab_->corners[std::size_t(i)];
-    velocity += grab_->weights[i] * (v(corner) + h_over_mass * f(corner));
+    velocity += grab_->weights[i] * (body.v(corner) + h_over_mass * body.f(corner));
   }
-  const glm::dvec3 pulled = force(b, velocity);
-  for (int i = 0; i < 3; ++i) f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * pulled);
+  const glm::dvec3 pulled = force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.f.add(grab_->corners[std::size_t(i)], grab_->weights[i] * pulled);
 }
 
-void Hand::kick(const ForceBatch& b) const {
-  if (!pulls(b)) return;
-  assert(b.h > 0);
-  const BodyField v = b.state.field_of(grab_->body, b.state.v);
+void Hand::add_impulse(const HeldBody& body, double h) const {
+  assert(grab_ && h > 0);
   glm::dvec3 velocity(0.0);
-  for (int i = 0; i < 3; ++i) velocity += grab_->weights[i] * v(grab_->corners[std::size_t(i)]);
-  const glm::dvec3 change = b.h / b.batch.model->particle_mass * force(b, velocity);
-  for (int i = 0; i < 3; ++i) v.add(grab_->corners[std::size_t(i)], grab_->weights[i] * change);
+  for (int i = 0; i < 3; ++i) velocity += grab_->weights[i] * body.v(grab_->corners[std::size_t(i)]);
+  const glm::dvec3 change = h / body.model.particle_mass * force(body, h, velocity);
+  for (int i = 0; i < 3; ++i) body.v.add(grab_->corners[std::size_t(i)], grab_->weights[i] * change);
 }
 
 }  // namespace softbody

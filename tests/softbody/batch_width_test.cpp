@@ -78,8 +78,7 @@ TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
     if constexpr (is_projected<F>())
       expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
         LaneField room(n);
-        force_kernels(width)
-            .project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
+        force_kernels(width).project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
       });
   });
   for (const auto property :

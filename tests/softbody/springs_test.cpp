@@ -43,9 +43,8 @@ BodyModel model_of(std::size_t particles, const std::vector<SpringOf<float>>& sp
 
 /// Adds the springs' forces.
 void add(const std::vector<SpringOf<float>>& springs, const LaneField& x, const LaneField& v, LaneField& f) {
-  force_kernels(lanes)
-      .add[index_of<StructuralSprings>]({model_of(x.x.size() / lanes, springs), lanes, x.field(), f.field()},
-                                        {v.field()});
+  force_kernels(lanes).add[index_of<StructuralSprings>](
+      {model_of(x.x.size() / lanes, springs), lanes, x.field(), f.field()}, {v.field()});
 }
 
 class SpringForces : public tests::OnEveryTarget {};

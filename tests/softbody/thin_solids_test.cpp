@@ -7,6 +7,8 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
 
+#include "softbody/contact/keys.h"
+#include "softbody/forces/springs.h"
 #include "tests/softbody/surface_rig.h"
 
 namespace softbody::test {
@@ -20,11 +22,11 @@ glm::dmat3 turned(const glm::dvec3& axis, double degrees) {
 
 Scene cloth(double size, double mass) {
   Material m;
-  m.mass = mass;
-  m.structural = {200, 0.1};
-  m.bend = {1, 0.1};
-  m.shear = {50, 0.1};
-  m.internal_damping = 2;
+  m[Material::mass] = mass;
+  m.set(StructuralSprings::keys, {200, 0.1});
+  m.set(BendSprings::keys, {1, 0.1});
+  m.set(ShearSprings::keys, {50, 0.1});
+  m[Material::internal_damping] = 2;
   Scene scene = ball_in_space(m);
   scene.gravity = {0, -g, 0};
   scene.ground = Ground{};
@@ -36,9 +38,9 @@ Scene cloth(double size, double mass) {
 
 Scene ball() {
   Material m = rubber();
-  m.internal_damping = 10;
-  m.rebound_speed = 2;
-  m.rolling_resistance = 0.3;
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
   Scene scene = ball_in_space(m);
   scene.gravity = {0, -g, 0};
   scene.ground = Ground{-3};
@@ -65,7 +67,7 @@ class ThinSolid : public testing::TestWithParam<Case> {};
 TEST_P(ThinSolid, BringsToRestWithoutEnergyFromNowhere) {
   World world(GetParam().scene, {});
   const Material& m = world.model(0).material;
-  const double lift = m.mass * g * m.thickness;
+  const double lift = m[Material::mass] * g * m[Material::thickness];
   double least = measure(world).energy;
   for (int i = 0; i < GetParam().frames && !(i > 0 && world.all_at_rest()); ++i) {
     world.step();
