@@ -50,7 +50,7 @@ mesh/limits mesh/mesh mesh/mesh_import mesh/mesh_source mesh/obj_file
 state/body state/lane_math state/lanes state/simd
 model/key model/material model/body_model model/scene_error
 contact/contacts contact/keys contact/law contact/solid contact/solid_surface
-forces/best_rotation forces/gas forces/grab forces/kernel_types forces/material_keys forces/pair_energy
+forces/best_rotation forces/bound forces/coordinates forces/gas forces/grab forces/material_keys forces/pair_energy
 forces/shape_matching forces/springs
 scene/limits scene/scene scene/scene_write scene/solids scene/toml_table scene/toml_text
 integrate/integrators integrate/max_work integrate/plan

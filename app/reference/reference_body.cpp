@@ -7,7 +7,8 @@
 #include <glm/geometric.hpp>
 
 #include "app/reference/body_shape.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/bound.h"
+#include "softbody/forces/gas.h"
 #include "softbody/scene/solids.h"
 
 namespace app::reference {
@@ -64,13 +65,14 @@ BodyState state_of(const softbody::World& world, softbody::BodyId body) {
 
 std::string ReferenceBody::unsupported_stage(const softbody::World& world) {
   // Detection and sleep move nothing: a body that sleeps has come to rest.
-  constexpr std::array known{
-      Stage::structural_springs, Stage::bend_springs,  Stage::shear_springs, Stage::gas_pressure, Stage::gravity,
-      Stage::integrate,          Stage::solid_spheres, Stage::ground,        Stage::solid_planes, Stage::solid_boxes,
-      Stage::solid_capsules,     Stage::detect,        Stage::sleep};
+  constexpr std::array<std::string_view, 13> known{
+      "structural-springs", "bend-springs",  "shear-springs", "gas-pressure", "gravity",
+      "integrate",          "solid-spheres", "ground",        "solid-planes", "solid-boxes",
+      "solid-capsules",     "detect",        "sleep"};
   if (world.scene().bodies.size() != 1) return "several bodies";
   for (const Stage stage : world.plan().stages)
-    if (std::ranges::find(known, stage) == known.end()) return std::string(softbody::stage_key(stage));
+    if (std::ranges::find(known, softbody::stage_key(stage)) == known.end())
+      return std::string(softbody::stage_key(stage));
   return {};
 }
 
@@ -87,7 +89,8 @@ void ReferenceBody::add_spring(const softbody::Spring& s, const BodyState& state
 void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const {
   const auto& faces = model_.mesh.triangles;
   const double volume = volume_of(state.x, faces);
-  const double gauge = absolute_pressure(model_.gas, volume) - ambient_pressure(model_.gas, volume);
+  const softbody::Gas& gas = *softbody::gas_of(model_);
+  const double gauge = absolute_pressure(gas, volume) - ambient_pressure(gas, volume);
   for (const auto& [i, j, k] : faces) {
     const dvec3 area = 0.5 * glm::cross(state.x[j] - state.x[i], state.x[k] - state.x[i]);
     for (const softbody::Index corner : {i, j, k}) a[corner] += gauge / 3 / model_.particle_mass * area;
@@ -96,9 +99,8 @@ void ReferenceBody::add_gas(const BodyState& state, std::vector<dvec3>& a) const
 
 std::vector<dvec3> ReferenceBody::accelerations(const BodyState& state) const {
   std::vector<dvec3> a(state.x.size(), scene_.gravity);
-  for (const auto* list : {&model_.structural, &model_.bend, &model_.shear})
-    for (const softbody::Spring& s : *list) add_spring(s, state, a);
-  if (model_.has_gas) add_gas(state, a);
+  softbody::for_each_spring(model_, [&](const softbody::Spring& s) { add_spring(s, state, a); });
+  if (softbody::gas_of(model_)) add_gas(state, a);
   return a;
 }
 
@@ -141,7 +143,7 @@ void ReferenceBody::step(BodyState& state, double h) const {
 
 double ReferenceBody::stable_step(const BodyState& state) const {
   const double k_m = softbody::stiffness_per_mass(model_, softbody::measure_surface(model_, state.x));
-  const double c_m = model_.spring_damping_bound / model_.particle_mass;
+  const double c_m = softbody::damping_bound(model_) / model_.particle_mass;
   return softbody::find_integrator("rk4")->stable_step(k_m, c_m);
 }
 
@@ -149,12 +151,11 @@ double ReferenceBody::energy(const BodyState& state) const {
   double energy = 0;
   for (std::size_t i = 0; i < state.x.size(); ++i)
     energy += model_.particle_mass * (0.5 * glm::dot(state.v[i], state.v[i]) - glm::dot(scene_.gravity, state.x[i]));
-  for (const auto* list : {&model_.structural, &model_.bend, &model_.shear})
-    for (const softbody::Spring& s : *list) {
-      const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
-      energy += 0.5 * s.stiffness * stretch * stretch;
-    }
-  if (model_.has_gas) energy += gas_energy(model_.gas, volume_of(state.x, model_.mesh.triangles));
+  softbody::for_each_spring(model_, [&](const softbody::Spring& s) {
+    const double stretch = glm::distance(state.x[s.i], state.x[s.j]) - s.rest;
+    energy += 0.5 * s.stiffness * stretch * stretch;
+  });
+  if (const auto* gas = softbody::gas_of(model_)) energy += gas_energy(*gas, volume_of(state.x, model_.mesh.triangles));
   return energy;
 }
 

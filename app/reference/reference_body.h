@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "softbody/model/body_model.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/world.h"
 
 namespace app::reference {

@@ -12,7 +12,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/palette.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/measures.h"
 
 namespace app::render {
@@ -242,10 +242,10 @@ void add_springs(const softbody::World& world, const Viewpoint& viewpoint, Point
     const softbody::BodyModel& model = world.model(b);
     const Points body = positions.subspan(bodies.first[b], bodies.size(b));
     const std::vector<char> in_sight = vertices_in_sight(model, body, viewpoint.eye);
-    add_springs(model.structural, body, in_sight, 1.0f, structural);
+    add_springs(softbody::springs<softbody::StructuralSprings>(model), body, in_sight, 1.0f, structural);
     if (!is_near(model, body, viewpoint)) continue;
-    add_springs(model.bend, body, in_sight, 0.45f, others);
-    add_springs(model.shear, body, in_sight, 0.7f, others);
+    add_springs(softbody::springs<softbody::BendSprings>(model), body, in_sight, 0.45f, others);
+    add_springs(softbody::springs<softbody::ShearSprings>(model), body, in_sight, 0.7f, others);
   }
   frame.lines.push_back(std::move(others));
   frame.lines.push_back(std::move(structural));

@@ -122,7 +122,8 @@ bool SolidContact::apply_to_particles(const Batch& b, float h, bool again) {
     for (SolidArguments& s : own.near) {
       s.h = h;
       s.slack = pass || again ? slack : 0;
-      const unsigned now = act_by_solid(b.width, std::size_t(b.used), s, field(std::as_const(state_.x), b.base), field(state_.v, b.base));
+      const unsigned now = act_by_solid(b.width, std::size_t(b.used), s, field(std::as_const(state_.x), b.base),
+                                        field(state_.v, b.base));
       more = more || (acted & now) || (pass && now);
       acted |= now;
       own.pushed |= now;

@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_arguments.h"
+#include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_surface.h"
 #include "softbody/contact/surface_contact.h"
 #include "softbody/state/state.h"
@@ -66,9 +66,9 @@ class SolidContact {
  private:
   struct OfBatch {
     std::vector<SolidArguments> near;
-    std::vector<SolidFeature> features;               // of the bodies, that may meet the solids between vertices
-    std::vector<ContactRow> rows;                     // of these, in the substep at hand
-    LaneVector impulse{};                             // N s, along the normals
+    std::vector<SolidFeature> features;   // of the bodies, that may meet the solids between vertices
+    std::vector<ContactRow> rows;         // of these, in the substep at hand
+    LaneVector impulse{};                 // N s, along the normals
     std::array<float, lanes> returned{};  // N s, the part of it that restitution gives back
     unsigned pushed = 0;
   };

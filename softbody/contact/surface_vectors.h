@@ -1,5 +1,5 @@
 #pragma once
-// What the stages of surface contact share: reading and changing particles, and directions.
+// What the stages of surface contact share: velocities and directions.
 
 #include <limits>
 
@@ -11,12 +11,6 @@ namespace softbody {
 
 /// ContactRow::feature of a row that nothing is remembered of.
 inline constexpr std::uint32_t uncached = std::numeric_limits<std::uint32_t>::max();
-
-inline void add(Field<float> f, std::size_t slot, const glm::vec3& d) {
-  f.x[slot] += d.x;
-  f.y[slot] += d.y;
-  f.z[slot] += d.z;
-}
 
 inline glm::vec3 normal_of(const glm::vec3& a, const glm::vec3& b, const glm::vec3& c) {
   return glm::cross(b - a, c - a);

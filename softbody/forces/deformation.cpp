@@ -2,21 +2,64 @@
 
 #include <glm/geometric.hpp>
 
-#include "softbody/forces/shape_matching.h"
+#include "softbody/forces/visit.h"
 
 namespace softbody {
+namespace {
 
-double elastic_energy(const BodyModel& p, const std::vector<glm::dvec3>& x) {
-  double energy = shape_energy(p, x);
-  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *springs) {
-      const double stretch = glm::distance(x[s.i], x[s.j]) - s.rest;
-      energy += 0.5 * s.stiffness * stretch * stretch;
-    }
+using Shape = std::vector<glm::dvec3>;
+
+/// The energy of elements whose coordinate is not the volume.
+struct SumElastic {
+  const Shape& x;
+  double& sum;
+  void operator()(Length c, const auto& law) const { sum += law.stored(glm::distance(x[c.i], x[c.j])); }
+  void operator()(Offset c, const body::Vec<double>& place, const auto& law) const {
+    const glm::dvec3 away = x[c.i] - glm::dvec3(place.x, place.y, place.z);
+    sum += law.stiffness / 2 * glm::dot(away, away);
+  }
+};
+
+template <class Act>
+struct EachVolumeLaw {
+  const Act& act;
+  void operator()(Volume, const auto& law) const { act(law); }
+};
+
+template <class Act>
+void each_volume_law(const BodyModel& p, const Act& act) {
+  visit_forces<Coordinate::volume>(p, {}, EachVolumeLaw<Act>{act});
+}
+
+}  // namespace
+
+double elastic_energy(const BodyModel& p, const Shape& x) {
+  std::array<std::vector<double>, 3> component;
+  for (int k = 0; k < 3; ++k)
+    for (const glm::dvec3& place : x) component[std::size_t(k)].push_back(place[k]);
+  double sum = 0;
+  visit_forces<Coordinate::length, Coordinate::offset>(
+      p, {component[0].data(), component[1].data(), component[2].data()}, SumElastic{x, sum});
+  return sum;
+}
+
+StoredEnergy stored_energy(const BodyModel& p, const Shape& x) {
+  StoredEnergy energy{.elastic = elastic_energy(p, x)};
+  if (p.forces->pressure > 0)
+    each_volume_law(p, [&, v = enclosed_volume(p, x)](const auto& law) { energy.gas += law.stored(v); });
   return energy;
 }
 
-double enclosed_volume(const BodyModel& p, const std::vector<glm::dvec3>& x) {
+StoredEnergy stored_energy_change(const BodyModel& p, const Shape& from, const Shape& to) {
+  StoredEnergy change{.elastic = elastic_energy(p, to) - elastic_energy(p, from)};
+  if (p.forces->pressure > 0)
+    each_volume_law(p, [&, v = enclosed_volume(p, from), end = enclosed_volume(p, to)](const auto& law) {
+      change.gas += law.stored_change(v, end);
+    });
+  return change;
+}
+
+double enclosed_volume(const BodyModel& p, const Shape& x) {
   const glm::dvec3 from = x.front();  // any point will do; a near one loses no digits
   double six = 0;
   for (const auto& [a, b, c] : p.mesh.triangles) six += glm::dot(x[a] - from, glm::cross(x[b] - from, x[c] - from));

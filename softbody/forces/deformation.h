@@ -7,8 +7,18 @@
 
 namespace softbody {
 
-/// Returns the energy of springs and shape matching in J.
+/// The energy in J that the forces inside a body store.
+struct StoredEnergy {
+  double elastic = 0;  // of all but:
+  double gas = 0;      // forces that depend on the volume
+};
+StoredEnergy stored_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
+
 double elastic_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
+
+/// Returns how the energy changes in J, without a logarithm, whose last digits differ between processors.
+StoredEnergy stored_energy_change(const BodyModel& model, const std::vector<glm::dvec3>& from,
+                                  const std::vector<glm::dvec3>& to);
 
 /// Returns the volume of a closed mesh in m^3. The particles may be far from the origin.
 double enclosed_volume(const BodyModel& model, const std::vector<glm::dvec3>& x);

@@ -4,8 +4,7 @@
 #include <cmath>
 
 #include "softbody/forces/gas.h"
-#include "softbody/forces/kernel_bodies.h"
-#include "softbody/forces/shape_matching.h"
+#include "softbody/forces/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -19,28 +18,13 @@ class Relaxation {
       for (auto& component : *field) component.assign(size_, 0.0);
     for (std::size_t i = 0; i < from.size(); ++i)
       for (int k = 0; k < 3; ++k) x_[k][i] = from[i][k];
-    for (const auto* list : {&p.structural, &p.bend, &p.shear})
-      for (const Spring& s : *list) springs_.push_back({s.i, s.j, s.rest, s.stiffness, 0.0});
-    for (const glm::dvec3& q : p.goal) shape_.push_back({q.x, q.y, q.z});
   }
 
   void evaluate() {
     for (auto& component : f_) std::fill(component.begin(), component.end(), 0.0);
-    body::springs<double>(springs_, constant(x_), constant(v_), field(f_));
-    if (!shape_.empty()) keep_shape();
-    if (!model_.has_gas) return;
-    double v;
-    body::volume<double>(model_.mesh.triangles, constant(x_), &v);
-    const double gauge = model_.gas.gauge(v);
-    body::pressure<double>(model_.mesh.triangles, constant(x_), &gauge, field(f_));
-  }
-
-  void keep_shape() {
-    ShapeMoments<double> moments;
-    ShapePose<double> pose{};
-    body::shape_moments<double, one_lane>(shape_, constant(x_), moments);
-    fit_shape(moments, 1, pose);
-    body::shape_pull<double, one_lane>(shape_, pose, shape_stiffness(model_), constant(x_), field(f_));
+    const LaneBodies<double> alone{model_, 1, field(x_), field(f_)};
+    const Still still;
+    visit_all(model_, alone.x, body::AddForces<double, one_lane, Still>{alone, still});
   }
 
   double largest_force() const {
@@ -79,14 +63,11 @@ class Relaxation {
 
  private:
   using Components = std::array<LaneArray<double>, 3>;
-  static Field<const double> constant(const Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
   static Field<double> field(Components& c) { return {c[0].data(), c[1].data(), c[2].data()}; }
 
   const BodyModel& model_;
   std::size_t size_;
   Components x_, v_, f_;
-  KernelSpringsOf<double> springs_;
-  std::vector<ShapePoint<double>> shape_;
   double kinetic_ = 0;
 };
 
@@ -94,9 +75,8 @@ class Relaxation {
 
 std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vector<glm::dvec3>& from) {
   Relaxation relaxation(model, from);
-  const double scale = (model.spring_stiffness_bound + std::abs(model.gas.ambient) * model.radius +
-                        model.material[GasPressure::inside] * model.radius) *
-                       model.radius;
+  const ModelForces& all = *model.forces;
+  const double scale = (all.pair_stiffness + all.pressure * model.radius) * model.radius;
   // Half of what is stable: the kinetic energy has a peak to be found only where a swing takes more than a few steps.
   const double h = 0.5 * stable_step(stiffness_per_mass(model, measure_surface(model, model.mesh.vertices)), 0);
   constexpr int limit = 50'000;
@@ -113,7 +93,7 @@ std::vector<glm::dvec3> find_equilibrium(const BodyModel& model, const std::vect
 
 std::shared_ptr<const BodyModel> make_body_model(const MeshSource& mesh, const Material& material) {
   auto p = make_unbalanced_body_model(mesh, material);
-  if (material[Material::start_in_equilibrium] == 0 || !p->has_gas) return p;
+  if (material[Material::start_in_equilibrium] == 0 || p->forces->pressure <= 0) return p;
   p->start = find_equilibrium(*p, p->mesh.vertices);
   p->start_volume = volume(p->start, p->mesh.triangles);
   return p;

@@ -7,6 +7,22 @@
 #include <glm/geometric.hpp>
 
 namespace softbody {
+namespace {
+
+HeldBody held_body(const ForceBatch& b, BodyId id) {
+  State& s = b.state;
+  return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), s.field_of(id, s.f)};
+}
+
+}  // namespace
+
+void Hand::add(const ForceBatch& b) const {
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_force(held_body(b, grab_->body), b.h, b.gravity);
+}
+
+void Hand::kick(const ForceBatch& b) const {
+  if (grab_ && b.state.body(grab_->body).batch == b.batch.index) add_impulse(held_body(b, grab_->body), b.h);
+}
 
 void Hand::take(const std::optional<Grab>& grab) {
   assert(!grab || std::abs(grab->weights.x + grab->weights.y + grab->weights.z - 1) < 1e-6);

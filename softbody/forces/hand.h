@@ -2,10 +2,10 @@
 // The hand that pulls a body.
 
 #include <optional>
+#include <string_view>
 
+#include "softbody/forces/force.h"
 #include "softbody/forces/grab.h"
-#include "softbody/model/body_model.h"
-#include "softbody/state/lanes.h"
 
 namespace softbody {
 
@@ -19,6 +19,14 @@ struct HeldBody {
 /// Pulls one body, or none. It acts last in a step, for its force depends on what all else does there: see pull().
 class Hand {
  public:
+  static constexpr std::string_view key = "grab";
+  static constexpr bool internal = false;
+  static const char* why_not(const ForceFacts& facts) { return facts.held ? nullptr : "nobody holds a body"; }
+  /// Adds its force to the body of the batch that it holds.
+  void add(const ForceBatch& batch) const;
+  /// Adds its impulse to it.
+  void kick(const ForceBatch& batch) const;
+
   /// Takes a body in another's place; none: lets go.
   void take(const std::optional<Grab>& grab);
   const std::optional<Grab>& grab() const { return grab_; }

@@ -1,5 +1,6 @@
-// Arithmetic of forces: V is one value for each of several lanes, whose first one the fields begin with, or a float or
-// double of a body that is alone. Compiled for each of Highway's targets, see state/simd.h.
+// How each coordinate (coordinates.h) acts on particles: V is one value for each of several lanes, whose first one the
+// fields begin with, or a float or double of a body that is alone; width: the distance of a particle's values from the
+// next one's. Compiled for each of Highway's targets, see state/simd.h.
 #if defined(SOFTBODY_FORCES_KERNEL_BODIES_H) == defined(HWY_TARGET_TOGGLE)
 #ifdef SOFTBODY_FORCES_KERNEL_BODIES_H
 #undef SOFTBODY_FORCES_KERNEL_BODIES_H
@@ -18,97 +19,29 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace body {
 
-/// Hooke's spring with a damper along it: f = (k (L - L0) + c (dv . dx) / L) dx / L on i, minus that on j, so
-/// (k (L - L0) L + c dv . dx) dx / L^2, in which the root and the quotient do not wait for each other.
-/// A spring of length zero has no direction and exerts no force.
-template <class V>
-HWY_INLINE void springs(std::span<const KernelSpring<Value<V>>> list, Field<const Value<V>> x, Field<const Value<V>> v,
-                        Field<Value<V>> f) {
-  using Real = Value<V>;
-  const V tiny = V(Real(1e-24));  // m^2: its inverse is finite, and times a pull of 0 it is 0
-  for (const KernelSpring<Real>& s : list) {
-    const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i), dv = load<V>(v, s.j) - load<V>(v, s.i);
-    const V square = dot(dx, dx), length = square_root(square);
-    const V pull = s.stiffness * (length - s.rest) * length + s.damping * dot(dv, dx);
-    const Vec<V> force = (pull * (Real(1) / larger(square, tiny))) * dx;
-    store(f, s.i, load<V>(f, s.i) + force);
-    store(f, s.j, load<V>(f, s.j) - force);
-  }
-}
-
-/// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): the spring
-/// as a constraint of compliance 1 / k with its damper. Particles are at x + d. Their displacements d in this step are
-/// small, so that velocities lose no digits in floats.
-template <class V>
-HWY_INLINE void project_springs(const ProjectArguments& p, std::span<const KernelSpring<float>> list,
-                                Field<const float> x, Field<float> d) {
-  const V tiny = V(1e-12f);  // m
-  const V inverse_mass = p.inverse_mass * load<V>(p.moves);
-  const float inverse_h = 1 / p.h, inverse_h2 = inverse_h * inverse_h;
-  for (const KernelSpring<float>& s : list) {
-    const Vec<V> di = load<V>(d, s.i), dj = load<V>(d, s.j), moved = dj - di;
-    const Vec<V> dx = (load<V>(x, s.j) - load<V>(x, s.i)) + moved;
-    const V length = square_root(dot(dx, dx));
-    const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
-    const float damping = s.damping * inverse_h;
-    const float yields = 1 / ((s.stiffness + damping) * 2 * p.inverse_mass + inverse_h2);
-    const V impulse = yields * (s.stiffness * (length - s.rest) + damping * dot(moved, n));
-    const Vec<V> shift = (inverse_mass * impulse) * n;
-    store(d, s.i, di + shift);
-    store(d, s.j, dj - shift);
-  }
-}
-
 /// Signed volume by the divergence theorem: the sum of a . (b x c) / 6 over the faces. Corners are taken relative to
 /// one of them and summed in blocks, because rounding errors of the volume would make a body at rest pulsate.
-template <class V>
-HWY_INLINE void volume(std::span<const KernelTriangle> faces, Field<const Value<V>> x, Value<V>* result) {
-  using Real = Value<V>;
+template <class V, int width>
+HWY_INLINE void volume(std::span<const Triangle> faces, Field<const Value<V>> x, Value<V>* result) {
   constexpr std::size_t block = 16;
-  const Vec<V> from = faces.empty() ? Vec<V>{} : load<V>(x, faces[0][0]);
+  const Vec<V> from = faces.empty() ? Vec<V>{} : load<V>(x, faces[0][0] * width);
   V six{};
   for (std::size_t first = 0; first < faces.size(); first += block) {
     V part{};
     for (const auto& [a, b, c] : faces.subspan(first, std::min(block, faces.size() - first)))
-      part += dot(load<V>(x, a) - from, cross(load<V>(x, b) - from, load<V>(x, c) - from));
+      part += dot(load<V>(x, a * width) - from, cross(load<V>(x, b * width) - from, load<V>(x, c * width) - from));
     six += part;
   }
-  store(result, six / Real(6));
+  store(result, six / Value<V>(6));
 }
 
-/// SurfaceShape::two_medians: the largest sum of two medians of one face.
-template <class V>
-HWY_INLINE void medians(std::span<const KernelTriangle> faces, Field<const float> x, float* result) {
-  V largest{};
-  for (const auto& [a, b, c] : faces) {
-    const Vec<V> ab = load<V>(x, b) - load<V>(x, a), ac = load<V>(x, c) - load<V>(x, a);
-    const Vec<V> bc = ac - ab, twice_a = ab + ac, twice_b = bc - ab,
-                 twice_c = bc + ac;  // each of length twice a median
-    const V from_a = square_root(dot(twice_a, twice_a)), from_b = square_root(dot(twice_b, twice_b)),
-            from_c = square_root(dot(twice_c, twice_c));
-    largest = larger(larger(from_a + from_b, larger(from_b + from_c, from_c + from_a)), largest);
-  }
-  store(result, largest / 2.0f);
-}
-
-/// SurfaceShape::stretch: adds the springs' stiffness times the squared difference of the vectors at their ends.
-template <class V>
-HWY_INLINE void stretch(std::span<const KernelSpring<float>> list, Field<const float> a, float* sum) {
-  V all = load<V>(sum);
-  for (const KernelSpring<float>& s : list) {
-    const Vec<V> d = load<V>(a, s.j) - load<V>(a, s.i);
-    all += s.stiffness * dot(d, d);
-  }
-  store(sum, all);
-}
-
-/// Adds a third of each face's pressure force to each of its corners (Matyka & Ollila 2003).
-template <class V>
-HWY_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Value<V>> x, const Value<V>* gauge,
-                         Field<Value<V>> f) {
-  using Real = Value<V>;
-  const V sixth = load<V>(gauge) / Real(6);
-  for (const auto& [a, b, c] : faces) {
+/// Adds a third of each face's pressure force to each of its corners (Matyka & Ollila 2003). gauge: Pa, for each lane.
+template <class V, int width>
+HWY_INLINE void push_faces(std::span<const Triangle> faces, Field<const Value<V>> x, const Value<V>* gauge,
+                           Field<Value<V>> f) {
+  const V sixth = load<V>(gauge) / Value<V>(6);
+  for (const auto& [i, j, k] : faces) {
+    const std::size_t a = i * width, b = j * width, c = k * width;
     const Vec<V> pa = load<V>(x, a);
     const Vec<V> third = sixth * cross(load<V>(x, b) - pa, load<V>(x, c) - pa);
     store(f, a, load<V>(f, a) + third);
@@ -120,7 +53,7 @@ HWY_INLINE void pressure(std::span<const KernelTriangle> faces, Field<const Valu
 /// Computes the moments for fit_shape(), relative to one of the particles and in blocks, as in volume().
 template <class V, int width>
 HWY_INLINE void shape_moments(std::span<const ShapePoint<Value<V>>> shape, Field<const Value<V>> x,
-                              ShapeMoments<Value<V>>& m, std::size_t lane = 0) {
+                              ShapeMoments<Value<V>>& m) {
   using Real = Value<V>;
   constexpr std::size_t block = 16;
   const Vec<V> from = load<V>(x, 0);
@@ -140,28 +73,178 @@ HWY_INLINE void shape_moments(std::span<const ShapePoint<Value<V>>> shape, Field
     covariance[2] = covariance[2] + c;
   }
   const V share = V(Real(1) / static_cast<Real>(shape.size()));
-  store(Field<Real>{m.mean[0], m.mean[1], m.mean[2]}, lane, from + share * sum);
+  store(Field<Real>{m.mean[0], m.mean[1], m.mean[2]}, 0, from + share * sum);
   for (int k = 0; k < 3; ++k)
-    store(Field<Real>{m.covariance[3 * k], m.covariance[3 * k + 1], m.covariance[3 * k + 2]}, lane, covariance[k]);
+    store(Field<Real>{m.covariance[3 * k], m.covariance[3 * k + 1], m.covariance[3 * k + 2]}, 0, covariance[k]);
 }
 
-/// Pulls each particle to its goal: f += stiffness (centre + R q - x).
-template <class V, int width>
-HWY_INLINE void shape_pull(std::span<const ShapePoint<Value<V>>> shape, const ShapePose<Value<V>>& pose,
-                           Value<V> stiffness, Field<const Value<V>> x, Field<Value<V>> f, std::size_t lane = 0) {
-  using Real = Value<V>;
-  const auto vector = [lane](const Real(*v)[lanes]) HWY_ATTR -> Vec<V> {
-    return {load<V>(v[0] + lane), load<V>(v[1] + lane), load<V>(v[2] + lane)};
-  };
-  const Vec<V> centre = vector(pose.centre);
-  Vec<V> column[3];
-  for (int k = 0; k < 3; ++k) column[k] = vector(pose.rotation + 3 * k);
-  const V pull = V(stiffness);
-  for (std::size_t i = 0; i < shape.size(); ++i) {
-    const Vec<V> goal = centre + V(shape[i].x) * column[0] + V(shape[i].y) * column[1] + V(shape[i].z) * column[2];
-    store(f, i * width, load<V>(f, i * width) + pull * (goal - load<V>(x, i * width)));
+/// Finds what a force finds once from all particles.
+template <class F, class V, int width>
+HWY_INLINE void hold(const typename F::Data& data, Field<const Value<V>> x, int used, HeldOf<F, Value<V>>& held) {
+  if constexpr (F::coordinate == Coordinate::offset) {
+    ShapeMoments<Value<V>> moments;
+    shape_moments<V, width>(data.template points<Value<V>>(), x, moments);
+    fit_shape<Value<V>>(moments, std::min(used, lanes_of<V>), held);
   }
 }
+
+/// Calls at(element, law) for each element of a force in bodies of a model; of offsets at(element, place, law).
+template <class F, class V, class At>
+HWY_INLINE void visit(const BodyModel& model, const typename F::Data& data, const HeldOf<F, Value<V>>& held,
+                      const At& at) {
+  using Real = Value<V>;
+  if constexpr (F::coordinate == Coordinate::length) {
+    for (const auto& law : F::template elements<Real>(data)) at(Length{law.i, law.j}, law);
+  } else if constexpr (F::coordinate == Coordinate::volume) {
+    at(Volume{}, data);
+  } else if constexpr (F::coordinate == Coordinate::path) {
+    for (Index i = 0; i < model.mesh.vertices.size(); ++i) at(Path{i}, data);
+  } else {
+    const auto vector = [](const Real(*v)[lanes]) HWY_ATTR -> Vec<V> {
+      return {load<V>(v[0]), load<V>(v[1]), load<V>(v[2])};
+    };
+    const Vec<V> centre = vector(held.centre);
+    Vec<V> column[3];
+    for (int k = 0; k < 3; ++k) column[k] = vector(held.rotation + 3 * k);
+    for (Index i = 0; const auto& q : data.template points<Real>())
+      at(Offset{i++}, centre + V(q.x) * column[0] + V(q.y) * column[1] + V(q.z) * column[2], data);
+  }
+}
+
+/// Adds the forces of elements.
+template <class V, int width, class Motion>
+struct AddForces {
+  using Real = Value<V>;
+  const LaneBodies<Real>& b;
+  const Motion& motion;
+
+  /// f = (pull(L) + c (dv . dx) / L) dx / L on i, minus that on j, so (pull(L) L + c dv . dx) dx / L^2, in which the
+  /// root and the quotient do not wait for each other. Particles at the same place have no direction, and no force.
+  HWY_INLINE void operator()(Length c, const auto& law) const {
+    const std::size_t i = c.i * width, j = c.j * width;
+    const V tiny = V(Real(1e-24));  // m^2: its inverse is finite, and times a pull of 0 it is 0
+    const Vec<V> dx = load<V>(b.x, j) - load<V>(b.x, i);
+    const V square = dot(dx, dx), length = square_root(square);
+    V pull = law.pull(length) * length;
+    if constexpr (std::is_same_v<Motion, Moving>)
+      pull += law.damping * dot(load<V>(motion.v, j) - load<V>(motion.v, i), dx);
+    Vec<V> force = (pull * (Real(1) / larger(square, tiny))) * dx;
+    if constexpr (std::is_same_v<Motion, SinceStart>)
+      if (law.damping > 0) {
+        const Vec<V> before = load<V>(motion.x, j) - load<V>(motion.x, i);
+        const V gone = dot(dx - before, before) / larger(dot(before, before), tiny);
+        force = force + (law.damping * motion.inverse_h * gone) * before;
+      }
+    store(b.f, i, load<V>(b.f, i) + force);
+    store(b.f, j, load<V>(b.f, j) - force);
+  }
+
+  HWY_INLINE void operator()(Volume, const auto& law) const {
+    Real volume[lanes]{}, gauge[lanes]{};
+    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    for (int l = 0; l < std::min(b.used, lanes_of<V>); ++l) gauge[l] = static_cast<Real>(-law.pull(double(volume[l])));
+    push_faces<V, width>(b.model.mesh.triangles, b.x, gauge, b.f);
+  }
+
+  HWY_INLINE void operator()(Offset c, const Vec<V>& place, const auto& law) const {
+    const std::size_t i = c.i * width;
+    store(b.f, i, load<V>(b.f, i) + V(static_cast<Real>(law.stiffness)) * (place - load<V>(b.x, i)));
+  }
+
+  HWY_INLINE void operator()(Path c, const auto& law) const {
+    const std::size_t i = c.i * width;
+    if constexpr (std::is_same_v<Motion, Moving>) {
+      store(b.f, i, load<V>(b.f, i) - V(static_cast<Real>(law.damping)) * load<V>(motion.v, i));
+    } else if constexpr (std::is_same_v<Motion, SinceStart>) {
+      const Vec<V> rate = V(motion.inverse_h) * (load<V>(b.x, i) - load<V>(motion.x, i)) +
+                          V(motion.inverse_frame_time) * load<V>(motion.frame, i);
+      store(b.f, i, load<V>(b.f, i) - V(law.damping) * rate);
+    }
+  }
+};
+
+/// XPBD, one pass without accumulated multipliers (Macklin et al. 2016, eq. 18 and 26 times the stiffness): a law as a
+/// constraint of compliance 1 / k with its damper. Particles are at x0 + d. Their displacements d in this step are
+/// small, so that velocities lose no digits in floats.
+template <class V, int width>
+struct Project {
+  const LaneBodies<float>& b;
+  const Projection& p;
+  float inverse_mass;  // 1/kg, of a particle
+
+  HWY_INLINE void operator()(Length c, const auto& law) const {
+    const std::size_t i = c.i * width, j = c.j * width;
+    const V tiny = V(1e-12f);  // m
+    const float inverse_h = 1 / p.h, inverse_h2 = inverse_h * inverse_h;
+    const Vec<V> di = load<V>(p.d, i), dj = load<V>(p.d, j), moved = dj - di;
+    const Vec<V> dx = (load<V>(p.x0, j) - load<V>(p.x0, i)) + moved;
+    const V length = square_root(dot(dx, dx));
+    const Vec<V> n = (1.0f / larger(length, tiny)) * dx;
+    const float damping = law.damping * inverse_h;
+    const float yields = 1 / ((law.stiffness + damping) * 2 * inverse_mass + inverse_h2);
+    const V impulse = yields * (law.pull(length) + damping * dot(moved, n));
+    const Vec<V> shift = ((inverse_mass * load<V>(p.moves)) * impulse) * n;
+    store(p.d, i, di + shift);
+    store(p.d, j, dj - shift);
+  }
+
+  /// The limit of one constraint on the volume V, with the law as its compliance: along the gradient g of V that pull
+  /// acts that the step ends with, to first order: pull(V) / (1 + pull'(V) h^2 |g|^2 / m). Wants b.x to be x0 + d.
+  HWY_INLINE void operator()(Volume, const auto& law) const {
+    constexpr std::size_t run = lanes_of<V>;
+    const std::size_t size = b.model.mesh.vertices.size() * width;
+    float volume[lanes]{}, unit[lanes], shift[lanes]{};
+    double square[lanes]{};
+    std::fill_n(unit, lanes, 1.0f);
+    for (std::size_t at = 0; at < size; at += width) store(p.scratch, at, Vec<V>{});
+    body::volume<V, width>(b.model.mesh.triangles, b.x, volume);
+    push_faces<V, width>(b.model.mesh.triangles, b.x, unit, p.scratch);
+    for (const float* gradient : {p.scratch.x, p.scratch.y, p.scratch.z})
+      for (std::size_t at = 0; at < size; at += width)
+        for (std::size_t l = 0; l < run; ++l) square[l] += double(gradient[at + l]) * double(gradient[at + l]);
+    const double h2_m = double(p.h) * double(p.h) / b.model.particle_mass;
+    for (std::size_t l = 0; l < run; ++l) {
+      const Jet pull = law.pull(Jet(double(volume[l]), 1));
+      shift[l] = p.moves[l] * float(h2_m * -pull.value / (1 + pull.slope * h2_m * square[l]));
+    }
+    const V shifted = load<V>(shift);
+    for (std::size_t at = 0; at < size; at += width)
+      store(p.d, at, load<V>(p.d, at) + shifted * load<V>(p.scratch, at));
+  }
+
+  /// The exact end of a step of this damper alone.
+  HWY_INLINE void operator()(Path c, const auto& law) const {
+    const std::size_t i = c.i * width;
+    const float lost = 1 - 1 / (1 + p.h * static_cast<float>(law.damping) * inverse_mass);
+    store(p.d, i, (V(1.0f) - V(lost) * load<V>(p.moves)) * load<V>(p.d, i));
+  }
+};
+
+/// SurfaceShape::two_medians of each lane: the largest sum of two medians of one face.
+template <class V, int width>
+HWY_INLINE void medians(std::span<const Triangle> faces, Field<const float> x, float* result) {
+  V largest{};
+  for (const auto& [a, b, c] : faces) {
+    const Vec<V> pa = load<V>(x, a * width), ab = load<V>(x, b * width) - pa, ac = load<V>(x, c * width) - pa;
+    const Vec<V> bc = ac - ab, twice_a = ab + ac, twice_b = bc - ab,
+                 twice_c = bc + ac;  // each of length twice a median
+    const V from_a = square_root(dot(twice_a, twice_a)), from_b = square_root(dot(twice_b, twice_b)),
+            from_c = square_root(dot(twice_c, twice_c));
+    largest = larger(larger(from_a + from_b, larger(from_b + from_c, from_c + from_a)), largest);
+  }
+  store(result, largest / 2.0f);
+}
+
+/// SurfaceShape::stretch: adds the stiffness of pairs times the squared difference of the vectors at their ends.
+template <class V, int width>
+struct AddStretch {
+  Field<const float> area;
+  V& sum;
+  HWY_INLINE void operator()(Length c, const auto& law) const {
+    const Vec<V> d = load<V>(area, c.j * width) - load<V>(area, c.i * width);
+    sum += law.stiffness * dot(d, d);
+  }
+};
 
 }  // namespace body
 }  // namespace HWY_NAMESPACE

@@ -1,51 +1,64 @@
 #pragma once
 // Arguments of the kernels of forces. Narrow blocks use only the first values of arrays over lanes.
 
-#include <array>
-#include <cstdint>
-#include <vector>
+#include <tuple>
 
-#include "softbody/state/lanes.h"
+#include "softbody/forces/bound.h"
+#include "softbody/forces/model_forces.h"
 
 namespace softbody {
 
-/// A spring for the kernels: particle indices are already multiplied by the width of the batch.
+/// Bodies of one model side by side, the first `used` of them, and the forces on them.
 template <class Real>
-struct KernelSpring {
-  std::uint32_t i, j;
-  Real rest, stiffness, damping;
+struct LaneBodies {
+  const BodyModel& model;
+  int used;
+  Field<const Real> x;  // m
+  Field<Real> f;        // N
+
+  /// Returns those from a lane on.
+  LaneBodies from(std::size_t lane) const { return {model, used - int(lane), x + lane, f + lane}; }
 };
 
-template <class Real>
-using KernelSpringsOf = std::vector<KernelSpring<Real>>;
-using KernelSprings = KernelSpringsOf<float>;
+/// Dampers see no motion.
+struct Still {};
 
-/// Corners of a face, already multiplied by the width of the batch.
-using KernelTriangle = std::array<std::uint32_t, 3>;
-
-/// A particle's place in the goal shape, relative to the mean of all; see shape_matching.h.
-template <class Real>
-struct ShapePoint {
-  Real x, y, z;
+/// Dampers see velocities.
+struct Moving {
+  Field<const float> v;  // m/s
 };
 
-/// Moments of the body in each lane: the mean of x, and the sum of x q^T with the places q of ShapePoint. Column c of
-/// the matrix begins at 3 c.
-template <class Real>
-struct ShapeMoments {
-  Real mean[3][lanes], covariance[9][lanes];
+/// Dampers see how far particles have gone since the start of an implicit step of h seconds. They act along the
+/// directions that their coordinates had then, so that the damping has a potential. `frame`: what particles go without
+/// leaving their places in a frame that moves with the body, in `frame_time` seconds.
+struct SinceStart {
+  double inverse_h;  // 1/s
+  Field<const double> x, frame;
+  double inverse_frame_time;  // 1/s
 };
 
-/// Pose of the goal shape: x = centre + rotation q. Column c of the rotation begins at 3 c.
-template <class Real>
-struct ShapePose {
-  Real centre[3][lanes], rotation[9][lanes];
+/// XPBD's displacements d in a step of h seconds that started at x0.
+struct Projection {
+  float h;                  // s
+  const float* moves;       // 0 or 1 for each lane
+  Field<const float> x0;    // m
+  Field<float> d, scratch;  // m; scratch: room for as much
+
+  /// Returns that of the bodies from a lane on.
+  Projection from(std::size_t lane) const { return {h, moves + lane, x0 + lane, d + lane, scratch + lane}; }
 };
 
-struct ProjectArguments {
-  float h;             // s
-  float inverse_mass;  // 1/kg, of a particle
-  const float* moves;  // 0 or 1 for each lane
+/// What a force of a coordinate finds once from all particles: the poses of the shapes that offsets are from.
+template <class F, class Real>
+struct HeldOf {};
+template <HasElements F, class Real>
+requires(F::coordinate == Coordinate::offset) struct HeldOf<F, Real> : ShapePose<Real> {
 };
+
+namespace detail {
+template <class Real, class... F>
+std::tuple<HeldOf<F, Real>...> held_of(List<F...>);
+}
+using HeldForces = decltype(detail::held_of<double>(Forces{}));
 
 }  // namespace softbody

@@ -11,49 +11,101 @@ namespace softbody {
 namespace HWY_NAMESPACE {
 namespace {
 
-using ConstField = Field<const float>;
-using Springs = std::span<const KernelSpring<float>>;
-using Shape = std::span<const ShapePoint<float>>;
-using Triangles = std::span<const KernelTriangle>;
+using namespace body;
 
 /// The kernels of one width: each run of lanes on its own.
 template <int width>
 struct Kernels {
-  using V = body::Run<float, width>;
-  static constexpr std::size_t step = body::lanes_of<V>;
+  using V = Run<float, width>;
+  static constexpr std::size_t step = lanes_of<V>;
 
-  static void springs(std::size_t used, Springs s, ConstField x, ConstField v, Field<float> f) {
-    for (std::size_t l = 0; l < used; l += step) body::springs<V>(s, x + l, v + l, f + l);
+  template <class F>
+  static void add(const LaneBodies<float>& all, const Moving& motion) {
+    const auto* d = data<F>(all.model);
+    if (!d) return;
+    for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
+      const LaneBodies<float> b = all.from(l);
+      HeldOf<F, float> held;
+      hold<F, V, width>(*d, b.x, b.used, held);
+      const Moving moving{motion.v + l};
+      visit<F, V>(b.model, *d, held, AddForces<V, width, Moving>{b, moving});
+    }
   }
-  static void project_springs(std::size_t used, const ProjectArguments& p, Springs s, ConstField x, Field<float> d) {
-    for (std::size_t l = 0; l < used; l += step)
-      body::project_springs<V>({p.h, p.inverse_mass, p.moves + l}, s, x + l, d + l);
+  template <class F>
+  static void project(const LaneBodies<float>& all, const Projection& p) {
+    const auto* d = data<F>(all.model);
+    if (!d) return;
+    for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
+      const LaneBodies<float> b = all.from(l);
+      const Projection own = p.from(l);
+      visit<F, V>(b.model, *d, {}, Project<V, width>{b, own, float(1 / b.model.particle_mass)});
+    }
   }
-  static void volume(std::size_t used, Triangles t, ConstField x, float* result) {
-    for (std::size_t l = 0; l < used; l += step) body::volume<V>(t, x + l, result + l);
+  static void measure_surfaces(const LaneBodies<float>& all, SurfaceShape* result) {
+    const std::vector<Triangle>& faces = all.model.mesh.triangles;
+    for (std::size_t first = 0; first < std::size_t(all.used); first += step) {
+      const LaneBodies<float> b = all.from(first);
+      float volumes[lanes]{}, area2[lanes]{}, stretch[lanes]{}, two_medians[lanes]{}, one[lanes];
+      std::fill_n(one, lanes, 1.0f);
+      body::volume<V, width>(faces, b.x, volumes);
+      medians<V, width>(faces, b.x, two_medians);
+      push_faces<V, width>(faces, b.x, one, b.f);
+      V square{}, sum{};
+      for (std::size_t at = 0; at < b.model.mesh.vertices.size() * width; at += width) {
+        const Vec<V> a = load<V>(b.f, at);
+        square += dot(a, a);
+      }
+      store(area2, square);
+      for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+        if constexpr (HasElements<F>) {
+          if constexpr (F::coordinate == Coordinate::length)
+            if (const auto* d = data<F>(b.model)) visit<F, V>(b.model, *d, {}, AddStretch<V, width>{b.f, sum});
+        }
+      });
+      store(stretch, sum);
+      for (int l = 0; l < std::min(b.used, int(step)); ++l)
+        result[first + std::size_t(l)] = {volumes[l], area2[l], stretch[l], two_medians[l]};
+    }
   }
-  static void medians(std::size_t used, Triangles t, ConstField x, float* largest) {
-    for (std::size_t l = 0; l < used; l += step) body::medians<V>(t, x + l, largest + l);
+  static constexpr ForceKernels make() {
+    ForceKernels kernels{};
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (HasElements<F>) kernels.add[index_of<F>] = &Kernels::template add<F>;
+      if constexpr (is_projected<F>()) kernels.project[index_of<F>] = &Kernels::template project<F>;
+    });
+    kernels.measure_surfaces = &Kernels::measure_surfaces;
+    return kernels;
   }
-  static void stretch(std::size_t used, Springs s, ConstField a, float* sum) {
-    for (std::size_t l = 0; l < used; l += step) body::stretch<V>(s, a + l, sum + l);
-  }
-  static void pressure(std::size_t used, Triangles t, ConstField x, const float* gauge, Field<float> f) {
-    for (std::size_t l = 0; l < used; l += step) body::pressure<V>(t, x + l, gauge + l, f + l);
-  }
-  static void shape_moments(std::size_t used, Shape s, ConstField x, ShapeMoments<float>& m) {
-    for (std::size_t l = 0; l < used; l += step) body::shape_moments<V, width>(s, x + l, m, l);
-  }
-  static void shape_pull(std::size_t used, Shape s, const ShapePose<float>& p, float k, ConstField x, Field<float> f) {
-    for (std::size_t l = 0; l < used; l += step) body::shape_pull<V, width>(s, p, k, x + l, f + l, l);
-  }
-  static constexpr ForceKernels table{springs, project_springs, volume,        medians,
-                                      stretch, pressure,        shape_moments, shape_pull};
 };
+template <int width>
+constexpr ForceKernels table = Kernels<width>::make();
+
+using W = Wide<double, implicit_lanes>;
+
+void hold_forces(const LaneBodies<double>& b, HeldForces& held) {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+    if constexpr (HasElements<F>)
+      if (const auto* d = data<F>(b.model)) hold<F, W, implicit_lanes>(*d, b.x, b.used, std::get<index_of<F>>(held));
+  });
+}
+
+template <bool external_only>
+void add_forces(const LaneBodies<double>& b, const HeldForces& held, const SinceStart& motion) {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
+    if constexpr (HasElements<F>) {
+      if constexpr (!external_only || !F::internal)
+        if (const auto* d = data<F>(b.model))
+          visit<F, W>(b.model, *d, std::get<index_of<F>>(held), AddForces<W, implicit_lanes, SinceStart>{b, motion});
+    }
+  });
+}
+
+constexpr ImplicitForceKernels implicit_table{hold_forces, add_forces<false>, add_forces<true>};
 
 const ForceKernels& Table(int width) {
-  return with_width(width, [](auto w) -> const ForceKernels& { return Kernels<w>::table; });
+  return with_width(width, [](auto w) -> const ForceKernels& { return table<w>; });
 }
+const ImplicitForceKernels& ImplicitTable() { return implicit_table; }
 
 }  // namespace
 }  // namespace HWY_NAMESPACE
@@ -64,8 +116,10 @@ HWY_AFTER_NAMESPACE();
 namespace softbody {
 
 HWY_EXPORT(Table);
+HWY_EXPORT(ImplicitTable);
 
 const ForceKernels& force_kernels(int width) { return HWY_DYNAMIC_DISPATCH(Table)(width); }
+const ImplicitForceKernels& implicit_force_kernels() { return HWY_DYNAMIC_DISPATCH(ImplicitTable)(); }
 
 }  // namespace softbody
 #endif  // HWY_ONCE

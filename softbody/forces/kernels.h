@@ -1,31 +1,28 @@
 #pragma once
-// The inner loops of forces over one batch of bodies. Vectorised with Highway, which chooses the processor's
-// instruction set at run time; the result is the same on every one.
+// The kernels of forces over one batch of bodies. Vectorised with Highway, which chooses the processor's instruction
+// set at run time; the result is the same on every one.
 
-#include <cstddef>
-#include <span>
+#include <array>
 
 #include "softbody/forces/kernel_types.h"
 
 namespace softbody {
 
-/// For batches of one width. `used`: lanes from the first on that hold a body; others may be left out.
+/// In the order of the table of forces; nullptr for those that lack it.
 struct ForceKernels {
-  void (*springs)(std::size_t used, std::span<const KernelSpring<float>>, Field<const float> x, Field<const float> v,
-                  Field<float> f);
-  void (*project_springs)(std::size_t used, const ProjectArguments&, std::span<const KernelSpring<float>>,
-                          Field<const float> x, Field<float> d);
-  void (*volume)(std::size_t used, std::span<const KernelTriangle>, Field<const float> x, float* volume);
-  void (*medians)(std::size_t used, std::span<const KernelTriangle>, Field<const float> x, float* largest);
-  void (*stretch)(std::size_t used, std::span<const KernelSpring<float>>, Field<const float> a, float* sum);
-  void (*pressure)(std::size_t used, std::span<const KernelTriangle>, Field<const float> x, const float* gauge_pressure,
-                   Field<float> f);
-  void (*shape_moments)(std::size_t used, std::span<const ShapePoint<float>>, Field<const float> x,
-                        ShapeMoments<float>&);
-  void (*shape_pull)(std::size_t used, std::span<const ShapePoint<float>>, const ShapePose<float>&, float stiffness,
-                     Field<const float> x, Field<float> f);
+  std::array<void (*)(const LaneBodies<float>&, const Moving&), force_count> add;
+  std::array<void (*)(const LaneBodies<float>&, const Projection&), force_count> project;
+  /// Measures the surface of the body in each lane. f: room for dV/dx, and zero.
+  void (*measure_surfaces)(const LaneBodies<float>&, SurfaceShape*);
 };
-
 const ForceKernels& force_kernels(int width);
+
+/// For implicit steps, in double.
+struct ImplicitForceKernels {
+  void (*hold)(const LaneBodies<double>&, HeldForces&);
+  void (*add)(const LaneBodies<double>&, const HeldForces&, const SinceStart&);
+  void (*add_external)(const LaneBodies<double>&, const HeldForces&, const SinceStart&);  // those not internal
+};
+const ImplicitForceKernels& implicit_force_kernels();
 
 }  // namespace softbody

@@ -10,17 +10,15 @@
 namespace softbody {
 namespace {
 
-template <class... Force>
-std::vector<const Key*> list_keys(List<Force...>) {
+std::vector<const Key*> list_keys() {
   std::vector<const Key*> list;
   const auto add = [&list](const auto& keys) {
     for (const Key* key : keys) list.push_back(key);
   };
   add(Material::keys);
-  const auto add_force = [&]<class F>(F*) {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
     if constexpr (requires { F::keys; }) add(F::keys);
-  };
-  (add_force(static_cast<Force*>(nullptr)), ...);
+  });
   add(contact::keys);
   std::ranges::stable_sort(list, {}, [](const Key* key) { return key->options.place; });
   return list;
@@ -29,7 +27,7 @@ std::vector<const Key*> list_keys(List<Force...>) {
 }  // namespace
 
 std::span<const Key* const> material_keys() {
-  static const std::vector<const Key*> all = list_keys(Forces{});
+  static const std::vector<const Key*> all = list_keys();
   return all;
 }
 

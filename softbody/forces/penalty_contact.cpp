@@ -57,9 +57,9 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
   const auto still = [&state, bodies = vertex_body](const collide::Contact& c) {
     return !state.body(bodies[c.a]).moves() && !state.body(bodies[c.b]).moves();
   };
-  const auto of_bodies = [&state, &vertices](const Key& key) {
+  const auto of_bodies = [&state, &vertices](const Key& value) {
     std::vector<double> values;
-    for (BodyId body = 0; body < vertices.count(); ++body) values.push_back(state.model(body).material[key]);
+    for (BodyId body = 0; body < vertices.count(); ++body) values.push_back(state.model(body).material[value]);
     return values;
   };
   const std::vector<double> stiffness = of_bodies(contact::stiffness), friction = of_bodies(contact::friction);
@@ -117,6 +117,18 @@ void PenaltyContact::group(const State& state) {
     ends[next[batch_of(pairs[i].body_a)]++] = {pairs[i].slot_a, i, 1.0f};
     ends[next[batch_of(pairs[i].body_b)]++] = {pairs[i].slot_b, i, -1.0f};
   }
+}
+
+/// The given stiffness is for the particles of the paper's sphere. If a body has more particles, more of them share a
+/// contact, so they share the stiffness, too.
+void PenaltyContact::adapt(Material& material, const MeshSource& source) {
+  constexpr double stated_for = 162;  // vertices
+  if (source.kind == "file") material[contact::stiffness] *= std::min(1.0, stated_for / double(source.vertex_count()));
+}
+
+void PenaltyContact::add(const ForceBatch& b) const {
+  const Field<float> f = field(b.state.f);
+  for (const PenaltyEnd& end : ends_of(b.batch)) softbody::add(f, end.slot, end.sign * force[end.pair]);
 }
 
 void PenaltyContact::evaluate(collide::Part part, Field<const float> x, Field<const float> v, float seconds) {

@@ -22,8 +22,8 @@
 #include <glm/vec3.hpp>
 
 #include "collide/core/detector.h"
+#include "softbody/forces/force.h"
 #include "softbody/forces/pair_energy.h"
-#include "softbody/state/state.h"
 
 namespace softbody {
 
@@ -54,6 +54,14 @@ struct PenaltyEnd {
 };
 
 struct PenaltyContact {
+  static constexpr std::string_view key = "contact-response";
+  static constexpr bool internal = false;
+  static const char* why_not(const ForceFacts& facts) { return facts.why_no_vertex_contact; }
+  static void adapt(Material& material, const MeshSource& source);
+
+  /// Adds the forces that evaluate() has found.
+  void add(const ForceBatch& batch) const;
+
   static constexpr float rebound_speed = 2.0f;   // v, m/s
   static constexpr float approach_limit = 3.0f;  // upper clamp of the damping factor
   float thickness = 0;                           // h, m

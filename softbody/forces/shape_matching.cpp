@@ -1,7 +1,8 @@
 #include "softbody/forces/shape_matching.h"
 
-#include <glm/geometric.hpp>
-#include <glm/matrix.hpp>
+#include <numbers>
+
+#include <glm/mat3x3.hpp>
 
 #include "softbody/forces/best_rotation.h"
 
@@ -24,22 +25,19 @@ void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pos
 template void fit_shape<float>(const ShapeMoments<float>&, int, ShapePose<float>&);
 template void fit_shape<double>(const ShapeMoments<double>&, int, ShapePose<double>&);
 
-double shape_stiffness(const BodyModel& p) { return p.particle_mass * p.shape_rate * p.shape_rate; }
-
-double shape_energy(const BodyModel& p, const std::vector<glm::dvec3>& x) {
-  if (p.goal.empty()) return 0;
-  glm::dvec3 centre(0.0);
-  for (std::size_t i = 0; i < p.goal.size(); ++i) centre += (x[i] - x[0]) / double(x.size());
-  centre += x[0];
-  glm::dmat3 covariance(0.0);
-  for (std::size_t i = 0; i < p.goal.size(); ++i) covariance += glm::outerProduct(x[i] - centre, p.goal[i]);
-  const glm::dmat3 rotation = best_rotation(covariance);
-  double square_sum = 0;
-  for (std::size_t i = 0; i < p.goal.size(); ++i) {
-    const glm::dvec3 away = x[i] - centre - rotation * p.goal[i];
-    square_sum += glm::dot(away, away);
+std::optional<ShapeMatching::Data> ShapeMatching::make(const BodyModel& p, const MeshSource& source) {
+  const double by_kind = source.kind == "file" ? mesh_file_shape_frequency : 0;
+  const double rate = 2 * std::numbers::pi * (p.material.given(frequency) ? p.material[frequency] : by_kind);
+  if (rate <= 0) return {};
+  Data data{p.particle_mass * rate * rate, {}, {}};
+  glm::dvec3 mean(0.0);
+  for (const glm::dvec3& v : p.mesh.vertices) mean += v / double(p.mesh.vertices.size());
+  for (const glm::dvec3& v : p.mesh.vertices) {
+    const glm::dvec3 q = v - mean;
+    data.exact.push_back({q.x, q.y, q.z});
+    data.rounded.push_back({float(q.x), float(q.y), float(q.z)});
   }
-  return 0.5 * shape_stiffness(p) * square_sum;
+  return data;
 }
 
 }  // namespace softbody

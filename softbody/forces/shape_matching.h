@@ -11,31 +11,64 @@
 
 #include <array>
 
-#include "softbody/forces/kernel_types.h"
+#include <optional>
+#include <vector>
+
+#include "softbody/forces/coordinates.h"
 #include "softbody/model/body_model.h"
-#include "softbody/model/key.h"
+#include "softbody/state/lanes.h"
 
 namespace softbody {
 
 inline constexpr double mesh_file_shape_frequency = 10;  // Hz
 
+/// A particle's place in the goal shape, relative to the mean of all.
+template <class Real>
+struct ShapePoint {
+  Real x, y, z;
+};
+
+/// Moments of the body in each lane: the mean of x, and the sum of x q^T with the places q of ShapePoint. Column c of
+/// the matrix begins at 3 c.
+template <class Real>
+struct ShapeMoments {
+  Real mean[3][lanes], covariance[9][lanes];
+};
+
+/// Pose of the goal shape: x = centre + rotation q. Column c of the rotation begins at 3 c.
+template <class Real>
+struct ShapePose {
+  Real centre[3][lanes], rotation[9][lanes];
+};
 struct ShapeMatching {
+  static constexpr std::string_view key = "shape-matching";
   static constexpr auto frequency =
       Key("shape_frequency", "Hz", not_given, {0, 1e3},
           "Frequency with which a single particle swings about its place in the mesh's own shape. 0: the body does not "
           "keep its shape by itself.",
           {}, {.place = 40, .if_missing = "10 for meshes from files, else 0"});
   static constexpr std::array keys{&frequency};
+  static constexpr bool internal = true;
+  static constexpr auto coordinate = Coordinate::offset;
+  static constexpr const char* absent = "no body keeps its shape by itself";
+
+  struct Data {
+    double stiffness;  // m w^2 in N/m
+    std::vector<ShapePoint<double>> exact;
+    std::vector<ShapePoint<float>> rounded;  // the same
+    template <class Real>
+    const std::vector<ShapePoint<Real>>& points() const {
+      if constexpr (std::is_same_v<Real, float>)
+        return rounded;
+      else
+        return exact;
+    }
+  };
+  static std::optional<Data> make(const BodyModel& model, const MeshSource& source);
 };
 
 /// Finds the pose of the goal shape in each of the first `used` lanes; the other lanes of `pose` are not changed.
 template <class Real>
 void fit_shape(const ShapeMoments<Real>& moments, int used, ShapePose<Real>& pose);
-
-/// Returns m w^2 in N/m, the stiffness of the pull on one particle.
-double shape_stiffness(const BodyModel& model);
-
-/// Returns the energy in J of one body with its particles at x; 0 without shape matching.
-double shape_energy(const BodyModel& model, const std::vector<glm::dvec3>& x);
 
 }  // namespace softbody

@@ -1,18 +1,65 @@
 #pragma once
 // Springs: Hooke's law with a damper along the spring.
 
-#include <array>
+#include <hwy/base.h>
 
-#include "softbody/model/key.h"
+#include <array>
+#include <functional>
+#include <optional>
+#include <vector>
+
+#include "softbody/forces/coordinates.h"
+#include "softbody/model/body_model.h"
 
 namespace softbody {
+
+template <class Real>
+struct SpringOf {
+  Index i, j;
+  Real rest;       // m
+  Real stiffness;  // N/m
+  Real damping;    // N s/m, along the spring
+
+  /// T: a number, a Jet or one number for each lane.
+  template <class T>
+  HWY_INLINE T pull(T length) const {
+    return stiffness * (length - rest);
+  }
+  Real stored(Real length) const { return stiffness / 2 * (length - rest) * (length - rest); }
+};
+using Spring = SpringOf<double>;
 
 /// The limits of a material's springs. Damping is stated as a share of the critical damping of a spring between its two
 /// particles: c = 2 zeta sqrt(k m / 2).
 inline constexpr Key::Limits spring_stiffness{0, 1e9}, spring_damping_ratio{0, 10};
 
+/// What the three kinds of springs share.
+struct Springs {
+  static constexpr bool internal = true;
+  static constexpr auto coordinate = Coordinate::length;
+  static constexpr const char* absent = "no body has such springs";
+
+  struct Data {
+    std::vector<Spring> exact;
+    std::vector<SpringOf<float>> rounded;  // the same
+  };
+  template <class Real>
+  static const std::vector<SpringOf<Real>>& elements(const Data& d) {
+    if constexpr (std::is_same_v<Real, float>)
+      return d.rounded;
+    else
+      return d.exact;
+  }
+
+ protected:
+  static std::optional<Data> join(const BodyModel& model, const std::vector<Edge>& pairs, double stiffness,
+                                  double damping_ratio);
+  static double share(const MeshSource& source);  // of the stiffness
+};
+
 /// Along the edges of the mesh.
-struct StructuralSprings {
+struct StructuralSprings : Springs {
+  static constexpr std::string_view key = "structural-springs";
   static constexpr auto stiffness =
       Key("structural.stiffness", "N/m", 300, spring_stiffness, "Stiffness of the springs along the edges of the mesh.",
           {"Springs", "%.0f N/m", 10, 3000, true});
@@ -20,10 +67,16 @@ struct StructuralSprings {
       Key("structural.damping_ratio", "", 0.1, spring_damping_ratio,
           "Damping of the structural springs. 1 is critical damping.", {"  damping", "%.2f", 0, 1});
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.edges, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Between the two vertices opposite an edge; on grids over one particle.
-struct BendSprings {
+struct BendSprings : Springs {
+  static constexpr std::string_view key = "bend-springs";
   static constexpr auto stiffness = Key("bend.stiffness", "N/m", 75, spring_stiffness,
                                         "Stiffness of the springs between the two vertices opposite an edge, on grids "
                                         "over one vertex. They resist folding.",
@@ -31,16 +84,34 @@ struct BendSprings {
   static constexpr auto damping_ratio =
       Key("bend.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of the bend springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.bend_pairs, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Both diagonals of each quad of a grid.
-struct ShearSprings {
+struct ShearSprings : Springs {
+  static constexpr std::string_view key = "shear-springs";
   static constexpr auto stiffness = Key("shear.stiffness", "N/m", 0, spring_stiffness,
                                         "Stiffness of the diagonal springs of grids. Other meshes have none.",
                                         {"Shear springs", "%.0f N/m", 0, 1000, true});
   static constexpr auto damping_ratio =
       Key("shear.damping_ratio", "", 0, spring_damping_ratio, "Damping of the shear springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
+
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.shear_pairs, m.material[stiffness], m.material[damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
+
+/// Returns the springs of one kind.
+template <class Kind>
+const std::vector<Spring>& springs(const BodyModel& model);
+
+/// Calls use(spring) for all springs of a model.
+void for_each_spring(const BodyModel& model, const std::function<void(const Spring&)>& use);
 
 }  // namespace softbody

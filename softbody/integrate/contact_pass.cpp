@@ -85,8 +85,7 @@ void ContactPass::apply(const Worker& worker, float h, float since_start) {
   solids();
   for (int pass = 0; pass < SurfaceContact::max_passes && has_surfaces_ && surfaces_.needs_more_iterations(h); ++pass) {
     worker.barrier();
-    if (!surfaces_.resolve_after_solids(worker.index(), crew_.active(), field(state_.v), h,
-                                        [&] { worker.barrier(); }))
+    if (!surfaces_.resolve_after_solids(worker.index(), crew_.active(), field(state_.v), h, [&] { worker.barrier(); }))
       break;
     solids();
   }

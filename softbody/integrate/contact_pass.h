@@ -28,14 +28,14 @@ class ContactPass {
   /// Wakes sleepers that a body comes near within `seconds` which is faster than twice the speed of sleep: a body that
   /// sleeps through a hit stands like a wall. Returns the work, as MaxWork::surface counts it.
   double wake_hit_sleepers(double seconds, std::size_t max_candidates);
-  /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those that
-  /// are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
+  /// Finds the candidates of surface contact, unless those at hand hold: for the seconds `ahead` at least, of those
+  /// that are left of the frame; of bodies that are strained fast, for the seconds `least` only. Returns the work.
   double find(double left, double ahead, double least, std::size_t max_candidates);
   /// Returns for how many substeps of h seconds the candidates may be taken, if they hold: at least one.
   int predicted_substeps(double left, double h) const;
 
-  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles into
-  /// solids. The velocities of all batches must be there. Needs a barrier after it.
+  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
+  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   void apply(const Worker& worker, float h) { apply(worker, h, 0); }
   /// Does the same for the positions that a substep of h ends with.
   void apply_at_end(const Worker& worker, float h) { apply(worker, h, h); }

@@ -25,7 +25,7 @@ struct Integrator {
   /// Advances all bodies by one substep. All threads call it at once; `worker` says what the calling one does.
   void (*advance)(Motion& motion, const Worker& worker, const Substep& substep);
   /// Returns 0.8 times the largest stable step in s, for the sums of stiffness/mass (1/s^2) and damping/mass (1/s) at
-  /// one particle; infinity if every step is stable. See stable_step() in body_model.h.
+  /// one particle; infinity if every step is stable. See stable_step() in forces/bound.h.
   double (*stable_step)(double k_m, double c_m);
   int substeps_per_step = 1;    // that the method makes of each step asked for
   int scratch = 0;              // copies of a field over all particles that it needs

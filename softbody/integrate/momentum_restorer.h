@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "softbody/state/state.h"
 #include "softbody/state/kernel_types.h"
+#include "softbody/state/state.h"
 
 namespace softbody {
 

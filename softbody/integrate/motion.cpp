@@ -2,8 +2,7 @@
 
 #include <utility>
 
-#include "softbody/forces/kernels.h"
-#include "softbody/forces/shape_matching.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/state/kernels.h"
 
 namespace softbody {
@@ -14,26 +13,9 @@ std::size_t used(const Batch& b) { return std::size_t(b.used); }
 }  // namespace
 
 void Motion::set_plan(const Plan& plan) {
-  static constexpr std::pair<Stage, ForceStage> springs_and_gas[] = {
-      {Stage::structural_springs, &Motion::structural_springs},
-      {Stage::bend_springs, &Motion::bend_springs},
-      {Stage::shear_springs, &Motion::shear_springs},
-      {Stage::gas_pressure, &Motion::gas_pressure},
-  };
-  static constexpr std::pair<Stage, ForceStage> others[] = {
-      {Stage::shape_matching, &Motion::shape_matching},
-      {Stage::contact_response, &Motion::penalty_forces},
-  };
-  force_stages_.clear();
-  other_force_stages_.clear();
-  for (const auto& [stage, run] : springs_and_gas)
-    if (plan.has(stage)) force_stages_.push_back(run);
-  for (const auto& [stage, run] : others) {
-    if (!plan.has(stage)) continue;
-    force_stages_.push_back(run);
-    other_force_stages_.push_back(run);
-  }
-  if (plan.has(Stage::grab)) force_stages_.push_back(&Motion::hand_force);  // last: it reckons with the others
+  ForceMask taken;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) { taken[index_of<F>] = plan.has(stage_of<F>); });
+  forces_.set_plan(taken);
 }
 
 void Motion::begin_frame(int scratch, const glm::dvec3& gravity) {
@@ -50,69 +32,21 @@ void Motion::contact_forces(const Worker& worker, float h) {
   worker.barrier();
 }
 
-void Motion::run_stages(const Batch& b, std::span<const ForceStage> stages) {
+void Motion::all_forces(const Batch& b) {
   clear(b, forces);
-  for (const ForceStage stage : stages) (this->*stage)(b);
+  forces_.add(step_of(b, h_));
 }
 
-void Motion::all_forces(const Batch& b) { run_stages(b, force_stages_); }
-void Motion::other_forces(const Batch& b) { run_stages(b, other_force_stages_); }
-
-void Motion::structural_springs(const Batch& b) {
-  force_kernels(b.width).springs(used(b), parts_.meshes(b).structural, x(b), v(b), f(b));
-}
-void Motion::bend_springs(const Batch& b) {
-  force_kernels(b.width).springs(used(b), parts_.meshes(b).bend, x(b), v(b), f(b));
-}
-void Motion::shear_springs(const Batch& b) {
-  force_kernels(b.width).springs(used(b), parts_.meshes(b).shear, x(b), v(b), f(b));
+void Motion::other_forces(const Batch& b) {
+  clear(b, forces);
+  forces_.add_unprojected(step_of(b, h_));
 }
 
-void Motion::gas_pressure(const Batch& b) {
-  if (!b.model->has_gas) return;
-  const Gas& gas = b.model->gas;
-  const std::vector<KernelTriangle>& faces = parts_.meshes(b).faces;
-  float volume[lanes], gauge[lanes]{};
-  force_kernels(b.width).volume(used(b), faces, x(b), volume);
-  for (int l = 0; l < b.used; ++l) gauge[l] = static_cast<float>(gas.gauge(double(volume[l])));
-  force_kernels(b.width).pressure(used(b), faces, x(b), gauge, f(b));
+void Motion::project(const Batch& b, Quantity x0, Quantity d, float h) {
+  forces_.project(step_of(b, h), field(std::as_const(array(x0)), b.base), field(array(d), b.base));
 }
 
-void Motion::shape_matching(const Batch& b) {
-  const KernelMesh& mesh = parts_.meshes(b);
-  if (mesh.shape.empty()) return;
-  ShapeMoments<float> moments;
-  ShapePose<float> pose{};
-  force_kernels(b.width).shape_moments(used(b), mesh.shape, x(b), moments);
-  fit_shape(moments, b.used, pose);
-  force_kernels(b.width).shape_pull(used(b), mesh.shape, pose, static_cast<float>(shape_stiffness(*b.model)), x(b),
-                                    f(b));
-}
-
-void Motion::penalty_forces(const Batch& b) {
-  const PenaltyContact& penalty = parts_.penalty;
-  for (const PenaltyEnd& end : penalty.ends_of(b))
-    for (std::size_t k = 0; k < 3; ++k) parts_.state.f[k][end.slot] += end.sign * penalty.force[end.pair][int(k)];
-}
-
-bool Motion::has_hand(const Batch& b) const {
-  const auto& grab = parts_.hand.grab();
-  return grab && parts_.state.body(grab->body).batch == b.index;
-}
-
-HeldBody Motion::held_body() {
-  State& s = parts_.state;
-  const BodyId id = parts_.hand.grab()->body;
-  return {s.model(id), s.body(id).origin, s.field_of(id, s.x), s.field_of(id, s.v), s.field_of(id, s.f)};
-}
-
-void Motion::hand_force(const Batch& b) {
-  if (has_hand(b)) parts_.hand.add_force(held_body(), double(h_), gravity_);
-}
-
-void Motion::pull(const Batch& b, float h) {
-  if (has_hand(b)) parts_.hand.add_impulse(held_body(), double(h));
-}
+void Motion::pull(const Batch& b, float h) { forces_.kick(step_of(b, h)); }
 
 void Motion::kick(const Batch& b, float h) {
   const glm::vec3 g = h * glm::vec3(gravity_);

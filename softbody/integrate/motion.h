@@ -2,12 +2,9 @@
 // What integrators are made of: forces, contacts and the arithmetic on the vectors of all particles. Each function acts
 // on one batch, or on the part of a worker; the arithmetic leaves lanes alone that do not move.
 
-#include <span>
 #include <vector>
 
-#include "softbody/forces/hand.h"
-#include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_meshes.h"
+#include "softbody/forces/force_set.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/plan.h"
@@ -27,7 +24,6 @@ constexpr Quantity scratch(int i) { return {3 + i}; }
 /// What a Motion acts on. All of these must outlive it.
 struct MotionParts {
   State& state;
-  const BatchMeshes& meshes;
   const Hand& hand;
   PenaltyContact& penalty;
   SolidContact& solids;
@@ -37,7 +33,7 @@ struct MotionParts {
 
 class Motion {
  public:
-  explicit Motion(const MotionParts& parts) : parts_(parts) {}
+  explicit Motion(const MotionParts& parts) : parts_(parts), forces_({parts.penalty, parts.hand}) {}
 
   void set_plan(const Plan& plan);
   /// Makes room for `scratch` vectors of each particle. gravity in m/s^2.
@@ -48,19 +44,18 @@ class Motion {
   /// Evaluates the penalty contacts of the worker's part, for all_forces() of all batches. h: s, for which friction
   /// slips.
   void contact_forces(const Worker& worker, float h);
-  void all_forces(const Batch& batch);     // at the current positions and velocities
-  void other_forces(const Batch& batch);   // all but those that XPBD projects, and the hand
-  void kick(const Batch& batch, float h);  // v += h (f / m + g)
-  void accelerations(const Batch& batch);  // f = f / m + g
+  void all_forces(const Batch& batch);      // at the current positions and velocities
+  void other_forces(const Batch& batch);    // all but those that project() and pull() stand for
+  void kick(const Batch& batch, float h);   // v += h (f / m + g)
+  void accelerations(const Batch& batch);   // f = f / m + g
   void drift(const Batch& batch, float h);  // x += h v
-  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles into
-  /// solids. The velocities of all batches must be there. Needs a barrier after it.
+  /// Changes the velocities so that in a step of h from here surfaces do not pass through each other, nor particles
+  /// into solids. The velocities of all batches must be there. Needs a barrier after it.
   void contacts(const Worker& worker, float h) { parts_.contacts.apply(worker, h); }
   /// Does the same for the positions that a substep of h ends with.
   void contacts_at_end(const Worker& worker, float h) { parts_.contacts.apply_at_end(worker, h); }
-  // XPBD, on displacements d in this step, which starts at x0. project_gas() wants the positions to be x0 + d.
-  void project_gas(const Batch& batch, Quantity d, float h);
-  void project_springs(const Batch& batch, Quantity x0, Quantity d, float h);
+  /// XPBD, on displacements d in this step of h, which starts at x0. Wants the positions to be x0 + d.
+  void project(const Batch& batch, Quantity x0, Quantity d, float h);
   /// Adds what the hand does in a step of h to velocities that hold what all else does, after other_forces().
   void pull(const Batch& batch, float h);
   /// Solves for the end of an implicit step of h: `mean` becomes the velocities that lead there, and `rest` what is to
@@ -72,25 +67,14 @@ class Motion {
   void clear(const Batch& batch, Quantity q);                          // q = 0
 
  private:
-  using ForceStage = void (Motion::*)(const Batch&);
-
   VectorArray& array(Quantity q);
   Field<const float> x(const Batch& b) const { return field(std::as_const(parts_.state.x), b.base); }
   Field<float> v(const Batch& b) { return field(parts_.state.v, b.base); }
   Field<float> f(const Batch& b) { return field(parts_.state.f, b.base); }
-  void run_stages(const Batch& batch, std::span<const ForceStage> stages);
-  void structural_springs(const Batch& batch);
-  void bend_springs(const Batch& batch);
-  void shear_springs(const Batch& batch);
-  void gas_pressure(const Batch& batch);
-  void shape_matching(const Batch& batch);
-  void penalty_forces(const Batch& batch);
-  void hand_force(const Batch& batch);
-  bool has_hand(const Batch& batch) const;
-  HeldBody held_body();
+  ForceBatch step_of(const Batch& batch, float h) { return {parts_.state, batch, double(h), gravity_}; }
 
   MotionParts parts_;
-  std::vector<ForceStage> force_stages_, other_force_stages_;
+  ForceSet forces_;
   std::vector<VectorArray> scratch_;
   glm::dvec3 gravity_{0.0};
   float h_ = 0;

@@ -4,7 +4,8 @@
 #include <array>
 
 #include "softbody/contact/keys.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/model_forces.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
@@ -37,28 +38,18 @@ const char* contacts(const Facts& f) {
   return f.bodies() > 1 || f.scene.collision.self_collision ? nullptr : "one body, and self-collision is off";
 }
 
-const char* vertex_contacts(const Facts& f) {
-  return f.scene.contact_surface == ContactSurface::vertices ? contacts(f) : "the surfaces keep the bodies apart";
-}
-
 const char* surface_contacts(const Facts& f) {
   return f.scene.contact_surface == ContactSurface::surfaces ? contacts(f) : "the vertices keep the bodies apart";
 }
 
-template <std::vector<Spring> BodyModel::*list>
-const char* springs(const Facts& f) {
-  return f.any([](const BodyModel& p) { return !(p.*list).empty(); }) ? nullptr : "no body has such springs";
+template <class F>
+const char* force(const Facts& f) {
+  const bool vertices = f.scene.contact_surface == ContactSurface::vertices;
+  if constexpr (requires(ForceFacts facts) { F::why_not(facts); })
+    return F::why_not({f.models, vertices ? contacts(f) : "the surfaces keep the bodies apart", f.added_bodies.grabs});
+  else
+    return f.any([](const BodyModel& p) { return data<F>(p) != nullptr; }) ? nullptr : F::absent;
 }
-
-const char* gas(const Facts& f) {
-  return f.any([](const BodyModel& p) { return p.has_gas; }) ? nullptr : "no closed body with gas";
-}
-
-const char* shape(const Facts& f) {
-  return f.any([](const BodyModel& p) { return p.shape_rate > 0; }) ? nullptr : "no body keeps its shape by itself";
-}
-
-const char* grab(const Facts& f) { return f.added_bodies.grabs ? nullptr : "nobody holds a body"; }
 
 const char* gravity(const Facts& f) { return f.scene.gravity != glm::dvec3(0.0) ? nullptr : "the scene has none"; }
 
@@ -112,37 +103,44 @@ struct Row {
   Why why_not;
 };
 
-constexpr std::array<Row, std::size_t(Stage::count)> all_stages{{
-    {Stage::arrive, "arrive", arrivals},
-    {Stage::contact_response, "contact-response", vertex_contacts},
-    {Stage::surface_contact, "surface-contact", surface_contacts},
-    {Stage::structural_springs, "structural-springs", springs<&BodyModel::structural>},
-    {Stage::bend_springs, "bend-springs", springs<&BodyModel::bend>},
-    {Stage::shear_springs, "shear-springs", springs<&BodyModel::shear>},
-    {Stage::gas_pressure, "gas-pressure", gas},
-    {Stage::shape_matching, "shape-matching", shape},
-    {Stage::grab, "grab", grab},
-    {Stage::gravity, "gravity", gravity},
-    {Stage::integrate, "integrate", needed},
-    {Stage::restitution, "restitution", restitution},
-    {Stage::solid_spheres, "solid-spheres", spheres},
-    {Stage::ground, "ground", ground},
-    {Stage::solid_planes, "solid-planes", planes},
-    {Stage::solid_boxes, "solid-boxes", boxes},
-    {Stage::solid_capsules, "solid-capsules", capsules},
-    {Stage::solid_features, "solid-features", solid_features},
-    {Stage::internal_damping, "internal-damping", damping},
-    {Stage::rebound_damping, "rebound-damping", rebound},
-    {Stage::rolling_resistance, "rolling-resistance", rolling},
-    {Stage::detect, "detect", contacts},
-    {Stage::sleep, "sleep", sleep},
-}};
+constexpr std::array before_forces{
+    Row{Stage::arrive, "arrive", arrivals},
+    Row{Stage::surface_contact, "surface-contact", surface_contacts},
+};
+
+constexpr std::array after_forces{
+    Row{Stage::gravity, "gravity", gravity},
+    Row{Stage::integrate, "integrate", needed},
+    Row{Stage::restitution, "restitution", restitution},
+    Row{Stage::solid_spheres, "solid-spheres", spheres},
+    Row{Stage::ground, "ground", ground},
+    Row{Stage::solid_planes, "solid-planes", planes},
+    Row{Stage::solid_boxes, "solid-boxes", boxes},
+    Row{Stage::solid_capsules, "solid-capsules", capsules},
+    Row{Stage::solid_features, "solid-features", solid_features},
+    Row{Stage::internal_damping, "internal-damping", damping},
+    Row{Stage::rebound_damping, "rebound-damping", rebound},
+    Row{Stage::rolling_resistance, "rolling-resistance", rolling},
+    Row{Stage::detect, "detect", contacts},
+    Row{Stage::sleep, "sleep", sleep},
+};
+
+/// In the order in which a step runs them.
+constexpr auto all_stages = [] {
+  std::array<Row, before_forces.size() + force_count + after_forces.size()> rows{};
+  auto next = std::ranges::copy(before_forces, rows.begin()).out;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) { *next++ = {stage_of<F>, F::key, force<F>}; });
+  std::ranges::copy(after_forces, next);
+  return rows;
+}();
 
 }  // namespace
 
-std::string_view stage_key(Stage stage) { return all_stages[std::size_t(stage)].key; }
+std::string_view stage_key(Stage stage) { return std::ranges::find(all_stages, stage, &Row::stage)->key; }
 
 bool Plan::has(Stage stage) const { return std::find(stages.begin(), stages.end(), stage) != stages.end(); }
+
+bool Plan::has(std::string_view key) const { return std::ranges::find(stages, key, stage_key) != stages.end(); }
 
 Plan make_plan(const Scene& scene, const std::vector<std::shared_ptr<const BodyModel>>& models,
                const AddedBodies& added_bodies) {

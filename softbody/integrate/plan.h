@@ -13,17 +13,10 @@ namespace softbody {
 struct BodyModel;
 struct Scene;
 
-/// In the order in which a step runs them.
+/// A stage of a step. That of a force of the table (forces/table.h) is first_force plus its place there: see stage_of.
 enum class Stage {
   arrive,
-  contact_response,
   surface_contact,
-  structural_springs,
-  bend_springs,
-  shear_springs,
-  gas_pressure,
-  shape_matching,
-  grab,
   gravity,
   integrate,
   restitution,
@@ -38,7 +31,7 @@ enum class Stage {
   rolling_resistance,
   detect,
   sleep,
-  count
+  first_force
 };
 
 /// Returns the stage's key in the plan of `simulate --json`, e.g. "bend-springs".
@@ -50,9 +43,10 @@ struct LeftOut {
 };
 
 struct Plan {
-  std::vector<Stage> stages;      // in order
+  std::vector<Stage> stages;      // in the order in which a step runs them
   std::vector<LeftOut> left_out;  // in order
   bool has(Stage stage) const;
+  bool has(std::string_view key) const;
 };
 
 /// What a world has besides its scene's own bodies.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "softbody/integrate/force_stage.h"
 #include "softbody/integrate/implicit/steps.h"
 #include "softbody/scene/solids.h"
 
@@ -23,8 +24,8 @@ Solver::Solver(const Scene& scene, const Crew& crew)
       solids_(state_),
       contacts_(scene, state_, solids_, crew_),
       implicit_(std::make_unique<ImplicitSteps>()),
-      motion_({state_, meshes_, hand_, penalty_, solids_, contacts_, *implicit_}),
-      bounds_(state_, meshes_, penalty_, solids_) {}
+      motion_({state_, hand_, penalty_, solids_, contacts_, *implicit_}),
+      bounds_(state_, penalty_, solids_) {}
 
 Solver::~Solver() = default;
 
@@ -39,7 +40,7 @@ void Solver::set_plan(const Plan& plan) {
   resistance_.set_plan(plan);
   contacts_.set_plan(plan);
   solids_.set_parts(plan.has(Stage::solid_features), plan.has(Stage::restitution));
-  if (!plan.has(Stage::contact_response)) penalty_.pairs.clear();
+  if (!plan.has(stage_of<PenaltyContact>)) penalty_.pairs.clear();
 }
 
 void Solver::remove(BodyId body) {
@@ -73,7 +74,6 @@ void Solver::begin_frame(double seconds) {
   contacts_.begin_frame();
   if (contacts_.has_surfaces())
     steps_.spend({.surface = contacts_.wake_hit_sleepers(seconds, steps_.max_candidates())});
-  meshes_.update(state_);
   solids_.begin_frame();
   pushed_.assign(state_.batches().size(), 0);
   std::vector<const Batch*> moving;
@@ -90,6 +90,8 @@ void Solver::begin_frame(double seconds) {
   motion_.begin_frame(steps_.integrator().scratch, gravity());
   for (const PenaltyPair& p : penalty_.pairs) mark_pushed(p.body_a), mark_pushed(p.body_b);
   if (hand_.grab()) mark_pushed(hand_.grab()->body);
+  for (const Batch* b : crew_.moving())
+    if (has_external_force(*b->model)) pushed_[b->index] = ~0u;
 }
 
 void Solver::choose_integrator(double seconds) {
@@ -100,8 +102,7 @@ void Solver::choose_integrator(double seconds) {
       {.near_solids = std::ranges::any_of(moving, [&](const Batch* b) { return !solids_.near(*b).empty(); }),
        .penalty_pairs = !penalty_.pairs.empty(),
        .surface_contact = contacts_.has_surfaces(),
-       .too_large =
-           std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
+       .too_large = std::ranges::any_of(moving, [](const Batch* b) { return b->particles() > max_implicit_particles; }),
        .rounding_velocity = bounds_.rounding_velocity(moving, bound.stable_step),
        .sleep_speed = scene_.sleep.speed});
 }
@@ -139,8 +140,7 @@ void Solver::take_substeps(Frame& frame, const std::function<void()>& after_subs
   }
   const int count = fixed ? stable : steps_.substeps(stable, double(surface.substep_rate()), frame.left);
   if (frame.substeps == 0 && !implicit && count >= many_substeps)
-    for (const Batch* b : crew_.moving())
-      frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
+    for (const Batch* b : crew_.moving()) frame.momenta.note({*b, field(state_.x, b->base), field(state_.v, b->base)});
   const double h = frame.left / count;
   const auto trusted = [&] { return bounds_.trusted_substeps(crew_.moving(), h); };
   int now = fixed ? count : std::clamp(trusted(), 1, count);
@@ -201,16 +201,14 @@ void Solver::finish_frame(double seconds) {
 }
 
 int Solver::needed_substeps(double seconds) const {
-  BatchMeshes meshes = meshes_;
-  meshes.update(state_);
   PenaltyContact penalty = penalty_;
   penalty.locate(state_);
-  return count_substeps(StepBounds(state_, meshes, penalty, solids_).measure(steps_.integrator(), seconds), seconds, 1);
+  return count_substeps(StepBounds(state_, penalty, solids_).measure(steps_.integrator(), seconds), seconds, 1);
 }
 
 SolverState Solver::save() const {
-  return {state_.saved(),     penalty_.thickness,         penalty_.pairs, solids_.pushes(),
-          contacts_.surfaces().save(), steps_.hysteresis()};
+  return {state_.saved(),   penalty_.thickness,          penalty_.pairs,
+          solids_.pushes(), contacts_.surfaces().save(), steps_.hysteresis()};
 }
 
 void Solver::restore(const SolverState& saved) {

@@ -8,7 +8,6 @@
 
 #include "softbody/forces/hand.h"
 #include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_meshes.h"
 #include "softbody/integrate/contact_pass.h"
 #include "softbody/integrate/crew.h"
 #include "softbody/integrate/momentum_restorer.h"
@@ -69,8 +68,8 @@ class Solver {
   /// Returns the energy (J) that each pair of these contacts would store if it acted now.
   std::vector<PairEnergy> penalty_energies(const DetectedContacts& detected, float thickness) const;
 
-  /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their bound
-  /// is measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
+  /// Advances by `seconds`, or by less if a limit of substeps or work is reached. Unless substeps are fixed, their
+  /// bound is measured anew as bodies move, since bodies that are crushed may need any number of substeps and have many
   /// contacts. after_substep: called by one thread while the others wait.
   FrameResult advance(double seconds, const std::function<void()>& after_substep = {});
   /// Ends a frame of `seconds`, after advance(): applies what resists the bodies' motion as a whole, and lets their
@@ -102,7 +101,6 @@ class Solver {
 
   const Scene& scene_;
   Crew crew_;
-  BatchMeshes meshes_;
   State state_;
   Hand hand_;
   PenaltyContact penalty_;

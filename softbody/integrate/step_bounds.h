@@ -2,8 +2,7 @@
 // What bounds the steps of a frame, measured on the bodies as they are.
 
 #include "softbody/contact/solid_contact.h"
-#include "softbody/forces/penalty_contact.h"
-#include "softbody/integrate/batch_meshes.h"
+#include "softbody/forces/force_set.h"
 #include "softbody/integrate/integrators.h"
 #include "softbody/integrate/substeps.h"
 
@@ -12,8 +11,8 @@ namespace softbody {
 class StepBounds {
  public:
   /// All of these must outlive this.
-  StepBounds(const State& state, const BatchMeshes& meshes, const PenaltyContact& penalty, const SolidContact& solids)
-      : state_(state), meshes_(meshes), penalty_(penalty), solids_(solids) {}
+  StepBounds(const State& state, const PenaltyContact& penalty, const SolidContact& solids)
+      : state_(state), penalty_(penalty), solids_(solids) {}
 
   /// Returns the bounds for the next `seconds` with this integrator.
   SubstepBound measure(const Integrator& integrator, double seconds);
@@ -26,10 +25,7 @@ class StepBounds {
   double rounding_velocity(std::span<const Batch* const> moving, double stable_step) const;
 
  private:
-  double stiffness_per_mass(const Batch& batch);
-
   const State& state_;
-  const BatchMeshes& meshes_;
   const PenaltyContact& penalty_;
   const SolidContact& solids_;
   VectorArray area_;                    // m^2, scratch

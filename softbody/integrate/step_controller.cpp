@@ -37,9 +37,9 @@ void StepController::raise_min_substep_rate(const SubstepBound& b) {
 /// worth about as much as 150 explicit substeps of the same body in free flight, as 300 on solids, and in heaps, where
 /// all bodies of a batch take as long as the one that is pressed most, as 1,700 to 4,400. Both are as many as would be
 /// taken: the rate that is kept counts, or a body that oscillates would change its integrator with every swing. What
-/// might come to ask for more explicit substeps than there may be gets implicit steps, and what explicit substeps cannot
-/// bring to rest, or near enough to it to fall asleep; unless the fastest body asks for too many implicit ones. Where
-/// somebody waits for the frames of a large world, both are cut alike, so that the choice is the same.
+/// might come to ask for more explicit substeps than there may be gets implicit steps, and what explicit substeps
+/// cannot bring to rest, or near enough to it to fall asleep; unless the fastest body asks for too many implicit ones.
+/// Where somebody waits for the frames of a large world, both are cut alike, so that the choice is the same.
 void StepController::choose(const SubstepBound& b, const FrameConditions& c) {
   constexpr double in_flight = 150, on_solids = 300, most = softbody::max_substeps / 2;  // substeps
   assert(automatic());
@@ -49,9 +49,8 @@ void StepController::choose(const SubstepBound& b, const FrameConditions& c) {
   if (!fixed()) raise_min_substep_rate(b);
   const double kept = fixed() ? 0 : hysteresis_.rate();
   const double needed = std::max(seconds_ / b.stable_step, seconds_ * std::max(b.deformation_rate, kept));
-  const bool cheaper =
-      needed <= (fixed() ? double(*fixed_steps_) : worth) ||
-      (!fixed() && b.min_substeps > max_implicit_steps && needed <= softbody::max_substeps);
+  const bool cheaper = needed <= (fixed() ? double(*fixed_steps_) : worth) ||
+                       (!fixed() && b.min_substeps > max_implicit_steps && needed <= softbody::max_substeps);
   const double rest = std::max(1e-3, 0.2 * c.sleep_speed);  // m/s
   if (cheaper && c.rounding_velocity <= rest) {
     why_ = "explicit substeps are stable, and cheaper than implicit steps";
@@ -73,8 +72,7 @@ int StepController::max_substeps() const {
 
 int StepController::stable_substeps(const SubstepBound& b, double left) {
   constexpr double nearly = 1 - 1e-9;  // the rest of a frame takes what is left of its substeps, but for rounding
-  if (!std::isfinite(b.stable_step))
-    return count_substeps(b, left, left * b.implicit_rate(seconds_) * nearly);
+  if (!std::isfinite(b.stable_step)) return count_substeps(b, left, left * b.implicit_rate(seconds_) * nearly);
   raise_min_substep_rate(b);
   return count_substeps(b, left, left * std::max(b.deformation_rate, hysteresis_.rate() * nearly));
 }

@@ -66,7 +66,7 @@ class StepController {
   std::optional<int> fixed_steps_;
   MaxWork max_work_;
   SubstepHysteresis hysteresis_;
-  double seconds_ = 0;          // of this frame
+  double seconds_ = 0;  // of this frame
   std::size_t particles_ = 0;
   FrameWork work_;
 };

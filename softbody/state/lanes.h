@@ -79,6 +79,9 @@ struct Field {
 };
 
 inline glm::vec3 read(Field<const float> f, std::size_t slot) { return {f.x[slot], f.y[slot], f.z[slot]}; }
+inline void add(Field<float> f, std::size_t slot, const glm::vec3& more) {
+  f.x[slot] += more.x, f.y[slot] += more.y, f.z[slot] += more.z;
+}
 
 /// The vectors of one body in a field, by its particles: the first one's stands at `first`, the next ones' `stride`
 /// values after each other.

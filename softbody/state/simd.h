@@ -28,7 +28,8 @@ namespace hn = hwy::HWY_NAMESPACE;
 template <class T>
 constexpr int register_lanes = std::min(lanes, static_cast<int>(hn::MaxLanes(hn::ScalableTag<T>())));
 
-/// n values side by side in one register.
+/// n values side by side in one register. Operators are not forced inline: formulas of forces, which are compiled for
+/// no target before they are inlined into one, could not call them.
 template <class T, int n>
 struct Lane {
   using Tag = hn::CappedTag<T, n>;
@@ -38,14 +39,14 @@ struct Lane {
   hn::Vec<Tag> raw;
 
   Lane() = default;
-  HWY_INLINE Lane(T all) : raw(hn::Set(Tag(), all)) {}
+  HWY_ATTR Lane(T all) : raw(hn::Set(Tag(), all)) {}
   HWY_INLINE explicit Lane(hn::Vec<Tag> values) : raw(values) {}
 
-  HWY_INLINE friend Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.raw, b.raw)); }
-  HWY_INLINE friend Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.raw, b.raw)); }
-  HWY_INLINE friend Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.raw, b.raw)); }
-  HWY_INLINE friend Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.raw, b.raw)); }
-  HWY_INLINE Lane operator-() const { return Lane(hn::Neg(raw)); }
+  HWY_ATTR friend Lane operator+(Lane a, Lane b) { return Lane(hn::Add(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator-(Lane a, Lane b) { return Lane(hn::Sub(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator*(Lane a, Lane b) { return Lane(hn::Mul(a.raw, b.raw)); }
+  HWY_ATTR friend Lane operator/(Lane a, Lane b) { return Lane(hn::Div(a.raw, b.raw)); }
+  HWY_ATTR Lane operator-() const { return Lane(hn::Neg(raw)); }
   HWY_INLINE Lane& operator+=(Lane b) { return *this = *this + b; }
   HWY_INLINE Lane& operator-=(Lane b) { return *this = *this - b; }
   HWY_INLINE friend Mask operator>(Lane a, Lane b) { return {hn::Gt(a.raw, b.raw)}; }
@@ -61,13 +62,13 @@ struct Pair {
 
   Pair() = default;
   template <class T>
-  requires std::is_arithmetic_v<T> HWY_INLINE Pair(T all) : lo(all), hi(all) {}
-  HWY_INLINE Pair(V low, V high) : lo(low), hi(high) {}
+  requires std::is_arithmetic_v<T> HWY_ATTR Pair(T all) : lo(all), hi(all) {}
+  HWY_ATTR Pair(V low, V high) : lo(low), hi(high) {}
 
-  HWY_INLINE friend Pair operator+(const Pair& a, const Pair& b) { return {a.lo + b.lo, a.hi + b.hi}; }
-  HWY_INLINE friend Pair operator-(const Pair& a, const Pair& b) { return {a.lo - b.lo, a.hi - b.hi}; }
-  HWY_INLINE friend Pair operator*(const Pair& a, const Pair& b) { return {a.lo * b.lo, a.hi * b.hi}; }
-  HWY_INLINE friend Pair operator/(const Pair& a, const Pair& b) { return {a.lo / b.lo, a.hi / b.hi}; }
+  HWY_ATTR friend Pair operator+(const Pair& a, const Pair& b) { return {a.lo + b.lo, a.hi + b.hi}; }
+  HWY_ATTR friend Pair operator-(const Pair& a, const Pair& b) { return {a.lo - b.lo, a.hi - b.hi}; }
+  HWY_ATTR friend Pair operator*(const Pair& a, const Pair& b) { return {a.lo * b.lo, a.hi * b.hi}; }
+  HWY_ATTR friend Pair operator/(const Pair& a, const Pair& b) { return {a.lo / b.lo, a.hi / b.hi}; }
   HWY_INLINE Pair& operator+=(const Pair& b) { return *this = *this + b; }
   HWY_INLINE Pair& operator-=(const Pair& b) { return *this = *this - b; }
 };

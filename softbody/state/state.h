@@ -18,7 +18,7 @@ namespace softbody {
 /// Up to `width` bodies of one model, one in each lane. Their values start at `base` in every array of the state.
 struct Batch {
   std::shared_ptr<const BodyModel> model;
-  Index index = 0;  // of this batch
+  Index index = 0;    // of this batch
   int width = lanes;  // one of the widths of lanes.h
   std::size_t base = 0;
   int used = 0;  // lanes taken

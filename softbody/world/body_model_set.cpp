@@ -3,6 +3,7 @@
 #include <mutex>
 
 #include "softbody/forces/equilibrium.h"
+#include "softbody/forces/model_forces.h"
 
 namespace softbody {
 namespace {

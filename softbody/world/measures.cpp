@@ -7,29 +7,25 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/deformation.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/model_forces.h"
 #include "softbody/scene/solids.h"
 
 namespace softbody {
 namespace {
 
 /// Returns the elastic and the gas energy of a body with its particles at x.
-Energy deformation(const BodyModel& p, const std::vector<glm::dvec3>& x, double volume) {
+Energy deformation(const BodyModel& p, const std::vector<glm::dvec3>& x) {
+  const StoredEnergy stored = stored_energy(p, x);
   Energy energy;
-  energy.elastic = elastic_energy(p, x);
-  if (p.has_gas) energy.gas = p.gas.energy(volume);
+  energy.elastic = stored.elastic, energy.gas = stored.gas;
   return energy;
-}
-
-double volume_of(const BodyModel& p, const std::vector<glm::dvec3>& x) {
-  return p.mesh.closed ? enclosed_volume(p, x) : 0;
 }
 
 double largest_strain(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   double most = 0;
-  for (const auto* springs : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *springs)
-      if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
+  for_each_spring(p, [&](const Spring& s) {
+    if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
+  });
   return most;
 }
 
@@ -44,7 +40,7 @@ double staggering(const World& world, BodyId id, double substep, double deformat
     before.push_back(q.position - substep * q.velocity);
     sum += p.particle_mass * glm::dot(world.scene().gravity, substep / 2 * q.velocity);
   }
-  const auto at = [&](const std::vector<glm::dvec3>& x) { return deformation(p, x, volume_of(p, x)).deformation(); };
+  const auto at = [&](const std::vector<glm::dvec3>& x) { return deformation(p, x).deformation(); };
   return sum + 2 * at(middle) - (deformation_now + at(before)) / 2 - deformation_now;
 }
 
@@ -76,18 +72,17 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
     m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
-  const double volume = volume_of(p, x);
-  m.energy = deformation(p, x, volume);
+  m.energy = deformation(p, x);
   m.largest_strain = largest_strain(p, x);
   if (substep > 0) m.staggering = staggering(world, id, substep, m.energy.deformation());
   m.energy.kinetic = kinetic;
   m.energy.gravity = gravity;
   m.closed = p.mesh.closed;
-  if (m.closed) m.volume_ratio = volume / p.start_volume;
+  if (m.closed) m.volume_ratio = enclosed_volume(p, x) / p.start_volume;
   return m;
 }
 
-Energy starting_energy(const BodyModel& p) { return deformation(p, p.start, p.start_volume); }
+Energy starting_energy(const BodyModel& p) { return deformation(p, p.start); }
 
 SolidDepth solid_depth(const Scene& scene, const glm::dvec3& point) {
   SolidDepth deepest{glm::vec3(0, 1, 0), -std::numeric_limits<double>::infinity()};

@@ -8,8 +8,7 @@ namespace softbody {
 void Sleep::wake_touched(State& state, std::span<const BodyId> vertex_body,
                          const std::vector<collide::Contact>& contacts) const {
   const auto wakes = [&](BodyId by, BodyId sleeper) {
-    return state.body(sleeper).asleep && state.body(by).moves() &&
-           state.max_particle_speed(by) > 2 * rule_.speed;
+    return state.body(sleeper).asleep && state.body(by).moves() && state.max_particle_speed(by) > 2 * rule_.speed;
   };
   BodyId last_a = std::numeric_limits<BodyId>::max(), last_b = last_a;
   for (const collide::Contact& c : contacts) {
@@ -26,8 +25,7 @@ BodyId Sleep::root(BodyId body) {
   return body;
 }
 
-void Sleep::settle(State& state, std::span<const BodyId> vertex_body,
-                   const std::vector<collide::Contact>& contacts,
+void Sleep::settle(State& state, std::span<const BodyId> vertex_body, const std::vector<collide::Contact>& contacts,
                    const std::vector<collide::surface::ItemPair>& interactions) {
   const auto count = static_cast<BodyId>(state.body_count());
   parent_.resize(count);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "softbody/contact/keys.h"
+#include "softbody/integrate/force_stage.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/world_parts.h"
 
@@ -79,7 +80,7 @@ void World::Parts::set_integrator() {
 
 /// Throws SceneError if, in a world with this plan, one of the models needs more substeps than max_substeps.
 void World::Parts::check_stability(const BodyModelSet& all, const Plan& with) const {
-  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(Stage::contact_response);
+  const bool reserve = implicit_in_reserve(all, with), contacts = with.has(stage_of<PenaltyContact>);
   for (const auto& p : all.all()) check_stability(*p, reserve, contacts);
 }
 
@@ -160,7 +161,7 @@ void World::step(const std::function<void()>& after_substep) {
   ++s.frame;
   if (s.plan.has(Stage::sleep)) s.sleep.wake_touched(s.solver.state(), s.vertex_body, s.result.contacts);
   const float thickness = s.penalty_thickness;
-  if (s.plan.has(Stage::contact_response)) {
+  if (s.plan.has(stage_of<PenaltyContact>)) {
     s.penalty_thickness =
         std::min(s.settings.tolerance, s.penalty_thickness + float(0.05 * s.options.frame_time));  // 5 cm/s
     s.solver.set_contacts({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
@@ -188,7 +189,7 @@ void World::step(const std::function<void()>& after_substep) {
   s.update_positions();
   s.report.solve_ms = ms_since(start) - looking_ms;
   s.detect();
-  const bool penalty_grows = s.plan.has(Stage::contact_response) &&
+  const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
     s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts, s.solver.surface_contact().interactions());
@@ -284,7 +285,7 @@ BodyState World::body(BodyId body) const {
 PairEnergies World::pair_energies() const {
   const Parts& s = *parts_;
   PairEnergies energies{.last = s.solver.penalty_energies(), .next = {}};
-  if (s.plan.has(Stage::contact_response))
+  if (s.plan.has(stage_of<PenaltyContact>))
     energies.next = s.solver.penalty_energies({s.bodies, s.vertex_body, s.result.contacts}, s.penalty_thickness);
   return energies;
 }

@@ -7,8 +7,7 @@
 
 #include "app/reference/reference_trajectory.h"
 #include "softbody/contact/keys.h"
-#include "softbody/forces/gas.h"
-#include "softbody/forces/springs.h"
+#include "softbody/forces/model_forces.h"
 
 namespace app::test {
 namespace {
@@ -34,9 +33,10 @@ softbody::Scene lone_ball(double stiffness, double damping_ratio) {
 struct Pair {
   Pair(double stiffness, double damping) {
     model.mesh.vertices = {{0, 0, 0}, {1, 0, 0}};
-    model.structural = {{0, 1, 1.0, stiffness, damping}};
-    model.spring_stiffness_bound = stiffness;
-    model.spring_damping_bound = damping;
+    auto forces = std::make_shared<softbody::ModelForces>();
+    forces->of<softbody::StructuralSprings>() = {{{0, 1, 1.0, stiffness, damping}}, {}};
+    forces->set_bounds(2);
+    model.forces = forces;
     model.particle_mass = 0.5;
     model.radius = 0.5;
     scene.gravity = {};

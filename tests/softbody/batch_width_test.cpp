@@ -40,8 +40,6 @@ class EveryKernel : public tests::OnEveryTarget {
     for (LaneField* field : {&x, &v, &f}) field->randomise(random, 0.2);
     for (std::size_t i = 0; i < n; ++i)
       for (int l = 0; l < lanes; ++l) x.set(i, l, x.at(i, l) + mesh.vertices[i]);
-    for (const auto& [i, j] : mesh.edges) springs.push_back({i, j, 0.2f, 300.0f, float(uniform(random, 0, 3))});
-    for (const glm::dvec3& q : mesh.vertices) shape.push_back({float(q.x), float(q.y), float(q.z)});
   }
 
   /// What `run` makes of all lanes, and what of narrower blocks of them.
@@ -66,62 +64,38 @@ class EveryKernel : public tests::OnEveryTarget {
       }
   }
 
-  std::vector<KernelSpring<float>> springs_of(int width) const {
-    std::vector<KernelSpring<float>> list = springs;
-    for (auto& s : list) s.i *= std::uint32_t(width), s.j *= std::uint32_t(width);
-    return list;
-  }
-  std::vector<KernelTriangle> faces_of(int width) const {
-    std::vector<KernelTriangle> list = mesh.triangles;
-    for (auto& face : list)
-      for (auto& corner : face) corner *= std::uint32_t(width);
-    return list;
-  }
-
   std::mt19937 random{11};
-  const Mesh mesh = icosphere(1, 0.5);
+  const std::shared_ptr<const BodyModel> model = make_unbalanced_body_model({.subdivisions = 1}, every_force());
+  const Mesh& mesh = model->mesh;
   const std::size_t n = mesh.vertices.size();
   LaneField x, v, f;
-  std::vector<KernelSpring<float>> springs;
-  std::vector<ShapePoint<float>> shape;
   float moves[lanes];
 };
 
 using Values = Field<float>;
 
 TEST_P(EveryKernel, OfForcesGivesTheSameBits) {
-  expect_the_same([&](int width, int, Values xs, Values vs, Values fs, float*) {
-    force_kernels(width).springs(width, springs_of(width), xs, vs, fs);
+  const auto bodies = [&](int width, Values xs, Values fs) { return LaneBodies<float>{*model, width, xs, fs}; };
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    SCOPED_TRACE(F::key);
+    if constexpr (HasElements<F>)
+      expect_the_same([&](int width, int, Values xs, Values vs, Values fs, float*) {
+        force_kernels(width).add[index_of<F>](bodies(width, xs, fs), {vs});
+      });
+    if constexpr (is_projected<F>())
+      expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
+        LaneField room(n);
+        force_kernels(width).project[index_of<F>](bodies(width, xs, {}), {0.01f, moves + first, xs, vs, room.field()});
+      });
   });
-  expect_the_same([&](int width, int, Values xs, Values, Values, float* result) {
-    force_kernels(width).volume(width, faces_of(width), xs, result);
-  });
-  expect_the_same([&](int width, int, Values xs, Values, Values, float* result) {
-    force_kernels(width).medians(width, faces_of(width), xs, result);
-  });
-  expect_the_same([&](int width, int, Values xs, Values, Values, float* result) {
-    std::fill_n(result, width, 0.0f);
-    force_kernels(width).stretch(width, springs_of(width), xs, result);
-  });
-  expect_the_same([&](int width, int, Values xs, Values, Values, float* result) {
-    state_kernels(width).square_sum(width, n, xs, result);
-  });
-  expect_the_same([&](int width, int first, Values xs, Values, Values fs, float*) {
-    float gauge[lanes];
-    for (int l = 0; l < width; ++l) gauge[l] = 100.0f * float(first + l - 3);
-    force_kernels(width).pressure(width, faces_of(width), xs, gauge, fs);
-  });
-  expect_the_same([&](int width, int, Values xs, Values, Values fs, float* result) {
-    ShapeMoments<float> moments;
-    force_kernels(width).shape_moments(width, shape, xs, moments);
-    ShapePose<float> pose{};
-    for (int l = 0; l < width; ++l) {
-      for (int c = 0; c < 3; ++c) pose.centre[c][l] = moments.mean[c][l];
-      for (int c = 0; c < 9; ++c) pose.rotation[c][l] = moments.covariance[c][l];
-      result[l] = moments.covariance[5][l];
-    }
-    force_kernels(width).shape_pull(width, shape, pose, 20.0f, xs, fs);
-  });
+  for (const auto property :
+       {&SurfaceShape::volume, &SurfaceShape::area2, &SurfaceShape::stretch, &SurfaceShape::two_medians})
+    expect_the_same([&](int width, int, Values xs, Values, Values fs, float* result) {
+      SurfaceShape shapes[lanes];
+      for (float* component : {fs.x, fs.y, fs.z}) std::fill_n(component, n * std::size_t(width), 0.0f);
+      force_kernels(width).measure_surfaces(bodies(width, xs, fs), shapes);
+      for (int l = 0; l < width; ++l) result[l] = float(shapes[l].*property);
+    });
 }
 
 TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
@@ -130,9 +104,6 @@ TEST_P(EveryKernel, OfMotionGivesTheSameBits) {
   });
   expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
     state_kernels(width).drift(width, n, 0.125f, moves + first, vs, xs);
-  });
-  expect_the_same([&](int width, int first, Values xs, Values vs, Values, float*) {
-    force_kernels(width).project_springs(width, {0.01f, 40.0f, moves + first}, springs_of(width), xs, vs);
   });
   for (int which = 0; which < 7; ++which)
     expect_the_same([&](int width, int, Values xs, Values vs, Values, float* result) {

@@ -9,8 +9,8 @@
 #include <numeric>
 #include <utility>
 
+#include "softbody/forces/bound.h"
 #include "softbody/forces/equilibrium.h"
-#include "softbody/model/spring_bound.h"
 #include "softbody/world/body_model_set.h"
 #include "tests/softbody/helpers.h"
 #include "tests/softbody/obj_lines.h"
@@ -30,7 +30,7 @@ TEST(BodyModel, IsSharedByAllThatAreMadeOfTheSameWhileOneLives) {
   EXPECT_NE(shared_body_model({.subdivisions = 1}, m), one);
   const std::weak_ptr<const BodyModel> before = std::exchange(one, nullptr);
   EXPECT_TRUE(before.expired()) << "nothing is kept for its own sake";
-  EXPECT_EQ(shared_body_model({}, m)->structural.size(), 480u);
+  EXPECT_EQ(springs<StructuralSprings>(*shared_body_model({}, m)).size(), 480u);
 }
 
 TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
@@ -40,16 +40,16 @@ TEST(BodyModel, HasOneSpringAPairWithTheMeshsOwnLengths) {
   m.set(BendSprings::keys, {75, 0.4});
   m.set(ShearSprings::keys, {10, 0.1});
   const auto ball = make_body_model({}, m);
-  EXPECT_EQ(ball->structural.size(), 480u);
-  EXPECT_EQ(ball->bend.size(), 480u);
-  EXPECT_TRUE(ball->shear.empty()) << "shear springs are for quads";
+  EXPECT_EQ(springs<StructuralSprings>(*ball).size(), 480u);
+  EXPECT_EQ(springs<BendSprings>(*ball).size(), 480u);
+  EXPECT_TRUE(springs<ShearSprings>(*ball).empty()) << "shear springs are for quads";
   MeshSource grid;
   grid.kind = "grid";
   grid.columns = grid.rows = 3;
-  EXPECT_EQ(make_body_model(grid, m)->shear.size(), 18u);
-  for (const auto* list : {&ball->structural, &ball->bend})
-    for (const Spring& s : *list)
-      EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
+  EXPECT_EQ(springs<ShearSprings>(*make_body_model(grid, m)).size(), 18u);
+  for_each_spring(*ball, [&](const Spring& s) {
+    EXPECT_DOUBLE_EQ(s.rest, glm::distance(ball->mesh.vertices[s.i], ball->mesh.vertices[s.j]));
+  });
 }
 
 TEST(BodyModel, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
@@ -60,11 +60,11 @@ TEST(BodyModel, DampingRatioIsThatOfTheSpringBetweenItsTwoParticles) {
   const auto p = make_body_model({}, m);
   const double reduced = 3.0 / 162 / 2;  // two equal masses
   EXPECT_DOUBLE_EQ(p->particle_mass, 3.0 / 162);
-  for (const Spring& s : p->structural) {
+  for (const Spring& s : springs<StructuralSprings>(*p)) {
     EXPECT_EQ(s.stiffness, 300);
     EXPECT_NEAR(s.damping, 0.2 * 2 * std::sqrt(300 * reduced), 1e-12);
   }
-  for (const Spring& s : p->bend) {
+  for (const Spring& s : springs<BendSprings>(*p)) {
     EXPECT_EQ(s.stiffness, 75);
     EXPECT_NEAR(s.damping, 0.4 * 2 * std::sqrt(75 * reduced), 1e-12);
   }
@@ -82,7 +82,7 @@ TEST(BodyModel, SpringsOfAHubShareWhatSixWouldHave) {
   m.set(StructuralSprings::keys, {300, 0.2});
   const auto p = make_body_model(MeshSource::from_file({.path = folder.write("fan.obj", fan)}), m);
   int shared = 0;
-  for (const Spring& s : p->structural) {
+  for (const Spring& s : springs<StructuralSprings>(*p)) {
     shared += s.stiffness < 300;
     EXPECT_NEAR(s.stiffness, s.i == 0 ? 300 * 6.0 / spokes : 300, 1e-9);
     EXPECT_NEAR(s.damping, 0.2 * 2 * std::sqrt(s.stiffness * p->particle_mass / 2), 1e-12);
@@ -93,15 +93,14 @@ TEST(BodyModel, SpringsOfAHubShareWhatSixWouldHave) {
 TEST(BodyModel, AStiffnessOfZeroMeansNoSprings) {
   Material m = spring_ball();
   m[BendSprings::stiffness] = 0;
-  EXPECT_TRUE(make_body_model({}, m)->bend.empty());
+  EXPECT_TRUE(springs<BendSprings>(*make_body_model({}, m)).empty());
 }
 
-TEST(SpringBound, HasTheEigenvaluesOfKnownGraphs) {
+TEST(PairBound, HasTheEigenvaluesOfKnownGraphs) {
   const auto bound = [](std::size_t particles, const std::vector<Edge>& edges) {
-    std::vector<Spring> springs;
-    for (const auto& [i, j] : edges) springs.push_back({i, j, 1, 3, 0});
-    const std::array lists{&std::as_const(springs)};
-    return spring_bound(particles, lists, &Spring::stiffness) / 3;
+    std::vector<WeightedPair> pairs;
+    for (const auto& [i, j] : edges) pairs.push_back({i, j, 3});
+    return pair_bound(particles, pairs) / 3;
   };
   EXPECT_NEAR(bound(2, {{0, 1}}), 2, 1e-9) << "as Gershgorin has it";
   EXPECT_NEAR(bound(4, {{0, 1}, {0, 2}, {0, 3}, {1, 2}, {1, 3}, {2, 3}}), 4 * 1.01, 1e-9) << "complete: their number";
@@ -114,7 +113,7 @@ TEST(SpringBound, HasTheEigenvaluesOfKnownGraphs) {
 }
 
 /// From below by power iteration, from above by a little more than that.
-TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
+TEST(PairBound, HoldsTheNetsOfBodiesClosely) {
   Material m = spring_ball();
   m.set(StructuralSprings::keys, {300, 0.2});
   m.set(BendSprings::keys, {75, 0.4});
@@ -124,25 +123,25 @@ TEST(SpringBound, HoldsTheNetsOfBodiesClosely) {
   for (const MeshSource& source : {grid, ball})
     for (const auto property : {&Spring::stiffness, &Spring::damping}) {
       const auto p = make_body_model(source, m);
-      const std::array lists{&p->structural, &p->bend, &p->shear};
+      std::vector<WeightedPair> pairs;
+      for_each_spring(*p, [&](const Spring& s) { pairs.push_back({s.i, s.j, s.*property}); });
       const std::size_t count = p->mesh.vertices.size();
       std::vector<double> v(count);
       for (std::size_t i = 0; i < count; ++i) v[i] = std::sin(double(i * i));
       double length = 0;
       for (int step = 0; step < 2000; ++step) {
         std::vector<double> next(count, 0.0);
-        for (const auto* list : lists)
-          for (const Spring& s : *list) {
-            const double pull = s.*property * (v[s.i] - v[s.j]);
-            next[s.i] += pull, next[s.j] -= pull;
-          }
+        for (const auto& [i, j, weight] : pairs) {
+          const double pull = weight * (v[i] - v[j]);
+          next[i] += pull, next[j] -= pull;
+        }
         length = std::sqrt(std::inner_product(next.begin(), next.end(), next.begin(), 0.0));
         for (std::size_t i = 0; i < count; ++i) v[i] = next[i] / length;
       }
-      const double bound = spring_bound(count, lists, property);
+      const double bound = pair_bound(count, pairs);
       EXPECT_GE(bound, length * (1 - 1e-9)) << source.kind;
       EXPECT_LE(bound, length * 1.05) << source.kind;
-      EXPECT_EQ(bound / 2, property == &Spring::stiffness ? p->spring_stiffness_bound : p->spring_damping_bound);
+      EXPECT_EQ(bound / 2, property == &Spring::stiffness ? p->forces->pair_stiffness : p->forces->pair_damping);
     }
 }
 
@@ -164,14 +163,15 @@ TEST(BodyModel, ListsTheFacesAtEachVertex) {
 TEST(BodyModel, GasIsForClosedMeshesWithSomePressure) {
   MeshSource grid;
   grid.kind = "grid";
-  EXPECT_FALSE(make_body_model({}, spring_ball())->has_gas);
-  EXPECT_FALSE(make_body_model(grid, gas_ball())->has_gas);
+  EXPECT_FALSE(data<GasPressure>(*make_body_model({}, spring_ball())));
+  EXPECT_FALSE(data<GasPressure>(*make_body_model(grid, gas_ball())));
   EXPECT_EQ(make_body_model(grid, gas_ball())->start_volume, 0);
   const auto p = make_body_model({}, gas_ball());
-  EXPECT_TRUE(p->has_gas);
-  EXPECT_DOUBLE_EQ(p->gas.rest_volume, volume(p->mesh.vertices, p->mesh.triangles));
-  EXPECT_DOUBLE_EQ(p->gas.pressure(p->gas.rest_volume), 113000);
-  EXPECT_EQ(p->gas.ambient, 101325);
+  const Gas* gas = data<GasPressure>(*p);
+  ASSERT_TRUE(gas);
+  EXPECT_DOUBLE_EQ(gas->rest_volume, volume(p->mesh.vertices, p->mesh.triangles));
+  EXPECT_DOUBLE_EQ(gas->pressure(gas->rest_volume), 113000);
+  EXPECT_EQ(gas->ambient, 101325);
 }
 
 TEST(BodyModel, DetectorsSeeItsEdgesAndRestDistances) {

@@ -1,4 +1,5 @@
 #include "softbody/forces/grab.h"
+#include "softbody/integrate/force_stage.h"
 
 #include <gtest/gtest.h>
 
@@ -132,14 +133,14 @@ TEST(Grab, StaysFiniteAtAnyStiffnessAndMass) {
 
 TEST(Grab, IsAStageOnlyWhileAHandHolds) {
   World world(test::lone_body(test::spring_ball()), {});
-  EXPECT_FALSE(world.plan().has(Stage::grab));
+  EXPECT_FALSE(world.plan().has(stage_of<Hand>));
   const std::uint64_t at_rest = world.state_hash();
   take(world, on_first_face(world), {0, 1, 0});
-  EXPECT_TRUE(world.plan().has(Stage::grab));
+  EXPECT_TRUE(world.plan().has(stage_of<Hand>));
   test::run(world, 1);
   EXPECT_NE(world.state_hash(), at_rest);
   world.grab({});
-  EXPECT_FALSE(world.plan().has(Stage::grab));
+  EXPECT_FALSE(world.plan().has(stage_of<Hand>));
   EXPECT_FALSE(world.grabbed());
 }
 

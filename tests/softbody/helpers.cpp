@@ -96,6 +96,16 @@ Motion motion(const World& world, BodyId body) {
   return m;
 }
 
+Material every_force() {
+  Material m;
+  m.name = "every";
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (requires { F::keys; })
+      for (const Key* key : F::keys) m[*key] = key->fallback > 0 ? key->fallback : 1;
+  });
+  return m;
+}
+
 glm::dvec3 angular_momentum(const World& world) {
   glm::dvec3 total(0.0);
   for (BodyId b = 0; b < world.bodies().count(); ++b) {
@@ -107,21 +117,20 @@ glm::dvec3 angular_momentum(const World& world) {
 
 std::vector<glm::dvec3> forces(const BodyModel& p, const std::vector<glm::dvec3>& x) {
   std::vector<glm::dvec3> f(x.size(), glm::dvec3(0.0));
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) {
-      const glm::dvec3 d = x[s.j] - x[s.i];
-      const double length = glm::length(d);
-      const glm::dvec3 pull = s.stiffness * (1 - s.rest / length) * d;
-      f[s.i] += pull;
-      f[s.j] -= pull;
-    }
-  if (!p.has_gas) return f;
+  for_each_spring(p, [&](const Spring& s) {
+    const glm::dvec3 d = x[s.j] - x[s.i];
+    const double length = glm::length(d);
+    const glm::dvec3 pull = s.stiffness * (1 - s.rest / length) * d;
+    f[s.i] += pull;
+    f[s.j] -= pull;
+  });
+  const Gas* gas = data<GasPressure>(p);
+  if (!gas) return f;
   double v = 0;
   for (const auto& t : p.mesh.triangles) v += glm::dot(x[t[0]], glm::cross(x[t[1]], x[t[2]])) / 6;
-  const double turn = 0.1 * p.gas.rest_volume;
-  const double pressure =
-      v >= turn ? p.gas.amount / v : p.gas.amount / turn - p.gas.amount / (turn * turn) * (v - turn);
-  const double outside = std::abs(v) < turn ? p.gas.ambient * v / turn : std::copysign(p.gas.ambient, v);
+  const double turn = 0.1 * gas->rest_volume;
+  const double pressure = v >= turn ? gas->amount / v : gas->amount / turn - gas->amount / (turn * turn) * (v - turn);
+  const double outside = std::abs(v) < turn ? gas->ambient * v / turn : std::copysign(gas->ambient, v);
   for (const auto& t : p.mesh.triangles) {
     const glm::dvec3 third = (pressure - outside) / 3 * 0.5 * glm::cross(x[t[1]] - x[t[0]], x[t[2]] - x[t[0]]);
     for (const Index corner : t) f[corner] += third;

@@ -5,8 +5,8 @@
 #include <random>
 
 #include "softbody/contact/keys.h"
-#include "softbody/forces/table.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/bound.h"
+#include "softbody/forces/model_forces.h"
 #include "softbody/state/lanes.h"
 #include "softbody/world/measures.h"
 #include "tests/temporary_folder.h"
@@ -26,6 +26,8 @@ void add_body(Scene& scene, const glm::dvec3& position, const glm::dvec3& veloci
 /// A flat sheet of 4 x 4 quads that lies in the plane y = 0 on ground of the same height.
 Scene sheet_on_ground(double friction, const glm::dvec3& gravity, const glm::dvec3& velocity);
 Scene drop_scene();
+/// A material whose values of every force are not zero: 1 in the key's unit if it has no fallback above 0.
+Material every_force();
 
 void run(World& world, int frames);
 std::vector<Particle> particles_of(const World& world, BodyId body = 0);
@@ -43,6 +45,21 @@ Motion motion(const World& world, BodyId body);
 glm::dvec3 angular_momentum(const World& world);  // about the world's origin
 /// Forces of springs and gas at rest, by plain loops.
 std::vector<glm::dvec3> forces(const BodyModel& model, const std::vector<glm::dvec3>& x);
+
+/// Returns the model with one force and no other.
+template <class F>
+BodyModel with_force(BodyModel model, const typename F::Data& data) {
+  auto forces = std::make_shared<ModelForces>();
+  forces->of<F>() = data;
+  forces->set_bounds(model.mesh.vertices.size());
+  model.forces = std::move(forces);
+  return model;
+}
+/// The same with the model's own data.
+template <class F>
+BodyModel only(const BodyModel& model) {
+  return with_force<F>(model, *data<F>(model));
+}
 
 double uniform(std::mt19937& random, double lo, double hi);
 /// Components from -size to size, drawn in their order.

@@ -26,7 +26,8 @@ struct Bowls {
     const auto gradient = [&](const Lanes& at, Lanes& g) {
       ++gradients;
       for (std::size_t i = 0; i < at.size(); ++i) {
-        const double d = at[i] - 1, c = softest + (stiffest - softest) * double(i / implicit_lanes) / double(3 * particles);
+        const double d = at[i] - 1,
+                     c = softest + (stiffest - softest) * double(i / implicit_lanes) / double(3 * particles);
         g[i] = c * d + quartic[i % implicit_lanes] * d * d * d;
       }
     };
@@ -99,8 +100,8 @@ struct Pressed : ImplicitRig {
     for (std::size_t i = 0; i < particles(); ++i) put(work.end_x, i, 0, at(work.x, i, 0) + by);
   }
   ImplicitProblem problem() {
-    return {*model,  matrices.at(*model, h),   h,          work.moves.data(), &work.x, &work.v,
-            &work.a, &work.frame_displacement, work.planes};
+    return {*model,  matrices.at(*model, h),   h, work.moves.data(), &work.x, &work.v,
+            &work.a, &work.frame_displacement, h, work.planes};
   }
   /// m, how far the particle moves under its contact's force.
   glm::dvec3 response() { return matrices.at(*model, h).compliance(3, 3) * work.planes[0].force; }

@@ -48,8 +48,18 @@ struct BatchRig {
     solids[0].place.y[lane] = float(lowest - gap);
   }
   ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) const {
-    return {model,     lanes, 0,       implicit_lanes, moves,   x.field(),
-            v.field(), base,  gravity, solids,         penalty, ends,
+    return {model,
+            lanes,
+            0,
+            implicit_lanes,
+            moves,
+            x.field(),
+            v.field(),
+            base,
+            gravity,
+            solids,
+            penalty,
+            ends,
             [](BodyId id) { return id < 2; }};
   }
   ImplicitResult result() { return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data()}; }
@@ -133,7 +143,8 @@ TEST(FindPlanes, ThrowsBackWhatComesFast) {
   const ImplicitFrames frames(work.x, work.v, mask({0, 1}), rig.h, rig.gravity);
   ASSERT_EQ(find_planes(rig.batch(), frames, mask({0, 1}), rig.h, work), mask({0, 1}));
   double most[] = {-1, -1};
-  for (const PlaneContact& c : work.planes) most[c.at % implicit_lanes] = std::max(most[c.at % implicit_lanes], c.min_displacement);
+  for (const PlaneContact& c : work.planes)
+    most[c.at % implicit_lanes] = std::max(most[c.at % implicit_lanes], c.min_displacement);
   EXPECT_NEAR(most[0], 0.5 * 2 * rig.h, 1e-6) << "m: it leaves at half its speed";
   EXPECT_NEAR(most[1], -0.001, 1e-6) << "m: it may close the gap";
 }

@@ -137,7 +137,7 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
     for (const double side : {1.0, -1.0}) work.planes.push_back({i * implicit_lanes, 0.5, 0, {side, 0, 0}, r, r});
   work.local_v.resize(work.x.size());
   const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.local_v, &work.a,
-                                        &work.frame_displacement, work.planes, work.penalty_pairs});
+                                        &work.frame_displacement, h, work.planes, work.penalty_pairs});
   EXPECT_TRUE(std::all_of(end.begin(), end.end(), [](double x) { return std::isfinite(x); }));
   const double iterations = (30 + 8) * 12, sweeps = 2 * 4e6 / 256;
   const double done = work.solver.take_work(), last_sweeps = 2 * double(max_contacts * max_contacts) / 256;

@@ -6,6 +6,7 @@
 #include <functional>
 #include <glm/geometric.hpp>
 
+#include "softbody/integrate/force_stage.h"
 #include "tests/softbody/helpers.h"
 
 namespace softbody::test {
@@ -26,13 +27,19 @@ TEST(Plan, EachStageIsRunOrLeftOutWithAReason) {
   for (const char* toml : {"[[body]]\n", "[ground]\n[[body]]\n[[body]]\nrelease = 3\n"}) {
     const World world = world_of(toml);
     const Plan& plan = world.plan();
-    EXPECT_EQ(plan.stages.size() + plan.left_out.size(), std::size_t(Stage::count));
-    for (int s = 0; s < int(Stage::count); ++s) {
+    constexpr int count = int(Stage::first_force) + int(force_count);
+    EXPECT_EQ(plan.stages.size() + plan.left_out.size(), std::size_t(count));
+    for (int s = 0; s < count; ++s) {
       const auto stage = Stage(s);
       EXPECT_FALSE(stage_key(stage).empty());
       EXPECT_NE(plan.has(stage), !why(plan, stage).empty()) << stage_key(stage);
     }
-    EXPECT_TRUE(std::is_sorted(plan.stages.begin(), plan.stages.end()));
+    // As a step runs them: forces, in the order of their table, just before gravity.
+    const auto gravity = std::ranges::find(plan.stages, Stage::gravity);
+    const auto first = std::ranges::find_if(plan.stages, [](Stage s) { return s >= Stage::first_force; });
+    EXPECT_TRUE(std::is_sorted(plan.stages.begin(), first) && std::is_sorted(gravity, plan.stages.end()));
+    EXPECT_TRUE(std::is_sorted(first, gravity));
+    EXPECT_TRUE(std::all_of(first, gravity, [](Stage s) { return s >= Stage::first_force; }));
   }
 }
 
@@ -41,11 +48,11 @@ TEST(Plan, OfAnOpenSheetHasNoGasAndNoRollingButShearSprings) {
       "[collision]\nself_collision = false\n[ground]\n[[material]]\nshear = {stiffness = 10}\n"
       "gas_pressure = 2\nrolling_resistance = 1\n[[body]]\nmesh = {kind = \"grid\", columns = 3, rows = 3}\n");
   const Plan& plan = world.plan();
-  EXPECT_EQ(why(plan, Stage::gas_pressure), "no closed body with gas");
+  EXPECT_EQ(why(plan, stage_of<GasPressure>), "no closed body with gas");
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no closed body with rolling resistance");
-  EXPECT_TRUE(plan.has(Stage::shear_springs) && plan.has(Stage::ground) && plan.has(Stage::gravity));
+  EXPECT_TRUE(plan.has(stage_of<ShearSprings>) && plan.has(Stage::ground) && plan.has(Stage::gravity));
   EXPECT_EQ(why(plan, Stage::detect), "one body, and self-collision is off");
-  EXPECT_EQ(why(plan, Stage::contact_response), "one body, and self-collision is off");
+  EXPECT_EQ(why(plan, stage_of<PenaltyContact>), "one body, and self-collision is off");
   EXPECT_EQ(why(plan, Stage::solid_spheres), "the scene has no solid sphere");
 }
 
@@ -61,11 +68,11 @@ TEST(Plan, OfABallAloneInEmptySpace) {
   EXPECT_EQ(why(plan, Stage::rolling_resistance), "no solid to roll on");
   EXPECT_EQ(why(plan, Stage::rebound_damping), "no solid to rebound from");
   EXPECT_EQ(why(plan, Stage::internal_damping), "no material has internal damping");
-  EXPECT_EQ(why(plan, Stage::shear_springs), "no body has such springs");
+  EXPECT_EQ(why(plan, stage_of<ShearSprings>), "no body has such springs");
   EXPECT_EQ(why(plan, Stage::sleep), "the scene's sleep speed is 0");
   EXPECT_EQ(why(plan, Stage::arrive), "all bodies are there and free from the start");
   EXPECT_TRUE(plan.has(Stage::detect)) << "it may meet itself";
-  EXPECT_TRUE(plan.has(Stage::structural_springs) && plan.has(Stage::bend_springs) && plan.has(Stage::integrate));
+  EXPECT_TRUE(plan.has(stage_of<StructuralSprings>) && plan.has(stage_of<BendSprings>) && plan.has(Stage::integrate));
 }
 
 TEST(Plan, HasArrivalsWhereABodyComesOrIsReleasedLate) {
@@ -75,7 +82,7 @@ TEST(Plan, HasArrivalsWhereABodyComesOrIsReleasedLate) {
 
 TEST(Plan, ADropperCanAlwaysAddAnother) {
   const World world = world_of("[collision]\nself_collision = false\n[[body]]\n[dropper]\n");
-  EXPECT_TRUE(world.plan().has(Stage::detect) && world.plan().has(Stage::contact_response));
+  EXPECT_TRUE(world.plan().has(Stage::detect) && world.plan().has(stage_of<PenaltyContact>));
   EXPECT_FALSE(world_of("[collision]\nself_collision = false\n[[body]]\n").plan().has(Stage::detect));
   EXPECT_TRUE(world_of("[collision]\nself_collision = false\n[[body]]\n[[body]]\nposition = [5, 5, 5]\n")
                   .plan()
@@ -86,9 +93,9 @@ TEST(Plan, OfTheDropSceneHasAllButWhatNoneOfItsBodiesAndSolidsNeeds) {
   const World world(drop_scene(), {});
   std::vector<Stage> left_out;
   for (const LeftOut& l : world.plan().left_out) left_out.push_back(l.stage);
-  EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, Stage::shear_springs, Stage::shape_matching, Stage::grab,
-                                   Stage::restitution, Stage::solid_planes, Stage::solid_boxes, Stage::solid_capsules,
-                                   Stage::solid_features, Stage::rebound_damping}));
+  EXPECT_EQ(left_out, (std::vector{Stage::surface_contact, stage_of<ShearSprings>, stage_of<ShapeMatching>,
+                                   stage_of<Hand>, Stage::restitution, Stage::solid_planes, Stage::solid_boxes,
+                                   Stage::solid_capsules, Stage::solid_features, Stage::rebound_damping}));
 }
 
 /// Two scenes that differ by a stage which, where it runs, has nothing to do.
@@ -166,7 +173,7 @@ const Idle idle_stages[]{
        s.collision.self_collision = true;
        s.collision.tolerance = 1e-6f;
      }},
-    {"response", Stage::contact_response, nothing,
+    {"response", stage_of<PenaltyContact>, nothing,
      [](Scene& s) {
        s.collision.self_collision = true;
        s.collision.tolerance = 1e-6f;
@@ -185,16 +192,16 @@ const Idle idle_stages[]{
      [](Scene& s) {
        s.gravity = {0, -1e-30, 0};
      }},
-    {"shear", Stage::shear_springs, sheet,
+    {"shear", stage_of<ShearSprings>, sheet,
      [](Scene& s) {
        sheet(s);
        s.materials[0].set(ShearSprings::keys, {1e-30, 0});
      }},
-    {"bend", Stage::bend_springs, [](Scene& s) { s.materials[0][BendSprings::stiffness] = 0; },
+    {"bend", stage_of<BendSprings>, [](Scene& s) { s.materials[0][BendSprings::stiffness] = 0; },
      [](Scene& s) {
        s.materials[0].set(BendSprings::keys, {1e-30, 0});
      }},
-    {"gas", Stage::gas_pressure,
+    {"gas", stage_of<GasPressure>,
      [](Scene& s) { s.materials[0][GasPressure::inside] = s.materials[0][GasPressure::outside] = 0; },
      [](Scene& s) {
        s.materials[0][GasPressure::inside] = 1e-30;

@@ -7,6 +7,7 @@
 #include <glm/matrix.hpp>
 
 #include "softbody/forces/best_rotation.h"
+#include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
 #include "softbody/forces/kernels.h"
 #include "softbody/forces/shape_matching.h"
@@ -75,17 +76,11 @@ TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
   for (const std::int64_t target : tests::targets()) {
     const tests::UseTarget use(target);
     LaneField field(x.size()), force(x.size());
-    std::vector<ShapePoint<float>> shape;
-    for (const glm::dvec3& q : p->goal) shape.push_back({float(q.x), float(q.y), float(q.z)});
     for (std::size_t i = 0; i < x.size(); ++i) field.set(i, 5, x[i]);
-    ShapeMoments<float> moments;
-    ShapePose<float> pose{};
-    force_kernels(lanes).shape_moments(lanes, shape, std::as_const(field).field(), moments);
-    fit_shape(moments, lanes, pose);
-    force_kernels(lanes).shape_pull(lanes, shape, pose, float(shape_stiffness(*p)), std::as_const(field).field(),
-                                    force.field());
+    force_kernels(lanes).add[index_of<ShapeMatching>]({*p, lanes, std::as_const(field).field(), force.field()},
+                                                      {std::as_const(field).field()});
 
-    const double scale = shape_stiffness(*p) * 0.5;
+    const double scale = data<ShapeMatching>(*p)->stiffness * 0.5;
     glm::dvec3 total(0.0), torque(0.0);
     for (std::size_t i = 0; i < x.size(); ++i) {
       const glm::dvec3 f = force.at(i, 5);
@@ -95,7 +90,7 @@ TEST(ShapeMatching, ForceIsTheGradientOfTheEnergyAndMovesNothingAsAWhole) {
         constexpr double h = 1e-5;
         auto ahead = x, behind = x;
         ahead[i][k] += h, behind[i][k] -= h;
-        EXPECT_NEAR(f[k], -(shape_energy(*p, ahead) - shape_energy(*p, behind)) / (2 * h), 1e-5 * scale);
+        EXPECT_NEAR(f[k], -(elastic_energy(*p, ahead) - elastic_energy(*p, behind)) / (2 * h), 1e-5 * scale);
       }
     }
     EXPECT_LT(glm::length(total), 1e-5 * scale * double(x.size()));
@@ -107,8 +102,8 @@ TEST(ShapeMatching, ARigidMotionCostsNothing) {
   const auto p = make_body_model({}, shape_only());
   std::vector<glm::dvec3> x;
   for (const glm::dvec3& v : p->mesh.vertices) x.push_back(rotation({3, -1, 2}, 3) * v + glm::dvec3(5, 6, 7));
-  EXPECT_LT(shape_energy(*p, x), 1e-20);
-  EXPECT_GT(shape_energy(*p, std::vector<glm::dvec3>(x.size(), x[0])), 1);
+  EXPECT_LT(elastic_energy(*p, x), 1e-20);
+  EXPECT_GT(elastic_energy(*p, std::vector<glm::dvec3>(x.size(), x[0])), 1);
 }
 
 TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
@@ -116,11 +111,14 @@ TEST(ShapeMatching, IsForMeshesFromFilesUnlessTheMaterialSaysOtherwise) {
   const auto file = folder.write("a.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n");
   const MeshSource source = MeshSource::from_file({.path = file});
   Material m = spring_ball();
-  EXPECT_EQ(make_body_model({}, m)->shape_rate, 0);
-  EXPECT_NEAR(make_body_model(source, m)->shape_rate, 2 * 3.14159265358979 * mesh_file_shape_frequency, 1e-9);
+  EXPECT_FALSE(data<ShapeMatching>(*make_body_model({}, m)));
+  const auto p = make_body_model(source, m);
+  const double rate = 2 * 3.14159265358979 * mesh_file_shape_frequency;
+  ASSERT_TRUE(data<ShapeMatching>(*p));
+  EXPECT_NEAR(data<ShapeMatching>(*p)->stiffness, p->particle_mass * rate * rate,
+              1e-9 * p->particle_mass * rate * rate);
   m[ShapeMatching::frequency] = 0;
-  EXPECT_EQ(make_body_model(source, m)->shape_rate, 0);
-  EXPECT_TRUE(make_body_model(source, m)->goal.empty());
+  EXPECT_FALSE(data<ShapeMatching>(*make_body_model(source, m)));
 }
 
 }  // namespace

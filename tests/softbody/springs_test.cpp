@@ -16,36 +16,46 @@ namespace softbody::test {
 namespace {
 
 /// Hooke and damper along the spring, as the paper has them: the force on i.
-glm::dvec3 pull(const LaneField& x, const LaneField& v, const KernelSpring<float>& s, int lane) {
-  const glm::dvec3 dx = x.at(s.j / lanes, lane) - x.at(s.i / lanes, lane);
-  const glm::dvec3 dv = v.at(s.j / lanes, lane) - v.at(s.i / lanes, lane);
+glm::dvec3 pull(const LaneField& x, const LaneField& v, const SpringOf<float>& s, int lane) {
+  const glm::dvec3 dx = x.at(s.j, lane) - x.at(s.i, lane);
+  const glm::dvec3 dv = v.at(s.j, lane) - v.at(s.i, lane);
   const double length = glm::length(dx);
   return (double(s.stiffness) * (length - s.rest) + double(s.damping) * glm::dot(dv, dx) / length) * dx / length;
 }
 
-std::vector<KernelSpring<float>> random_springs(std::mt19937& random, std::uint32_t particles, int count) {
-  std::vector<KernelSpring<float>> springs;
+std::vector<SpringOf<float>> random_springs(std::mt19937& random, std::uint32_t particles, int count) {
+  std::vector<SpringOf<float>> springs;
   while (int(springs.size()) < count) {
     const auto i = std::uint32_t(random() % particles), j = std::uint32_t(random() % particles);
     if (i != j)
-      springs.push_back({i * lanes, j * lanes, float(uniform(random, 0.1, 2)), float(uniform(random, 1, 300)),
-                         float(uniform(random, 0, 5))});
+      springs.push_back(
+          {i, j, float(uniform(random, 0.1, 2)), float(uniform(random, 1, 300)), float(uniform(random, 0, 5))});
   }
   return springs;
 }
 
-class Springs : public tests::OnEveryTarget {
- protected:
-  const ForceKernels& k = force_kernels(lanes);
-};
+/// Particles that springs join.
+BodyModel model_of(std::size_t particles, const std::vector<SpringOf<float>>& springs) {
+  BodyModel model;
+  model.mesh.vertices.resize(particles);
+  return with_force<StructuralSprings>(std::move(model), {{}, springs});
+}
 
-TEST_P(Springs, OneSpringHasTheClosedFormInEachLane) {
+/// Adds the springs' forces.
+void add(const std::vector<SpringOf<float>>& springs, const LaneField& x, const LaneField& v, LaneField& f) {
+  force_kernels(lanes).add[index_of<StructuralSprings>](
+      {model_of(x.x.size() / lanes, springs), lanes, x.field(), f.field()}, {v.field()});
+}
+
+class SpringForces : public tests::OnEveryTarget {};
+
+TEST_P(SpringForces, OneSpringHasTheClosedFormInEachLane) {
   std::mt19937 random(1);
   LaneField x(2), v(2), f(2);
   x.randomise(random, 1);
   v.randomise(random, 3);
-  const std::vector<KernelSpring<float>> spring{{0, lanes, 0.8f, 120.0f, 2.5f}};
-  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  const std::vector<SpringOf<float>> spring{{0, 1, 0.8f, 120.0f, 2.5f}};
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l) {
     const glm::dvec3 expected = pull(x, v, spring[0], l);
     EXPECT_NEAR(glm::distance(f.at(0, l), expected), 0, 2e-6 * (glm::length(expected) + 100)) << "lane " << l;
@@ -53,29 +63,29 @@ TEST_P(Springs, OneSpringHasTheClosedFormInEachLane) {
   }
 }
 
-TEST_P(Springs, AStretchedSpringPullsAndASqueezedOnePushes) {
+TEST_P(SpringForces, AStretchedSpringPullsAndASqueezedOnePushes) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) x.set(1, l, {0.25 * (l + 1), 0, 0});
-  const std::vector<KernelSpring<float>> spring{{0, lanes, 1.0f, 8.0f, 0.0f}};
-  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  const std::vector<SpringOf<float>> spring{{0, 1, 1.0f, 8.0f, 0.0f}};
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(8 * (0.25 * (l + 1) - 1), 0, 0)), 0, 1e-5) << "lane " << l;
 }
 
-TEST_P(Springs, TheDamperActsOnTheRelativeSpeedAlongTheSpringOnly) {
+TEST_P(SpringForces, TheDamperActsOnTheRelativeSpeedAlongTheSpringOnly) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) {
     x.set(1, l, {0, 0, 2});
     v.set(0, l, {5, 5, 1.0 * l});
     v.set(1, l, {-7, 9, 4});
   }
-  const std::vector<KernelSpring<float>> damper{{0, lanes, 2.0f, 50.0f, 3.0f}};  // at its rest length
-  k.springs(lanes, damper, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  const std::vector<SpringOf<float>> damper{{0, 1, 2.0f, 50.0f, 3.0f}};  // at its rest length
+  add(damper, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_NEAR(glm::distance(f.at(0, l), glm::dvec3(0, 0, 3.0 * (4 - l))), 0, 1e-5) << "c (dv . dx) / |dx|";
 }
 
-TEST_P(Springs, OfLengthZeroPullsNowhere) {
+TEST_P(SpringForces, OfLengthZeroPullsNowhere) {
   LaneField x(2), v(2), f(2);
   for (int l = 0; l < lanes; ++l) {
     x.set(0, l, {1, 2, 3});
@@ -83,25 +93,25 @@ TEST_P(Springs, OfLengthZeroPullsNowhere) {
     v.set(0, l, {1.0 * l, 0, 0});
   }
   x.set(1, 5, {1, 2, 4});  // its neighbours do not disturb a lane
-  const std::vector<KernelSpring<float>> spring{{0, lanes, 0.5f, 100.0f, 1.0f}};
-  k.springs(lanes, spring, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  const std::vector<SpringOf<float>> spring{{0, 1, 0.5f, 100.0f, 1.0f}};
+  add(spring, x, v, f);
   for (int l = 0; l < lanes; ++l)
     EXPECT_EQ(f.at(0, l), l == 5 ? glm::dvec3(0, 0, 50) : glm::dvec3(0.0)) << "lane " << l;
 }
 
-TEST_P(Springs, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
+TEST_P(SpringForces, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   std::mt19937 random(2);
   constexpr std::uint32_t n = 40;
   LaneField x(n), v(n), f(n);
   x.randomise(random, 1);
   v.randomise(random, 2);
   const auto springs = random_springs(random, n, 300);
-  k.springs(lanes, springs, std::as_const(x).field(), std::as_const(v).field(), f.field());
+  add(springs, x, v, f);
   for (int l = 0; l < lanes; ++l) {
     std::vector<glm::dvec3> expected(n, glm::dvec3(0.0));
     for (const auto& s : springs) {
-      expected[s.i / lanes] += pull(x, v, s, l);
-      expected[s.j / lanes] -= pull(x, v, s, l);
+      expected[s.i] += pull(x, v, s, l);
+      expected[s.j] -= pull(x, v, s, l);
     }
     glm::dvec3 sum(0.0), torque(0.0);
     double size = 0;
@@ -116,7 +126,7 @@ TEST_P(Springs, ForcesAreAddedAndTheirSumsAndTorquesVanish) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(All, Springs, testing::ValuesIn(tests::targets()), tests::target_name);
+INSTANTIATE_TEST_SUITE_P(All, SpringForces, testing::ValuesIn(tests::targets()), tests::target_name);
 
 /// Everything that the kernels of one instruction set make of the same random state.
 struct Trace {
@@ -133,7 +143,6 @@ struct Trace {
 
 Trace trace(std::int64_t target) {
   const tests::UseTarget use(target);
-  const ForceKernels& k = force_kernels(lanes);
   const StateKernels& state = state_kernels(lanes);
   std::mt19937 random(3);
   const Mesh mesh = icosphere(1, 0.5);
@@ -144,10 +153,11 @@ Trace trace(std::int64_t target) {
   for (std::size_t i = 0; i < n; ++i)
     for (int l = 0; l < lanes; ++l) t.x.set(i, l, t.x.at(i, l) + mesh.vertices[i]);
   const auto springs = random_springs(random, std::uint32_t(n), 120);
-  std::vector<KernelTriangle> faces;
-  for (const auto& [a, b, c] : mesh.triangles) faces.push_back({a * lanes, b * lanes, c * lanes});
-  float moves[lanes], gauge[lanes], returned[lanes]{};
-  for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 2 ? 0.0f : 1.0f, gauge[l] = float(l * l * l - 50);
+  BodyModel holds_gas;
+  holds_gas.mesh = mesh;
+  holds_gas = with_force<GasPressure>(holds_gas, {.amount = 20, .ambient = 30, .rest_volume = 0.5});
+  float moves[lanes], returned[lanes]{};
+  for (int l = 0; l < lanes; ++l) moves[l] = l % 5 == 2 ? 0.0f : 1.0f;
   const SolidShape<float> shapes[]{
       SphereShape<float>{0.4f}, PlaneShape<float>{{0, 1, 0}},
       BoxShape<float>{{{0.6f, 0.8f, 0}, {-0.8f, 0.6f, 0}, {0, 0, 1}}, {0.5f, 0.2f, 1}, 0.01f},
@@ -156,9 +166,12 @@ Trace trace(std::int64_t target) {
   for (int l = 0; l < lanes; ++l) solid.place.y[l] = -0.45f + 0.01f * float(l);
   const auto constant = [](const LaneField& f) { return f.field(); };
   for (int step = 0; step < 5; ++step) {
-    k.springs(lanes, springs, constant(t.x), constant(t.v), t.f.field());
-    k.volume(lanes, faces, constant(t.x), t.volume.data());
-    k.pressure(lanes, faces, constant(t.x), gauge, t.f.field());
+    add(springs, t.x, t.v, t.f);
+    const LaneBodies<float> bodies{holds_gas, lanes, constant(t.x), t.f.field()};
+    SurfaceShape surfaces[lanes];
+    force_kernels(lanes).measure_surfaces(bodies, surfaces);
+    for (int l = 0; l < lanes; ++l) t.volume[std::size_t(l)] = float(surfaces[l].volume);
+    force_kernels(lanes).add[index_of<GasPressure>](bodies, {constant(t.v)});
     state.kick(lanes, {n, 0.01f, 0.0f, -0.098f, 0.01f, moves}, constant(t.f), t.v.field());
     const LaneField before = t.v;
     solid.before = before.field();

@@ -79,7 +79,7 @@ double largest_eigenvalue(const BodyModel& p, const std::vector<glm::dvec3>& x, 
 
 TEST(StiffnessBound, HoldsTheLargestEigenvalueOfTheSprings) {
   const auto p = make_body_model({}, spring_ball());
-  const double bound = 2 * p->spring_stiffness_bound / p->particle_mass;
+  const double bound = 2 * p->forces->pair_stiffness / p->particle_mass;
   const double eigenvalue = largest_eigenvalue(*p, p->mesh.vertices, 0);
   EXPECT_LE(eigenvalue, bound);
   EXPECT_GT(eigenvalue, bound / 4) << "a bound so loose would waste substeps";
@@ -122,9 +122,9 @@ TEST(StiffnessBound, HoldsACrumpledBody) {
       const double springs = 2 * stiffness_per_mass(*make_body_model({}, without), {});
       EXPECT_GE(bound, springs);
       const SurfaceShape s = measure_surface(*p, x);
-      const double norm = -p->gas.slope(s.volume) * s.area2 / p->particle_mass;
+      const double norm = stiffness_at(*data<GasPressure>(*p), s.volume) * s.area2 / p->particle_mass;
       const double geometric =
-          std::abs(p->gas.gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
+          std::abs(data<GasPressure>(*p)->gauge(s.volume)) * p->largest_degree * s.two_medians / 6 / p->particle_mass;
       EXPECT_LE(bound, (springs + norm + geometric) * (1 + 1e-12)) << "no more than the sum of its parts";
     }
 }

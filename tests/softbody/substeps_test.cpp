@@ -31,7 +31,7 @@ TEST(StepController, TakesTheSubstepsOfTheBodyThatNeedsMost) {
       world.set_particles(body, particles);
       const BodyModel& p = world.model(body);
       const double step = world.integrator_choice().integrator().stable_step(
-          stiffness_per_mass(p, measure_surface(p, x)), p.spring_damping_bound / p.particle_mass);
+          stiffness_per_mass(p, measure_surface(p, x)), damping_bound(p) / p.particle_mass);
       most = std::max(most, world.frame_time() / step);
     }
     EXPECT_NEAR(WorldTestAccess::solver(world).needed_substeps(100 * world.frame_time()), 100 * most, 1) << size;
@@ -71,9 +71,8 @@ TEST(StepController, CountsTheStiffnessOfContacts) {
   const BodyModel& p = world.model(0);
   const double own = stiffness_per_mass(p, {}), penalty = PenaltyContact::stiffness_bound(1e4) / p.particle_mass;
   ASSERT_GT(penalty, 4 * own);
-  EXPECT_GE(world.last_step().substeps,
-            world.frame_time() / world.integrator_choice().integrator().stable_step(
-                                     own + penalty, p.spring_damping_bound / p.particle_mass));
+  EXPECT_GE(world.last_step().substeps, world.frame_time() / world.integrator_choice().integrator().stable_step(
+                                                                 own + penalty, damping_bound(p) / p.particle_mass));
 }
 
 /// A tenth of its radius in a substep, at most.
@@ -157,7 +156,7 @@ TEST(StepController, FollowsTheBound) {
     World world(scene, {});
     const BodyModel& p = world.model(0);
     world.step();
-    const double h = stable_step(p.spring_stiffness_bound / p.particle_mass, p.spring_damping_bound / p.particle_mass);
+    const double h = stable_step(p.forces->pair_stiffness / p.particle_mass, damping_bound(p) / p.particle_mass);
     EXPECT_EQ(world.last_step().substeps, int(std::ceil(1.0 / 60 / h)));
   }
 }

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include "softbody/integrate/force_stage.h"
 #include "tests/every_target.h"
 #include "tests/softbody/surface_rig.h"
 #include "tests/support/world_test_access.h"
@@ -75,7 +76,7 @@ TEST(SurfaceContact, MayBeTurnedOnAndOffAtAnyTime) {
   }
   world.set_contact_surface(ContactSurface::surfaces);
   EXPECT_TRUE(world.plan().has(Stage::surface_contact));
-  EXPECT_FALSE(world.plan().has(Stage::contact_response));
+  EXPECT_FALSE(world.plan().has(stage_of<PenaltyContact>));
   run(world, 60);
   judge.expect_clean("after a second of surface contact");
 }

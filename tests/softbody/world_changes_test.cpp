@@ -4,6 +4,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/integrate/force_stage.h"
 #include "softbody/mesh/limits.h"
 #include "tests/softbody/helpers.h"
 #include "tests/support/world_test_access.h"
@@ -134,7 +135,7 @@ TEST(Remove, OfTheBodyInTheHandOpensIt) {
   world.step();
   world.remove(0);
   EXPECT_FALSE(world.grabbed());
-  EXPECT_FALSE(world.plan().has(Stage::grab));
+  EXPECT_FALSE(world.plan().has(stage_of<Hand>));
   world.step();
 }
 
@@ -159,7 +160,7 @@ TEST(Add, BringsTheStagesThatASecondBodyNeedsAndMeshesThatTheSceneHasNot) {
   cloth.position = {0, 0.52, 0};
   world.add(cloth);
   EXPECT_TRUE(world.plan().has(Stage::detect));
-  EXPECT_TRUE(world.plan().has(Stage::contact_response));
+  EXPECT_TRUE(world.plan().has(stage_of<PenaltyContact>));
   EXPECT_FALSE(world.detection().contacts.empty());
   expect_consistent(world);
 }
@@ -257,7 +258,7 @@ TEST(Changes, AMaterialActsOnTheBodiesThatAreThereAndOnThoseToCome) {
   heavy[Material::internal_damping] = 2;
   world.set_material(0, heavy);
   EXPECT_EQ(positions(world, 0), before);
-  EXPECT_TRUE(world.plan().has(Stage::gas_pressure));
+  EXPECT_TRUE(world.plan().has(stage_of<GasPressure>));
   EXPECT_TRUE(world.plan().has(Stage::internal_damping));
   EXPECT_NEAR(glm::length(measure(world).momentum), 5, 1e-4);
   world.drop();

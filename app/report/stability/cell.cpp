@@ -12,7 +12,7 @@
 #include "app/report/solid_passages.h"
 #include "app/report/steps.h"
 #include "softbody/contact/law.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/gas.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
 
@@ -24,10 +24,11 @@ using softbody::BodyId;
 using softbody::World;
 
 double gas_energy(const softbody::BodyModel& p, const Particles& particles) {
-  if (!p.has_gas) return 0;
+  const softbody::Gas* gas = softbody::gas_of(p);
+  if (!gas) return 0;
   std::vector<dvec3> x;
   for (const softbody::Particle& q : particles) x.push_back(q.position);
-  return p.gas.energy(reference::volume_of(x, p.mesh.triangles));
+  return gas->stored(reference::volume_of(x, p.mesh.triangles));
 }
 
 /// Returns the longest side (m) of the particles' box.
@@ -168,7 +169,7 @@ reference::ReferenceDeviation compare(const World& world, const StabilityStart& 
 
 std::vector<softbody::PairEnergy> penalty_energies_with(softbody::World& world,
                                                         std::span<const softbody::BodySource> joiners) {
-  if (!world.plan().has(softbody::Stage::contact_response)) return {};
+  if (!world.plan().has("contact-response")) return {};
   const softbody::Snapshot before = world.snapshot();
   for (const softbody::BodySource& joiner : joiners) world.add(joiner);
   std::vector<softbody::PairEnergy> pairs = world.pair_energies().next;

@@ -9,7 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/report/steps.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/springs.h"
 #include "softbody/world/body_model_set.h"
 #include "softbody/world/measures.h"
 #include "softbody/world/snapshot.h"
@@ -27,7 +27,8 @@ constexpr double infinite = std::numeric_limits<double>::infinity();
 /// Returns nothing if springs do not join all particles.
 std::optional<int> longest_chain(const softbody::BodyModel& p) {
   std::vector<std::vector<softbody::Index>> next(p.mesh.vertices.size());
-  for (const softbody::Spring& s : p.structural) next[s.i].push_back(s.j), next[s.j].push_back(s.i);
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(p))
+    next[s.i].push_back(s.j), next[s.j].push_back(s.i);
   std::vector<int> distance(next.size(), -1);
   std::queue<softbody::Index> open;
   distance[0] = 0, open.push(0);
@@ -45,7 +46,7 @@ StabilityStart::SpringChain spring_chain_of(const softbody::BodyModel& p) {
   const auto chain = longest_chain(p);
   if (!chain) return {infinite, infinite};
   double longest = 0, softest = infinite;
-  for (const softbody::Spring& s : p.structural)
+  for (const softbody::Spring& s : softbody::springs<softbody::StructuralSprings>(p))
     longest = std::max(longest, s.rest), softest = std::min(softest, s.stiffness);
   return {*chain * longest, softest / *chain};
 }

@@ -6,7 +6,7 @@
 #include "app/reference/reference_body.h"
 #include "app/report/solver/scenes.h"
 #include "app/report/steps.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/bound.h"
 #include "softbody/world/measures.h"
 
 namespace app::report {
@@ -43,7 +43,7 @@ class DisturbedBall {
     const softbody::World world = make(integrator, 1);
     const softbody::BodyModel& p = world.model(0);
     const double k_m = softbody::stiffness_per_mass(p, softbody::measure_surface(p, reference::state_of(world, 0).x));
-    return integrator.stable_step(k_m, p.spring_damping_bound / p.particle_mass);
+    return integrator.stable_step(k_m, softbody::damping_bound(p) / p.particle_mass);
   }
 
  private:

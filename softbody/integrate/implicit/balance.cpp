@@ -25,13 +25,6 @@ double kinetic_energy(const BodyModel& p, const LaneView& v) {
   return p.particle_mass / 2 * square;
 }
 
-/// Returns the energy (J) that the gas and the air around it lose. By Simpson's rule: the last digits of a logarithm
-/// differ between processors.
-double gas_work(const Gas& gas, double from, double to) {
-  const double by_gas = (to - from) / 6 * (gas.pressure(from) + 4 * gas.pressure((from + to) / 2) + gas.pressure(to));
-  return by_gas - (gas.ambient_energy(to) - gas.ambient_energy(from));
-}
-
 /// Returns the work (J) that solids and penalty contacts may have done on the body in the step that ends at work.end_x.
 double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
@@ -97,8 +90,8 @@ double energy_gain(const BodyModel& p, const ImplicitWork& work, std::size_t lan
   }
   const std::vector<glm::dvec3> start = places(p, x), end = places(p, end_x);
   const double before = kinetic_energy(p, v), after = kinetic_energy(p, end_v), elastic = elastic_energy(p, start);
-  double gain = after - before - fallen - contact_work(work, lane) + elastic_energy(p, end) - elastic;
-  if (p.has_gas) gain -= gas_work(p.gas, enclosed_volume(p, start), enclosed_volume(p, end));
+  const StoredEnergy stored = stored_energy_change(p, start, end);
+  const double gain = after - before - fallen - contact_work(work, lane) + stored.elastic + stored.gas;
   double motion = before + after;
   if (!pushed)  // then how fast it flies has no part in it
     motion -= p.material[Material::mass] / 2 * (glm::dot(before_mean, before_mean) + glm::dot(after_mean, after_mean));

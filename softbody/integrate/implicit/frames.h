@@ -21,6 +21,7 @@ class ImplicitFrames {
   ImplicitFrames subset(LaneMask which) const;
   /// Returns the same frames with origins that fall by `fall` (m).
   ImplicitFrames falling(const glm::dvec3& fall) const;
+  double step() const { return h_; }  // s
   /// Returns the lanes that have a frame of their own.
   LaneMask active() const { return active_; }
   /// Returns the rigid motion, in the world, that the body of a lane with a frame has at the start.

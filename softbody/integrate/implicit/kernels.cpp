@@ -4,7 +4,7 @@
 #define HWY_TARGET_INCLUDE "softbody/integrate/implicit/kernels.cpp"
 #include <hwy/foreach_target.h>
 
-#include "softbody/forces/kernel_bodies.h"
+#include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();
 namespace softbody {
@@ -13,10 +13,6 @@ namespace {
 
 using namespace body;
 using V = Wide<double, implicit_lanes>;
-using Field64 = Field<double>;
-using ConstField64 = Field<const double>;
-using Springs64 = std::span<const KernelSpring<double>>;
-using Triangles = std::span<const KernelTriangle>;
 
 /// The unknowns of a run, once what stands before it is known; two rows below it at a time keep the processor busy.
 void substitute_forward(const CholeskyFactor& f, const CholeskyFactor::Supernode& run, double* z) {
@@ -85,24 +81,6 @@ void substitute(const CholeskyFactor& f, double* x, double* z) {
   for (std::size_t i = 0; i < n; ++i) store(x + i * implicit_lanes, load<V>(z + f.place[i] * implicit_lanes));
 }
 
-/// Hooke's springs at x, and their dampers for the displacements x - from within the step, along the directions at
-/// `from`: fixed, so that the damping has a potential.
-void implicit_springs(std::span<const KernelSpring<double>> list, double inverse_h, Field<const double> x,
-                      Field<const double> from, Field<double> f) {
-  const V tiny = V(1e-12);  // m
-  for (const KernelSpring<double>& s : list) {
-    const Vec<V> dx = load<V>(x, s.j) - load<V>(x, s.i);
-    const V length = square_root(dot(dx, dx));
-    Vec<V> force = (s.stiffness * (length - s.rest) / larger(length, tiny)) * dx;
-    if (s.damping > 0) {
-      const Vec<V> along = load<V>(from, s.j) - load<V>(from, s.i);
-      force = force + (s.damping * inverse_h * dot(dx - along, along) / larger(dot(along, along), tiny * tiny)) * along;
-    }
-    store(f, s.i, load<V>(f, s.i) + force);
-    store(f, s.j, load<V>(f, s.j) - force);
-  }
-}
-
 /// v = R v, or R^T v if `back`, for each particle; rotation: column c of R at 3 c.
 void turn(std::size_t particles, const double (*rotation)[implicit_lanes], bool back, Field<double> v) {
   V r[3][3];  // row, column
@@ -142,14 +120,7 @@ void inner_product_shared(std::size_t count, const double* a, const double* b, d
   store(result, sum);
 }
 
-void volume(Triangles faces, ConstField64 x, double* result) { body::volume<V>(faces, x, result); }
-
-void pressure(Triangles faces, ConstField64 x, const double* gauge, Field64 f) {
-  body::pressure<V>(faces, x, gauge, f);
-}
-
-constexpr ImplicitKernels table{implicit_springs,     volume,     pressure,         substitute, turn, inner_product,
-                                inner_product_shared, add_scaled, add_scaled_shared};
+constexpr ImplicitKernels table{substitute, turn, inner_product, inner_product_shared, add_scaled, add_scaled_shared};
 
 const ImplicitKernels& Table() { return table; }
 

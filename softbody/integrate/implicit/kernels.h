@@ -3,10 +3,9 @@
 // processor's instruction set at run time; the result is the same on every one.
 
 #include <cstdint>
-#include <span>
 #include <vector>
 
-#include "softbody/forces/kernel_types.h"
+#include "softbody/state/lanes.h"
 
 namespace softbody {
 
@@ -25,11 +24,6 @@ struct CholeskyFactor {
 };
 
 struct ImplicitKernels {
-  void (*springs)(std::span<const KernelSpring<double>>, double inverse_h, Field<const double> x,
-                  Field<const double> from, Field<double> f);
-  void (*volume)(std::span<const KernelTriangle>, Field<const double> x, double* volume);
-  void (*pressure)(std::span<const KernelTriangle>, Field<const double> x, const double* gauge_pressure,
-                   Field<double> f);
   void (*substitute)(const CholeskyFactor&, double* x, double* scratch);
   void (*turn)(std::size_t particles, const double (*rotation)[implicit_lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);

@@ -8,7 +8,7 @@
 #include <glm/mat3x3.hpp>
 
 #include "softbody/forces/equilibrium.h"
-#include "softbody/forces/shape_matching.h"
+#include "softbody/forces/visit.h"
 #include "softbody/model/scene_error.h"
 
 namespace softbody {
@@ -19,13 +19,13 @@ using Entries = std::vector<Eigen::Triplet<double>>;
 
 using Shape = std::vector<glm::dvec3>;
 
-/// How the springs across their directions and the gas across its faces enter: as they are, or only where they are
-/// sure to leave the matrix positive definite.
+/// How forces across the directions of pairs and the volume's across its faces enter: as they are, or only where they
+/// are sure to leave the matrix positive definite.
 enum class Tension { exact, pulling };
 
 /// Returns the shape in which the body is in balance, or its starting shape if none is found.
 Shape balanced_shape(const BodyModel& p) {
-  if (!p.has_gas) return p.start;
+  if (p.forces->pressure <= 0) return p.start;
   try {
     return find_equilibrium(p, p.start);
   } catch (const SceneError&) {
@@ -33,52 +33,80 @@ Shape balanced_shape(const BodyModel& p) {
   }
 }
 
-/// What a spring adds to the diagonal of its two particles, and takes from beside it.
-glm::dmat3 block(const Shape& x, const Spring& s, double h, bool rotates, Tension tension) {
-  const double along = s.stiffness + s.damping / h;
-  const glm::dvec3 d = x[s.j] - x[s.i];
-  const double length = glm::length(d);
-  if (!rotates || length <= 0) return glm::dmat3(along);
-  const glm::dmat3 direction = glm::outerProduct(d / length, d / length);
-  const double across = tension == Tension::exact ? 1 - s.rest / length : std::max(0.0, 1 - s.rest / length);
-  return along * direction + s.stiffness * across * (glm::dmat3(1) - direction);
-}
+/// What the forces inside a body at x add to the matrix, but for how the pull of the volume changes with it: see
+/// volume_stiffness().
+struct Assemble {
+  const BodyModel& model;
+  const Shape& x;
+  double h;
+  bool rotates;
+  Tension tension;
+  Entries& entries;
 
-/// -P d2V/dx2, P being the gauge pressure: a corner's gradient is a sixth of the cross product of the two others.
-void add_gas(const BodyModel& p, const Shape& x, Entries& entries) {
-  const int n = int(x.size());
-  const double sixth = p.gas.gauge(volume(x, p.mesh.triangles)) / 6;
-  for (const auto& triangle : p.mesh.triangles)
-    for (std::size_t corner = 0; corner < 3; ++corner) {
-      const int a = int(triangle[corner]), b = int(triangle[(corner + 1) % 3]);
-      const glm::dvec3 c = sixth * x[triangle[(corner + 2) % 3]];
-      for (int r = 0; r < 3; ++r) {  // the matrix of v -> c x v, and its transpose
-        const int s = (r + 1) % 3, t = (r + 2) % 3;
-        entries.emplace_back(r * n + a, s * n + b, -c[t]);
-        entries.emplace_back(s * n + b, r * n + a, -c[t]);
-        entries.emplace_back(r * n + a, t * n + b, c[s]);
-        entries.emplace_back(t * n + b, r * n + a, c[s]);
+  int count() const { return int(x.size()); }
+
+  void operator()(Length c, const auto& law) const {
+    const glm::dmat3 b = block(c, law);
+    const int n = count(), axes = rotates ? 3 : 1, i = int(c.i), j = int(c.j);
+    for (int row = 0; row < axes; ++row)
+      for (int column = 0; column < axes; ++column) {
+        entries.emplace_back(row * n + i, column * n + i, b[column][row]);
+        entries.emplace_back(row * n + j, column * n + j, b[column][row]);
+        entries.emplace_back(row * n + i, column * n + j, -b[column][row]);
+        entries.emplace_back(row * n + j, column * n + i, -b[column][row]);
       }
+  }
+  /// On the diagonal of the two particles; it is taken from beside it.
+  glm::dmat3 block(Length c, const auto& law) const {
+    const glm::dvec3 d = x[c.j] - x[c.i];
+    const double length = glm::length(d);
+    const Jet pull = law.pull(Jet(length, 1));
+    const double along = pull.slope + law.damping / h;
+    if (!rotates || length <= 0) return glm::dmat3(along);
+    const glm::dmat3 direction = glm::outerProduct(d / length, d / length);
+    const double across = pull.value / length;
+    return along * direction +
+           (tension == Tension::exact ? across : std::max(0.0, across)) * (glm::dmat3(1) - direction);
+  }
+
+  /// pull d2V/dx2: a corner's gradient is a sixth of the cross product of the two others.
+  void operator()(Volume, const auto& law) const {
+    if (tension != Tension::exact) return;
+    const int n = count();
+    const double sixth = -law.pull(volume(x, model.mesh.triangles)) / 6;
+    for (const auto& triangle : model.mesh.triangles)
+      for (std::size_t corner = 0; corner < 3; ++corner) {
+        const int a = int(triangle[corner]), b = int(triangle[(corner + 1) % 3]);
+        const glm::dvec3 c = sixth * x[triangle[(corner + 2) % 3]];
+        for (int r = 0; r < 3; ++r) {  // the matrix of v -> c x v, and its transpose
+          const int s = (r + 1) % 3, t = (r + 2) % 3;
+          entries.emplace_back(r * n + a, s * n + b, -c[t]);
+          entries.emplace_back(s * n + b, r * n + a, -c[t]);
+          entries.emplace_back(r * n + a, t * n + b, c[s]);
+          entries.emplace_back(t * n + b, r * n + a, c[s]);
+        }
+      }
+  }
+
+  void operator()(Offset c, const body::Vec<double>&, const auto& law) const { add_to_diagonal(c.i, law.stiffness); }
+  void operator()(Path c, const auto& law) const { add_to_diagonal(c.i, law.damping / h); }
+  void add_to_diagonal(Index i, double value) const {
+    for (int axis = 0; axis < (rotates ? 3 : 1); ++axis) {
+      const int unknown = axis * count() + int(i);
+      entries.emplace_back(unknown, unknown, value);
     }
-}
+  }
+};
 
 Sparse assemble(const BodyModel& p, const Shape& x, double h, bool rotates, Tension tension) {
   const int n = int(x.size()), axes = rotates ? 3 : 1;
   Entries entries;
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) {
-      const glm::dmat3 b = block(x, s, h, rotates, tension);
-      for (int r = 0; r < axes; ++r)
-        for (int c = 0; c < axes; ++c) {
-          const int i = int(s.i), j = int(s.j);
-          entries.emplace_back(r * n + i, c * n + i, b[c][r]);
-          entries.emplace_back(r * n + j, c * n + j, b[c][r]);
-          entries.emplace_back(r * n + i, c * n + j, -b[c][r]);
-          entries.emplace_back(r * n + j, c * n + i, -b[c][r]);
-        }
-    }
-  if (p.has_gas && tension == Tension::exact) add_gas(p, x, entries);
-  for (int i = 0; i < axes * n; ++i) entries.emplace_back(i, i, p.particle_mass / (h * h) + shape_stiffness(p));
+  std::array<std::vector<double>, 3> component;
+  for (int k = 0; k < 3; ++k)
+    for (const glm::dvec3& place : x) component[std::size_t(k)].push_back(place[k]);
+  visit_all(p, {component[0].data(), component[1].data(), component[2].data()},
+            Assemble{p, x, h, rotates, tension, entries});
+  for (int i = 0; i < axes * n; ++i) entries.emplace_back(i, i, p.particle_mass / (h * h));
   Sparse a(axes * n, axes * n);
   a.setFromTriplets(entries.begin(), entries.end());
   return a;
@@ -120,6 +148,19 @@ CholeskyFactor copy(const Eigen::SimplicialLLT<Sparse>& llt) {
     first = c + 1;
   }
   return f;
+}
+
+struct SumVolumeStiffness {
+  double volume;
+  double& sum;
+  void operator()(Volume, const auto& law) const { sum += stiffness_at(law, volume); }
+};
+
+/// Returns by how much the pulls on the volume v grow with it, in Pa/m^3.
+double volume_stiffness(const BodyModel& p, double v) {
+  double sum = 0;
+  visit_forces<Coordinate::volume>(p, {}, SumVolumeStiffness{v, sum});
+  return sum;
 }
 
 /// dV/dx
@@ -166,9 +207,9 @@ ImplicitMatrix::ImplicitMatrix(const BodyModel& p, double h, const ImplicitMatri
   glm::dvec3 mean(0.0);
   for (const glm::dvec3& place : x) mean += place / double(x.size());
   for (const glm::dvec3& place : x) shape_.push_back(place - mean);
-  if (!p.has_gas || !rotates_) return;
+  if (p.forces->pressure <= 0 || !rotates_) return;
   const Eigen::VectorXd g = volume_gradient(p, x), response = factored_->llt.solve(g);
-  const double slope = -p.gas.slope(volume(x, p.mesh.triangles));
+  const double slope = volume_stiffness(p, volume(x, p.mesh.triangles));
   gas_.assign(g.begin(), g.end());
   gas_response_.assign(response.begin(), response.end());
   gas_weight_ = slope / (1 + slope * g.dot(response));

@@ -47,6 +47,7 @@ struct ImplicitProblem {
   const Lanes *x, *v;                // at the start
   const Lanes* a;                    // m/s^2, what acts beside the forces
   const Lanes* frame_displacement;   // m, what particles move without leaving their places here (implicit/frames.h)
+  double frame_time;                 // s, in which they do
   std::span<PlaneContact> planes{};  // ordered by lanes; their forces are filled in
   std::span<const LinearPenaltyPair> penalty_pairs{};
 

@@ -9,7 +9,6 @@
 #include <glm/matrix.hpp>
 
 #include "softbody/forces/best_rotation.h"
-#include "softbody/forces/shape_matching.h"
 #include "softbody/integrate/implicit/planes.h"
 
 namespace softbody {
@@ -21,14 +20,11 @@ constexpr int max_iterations = 40, iterations_of_round = 12;
 
 ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernels)
     : kernels_(kernels),
+      forces_(implicit_force_kernels()),
       particles_(p.mesh.vertices.size()),
       stride_(particles_ * implicit_lanes),
       minimiser_(particles_, kernels) {
-  for (const auto* list : {&p.structural, &p.bend, &p.shear})
-    for (const Spring& s : *list) springs_.push_back({s.i * implicit_lanes, s.j * implicit_lanes, s.rest, s.stiffness, s.damping});
-  if (p.has_gas)
-    for (const auto& [a, b, c] : p.mesh.triangles) faces_.push_back({a * implicit_lanes, b * implicit_lanes, c * implicit_lanes});
-  for (Lanes* v : {&target_, &goal_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
+  for (Lanes* v : {&target_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
 }
 
 /// Starts where the frame leads: what is stiff ends there but for little, and what is soft is there after one step.
@@ -37,7 +33,8 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   x_ = *p.x;
   stop_at_planes(p);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
-  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
+  for (std::size_t i = 0; i < 3 * stride_; ++i)
+    max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
   for (double& r : max_step_) r = p.model.radius + std::sqrt(r / double(particles_));
 }
 
@@ -67,34 +64,11 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
   }
 }
 
-/// Sets the goal to where the shape that the body keeps would have its particles if they were as predicted.
-void ImplicitSolver::place_goal(const ImplicitProblem& p) {
-  const std::vector<glm::dvec3>& shape = p.model.goal;
-  for (std::size_t l = 0; l < implicit_lanes; ++l) {
-    const LaneView x{x_, l};
-    glm::dvec3 centre(0.0);
-    for (std::size_t i = 0; i < particles_; ++i) centre += x(i) / double(particles_);
-    glm::dmat3 covariance(0.0);
-    for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - centre, shape[i]);
-    const glm::dmat3 r = best_rotation(covariance);
-    for (std::size_t i = 0; i < particles_; ++i) write(goal_, i * implicit_lanes + l, centre + r * shape[i]);
-  }
-}
-
 /// Sets g to the gradient at x: the mass times (x - target) / h^2, less the forces.
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  kernels_.springs(springs_, 1 / p.h, field(x), field(*p.x), field(g));
-  if (p.model.has_gas) {
-    alignas(64) double volume[implicit_lanes], gauge[implicit_lanes];
-    kernels_.volume(faces_, field(x), volume);
-    for (std::size_t l = 0; l < implicit_lanes; ++l) gauge[l] = p.model.gas.gauge(volume[l]);
-    kernels_.pressure(faces_, field(x), gauge, field(g));
-  }
-  if (!p.model.goal.empty()) {
-    const double pull = shape_stiffness(p.model);
-    for (std::size_t i = 0; i < 3 * stride_; ++i) g[i] += pull * (goal_[i] - x[i]);
-  }
+  forces_.add({p.model, implicit_lanes, field(x), field(g)}, held_,
+              {1 / p.h, field(*p.x), field(*p.frame_displacement), 1 / p.frame_time});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
   for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
@@ -205,7 +179,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   minimiser_.forget();
   predict(p);
   if (p.matrix.rotates()) fit_rotation(p);
-  if (!p.model.goal.empty()) place_goal(p);
+  forces_.hold({p.model, implicit_lanes, field(std::as_const(x_)), {}}, held_);
   if (p.planes.empty()) {
     minimise(p, max_iterations);
     return x_;

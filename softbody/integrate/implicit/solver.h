@@ -15,6 +15,7 @@
 #include <array>
 #include <utility>
 
+#include "softbody/forces/kernels.h"
 #include "softbody/integrate/implicit/contact_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"
@@ -40,7 +41,6 @@ class ImplicitSolver {
   void predict(const ImplicitProblem& p);
   void stop_at_planes(const ImplicitProblem& p);
   void fit_rotation(const ImplicitProblem& p);
-  void place_goal(const ImplicitProblem& p);
   void gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g);
   void add_contact_forces(const ImplicitProblem& p, const Lanes& x, Lanes& f);
   void apply_matrix(const ImplicitProblem& p, Lanes& q);
@@ -51,13 +51,13 @@ class ImplicitSolver {
   PerLane update_contact_forces(const ImplicitProblem& p, LaneMask which);
 
   const ImplicitKernels& kernels_;
+  const ImplicitForceKernels& forces_;
   std::size_t particles_, stride_;  // stride: of a component
-  KernelSpringsOf<double> springs_;
-  std::vector<KernelTriangle> faces_;
+  HeldForces held_;                 // found where the solve begins
   Minimiser minimiser_;
   ContactForces contact_;
-  Lanes target_, goal_, x_, push_, scratch_;  // push: changes of contact forces, and what they move
-  PerLane max_step_{};                        // m, of one iteration, the root of the mean square
+  Lanes target_, x_, push_, scratch_;  // push: changes of contact forces, and what they move
+  PerLane max_step_{};                 // m, of one iteration, the root of the mean square
   alignas(64) double rotation_[9][implicit_lanes];
   double work_ = 0;  // beside that of the minimiser and of the contact forces
 };

@@ -15,7 +15,7 @@ ImplicitProblem ImplicitWork::problem(const BodyModel& model, const ImplicitMatr
   local_x = x, local_v = v;
   frames.enter(local_x, local_v, frame_displacement);
   frames.accelerations(local_x, local_v, a);
-  return {model, matrix, h, moves.data(), &local_x, &local_v, &a, &frame_displacement};
+  return {model, matrix, h, moves.data(), &local_x, &local_v, &a, &frame_displacement, frames.step()};
 }
 
 void ImplicitWork::finish(const ImplicitFrames& frames) {

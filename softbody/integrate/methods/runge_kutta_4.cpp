@@ -1,7 +1,7 @@
 #include <array>
 
-#include "softbody/integrate/motion.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 namespace {

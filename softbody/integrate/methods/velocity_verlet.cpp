@@ -1,5 +1,5 @@
-#include "softbody/integrate/motion.h"
 #include "softbody/integrate/integrator_steps.h"
+#include "softbody/integrate/motion.h"
 
 namespace softbody {
 

@@ -9,7 +9,8 @@
 #include <cmath>
 
 #include "softbody/contact/keys.h"
-#include "softbody/model/body_model.h"
+#include "softbody/forces/gas.h"
+#include "softbody/forces/springs.h"
 #include "tests/bench/step/stepper.h"
 
 namespace bench {
@@ -122,8 +123,8 @@ class Bullet final : public Stepper {
     for (const glm::dvec3& v : p.start) x.push_back(vector(mirror_.scene().bodies[b].position + v));
     const std::vector<btScalar> mass(x.size(), btScalar(p.particle_mass));
     auto body = std::make_unique<btSoftBody>(&world_.getWorldInfo(), int(x.size()), x.data(), mass.data());
-    add_links(*body, p.structural, p.particle_mass);
-    add_links(*body, p.bend, p.particle_mass);
+    add_links(*body, softbody::springs<softbody::StructuralSprings>(p), p.particle_mass);
+    add_links(*body, softbody::springs<softbody::BendSprings>(p), p.particle_mass);
     for (const softbody::Triangle& t : p.mesh.triangles) body->appendFace(int(t[0]), int(t[1]), int(t[2]));
     soft_.push_back(std::move(body));
     configure(*soft_.back(), p);
@@ -136,7 +137,8 @@ class Bullet final : public Stepper {
     body.getCollisionShape()->setMargin(margin);
     body.m_cfg.kDF = btScalar(p.material[softbody::contact::friction]);
     body.m_cfg.kKHR = 1;  // with the default, 0.1, vertices sink 0.2 R into the solids
-    body.m_cfg.kPR = btScalar(p.gas.amount - p.gas.ambient * p.start_volume);  // right at the start's volume
+    if (const auto* gas = softbody::gas_of(p))
+      body.m_cfg.kPR = btScalar(gas->amount - gas->ambient * p.start_volume);  // right at the start's volume
     body.m_cfg.collisions = btSoftBody::fCollision::SDF_RS;
     body.m_cfg.collisions |=
         contact_ == SoftContact::clusters ? btSoftBody::fCollision::CL_SS : btSoftBody::fCollision::VF_SS;
@@ -146,7 +148,8 @@ class Bullet final : public Stepper {
     body.updateConstants();
     body.updateArea(false);
     int i = 0;
-    for (const auto* springs : {&p.structural, &p.bend})
+    for (const auto* springs :
+         {&softbody::springs<softbody::StructuralSprings>(p), &softbody::springs<softbody::BendSprings>(p)})
       for (const softbody::Spring& s : *springs) {
         body.m_links[i].m_rl = btScalar(s.rest);
         body.m_links[i].m_c1 = btScalar(s.rest * s.rest);

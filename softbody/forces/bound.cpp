@@ -1,0 +1,153 @@
+#include "softbody/forces/bound.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <Eigen/Eigenvalues>
+#include <glm/geometric.hpp>
+
+#include "softbody/forces/visit.h"
+
+namespace softbody {
+namespace {
+
+using Vector = Eigen::VectorXd;
+
+class Laplacian {
+ public:
+  Laplacian(std::size_t particles, std::span<const WeightedPair> pairs)
+      : pairs_(pairs), sum_(Vector::Zero(Eigen::Index(particles))) {
+    for (const auto& [i, j, weight] : pairs_) sum_[i] += weight, sum_[j] += weight;
+  }
+
+  double gershgorin() const { return 2 * sum_.maxCoeff(); }
+
+  Vector operator*(const Vector& v) const {
+    Vector result = sum_.cwiseProduct(v);
+    for (const auto& [i, j, weight] : pairs_) {
+      result[i] -= weight * v[j];
+      result[j] -= weight * v[i];
+    }
+    return result;
+  }
+
+ private:
+  std::span<const WeightedPair> pairs_;
+  Vector sum_;
+};
+
+/// Returns a unit vector without the symmetries of a mesh, so that it has a component along every eigenvector.
+Vector start(Eigen::Index size) {
+  Vector v(size);
+  for (Eigen::Index i = 0; i < size; ++i) v[i] = std::fmod(double(i + 1) * 0.6180339887498949, 1.0) - 0.5;
+  return v / v.norm();
+}
+
+/// Sums the pulls of all laws of the volume.
+struct SumPressures {
+  Jet volume;
+  Jet& pull;
+  void operator()(Volume, const auto& law) const { pull = pull + law.pull(volume); }
+};
+
+struct SumStretch {
+  const std::vector<glm::dvec3>& area;
+  double& sum;
+  void operator()(Length c, const auto& law) const {
+    const glm::dvec3 d = area[c.i] - area[c.j];
+    sum += law.stiffness * glm::dot(d, d);
+  }
+};
+
+}  // namespace
+
+double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
+  constexpr Eigen::Index steps = 20;
+  constexpr double reserve = 1.01;  // for eigenvalues so close to the largest that these steps do not tell them apart
+  const Laplacian laplacian(particles, pairs);
+  const double most = laplacian.gershgorin();
+  if (most <= 0) return 0;
+  Vector diagonal(steps), beside(steps), before = Vector::Zero(Eigen::Index(particles)), v = start(before.size());
+  Eigen::Index count = 0;
+  while (count < steps && (count == 0 || beside[count - 1] > 1e-12 * most)) {
+    Vector next = laplacian * v;
+    diagonal[count] = v.dot(next);
+    next -= diagonal[count] * v;
+    if (count > 0) next -= beside[count - 1] * before;
+    beside[count++] = next.norm();
+    before = std::exchange(v, Vector(next / std::max(next.norm(), 1e-300)));
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+  ritz.computeFromTridiagonal(diagonal.head(count), beside.head(count - 1));
+  const double residual = beside[count - 1] * std::abs(ritz.eigenvectors()(count - 1, count - 1));
+  return std::min(most, reserve * (ritz.eigenvalues()[count - 1] + residual));
+}
+
+void ModelForces::set_bounds(std::size_t particles) {
+  std::vector<WeightedPair> stiffness, damping;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (HasElements<F>) {
+      const auto& own = of<F>();
+      if (!own) return;
+      if constexpr (F::coordinate == Coordinate::length)
+        for (const auto& law : F::template elements<double>(*own)) {
+          stiffness.push_back({law.i, law.j, law.stiffness});
+          damping.push_back({law.i, law.j, law.damping});
+        }
+      if constexpr (F::coordinate == Coordinate::volume) pressure += own->scale();
+      if constexpr (F::coordinate == Coordinate::offset) offset_stiffness += own->stiffness / 2;
+      if constexpr (F::coordinate == Coordinate::path) path_damping += own->damping / 2;
+    }
+  });
+  pair_stiffness = pair_bound(particles, stiffness) / 2;
+  pair_damping = pair_bound(particles, damping) / 2;
+}
+
+double damping_bound(const BodyModel& p) { return p.forces->pair_damping + p.forces->path_damping; }
+
+double stable_step(double k_m, double c_m) {
+  // Twice the sum of a row bounds a spring matrix: each spring stands on its diagonal and beside it (Gershgorin).
+  const double omega2 = 2 * k_m, gamma = 2 * c_m;
+  if (omega2 <= 0) return gamma > 0 ? 0.8 * 2 / gamma : 1e9;
+  const double omega = std::sqrt(omega2), z = gamma / (2 * omega);
+  return 0.8 * (2 / omega) / (std::sqrt(1 + z * z) + z);  // sqrt(1 + z^2) - z, but exact for large z too
+}
+
+double stiffness_per_mass(const BodyModel& p, const SurfaceShape& surface) {
+  const ModelForces& f = *p.forces;
+  const double others = f.pair_stiffness / p.particle_mass + f.offset_stiffness / p.particle_mass;
+  if (f.pressure <= 0) return others;
+  // Gas: F_i = P A_i with the gauge pressure P, A_i = dV/dx_i. Its matrix is -dP/dV A A^T, of norm s = -dP/dV sum
+  // |A_i|^2, plus P d2V/dx2. Breathing, which the first is about, hardly stretches pairs: L being their Laplacian, l
+  // its bound and a = A / |A|, q = a^T L a is far below l. An eigenvalue x > l of L + s a a^T has
+  // 1 = s a^T (x - L)^-1 a <= s ((1 - q/l) / x + (q/l) / (x - l)), for 1 / (x - y) is convex in y, and so is at most
+  // the larger root of x^2 - (l + s) x + s (l - q). In the second part, particles i and j of an edge are joined by a
+  // sixth of the line between the two corners opposite, which is at most the medians from there to the edge together:
+  // a row is at most two medians a face at i.
+  Jet pull = 0;
+  visit_forces<Coordinate::volume>(p, {}, SumPressures{Jet(surface.volume, 1), pull});
+  const double l = 2 * f.pair_stiffness, s = pull.slope * surface.area2;
+  const double q = surface.area2 > 0 ? std::min(l, surface.stretch / surface.area2) : 0;
+  const double both = (l + s) / 2 + std::sqrt((l - s) * (l - s) / 4 + s * q);
+  const double gas = both - l + std::abs(pull.value) * p.largest_degree * surface.two_medians / 6;
+  return others + gas / (2 * p.particle_mass);
+}
+
+SurfaceShape measure_surface(const BodyModel& p, const std::vector<glm::dvec3>& vertices) {
+  if (p.forces->pressure <= 0) return {};
+  SurfaceShape s{.volume = volume(vertices, p.mesh.triangles)};
+  std::vector<glm::dvec3> area(vertices.size(), glm::dvec3(0));
+  for (const auto& [i, j, k] : p.mesh.triangles) {
+    const glm::dvec3 a = vertices[i], b = vertices[j], c = vertices[k], third = glm::cross(b - a, c - a) / 6.0;
+    for (const Index corner : {i, j, k}) area[corner] += third;
+    const double from_a = glm::distance(a, (b + c) / 2.0), from_b = glm::distance(b, (c + a) / 2.0),
+                 from_c = glm::distance(c, (a + b) / 2.0);
+    s.two_medians = std::max({s.two_medians, from_a + from_b, from_b + from_c, from_c + from_a});
+  }
+  for (const glm::dvec3& a : area) s.area2 += glm::dot(a, a);
+  visit_forces<Coordinate::length>(p, {}, SumStretch{area, s.stretch});
+  return s;
+}
+
+}  // namespace softbody

@@ -1,0 +1,25 @@
+#pragma once
+// What forces are told.
+
+#include <span>
+
+#include "softbody/state/state.h"
+
+namespace softbody {
+
+/// What a scene has, for the plan.
+struct ForceFacts {
+  std::span<const std::shared_ptr<const BodyModel>> models;
+  const char* why_no_vertex_contact;  // nullptr: vertices keep the bodies apart
+  bool held;                          // a hand holds a body
+};
+
+/// The bodies of a batch, in a step of h seconds.
+struct ForceBatch {
+  State& state;
+  const Batch& batch;
+  double h;            // s
+  glm::dvec3 gravity;  // m/s^2
+};
+
+}  // namespace softbody

@@ -1,0 +1,79 @@
+#include "softbody/forces/force_set.h"
+
+#include <algorithm>
+
+namespace softbody {
+namespace {
+
+LaneBodies<float> lanes_of(const ForceBatch& b) {
+  const State& state = b.state;
+  return {*b.batch.model, b.batch.used, field(state.x, b.batch.base), field(b.state.f, b.batch.base)};
+}
+
+}  // namespace
+
+/// takes(Name<F>{}): whether a force of the plan is added.
+template <class Takes>
+void ForceSet::add_if(const ForceBatch& b, Takes takes) const {
+  const ForceKernels& kernels = force_kernels(b.batch.width);
+  const LaneBodies<float> bodies = lanes_of(b);
+  const Moving motion{field(b.state.v, b.batch.base)};
+  for_each_force(Forces{}, [&]<class F>(Name<F> name) {
+    if (!taken_[index_of<F>] || !takes(name)) return;
+    if constexpr (HasElements<F>)
+      kernels.add[index_of<F>](bodies, motion);
+    else
+      std::get<const F&>(objects_).add(b);
+  });
+}
+
+void ForceSet::add(const ForceBatch& b) const {
+  add_if(b, [](auto) { return true; });
+}
+
+void ForceSet::add_unprojected(const ForceBatch& b) const {
+  add_if(b, [&]<class F>(Name<F>) {
+    return !is_projected<F>() && !requires(const F& force) { force.kick(b); };
+  });
+}
+
+void ForceSet::project(const ForceBatch& b, Field<const float> x0, Field<float> d) const {
+  const ForceKernels& kernels = force_kernels(b.batch.width);
+  const LaneBodies<float> bodies = lanes_of(b);
+  const Projection projection{float(b.h), b.batch.moves.data(), x0, d, bodies.f};
+  for (const bool volumes : {true, false})
+    for_each_force(Forces{}, [&]<class F>(Name<F>) {
+      if constexpr (is_projected<F>())
+        if (taken_[index_of<F>] && volumes == (F::coordinate == Coordinate::volume))
+          kernels.project[index_of<F>](bodies, projection);
+    });
+}
+
+void ForceSet::kick(const ForceBatch& b) const {
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (requires(const F& force) { force.kick(b); })
+      if (taken_[index_of<F>]) std::get<const F&>(objects_).kick(b);
+  });
+}
+
+ForceBound bound_of(const Batch& b, Field<const float> x, VectorArray& area) {
+  const BodyModel& p = *b.model;
+  double stiffest = stiffness_per_mass(p, {});
+  if (p.forces->pressure > 0) {
+    for (auto& component : area) component.assign(b.values(), 0);
+    SurfaceShape shapes[lanes];
+    force_kernels(b.width).measure_surfaces({p, b.used, x, field(area)}, shapes);
+    for (int l = 0; l < b.used; ++l) stiffest = std::max(stiffest, stiffness_per_mass(p, shapes[l]));
+  }
+  return {stiffest, damping_bound(p) / p.particle_mass};
+}
+
+bool has_external_force(const BodyModel& model) {
+  bool any = false;
+  for_each_force(Forces{}, [&]<class F>(Name<F>) {
+    if constexpr (HasElements<F>) any = any || (!F::internal && data<F>(model));
+  });
+  return any;
+}
+
+}  // namespace softbody

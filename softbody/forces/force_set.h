@@ -1,0 +1,46 @@
+#pragma once
+// The forces that a plan takes.
+
+#include "softbody/forces/kernels.h"
+
+namespace softbody {
+
+/// An upper bound of what forces do at one particle of the bodies of a batch: over mass, for stable_step().
+struct ForceBound {
+  double stiffness = 0;  // 1/s^2
+  double damping = 0;    // 1/s
+};
+
+class ForceSet {
+ public:
+  /// The objects of forces without elements; they must outlive this.
+  using Objects = std::tuple<const PenaltyContact&, const Hand&>;
+  explicit ForceSet(const Objects& objects) : objects_(objects) {}
+
+  void set_plan(const ForceMask& taken) { taken_ = taken; }
+
+  /// Adds all forces on the bodies of a batch.
+  void add(const ForceBatch& batch) const;
+  /// The same without those that project() or kick() stands for.
+  void add_unprojected(const ForceBatch& batch) const;
+  /// XPBD, on the displacements d in a step that started at x0, when the positions are x0 + d. It uses the forces as
+  /// scratch. Forces that depend on the volume come first: what they move, the others see.
+  void project(const ForceBatch& batch, Field<const float> x0, Field<float> d) const;
+  /// Changes velocities by what some forces do in steps that are not made of forces alone.
+  void kick(const ForceBatch& batch) const;
+
+ private:
+  template <class Takes>
+  void add_if(const ForceBatch& batch, Takes takes) const;
+
+  Objects objects_;
+  ForceMask taken_;
+};
+
+/// Returns the bound of the forces inside the bodies of a batch, whose particles are at x. area: scratch.
+ForceBound bound_of(const Batch& batch, Field<const float> x, VectorArray& area);
+
+/// True if some force of a model acts on its bodies from outside.
+bool has_external_force(const BodyModel& model);
+
+}  // namespace softbody

@@ -1,0 +1,57 @@
+#pragma once
+// What the forces need of a body model.
+
+#include <optional>
+#include <tuple>
+#include <variant>
+#include <vector>
+
+#include "softbody/forces/table.h"
+
+namespace softbody {
+
+namespace detail {
+template <class F>
+struct DataOf {
+  using type = std::monostate;
+};
+template <HasElements F>
+struct DataOf<F> {
+  using type = std::optional<typename F::Data>;
+};
+template <class... F>
+std::tuple<typename DataOf<F>::type...> data_of(List<F...>);
+}  // namespace detail
+
+struct ModelForces {
+  decltype(detail::data_of(Forces{})) data;
+  // Half of the largest eigenvalues of the matrices of all forces between two particles and on single ones: see
+  // pair_bound(). The bodies' shapes do not matter.
+  double pair_stiffness = 0, pair_damping = 0;    // N/m, N s/m
+  double offset_stiffness = 0, path_damping = 0;  // N/m, N s/m
+  double pressure = 0;                            // Pa, about the largest; 0: no force depends on the volume
+
+  template <class F>
+  auto& of() {
+    return std::get<index_of<F>>(data);
+  }
+  /// Works out the bounds from the data.
+  void set_bounds(std::size_t particles);
+};
+
+/// Returns what a force needs of a model; nullptr if it does not act on its bodies.
+template <HasElements F>
+const typename F::Data* data(const BodyModel& model) {
+  const auto& found = std::get<index_of<F>>(model.forces->data);
+  return found ? &*found : nullptr;
+}
+
+/// Returns a body model whose starting shape is the mesh itself, whether or not that is in equilibrium.
+std::shared_ptr<BodyModel> make_unbalanced_body_model(const MeshSource& mesh, const Material& material);
+
+/// Returns a body model of the same mesh with another material. It keeps the starting shape, which is in equilibrium
+/// only for the material that it was found for. `source`: the source of the model's mesh.
+std::shared_ptr<const BodyModel> with_material(const BodyModel& model, const MeshSource& source,
+                                               const Material& material);
+
+}  // namespace softbody
