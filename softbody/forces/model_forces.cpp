@@ -8,6 +8,7 @@ namespace {
 /// Sets everything that depends on the material, except the starting shape.
 void give_material(BodyModel& p, const MeshSource& source, const Material& material) {
   p.material = material;
+  if (!material.given(Material::thickness)) p.material[Material::thickness] = 0.01 * p.radius;
   p.particle_mass = material[Material::mass] / double(p.mesh.vertices.size());
   auto forces = std::make_shared<ModelForces>();
   for_each_force(Forces{}, [&]<class F>(Name<F>) {

@@ -90,7 +90,7 @@ const char* solid_features(const Facts& f) {
 
 const char* rolling(const Facts& f) {
   if (!has_solids(f.scene)) return "no solid to roll on";
-  return f.any([](const BodyModel& p) { return p.mesh.closed && p.material[contact::rolling_resistance] > 0; })
+  return f.any([](const BodyModel& p) { return p.rolls && p.material[contact::rolling_resistance] > 0; })
              ? nullptr
              : "no closed body with rolling resistance";
 }

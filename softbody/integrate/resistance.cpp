@@ -48,7 +48,7 @@ void Resistance::apply(const BodyModel& p, const BodyField& x, const BodyField& 
   if (!motion.can_rotate) return;
   const auto& [centre, velocity, momentum, inertia, can_rotate, spin] = motion;
   glm::dvec3 lost_spin(0.0), lost_velocity(0.0);
-  if (const double size = p.particle_mass * glm::length(momentum); rolling_ && p.mesh.closed && size > 0)
+  if (const double size = p.particle_mass * glm::length(momentum); rolling_ && p.rolls && size > 0)
     lost_spin = spin * std::min(1.0, m[contact::rolling_resistance] * p.radius * normal / size);
   if (rebound_ && m[contact::rebound_speed] > 0 && normal > 0) {
     const glm::dvec3 n = push.impulse / normal;

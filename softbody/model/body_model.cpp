@@ -9,6 +9,18 @@
 namespace softbody {
 namespace {
 
+/// True if the area vectors of the faces cancel each other but for a tenth, as they do in closed meshes.
+bool nearly_closed(const Mesh& mesh) {
+  glm::dvec3 sum(0.0);
+  double size = 0;
+  for (const auto& [a, b, c] : mesh.triangles) {
+    const glm::dvec3 area = glm::cross(mesh.vertices[b] - mesh.vertices[a], mesh.vertices[c] - mesh.vertices[a]);
+    sum += area;
+    size += glm::length(area);
+  }
+  return mesh.closed || glm::length(sum) < 0.1 * size;
+}
+
 void list_faces(BodyModel& p) {
   std::vector<std::vector<Index>> at(p.mesh.vertices.size());
   for (Index f = 0; f < p.mesh.triangles.size(); ++f)
@@ -28,6 +40,7 @@ std::shared_ptr<BodyModel> make_body_mesh(const MeshSource& source) {
   list_faces(*p);
   for (Index i = 0; i < p->mesh.vertices.size(); ++i)
     p->largest_degree = std::max(p->largest_degree, double(p->faces_of(i).size()));
+  p->rolls = nearly_closed(p->mesh);
   p->start = p->mesh.vertices;
   if (p->mesh.closed) p->start_volume = volume(p->start, p->mesh.triangles);
   const std::vector<glm::vec3> rest(p->mesh.vertices.begin(), p->mesh.vertices.end());

@@ -27,6 +27,7 @@ struct BodyModel {
   std::shared_ptr<const collide::surface::Surface> surface;  // for surface contact
   double mean_edge = 0;                                      // m, at rest
   std::vector<Index> first_face{0}, face;     // triangles at each vertex, one list after another, see faces_of()
+  bool rolls = false;                         // the mesh is closed, or has holes of less than a tenth of its area
   double particle_mass = 0;                   // kg
   double radius = 0;                          // m, bounding radius of the mesh
   std::vector<glm::dvec3> start;              // starting shape: the equilibrium, or the mesh itself

@@ -23,8 +23,9 @@ class Material {
                                                "deformation velocities.",
                                                {"Damping", "%.1f 1/s", 0, 50}, {.place = 20});
   static constexpr auto thickness =
-      Key("thickness", "m", 0.005, {0, 1e3},
-          "Distance that vertices keep to solids, so that the faces between them stay outside.", {}, {.place = 22});
+      Key("thickness", "m", not_given, {0, 1e3},
+          "Distance that vertices keep to solids, so that the faces between them stay outside.", {},
+          {.place = 22, .if_missing = "a hundredth of the body's radius"});
   static constexpr auto start_in_equilibrium =
       Key("start_in_equilibrium", "", true, {0, 1},
           "Springs and gas are brought into balance when the scene is loaded.", {}, {.place = 50, .is_switch = true});

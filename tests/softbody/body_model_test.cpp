@@ -200,5 +200,21 @@ TEST(BodyModelSet, SharesOneAPairOfMeshAndMaterial) {
   EXPECT_EQ(set.of(scene.bodies[3])->mesh.vertices.size(), 42u);
 }
 
+TEST(BodyModel, IsAsThickAsItsSizeAsksFor) {
+  const auto thickness = [](double radius, const Material& material) {
+    return make_body_model({.radius = radius}, material)->material[Material::thickness];
+  };
+  EXPECT_EQ(thickness(0.5, {}), 0.005) << "the paper's sphere";
+  EXPECT_NEAR(thickness(0.001, {}), 1e-5, 1e-12);
+  Material given;
+  given[Material::thickness] = 0.02;
+  EXPECT_EQ(thickness(0.001, given), 0.02);
+}
+
+TEST(BodyModel, RollsIfItIsNearlyClosed) {
+  EXPECT_TRUE(make_body_model({}, {})->rolls);
+  EXPECT_FALSE(make_body_model({.kind = "grid", .columns = 3, .rows = 3, .width = 1, .depth = 1}, {})->rolls);
+}
+
 }  // namespace
 }  // namespace softbody::test

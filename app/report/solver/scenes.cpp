@@ -30,11 +30,11 @@ SolverScene free_flight(double stiffness, const std::string& in_words) {
 SolverScene on_the_ground() {
   SolverScene s{.key = "contact-1e3", .name = "On the ground, 1e3 N/m"};
   s.scene = lone_scene(ball_material(1e3, 0.02));
-  const softbody::Particle lowest = particles_of(softbody::World(s.scene, {.integrator = one_step()}),
-                                                 0)[0];  // an icosphere's extent is that of any corner
+  const softbody::World world(s.scene, {.integrator = one_step()});
+  const softbody::Particle lowest = particles_of(world, 0)[0];  // an icosphere's extent is that of any corner
   s.scene.gravity = {0, -9.81, 0};
   s.scene.ground = softbody::Ground{};
-  s.scene.bodies[0].position.y = glm::length(lowest.position) + s.scene.materials[0][Material::thickness] + 1e-3;
+  s.scene.bodies[0].position.y = glm::length(lowest.position) + world.model(0).material[Material::thickness] + 1e-3;
   return s;
 }
 
