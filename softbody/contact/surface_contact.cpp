@@ -50,6 +50,16 @@ bool faces_along(const Surface& own, const collide::VertexRun& own_at, Index ver
   return glm::dot(sum, normal(other, other_at, face)) > 0;
 }
 
+bool near_each_other(const collide::VertexRun& a, const collide::VertexRun& b) {
+  return collide::near(collide::measure_bounds(a).box, collide::measure_bounds(b).box, 0.0f);
+}
+
+glm::vec3 middle_of(const collide::VertexRun& at) {
+  glm::vec3 sum(0.0f);
+  for (Index i = 0; i < at.size; ++i) sum += glm::vec3(at.x[i], at.y[i], at.z[i]);
+  return sum / static_cast<float>(at.size);
+}
+
 }  // namespace
 
 void SurfaceContact::clear() {
@@ -203,19 +213,37 @@ void SurfaceContact::find_interior_vertices(Pair& pair, const collide::Frame& no
     return collide::VertexRun{&now.x[first], &now.y[first], &now.z[first], now.bodies->size(body)};
   };
   pair.interior = static_cast<std::uint32_t>(interior_.size());
+  pair.interior_end = pair.interior;
+  const bool both_closed = traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed();
+  const float deep = separation_depth * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge);
+  const auto shell = [&](Index body) -> const collide::surface::ClosedShell& {
+    shells.resize(bodies_.size());
+    if (!shells[body]) shells[body].emplace(*traits_[body].surface, run(body));
+    return *shells[body];
+  };
+  const auto deep_in = [&](Index body, const glm::vec3& point) {
+    return shell(body).inside(point) && shell(body).nearest_face(point).distance > deep;
+  };
+  if (both_closed && near_each_other(run(pair.range.a), run(pair.range.b))) {
+    for (const Index body : {pair.range.a, pair.range.b}) {
+      const glm::vec3 middle = middle_of(run(body));
+      if (deep_in(pair.range.a, middle) && deep_in(pair.range.b, middle)) {
+        pair.overlap = pair.separating = true;
+        return;
+      }
+    }
+  }
   float deepest = 0;
   std::uint32_t along = 0;
   for (const bool of_b : {false, true}) {
     const Index own = of_b ? pair.range.b : pair.range.a, other = of_b ? pair.range.a : pair.range.b;
     if (!traits_[other].surface->closed()) continue;
     const collide::VertexRun vertices = run(own);
-    if (!collide::near(collide::measure_bounds(vertices).box, collide::measure_bounds(run(other)).box, 0.0f)) continue;
-    shells.resize(bodies_.size());
-    if (!shells[other]) shells[other].emplace(*traits_[other].surface, run(other));
+    if (!near_each_other(vertices, run(other))) continue;
     for (Index v = 0; v < vertices.size; ++v) {
       const glm::vec3 p(vertices.x[v], vertices.y[v], vertices.z[v]);
-      if (!shells[other]->inside(p)) continue;
-      const collide::surface::ClosedShell::Nearest nearest = shells[other]->nearest_face(p);
+      if (!shell(other).inside(p)) continue;
+      const collide::surface::ClosedShell::Nearest nearest = shell(other).nearest_face(p);
       deepest = std::max(deepest, nearest.distance);
       along += faces_along(*traits_[own].surface, vertices, v, *traits_[other].surface, run(other), nearest.face);
       interior_.push_back({v, nearest.face, of_b});
@@ -224,10 +252,7 @@ void SurfaceContact::find_interior_vertices(Pair& pair, const collide::Frame& no
   pair.overlap = interior_.size() > pair.interior;
   // Vertex by vertex, bodies far inside each other would only be pressed into nested cups, and those in one place, of
   // which no vertex is deep, be pulled both ways for ever.
-  pair.separating =
-      traits_[pair.range.a].surface->closed() && traits_[pair.range.b].surface->closed() &&
-      (deepest > separation_depth * std::min(traits_[pair.range.a].mean_edge, traits_[pair.range.b].mean_edge) ||
-       2 * along > interior_.size() - pair.interior);
+  pair.separating = both_closed && (deepest > deep || 2 * along > interior_.size() - pair.interior);
   if (pair.separating) interior_.resize(pair.interior);
   pair.interior_end = static_cast<std::uint32_t>(interior_.size());
 }
