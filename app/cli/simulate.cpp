@@ -259,6 +259,17 @@ void print_remarks(const softbody::Scene& scene) {
   }
 }
 
+/// Names the bodies that start in solids or in each other.
+void print_overlaps(const softbody::World& world) {
+  const std::vector<softbody::BodyId> bodies = softbody::overlapping_bodies(world);
+  if (bodies.empty()) return;
+  constexpr std::size_t named = 10;
+  std::string text = "warning: these bodies start in a solid or in another body, and are eased out:";
+  for (std::size_t i = 0; i < std::min(bodies.size(), named); ++i) text += ' ' + std::to_string(bodies[i]);
+  if (bodies.size() > named) text += " and " + std::to_string(bodies.size() - named) + " more";
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
+
 }  // namespace
 
 void simulate(const Options& options) {
@@ -272,6 +283,7 @@ void simulate(const Options& options) {
   Pictures pictures(options);
   ObjSequence obj_sequence(options);
   print_remarks(world.scene());
+  print_overlaps(world);
   // Where the lines of frames go to a terminal, they show the progress themselves.
   const bool progress = !options.json_lines || !isatty(STDOUT_FILENO);
   compare::WorldOracle oracle(options.oracle ? options.threads : 1);

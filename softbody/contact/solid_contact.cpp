@@ -2,16 +2,23 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/kernels.h"
+#include "softbody/contact/law.h"
+#include "softbody/contact/solid_overlap.h"
 #include "softbody/contact/solid_placement.h"
+#include "softbody/contact/surface_vectors.h"
 #include "softbody/state/kernels.h"
 
 namespace softbody {
 namespace {
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
 
 /// Returns how far (m) the body in a lane may come within `seconds`: twice as far as its fastest particle goes now, and
 /// a tenth of its radius.
@@ -23,6 +30,31 @@ double max_travel(const Batch& b, const Extent& e, int lane, const glm::dvec3& g
 
 }  // namespace
 
+template <class Solid>
+bool SolidContact::lies_in(const Batch& b, int lane, const Solid& solid) const {
+  std::array<std::vector<float>, 3> at;
+  for (std::size_t k = 0; k < 3; ++k)
+    for (std::size_t i = 0; i < b.particles(); ++i)
+      at[k].push_back(state_.x[k][b.base + i * std::size_t(b.width) + std::size_t(lane)]);
+  const collide::VertexRun run{at[0].data(), at[1].data(), at[2].data(), Index(b.particles())};
+  return overlap({*b.model->surface, state_.body(b.body[std::size_t(lane)]).origin, run, b.model->mean_edge}, solid,
+                 has_features_);
+}
+
+/// Gives a body the velocity with which it goes that way in a frame, and not aside. It keeps what its particles do
+/// beside that.
+void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, const glm::dvec3& gravity,
+                            double seconds) {
+  const Field<float> v = field(state_.v, b.base);
+  const auto slot = [&](std::size_t i) { return i * std::size_t(b.width) + std::size_t(lane); };
+  glm::dvec3 mean(0.0);
+  for (std::size_t i = 0; i < b.particles(); ++i) mean += glm::dvec3(read(v, slot(i))) / double(b.particles());
+  const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
+  for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
+  of_batch_[b.index].pushed |= 1u << lane;
+  state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
+}
+
 void SolidContact::begin_frame() {
   of_batch_.resize(state_.batches().size());
   for (OfBatch& b : of_batch_) b = {};
@@ -30,16 +62,26 @@ void SolidContact::begin_frame() {
 }
 
 template <class Solid>
-void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity, double seconds) {
+void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, const glm::dvec3& gravity, double seconds,
+                       const WayOut& way_out) {
   OfBatch& own = of_batch_[b.index];
-  const auto near = [&](int l) {  // the plane before the solid, as seen from the box's centre, cuts the box
-    const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
-    const SolidSurface s = surface_at(solid, state_.body(b.body[std::size_t(l)]).origin + 0.5 * (lo + hi));
-    return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= max_travel(b, e, l, gravity, seconds);
-  };
+  std::array<PlacedBox, lanes> boxes;
+  std::array<double, lanes> gap;
   unsigned lanes_near = 0;
-  for (int l = 0; l < b.used; ++l) lanes_near |= unsigned(near(l)) << l;
+  for (std::size_t l = 0; l < std::size_t(b.used); ++l) {
+    const glm::dvec3 lo(e.lo.x[l], e.lo.y[l], e.lo.z[l]), hi(e.hi.x[l], e.hi.y[l], e.hi.z[l]);
+    boxes[l] = {state_.body(b.body[l]).origin + 0.5 * (lo + hi), 0.5 * (hi - lo)};
+    gap[l] = gap_before(solid, boxes[l]);
+    lanes_near |= unsigned(gap[l] <= max_travel(b, e, int(l), gravity, seconds)) << l;
+  }
   if (!lanes_near) return;
+  const std::optional<SolidMiddle> middle = middle_of(solid);
+  const double deep = std::min(shallow * b.model->mean_edge, middle ? middle->depth : infinite);
+  for (int l = 0; l < b.used; ++l) {
+    if (b.moves[std::size_t(l)] == 0 || gap[std::size_t(l)] > -deep || !lies_in(b, l, solid)) continue;
+    lanes_near &= ~(1u << l);
+    ease_out(b, l, way_out(boxes[std::size_t(l)]), gravity, seconds);
+  }
   const double thickness = b.model->material[Material::thickness];
   SolidArguments& s = own.near.emplace_back();
   s.particles = b.particles();
@@ -60,7 +102,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   if (!has_features_) return;
   const std::vector<SolidCore> cores = cores_of(solid);
   for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0) continue;
+    if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u)) continue;
     const double travel = max_travel(b, e, l, gravity, seconds);
     find_features(b, l, cores,
                   {core_radius(solid) + thickness,
@@ -70,10 +112,13 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   }
 }
 
-template void SolidContact::add(const Batch&, const Extent&, const SolidSphere&, const glm::dvec3&, double);
-template void SolidContact::add(const Batch&, const Extent&, const SolidPlane&, const glm::dvec3&, double);
-template void SolidContact::add(const Batch&, const Extent&, const SolidBox&, const glm::dvec3&, double);
-template void SolidContact::add(const Batch&, const Extent&, const SolidCapsule&, const glm::dvec3&, double);
+template void SolidContact::add(const Batch&, const Extent&, const SolidSphere&, const glm::dvec3&, double,
+                                const WayOut&);
+template void SolidContact::add(const Batch&, const Extent&, const SolidPlane&, const glm::dvec3&, double,
+                                const WayOut&);
+template void SolidContact::add(const Batch&, const Extent&, const SolidBox&, const glm::dvec3&, double, const WayOut&);
+template void SolidContact::add(const Batch&, const Extent&, const SolidCapsule&, const glm::dvec3&, double,
+                                const WayOut&);
 
 void SolidContact::end_frame() {
   pushes_.assign(state_.body_count(), {});
@@ -106,7 +151,7 @@ Field<float> SolidContact::impulse(const Batch& b) {
 
 /// Particles first, then what lies between them, which may push particles back.
 void SolidContact::apply(const Batch& b, float h) {
-  if (apply_to_particles(b, h, false) && has_features_ && apply_to_features(b, h)) apply_to_particles(b, h, true);
+  if (apply_to_particles(b, h, false) && has_features_) apply_to_features(b, h);
 }
 
 /// Applies each solid in turn. Where two act on one body the later may push a particle into the earlier, as in a

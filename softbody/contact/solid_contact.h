@@ -2,6 +2,7 @@
 // Contact of bodies with solids, on the velocities of a substep: particles of all solids, and faces and edges where
 // solids are round or sharp.
 
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,9 @@ struct SolidPush {
 
 class SolidContact {
  public:
+  /// Returns the unit vector along which a body in this box leaves a solid.
+  using WayOut = std::function<glm::dvec3(const PlacedBox&)>;
+
   /// The state must outlive this.
   explicit SolidContact(State& state) : state_(state) {}
 
@@ -32,7 +36,8 @@ class SolidContact {
   /// Adds a solid to those near a batch if a body of the batch may touch it within `seconds` (s). extent: of the
   /// batch's positions and velocities now. gravity in m/s^2.
   template <class Solid>
-  void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds);
+  void add(const Batch& batch, const Extent& extent, const Solid& solid, const glm::dvec3& gravity, double seconds,
+           const WayOut& way_out);
   /// Notes the pushes of the frame.
   void end_frame();
 
@@ -73,9 +78,12 @@ class SolidContact {
     unsigned pushed = 0;
   };
 
+  template <class Solid>
+  bool lies_in(const Batch& batch, int lane, const Solid& solid) const;
+  void ease_out(const Batch& batch, int lane, const glm::dvec3& way, const glm::dvec3& gravity, double seconds);
   bool apply_to_particles(const Batch& batch, float h, bool again);
   void find_features(const Batch& batch, int lane, std::span<const SolidCore> cores, const Approach& approach);
-  bool apply_to_features(const Batch& batch, float h);
+  void apply_to_features(const Batch& batch, float h);
   void add_row(const Batch& batch, SolidFeature& feature, float h);
 
   State& state_;

@@ -117,10 +117,10 @@ void SolidContact::find_features(const Batch& b, int lane, std::span<const Solid
   }
 }
 
-/// Solves the rows of the features that may meet a solid, twice: what one pushes too far because of another is taken
-/// back. Returns true if any acted.
-bool SolidContact::apply_to_features(const Batch& b, float h) {
-  constexpr int passes = 2;
+/// Solves the rows of the features that may meet a solid in turn with the particles, twice: what one pushes too far
+/// because of another is taken back.
+void SolidContact::apply_to_features(const Batch& b, float h) {
+  constexpr int passes = 3;
   OfBatch& own = of_batch_[b.index];
   own.rows.clear();
   for (SolidFeature& f : own.features) {
@@ -128,18 +128,19 @@ bool SolidContact::apply_to_features(const Batch& b, float h) {
     if (f.free_travel <= 0) add_row(b, f, h);
   }
   const Field<float> v = field(state_.v, b.base);
-  for (int pass = 0; pass < passes; ++pass)
+  const auto acted = [](const ContactRow& row) { return row.normal_impulse > 0; };
+  for (int pass = 0; pass < passes; ++pass) {
     for (ContactRow& row : own.rows) solve_row(row, v);
-  bool acted = false;
+    if (!std::ranges::any_of(own.rows, acted)) return;
+    apply_to_particles(b, h, true);
+  }
   for (const ContactRow& row : own.rows) {
-    if (!(row.normal_impulse > 0)) continue;
-    acted = true;
+    if (!acted(row)) continue;
     const SolidFeature& f = own.features[row.feature];
     softbody::add(impulse(b), std::size_t(f.lane), row.normal_impulse * row.normal);
     own.returned[std::size_t(f.lane)] += own.near[f.solid].restitution * row.normal_impulse;
     own.pushed |= 1u << f.lane;
   }
-  return acted;
 }
 
 /// Adds the row of a feature: by the law of the particles' contacts, for the closest point, whose corners share an

@@ -83,7 +83,10 @@ void Solver::begin_frame(double seconds) {
     moving.push_back(&b);
     particles += b.particles() * std::size_t(b.used);
     const Extent extent = state_.extent(b, state_.x, state_.v);
-    for_each_solid(scene_, [&](const auto& solid) { solids_.add(b, extent, solid, scene_.gravity, seconds); });
+    for_each_solid(scene_, [&](const auto& solid) {
+      solids_.add(b, extent, solid, scene_.gravity, seconds,
+                  [&](const PlacedBox& box) { return way_out(scene_, solid, box); });
+    });
   }
   crew_.take(std::move(moving), particles);
   if (steps_.automatic() && !crew_.moving().empty()) choose_integrator(seconds);

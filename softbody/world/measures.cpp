@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "softbody/contact/solid_overlap.h"
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/model_forces.h"
 #include "softbody/scene/solids.h"
@@ -27,6 +28,62 @@ double largest_strain(const BodyModel& p, const std::vector<glm::dvec3>& x) {
     if (s.rest > 0) most = std::max(most, std::abs(glm::distance(x[s.i], x[s.j]) / s.rest - 1));
   });
   return most;
+}
+
+/// Returns the largest value on a segment or triangle of a function that is concave on it: on the places from `lo` to
+/// `hi`.
+template <class Value>
+double largest_of_concave(double lo, double hi, const Value& value) {
+  constexpr double golden = 0.6180339887498949;
+  constexpr int cuts = 32;
+  double a = hi - golden * (hi - lo), b = lo + golden * (hi - lo), at_a = value(a), at_b = value(b);
+  for (int i = 0; i < cuts; ++i)
+    if (at_a > at_b)
+      hi = b, b = a, at_b = at_a, a = hi - golden * (hi - lo), at_a = value(a);
+    else
+      lo = a, a = b, at_a = at_b, b = lo + golden * (hi - lo), at_b = value(b);
+  return std::max(at_a, at_b);
+}
+
+/// Returns how deep (m) particles at x lie in a solid, and with `faces` also what is between them, if that is more than
+/// `least`. A solid is convex, so that the depth in it is concave: along a face it stays below the planes that touch
+/// it.
+template <class Solid>
+double deepest_in(const Solid& solid, const std::vector<glm::dvec3>& x, std::span<const Triangle> faces, double least) {
+  const auto depth = [&](const glm::dvec3& p) { return -surface_at(solid, p).distance; };
+  for (const glm::dvec3& p : x) least = std::max(least, depth(p));
+  for (const auto& [i, j, k] : faces) {
+    const glm::dvec3 &a = x[i], &b = x[j], &c = x[k], middle = (a + b + c) / 3.0;
+    const SolidSurface s = surface_at(solid, middle);
+    const double inwards =
+        std::max({glm::dot(s.normal, middle - a), glm::dot(s.normal, middle - b), glm::dot(s.normal, middle - c)});
+    constexpr double rounding = 1e-9;  // m
+    if (!(inwards - s.distance > least + rounding)) continue;
+    const auto across = [&](double u) {
+      return largest_of_concave(0, 1, [&](double v) { return depth(glm::mix(a, glm::mix(b, c, u), v)); });
+    };
+    least = std::max(least, largest_of_concave(0, 1, across));
+  }
+  return least;
+}
+
+/// Returns BodyMeasures::deepest_penetration. What contact sees counts: faces only if surfaces touch.
+double deepest_in_solids(const World& world, BodyId id, const std::vector<glm::dvec3>& x) {
+  std::span<const Triangle> faces;
+  if (world.scene().contact_surface == ContactSurface::surfaces) faces = world.model(id).mesh.triangles;
+  double deepest = 0;
+  for_each_solid(world.scene(), [&](const auto& solid) { deepest = deepest_in(solid, x, faces, deepest); });
+  return deepest;
+}
+
+/// Returns true if a body lies in one of the scene's solids, by more than rounding.
+bool lies_in_solid(const World& world, BodyId id, const PlacedBody& body) {
+  constexpr double rounding = 1e-4;  // m
+  bool any = measure(world, id).deepest_penetration > rounding;
+  for_each_solid(world.scene(), [&](const auto& solid) {
+    any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
+  });
+  return any;
 }
 
 /// Returns BodyMeasures::staggering. deformation_now: the body's present deformation energy in J.
@@ -70,8 +127,8 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
     gravity -= p.particle_mass * glm::dot(scene.gravity, q.position);
     m.momentum += p.particle_mass * q.velocity;
     m.max_speed = std::max(m.max_speed, std::sqrt(speed2));
-    m.deepest_penetration = std::max(m.deepest_penetration, solid_depth(scene, q.position).depth);
   }
+  m.deepest_penetration = deepest_in_solids(world, id, x);
   m.energy = deformation(p, x);
   m.largest_strain = largest_strain(p, x);
   if (substep > 0) m.staggering = staggering(world, id, substep, m.energy.deformation());
@@ -80,6 +137,27 @@ BodyMeasures measure(const World& world, BodyId id, double substep) {
   m.closed = p.mesh.closed;
   if (m.closed) m.volume_ratio = enclosed_volume(p, x) / p.start_volume;
   return m;
+}
+
+std::vector<BodyId> overlapping_bodies(const World& world) {
+  const collide::Frame now = world.positions();
+  const BodyId count = world.bodies().count();
+  const auto placed = [&](BodyId id) {
+    const BodyModel& p = world.model(id);
+    return PlacedBody{*p.surface, glm::dvec3(0.0), collide::vertices_of(now, id), p.mean_edge};
+  };
+  std::vector<char> overlaps(count);
+  for (BodyId a = 0; a < count; ++a) {
+    overlaps[a] = overlaps[a] || lies_in_solid(world, a, placed(a));
+    for (BodyId b = 0; b < a; ++b) {
+      if (overlaps[a] && overlaps[b]) continue;
+      if (overlap(placed(a), placed(b))) overlaps[a] = overlaps[b] = true;
+    }
+  }
+  std::vector<BodyId> list;
+  for (BodyId id = 0; id < count; ++id)
+    if (overlaps[id]) list.push_back(id);
+  return list;
 }
 
 Energy starting_energy(const BodyModel& p) { return deformation(p, p.start); }

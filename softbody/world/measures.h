@@ -46,14 +46,18 @@ struct Measures {
   bool has_volume = false;                            // some body is closed; else the ratios are 0
   double volume_ratio_min = 0, volume_ratio_max = 0;  // of closed bodies, over the starting volume
   double largest_strain = 0;                          // of a spring, |length / resting length - 1|
-  double deepest_penetration = 0;                     // m >= 0, the deepest particle below a solid's surface
-  double max_speed = 0;                               // m/s, of a particle
-  bool finite = true;                                 // all positions and velocities
+  /// m >= 0, how deep the deepest particle lies below a solid's surface; by surface contact the deepest point of faces
+  double deepest_penetration = 0;
+  double max_speed = 0;  // m/s, of a particle
+  bool finite = true;    // all positions and velocities
 };
 
 Measures measure(const World& world);
 /// Returns the sum of the measures of all bodies.
 Measures total(std::span<const BodyMeasures> bodies);
+
+/// Returns the bodies that lie in a solid or in another body, which are eased out; ascending.
+std::vector<BodyId> overlapping_bodies(const World& world);
 
 /// Depth of a point in a solid, and the solid's outward normal there.
 struct SolidDepth {

@@ -26,6 +26,7 @@ struct BatchRig {
   std::array<float, lanes> returned{};
 
   BatchRig() {
+    solids[0].moves = moves.data();
     solids[0].shape = PlaneShape<float>{{0, 1, 0}};
     solids[0].near = ~0u;
     std::fill_n(solids[0].place.y, lanes, float(nowhere));

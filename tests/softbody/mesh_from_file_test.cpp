@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <tuple>
 
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
@@ -71,6 +72,22 @@ double distortion(const World& world) {
   for (Index i = 0; i < p->mesh.vertices.size(); ++i) x.push_back(world.particle(0, i).position);
   return std::sqrt(2 * elastic_energy(only<ShapeMatching>(*p), x) /
                    (data<ShapeMatching>(*p)->stiffness * double(x.size())));
+}
+
+/// By surface contact a ring that lies on a sphere has many features on it at once.
+TEST(MeshFromFile, ARingComesToRestOnASolidSphereBySurfaceContact) {
+  for (const auto& [around, across, radius] : {std::tuple(24, 12, 1.0), std::tuple(18, 10, 0.8)}) {
+    const TemporaryFolder folder;
+    std::filesystem::create_directory(folder.path() / "meshes");
+    folder.write("meshes/ring.obj", torus(around, across));
+    Scene scene = load_scene(folder.write("ring.toml", falling_ring));
+    scene.contact_surface = ContactSurface::surfaces;
+    scene.spheres[0].radius = radius;
+    scene.bodies[0].position = {0.02, 1.35 + radius, 0};
+    World world(scene, {});
+    run(world, 250);
+    EXPECT_TRUE(world.all_at_rest()) << measure(world).max_speed << " m/s";
+  }
 }
 
 TEST(MeshFromFile, AConcaveBodyFallsComesToRestAndKeepsItsShape) {

@@ -23,7 +23,8 @@ class SolidContactOverAPlane : public testing::Test {
   void begin_frame(double plane_height) {
     solids.begin_frame();
     const SolidPlane plane{.point = {0, plane_height, 0}, .normal = {0, 1, 0}, .friction = 0.5, .restitution = 0.25};
-    solids.add(batch(), state.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02);
+    solids.add(batch(), state.extent(batch(), state.x, state.v), plane, {0, -9.81, 0}, 0.02,
+               [](const PlacedBox&) { return glm::dvec3(0, 1, 0); });
   }
 
   static constexpr double height = 0.52;

@@ -21,14 +21,13 @@ SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const 
 
 LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work) {
-  constexpr unsigned part = (1u << implicit_lanes) - 1;  // bits
   LaneMask in_contact;
   work.planes.clear();
   for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
     if (!moving[lane]) continue;
     const std::size_t own = b.first_lane + lane;  // in the batch
     for (const SolidArguments& s : b.near_solids) {
-      if (!(s.near >> b.first_lane & part)) continue;
+      if (!(s.near >> own & 1u)) continue;
       for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
         const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
         const SurfaceAt<double> surface = surface_from(s, own, x);

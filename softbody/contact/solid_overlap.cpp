@@ -1,0 +1,81 @@
+#include "softbody/contact/solid_overlap.h"
+
+#include <algorithm>
+
+#include <glm/geometric.hpp>
+
+#include "collide/core/vertex_kernels.h"
+#include "collide/surface/closed_shell.h"
+
+namespace softbody {
+namespace {
+
+using Corners = std::array<glm::dvec3, 3>;
+
+/// Six times the volume of a tetrahedron, with its sign.
+double volume_of(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& c, const glm::dvec3& d) {
+  return glm::dot(glm::cross(b - a, c - a), d - a);
+}
+
+bool crosses(const glm::dvec3& p, const glm::dvec3& q, const Corners& t) {
+  if (volume_of(t[0], t[1], t[2], p) * volume_of(t[0], t[1], t[2], q) >= 0) return false;
+  const double a = volume_of(p, q, t[0], t[1]), b = volume_of(p, q, t[1], t[2]), c = volume_of(p, q, t[2], t[0]);
+  return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
+}
+
+/// Returns true if a vertex of a body lies in another, closed one, or the middle of its vertices does.
+bool lies_in(const PlacedBody& body, const PlacedBody& other) {
+  if (!other.surface.closed()) return false;
+  const collide::surface::ClosedShell shell(other.surface, other.at);
+  glm::vec3 middle(0.0f);
+  for (collide::Index i = 0; i < body.at.size; ++i) {
+    const glm::vec3 p(body.at.x[i], body.at.y[i], body.at.z[i]);
+    if (shell.inside(p)) return true;
+    middle += p / float(body.at.size);
+  }
+  return shell.inside(middle);
+}
+
+}  // namespace
+
+bool overlap(const PlacedBody& a, const PlacedBody& b) {
+  if (!collide::near(collide::measure_bounds(a.at).box, collide::measure_bounds(b.at).box, 0.0f)) return false;
+  return lies_in(a, b) || lies_in(b, a);
+}
+
+std::optional<SolidMiddle> middle_of(const SolidSphere& s) { return SolidMiddle{s.centre, {}, s.radius}; }
+std::optional<SolidMiddle> middle_of(const SolidPlane&) { return std::nullopt; }
+std::optional<SolidMiddle> middle_of(const SolidCapsule& c) {
+  return SolidMiddle{0.5 * (c.from + c.to), {0.5 * (c.to - c.from), glm::dvec3(0.0)}, c.radius};
+}
+std::optional<SolidMiddle> middle_of(const SolidBox& b) {
+  const double depth = std::min({b.half_size.x, b.half_size.y, b.half_size.z});
+  SolidMiddle middle{b.centre, {}, depth};
+  std::size_t side = 0;
+  for (int axis = 0; axis < 3; ++axis)
+    if (b.half_size[axis] > depth && side < 2) middle.sides[side++] = (b.half_size[axis] - depth) * b.axes[axis];
+  return middle;
+}
+
+bool holds(const PlacedBody& body, const SolidMiddle& middle) {
+  const glm::dvec3 centre = middle.centre - body.origin;
+  if (body.surface.closed() && collide::surface::ClosedShell(body.surface, body.at).inside(glm::vec3(centre)))
+    return true;
+  const auto vertex = [&](collide::Index v) { return glm::dvec3(body.at.x[v], body.at.y[v], body.at.z[v]); };
+  const auto& [u, v] = middle.sides;
+  const std::array<glm::dvec3, 4> corner{centre - u - v, centre + u - v, centre + u + v, centre - u + v};
+  const auto through_face = [&](const collide::surface::Triangle& face) {
+    const Corners t{vertex(face[0]), vertex(face[1]), vertex(face[2])};
+    for (std::size_t k = 0; k < 4; ++k)
+      if (crosses(corner[k], corner[(k + 1) % 4], t)) return true;
+    return false;
+  };
+  const auto edge_through = [&](const collide::surface::Edge& edge) {
+    const glm::dvec3 p = vertex(edge[0]), q = vertex(edge[1]);
+    return crosses(p, q, {corner[0], corner[1], corner[2]}) || crosses(p, q, {corner[0], corner[2], corner[3]});
+  };
+  return std::ranges::any_of(body.surface.triangles(), through_face) ||
+         std::ranges::any_of(body.surface.edges(), edge_through);
+}
+
+}  // namespace softbody

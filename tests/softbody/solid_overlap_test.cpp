@@ -1,0 +1,235 @@
+// Bodies that start in solids, or that solids are moved onto: they are eased out, whole and without energy from
+// nowhere.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "softbody/contact/law.h"
+#include "softbody/contact/solid_overlap.h"
+#include "softbody/scene/solids.h"
+#include "tests/softbody/surface_rig.h"
+
+namespace softbody::test {
+namespace {
+
+constexpr double g = 9.81;
+
+Material soft() {
+  Material m = rubber();
+  m[Material::internal_damping] = 10;
+  m[contact::rebound_speed] = 2;
+  m[contact::rolling_resistance] = 0.3;
+  return m;
+}
+
+/// Whether a body lies in one of the solids so that it is eased out.
+bool lies_in_solid(const World& world, BodyId id) {
+  std::array<std::vector<float>, 3> at;
+  for (const Particle& p : particles_of(world, id))
+    for (int k = 0; k < 3; ++k) at[std::size_t(k)].push_back(float(p.position[k]));
+  const BodyModel& model = world.model(id);
+  const PlacedBody body{*model.surface,
+                        glm::dvec3(0.0),
+                        {at[0].data(), at[1].data(), at[2].data(), Index(at[0].size())},
+                        model.mean_edge};
+  bool any = false;
+  for_each_solid(world.scene(), [&](const auto& solid) {
+    any = any || overlap(body, solid, world.scene().contact_surface == ContactSurface::surfaces);
+  });
+  return any;
+}
+
+struct Case {
+  const char* name;
+  void (*put)(Scene&);
+};
+
+const Case cases[]{
+    {"BallInASphere",
+     [](Scene& s) {
+       s.spheres = {{.centre = {0, 1, 0}}};
+       s.bodies[0].position = {0.3, 1.2, 0};
+     }},
+    {"BallInASphereWithoutItsMiddle",
+     [](Scene& s) {
+       s.spheres = {{.centre = {0, 1, 0}, .radius = 1.3}};
+       s.bodies[0].position = {0.3, 1.65, 0.3};
+     }},
+    {"SphereInABall",
+     [](Scene& s) {
+       s.spheres = {{.centre = {0, 1, 0}, .radius = 0.35}};
+       s.bodies[0].position = {0.05, 1.1, 0.02};
+     }},
+    {"BallInABox",
+     [](Scene& s) {
+       s.boxes = {{.centre = {0, 1, 0}, .half_size = {0.8, 0.7, 0.9}}};
+       s.bodies[0].position = {0.25, 1.1, 0};
+     }},
+    {"BallOnARod",
+     [](Scene& s) {
+       s.capsules = {{.from = {-2, 1, 0}, .to = {2, 1.2, 0}, .radius = 0.2}};
+       s.bodies[0].position = {0.3, 1.1, 0.1};
+     }},
+    {"BallUnderTheGround",
+     [](Scene& s) {
+       s.ground->height = 1;
+       s.bodies[0].position = {0, 0.6, 0};
+     }},
+    {"SheetInASphere",
+     [](Scene& s) {
+       s.spheres = {{.centre = {0, 1, 0}, .radius = 0.5}};
+       s.bodies[0].mesh = {.kind = "grid", .columns = 10, .rows = 10, .width = 1.6, .depth = 1.6};
+       s.bodies[0].position = {0.03, 1.2, 0.02};
+       s.materials[0][GasPressure::inside] = s.materials[0][GasPressure::outside] = 0;
+     }},
+};
+
+class StartInSolid : public testing::TestWithParam<std::tuple<Case, ContactSurface>> {
+ protected:
+  static Scene scene() {
+    Scene scene = ball_in_space(soft());
+    scene.contact_surface = std::get<1>(GetParam());
+    scene.gravity = {0, -g, 0};
+    scene.sleep.speed = 0.05;
+    scene.ground = Ground{};
+    std::get<0>(GetParam()).put(scene);
+    return scene;
+  }
+};
+
+TEST_P(StartInSolid, IsEasedOutWholeAndThenRests) {
+  World world(scene(), {});
+  ASSERT_TRUE(lies_in_solid(world, 0));
+  const auto shape = [&] { return measure(world).energies.elastic + measure(world).energies.gas; };
+  const double rest = shape(), start = motion(world, 0).centre.y;
+  double highest = start;
+  int frames = 0;
+  for (; lies_in_solid(world, 0); ++frames) {
+    ASSERT_LT(frames, 300);
+    world.step();
+    ASSERT_FALSE(world.body(0).asleep) << frame_of(world);
+    ASSERT_LT(glm::length(motion(world, 0).velocity), law::max_separation_speed + 2 * g / 60) << frame_of(world);
+    ASSERT_LT(measure(world).max_speed, 2.5) << frame_of(world);
+    ASSERT_LT(shape() - rest, 0.2) << frame_of(world);
+  }
+  EXPECT_GT(frames, 5);
+  // What it has gained is the lift and the speed with which it leaves.
+  double least = measure(world).energy;
+  for (int i = 0; i < 900 && !world.all_at_rest(); ++i) {
+    world.step();
+    highest = std::max(highest, motion(world, 0).centre.y);
+    ASSERT_LT(measure(world).energy, least + 0.15) << frame_of(world);
+    least = std::min(least, measure(world).energy);
+  }
+  if (world.model(0).mesh.closed) {
+    EXPECT_TRUE(world.all_at_rest());
+    EXPECT_NEAR(measure(world).volume_ratio_min, 1, 0.05);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(All, StartInSolid,
+                         testing::Combine(testing::ValuesIn(cases),
+                                          testing::Values(ContactSurface::vertices, ContactSurface::surfaces)),
+                         [](const auto& i) {
+                           return std::string(std::get<0>(i.param).name) +
+                                  (std::get<1>(i.param) == ContactSurface::surfaces ? "Surfaces" : "Vertices");
+                         });
+
+TEST(SolidOverlap, ASolidThatIsMovedOntoASleeperWakesItAndEasesItOut) {
+  for (const char* integrator : {"auto", "implicit", "xpbd"}) {
+    Scene scene = ball_in_space(soft());
+    scene.gravity = {0, -g, 0};
+    scene.sleep.speed = 0.05;
+    scene.ground = Ground{};
+    scene.bodies[0].position = {0, 0.51, 0};
+    scene.contact_surface = ContactSurface::vertices;
+    World world(scene, {.integrator = {integrator, {}}});
+    run(world, 300);
+    ASSERT_TRUE(world.all_at_rest());
+    const double volume = measure(world).volume_ratio_min;
+    scene.boxes = {{.centre = {0.2, 0.5, 0.1}, .half_size = {0.7, 0.3, 0.5}}};
+    world.set_solids(scene);
+    for (int i = 0; i < 200; ++i) {
+      world.step();
+      ASSERT_LT(measure(world).max_speed, 3.5) << integrator << ", " << frame_of(world);
+    }
+    EXPECT_FALSE(lies_in_solid(world, 0)) << integrator;
+    EXPECT_NEAR(measure(world).volume_ratio_min, volume, 0.05) << integrator;
+  }
+}
+
+/// Between two solids that face each other there is no way out: it stays awake, and nothing blows up.
+TEST(SolidOverlap, WhatCannotBeEasedOutStaysAwakeAndWhole) {
+  Scene scene = ball_in_space(rubber());
+  scene.sleep.speed = 0.05;
+  scene.bodies[0].position = {0.02, 0, 0};
+  for (const double side : {-1.0, 1.0}) scene.planes.push_back({{0.3 * side, 0, 0}, {-side, 0, 0}, 0.3, 0});
+  World world(scene, {});
+  for (int i = 0; i < 200; ++i) {
+    world.step();
+    ASSERT_LT(measure(world).max_speed, 5) << frame_of(world);
+  }
+  EXPECT_FALSE(world.body(0).asleep);
+}
+
+TEST(SolidOverlap, LeavesWhatOnlyTouches) {
+  const auto touches = [](const glm::dvec3& at) {
+    Scene scene = ball_in_space(rubber());
+    scene.bodies[0].position = at;
+    scene.spheres = {{.radius = 1}};
+    scene.boxes = {{.centre = {5, 0, 0}, .half_size = {1, 0.01, 1}}};
+    scene.capsules = {{.from = {10, 0, -1}, .to = {10, 0, 1}, .radius = 0.02}};
+    return lies_in_solid(World(scene, {}), 0);
+  };
+  EXPECT_FALSE(touches({0, 1.51, 0}));
+  EXPECT_TRUE(touches({0, 1.44, 0}));
+  EXPECT_FALSE(touches({5, 0.56, 0}));
+  EXPECT_TRUE(touches({5, 0.4, 0})) << "its edges go through the plate";
+  EXPECT_FALSE(touches({10, 0.56, 0}));
+  EXPECT_TRUE(touches({10, 0.3, 0})) << "the rod goes through its faces";
+}
+
+TEST(OverlappingBodies, AreThoseInSolidsAndInEachOther) {
+  Scene scene = ball_in_space(rubber());
+  scene.ground = Ground{-3};
+  add_body(scene, {5, 0, 0}, glm::dvec3(0.0));      // apart
+  add_body(scene, {0.8, 0, 0}, glm::dvec3(0.0));    // in the first
+  add_body(scene, {10, -2.9, 0}, glm::dvec3(0.0));  // in the ground
+  add_body(scene, {15, 0, 0}, glm::dvec3(0.0));
+  add_body(scene, {15, 0, 0}, glm::dvec3(0.0));  // in one place
+  scene.bodies.back().mesh.subdivisions = 3;
+  EXPECT_EQ(overlapping_bodies(World(scene, {})), (std::vector<BodyId>{0, 2, 3, 4, 5}));
+  scene.bodies.resize(2);
+  EXPECT_TRUE(overlapping_bodies(World(scene, {})).empty());
+}
+
+TEST(OverlappingBodies, OfOnePlacePartAtABoundedSpeed) {
+  Scene scene = ball_in_space(soft());
+  for (int i = 1; i < 20; ++i) add_body(scene, glm::dvec3(0.0), glm::dvec3(0.0));
+  scene.sleep.speed = 0.05;
+  World world(scene, {});
+  const auto shape = [&] { return measure(world).energies.elastic + measure(world).energies.gas; };
+  const double rest = shape();
+  for (int i = 0; i < 150; ++i) {
+    world.step();
+    ASSERT_LT(measure(world).max_speed, 6) << frame_of(world);
+    ASSERT_LT(shape() - rest, 20 * 0.5) << frame_of(world);
+  }
+  EXPECT_TRUE(overlapping_bodies(world).empty());
+}
+
+TEST(MiddleOf, IsASolidsRectangleSegmentOrPoint) {
+  const auto plate = middle_of(SolidBox{.centre = {1, 2, 3}, .half_size = {0.5, 0.1, 0.7}});
+  EXPECT_NEAR(plate->depth, 0.1, 1e-12);
+  EXPECT_NEAR(glm::length(plate->sides[0]), 0.4, 1e-12);
+  EXPECT_NEAR(glm::length(plate->sides[1]), 0.6, 1e-12);
+  EXPECT_NEAR(plate->sides[0].y, 0, 1e-12);
+  EXPECT_NEAR(glm::length(middle_of(SolidBox{.half_size = glm::dvec3(2)})->sides[0]), 0, 1e-12);
+  EXPECT_EQ(middle_of(SolidCapsule{.from = {-1, 0, 0}, .to = {3, 0, 0}})->sides[0], glm::dvec3(2, 0, 0));
+  EXPECT_FALSE(middle_of(SolidPlane{}));
+}
+
+}  // namespace
+}  // namespace softbody::test
