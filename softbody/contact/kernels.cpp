@@ -36,7 +36,8 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
   const V zero{};
   unsigned acted = 0;
   for (std::size_t first = 0; first < used; first += lanes_of<V>) {
-    const V moves = load<V>(s.moves + first);
+    const V moves = select_bits(s.near >> first, load<V>(s.moves + first));
+    if (!any_above(moves, zero)) continue;
     const Vec<V> place{load<V>(s.place.x + first), load<V>(s.place.y + first), load<V>(s.place.z + first)};
     Vec<V> impulse = load<V>(s.impulse, first);
     V most{}, returned = load<V>(s.returned + first);
@@ -62,9 +63,7 @@ unsigned act_by(const Shape& shape, std::size_t used, const SolidArguments& s, F
 
 unsigned ActBySolid(int width, std::size_t used, const SolidArguments& s, Field<const float> x, Field<float> v) {
   return std::visit(
-      [&](const auto& shape) {
-        return width == one_lane ? act_by<one_lane>(shape, used, s, x, v) : act_by<lanes>(shape, used, s, x, v);
-      },
+      [&](const auto& shape) { return with_width(width, [&](auto w) { return act_by<w>(shape, used, s, x, v); }); },
       s.shape);
 }
 

@@ -44,6 +44,7 @@ struct SolidArguments {
   float h = 0;                  // s
   float slack = 0;              // m/s: a smaller change of normal velocity is left undone
   Field<const float> before{};  // velocities at the start of the step; read only if there is restitution
+  unsigned near = ~0u;          // bits: lanes on which it acts, whose bodies may meet it in the frame at hand
 };
 
 }  // namespace softbody

@@ -8,6 +8,7 @@
 
 #include "softbody/contact/kernels.h"
 #include "softbody/contact/solid_placement.h"
+#include "softbody/state/kernels.h"
 
 namespace softbody {
 namespace {
@@ -36,9 +37,9 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
     const SolidSurface s = surface_at(solid, state_.body(b.body[std::size_t(l)]).origin + 0.5 * (lo + hi));
     return s.distance - 0.5 * glm::dot(glm::abs(s.normal), hi - lo) <= max_travel(b, e, l, gravity, seconds);
   };
-  bool any = false;
-  for (int l = 0; l < b.used; ++l) any = any || near(l);
-  if (!any) return;
+  unsigned lanes_near = 0;
+  for (int l = 0; l < b.used; ++l) lanes_near |= unsigned(near(l)) << l;
+  if (!lanes_near) return;
   const double thickness = b.model->material[Material::thickness];
   SolidArguments& s = own.near.emplace_back();
   s.particles = b.particles();
@@ -51,6 +52,7 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
     const glm::dvec3 place = place_of(solid, thickness, origin) - origin;
     s.place.x[l] = float(place.x), s.place.y[l] = float(place.y), s.place.z[l] = float(place.z);
   }
+  s.near = lanes_near;
   s.moves = b.moves.data();
   s.impulse = impulse(b);
   s.returned = returned(b);
@@ -88,12 +90,13 @@ void SolidContact::remove(BodyId body) {
 
 void SolidContact::note_velocities(const Batch& b) {
   if (!has_restitution_) return;
-  for (std::size_t k = 0; k < 3; ++k) std::copy_n(&state_.v[k][b.base], b.values(), &before_[k][b.base]);
+  state_kernels(b.width).copy(std::size_t(b.used), b.particles(), b.moves.data(), field(state_.v, b.base),
+                              field(before_, b.base));
 }
 
 void SolidContact::clear_velocities(const Batch& b) {
   if (!has_restitution_) return;
-  for (auto& component : before_) std::fill_n(&component[b.base], b.values(), 0.0f);
+  state_kernels(b.width).clear(std::size_t(b.used), b.particles(), field(before_, b.base));
 }
 
 Field<float> SolidContact::impulse(const Batch& b) {

@@ -1,5 +1,5 @@
 #pragma once
-// Arguments of the kernels of forces. Arrays over lanes use only their first value for a body that is solved alone.
+// Arguments of the kernels of forces. Narrow blocks use only the first values of arrays over lanes.
 
 #include <tuple>
 

@@ -25,7 +25,7 @@ struct Kernels {
     if (!d) return;
     for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
       const LaneBodies<float> b = all.from(l);
-      HeldOf<F, float> held;
+      HeldOf<F, float> held{};
       hold<F, V, width>(*d, b.x, b.used, held);
       const Moving moving{motion.v + l};
       visit<F, V>(b.model, *d, held, AddForces<V, width, Moving>{b, moving});
@@ -80,12 +80,12 @@ struct Kernels {
 template <int width>
 constexpr ForceKernels table = Kernels<width>::make();
 
-using W = Wide<double, lanes>;
+using W = Wide<double, implicit_lanes>;
 
 void hold_forces(const LaneBodies<double>& b, HeldForces& held) {
   for_each_force(Forces{}, [&]<class F>(Name<F>) HWY_ATTR {
     if constexpr (HasElements<F>)
-      if (const auto* d = data<F>(b.model)) hold<F, W, lanes>(*d, b.x, b.used, std::get<index_of<F>>(held));
+      if (const auto* d = data<F>(b.model)) hold<F, W, implicit_lanes>(*d, b.x, b.used, std::get<index_of<F>>(held));
   });
 }
 
@@ -95,14 +95,16 @@ void add_forces(const LaneBodies<double>& b, const HeldForces& held, const Since
     if constexpr (HasElements<F>) {
       if constexpr (!external_only || !F::internal)
         if (const auto* d = data<F>(b.model))
-          visit<F, W>(b.model, *d, std::get<index_of<F>>(held), AddForces<W, lanes, SinceStart>{b, motion});
+          visit<F, W>(b.model, *d, std::get<index_of<F>>(held), AddForces<W, implicit_lanes, SinceStart>{b, motion});
     }
   });
 }
 
 constexpr ImplicitForceKernels implicit_table{hold_forces, add_forces<false>, add_forces<true>};
 
-const ForceKernels& Table(int width) { return width == one_lane ? table<one_lane> : table<lanes>; }
+const ForceKernels& Table(int width) {
+  return with_width(width, [](auto w) -> const ForceKernels& { return table<w>; });
+}
 const ImplicitForceKernels& ImplicitTable() { return implicit_table; }
 
 }  // namespace

@@ -40,8 +40,10 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
     if (pairs) {
       const auto k = static_cast<float>(p.material[contact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
-      const float* by_pairs = penalty_damping_.data() + b.base;
-      damper += double(*std::max_element(by_pairs, by_pairs + b.values())) / p.particle_mass;
+      float most = 0;
+      for (const float *row = penalty_damping_.data() + b.base, *end = row + b.values(); row < end; row += b.width)
+        most = std::max(most, *std::max_element(row, row + b.used));
+      damper += double(most) / p.particle_mass;
     }
     // What is stable only by damping must not count on that of contacts, or of another body.
     own_step = std::min(own_step, integrator.stable_step(stiffest, own.damping));

@@ -156,7 +156,9 @@ constexpr StateKernels table{clear<width>,      copy<width>,       add<width>,  
                              square_sum<width>, kick<width>,       accelerate<width>, drift<width>,
                              extent<width>,     rigid_sums<width>, add_rigid<width>};
 
-const StateKernels& Table(int width) { return width == one_lane ? table<one_lane> : table<lanes>; }
+const StateKernels& Table(int width) {
+  return with_width(width, [](auto w) -> const StateKernels& { return table<w>; });
+}
 
 }  // namespace
 }  // namespace HWY_NAMESPACE

@@ -42,6 +42,10 @@ template <std::floating_point T>
 HWY_INLINE unsigned lanes_above(T a, T b) {
   return a > b;
 }
+template <std::floating_point T>
+HWY_INLINE T select_bits(std::uint64_t bits, T value) {
+  return bits & 1 ? value : 0;
+}
 HWY_INLINE double widened(float v) { return double(v); }
 HWY_INLINE float narrowed(double v) { return float(v); }
 

@@ -1,8 +1,10 @@
 #pragma once
-// Eight bodies of one model are solved side by side: value [particle * lanes + lane]. A body may also be solved alone:
-// value [particle]. The same source serves both widths and, by Highway, every instruction set, and gives the same bits
-// on each.
+// Up to 16 bodies of one model are solved side by side, in a block: value [particle * width + lane]. Few bodies have a
+// narrower one, so that they take less memory, and one alone has a width of one. The same source serves all widths and,
+// by Highway, every instruction set, and gives the same bits on each: 16 lanes are one run of 16, two of 8 or four
+// of 4. Runs without a body take no time.
 
+#include <cassert>
 #include <cstddef>
 #include <new>
 #include <type_traits>
@@ -12,9 +14,21 @@
 
 namespace softbody {
 
-/// Number of bodies of one model that are solved side by side.
-inline constexpr int lanes = 8;
-inline constexpr int one_lane = 1;  // the width of a batch whose body is solved alone
+inline constexpr int lanes = 16;    // of the widest block
+inline constexpr int one_lane = 1;  // of a body that is alone
+/// Returns the width to which a full block grows for one more body.
+constexpr int next_width(int width) { return width == one_lane ? 4 : 2 * width; }
+/// Calls f(constant) with a block's width, which is known only at run time.
+template <class F>
+decltype(auto) with_width(int width, const F& f) {
+  if (width == one_lane) return f(std::integral_constant<int, one_lane>());
+  if (width == 4) return f(std::integral_constant<int, 4>());
+  if (width == 8) return f(std::integral_constant<int, 8>());
+  assert(width == lanes);
+  return f(std::integral_constant<int, lanes>());
+}
+/// Number of bodies that implicit steps solve side by side, in double: all or a part of a block.
+inline constexpr int implicit_lanes = 8;
 
 /// Allocates memory that starts on a cache line.
 template <class T>
@@ -31,11 +45,11 @@ struct CacheLineAllocator {
 template <class Real>
 using LaneArray = std::vector<Real, CacheLineAllocator<Real>>;
 
-/// A field of vectors over the particles of eight bodies. Component k of particle i of lane l has the index
-/// (k * particles + i) * lanes + l.
+/// A field of vectors of implicit steps. Component k of particle i of lane l has the index
+/// (k * particles + i) * implicit_lanes + l.
 using Lanes = LaneArray<double>;
 
-// Reads, writes or adds to the vector at index `at` = particle * lanes + lane.
+// Reads, writes or adds to the vector at index `at` = particle * implicit_lanes + lane.
 inline glm::dvec3 read(const Lanes& field, std::size_t at) {
   const std::size_t stride = field.size() / 3;
   return {field[at], field[at + stride], field[at + 2 * stride]};
@@ -53,7 +67,7 @@ inline void add(Lanes& field, std::size_t at, const glm::dvec3& more) {
 struct LaneView {
   const Lanes& field;
   std::size_t lane;
-  glm::dvec3 operator()(std::size_t particle) const { return read(field, particle * lanes + lane); }
+  glm::dvec3 operator()(std::size_t particle) const { return read(field, particle * implicit_lanes + lane); }
 };
 
 /// Pointers to the three components of a field over the particles of one batch.

@@ -85,10 +85,10 @@ requires(n > register_lanes<T>) struct WideOf<T, n> {
 template <class T, int n>
 using Wide = typename WideOf<T, n>::Values;
 
-/// What a kernel computes with at a time, in a batch of so many lanes: a register, or one value of a body that is
-/// alone.
+/// What a kernel computes with at a time, in a block of so many lanes: as many as a register holds, or one value of a
+/// body that is alone.
 template <class T, int width, int n = register_lanes<T>>
-using Run = std::conditional_t<width == one_lane, T, Lane<T, n>>;
+using Run = std::conditional_t<width == one_lane, T, Lane<T, std::min(n, width)>>;
 
 template <class V>
 struct Values {
@@ -183,10 +183,19 @@ HWY_INLINE bool any_above(Lane<T, n> a, Lane<T, n> b) {
   return !hn::AllFalse(typename Lane<T, n>::Tag(), (a > b).raw);
 }
 
+/// Returns the values of the lanes whose bit is set, and 0 for others.
+template <class T, int n>
+HWY_INLINE Lane<T, n> select_bits(std::uint64_t bits, Lane<T, n> values) {
+  const typename Lane<T, n>::Tag tag;
+  return Lane<T, n>(
+      hn::IfThenElseZero(hn::LoadMaskBits(tag, reinterpret_cast<const std::uint8_t*>(&bits)), values.raw));
+}
+
 template <int n>
 HWY_INLINE Lane<double, n> widened(Lane<float, n> v) {
   return Lane<double, n>(hn::PromoteTo(typename Lane<double, n>::Tag(), v.raw));
 }
+/// v: finite, or what comes of it depends on the target.
 template <int n>
 HWY_INLINE Lane<float, n> narrowed(Lane<double, n> v) {
   return Lane<float, n>(hn::DemoteTo(typename Lane<float, n>::Tag(), v.raw));

@@ -16,21 +16,21 @@ bool Batch::any_moves() const {
   return std::any_of(moves.begin(), moves.end(), [](float m) { return m > 0; });
 }
 
-/// Returns a batch of the model with a free lane. The only large body of a model gets a batch of width one: in eight
-/// lanes it takes eight times the memory and, as measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long. Two
-/// bodies already take 1.4 times as long apart as in lanes. Bodies that implicit steps may take are always in lanes.
+/// Returns a batch of the model with a free lane. The first batch of a model grows with its bodies: one large body takes,
+/// as measured, 1.3 (2,562 vertices) to 1.6 times (50,000) as long in eight lanes as alone. Two bodies already take 1.4
+/// times as long apart as in lanes.
 Batch& State::batch_with_free_lane(const std::shared_ptr<const BodyModel>& model) {
   bool alone = true;
   for (Batch& b : batches_) {
     if (b.model != model) continue;
-    if (b.width == one_lane && b.used > 0) widen(b);
+    if (b.used == b.width && b.width < lanes) widen(b);
     if (b.used < b.width) return b;
     alone = false;
   }
   Batch b;
   b.model = model;
   b.index = static_cast<Index>(batches_.size());
-  b.width = alone && b.particles() > max_implicit_particles ? one_lane : lanes;
+  b.width = alone ? one_lane : lanes;
   b.base = append(b.values());
   return batches_.emplace_back(std::move(b));
 }
@@ -43,14 +43,26 @@ std::size_t State::append(std::size_t values) {
   return base;
 }
 
-/// Gives a batch of one body all lanes. Its old room lies idle: less than an eighth more.
+/// Gives a full batch more lanes. Its old room lies idle, unless it is the last.
 void State::widen(Batch& b) {
-  const std::size_t from = b.base;
-  b.width = lanes;
-  b.base = append(b.values());
+  const auto width = std::size_t(b.width), wider = std::size_t(next_width(b.width));
+  const auto from = std::ptrdiff_t(b.base), end = from + std::ptrdiff_t(b.values());
+  const bool last = std::size_t(end) == x[0].size();
+  std::vector<std::vector<float>> before;
   for (auto* array : {&x, &v, &f})
-    for (auto& c : *array)
-      for (std::size_t i = 0; i < b.particles(); ++i) c[b.base + i * lanes] = c[from + i];
+    for (auto& c : *array) {
+      before.emplace_back(c.begin() + from, c.begin() + end);
+      if (last) c.resize(std::size_t(from));
+    }
+  b.width = int(wider);
+  b.base = append(b.values());
+  auto values = before.begin();
+  for (auto* array : {&x, &v, &f})
+    for (auto& c : *array) {
+      for (std::size_t i = 0; i < b.particles(); ++i)
+        std::copy_n(values->data() + i * width, width, c.data() + b.base + i * wider);
+      ++values;
+    }
 }
 
 BodyId State::add(const std::shared_ptr<const BodyModel>& model, const glm::dvec3& position,

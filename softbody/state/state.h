@@ -19,7 +19,7 @@ namespace softbody {
 struct Batch {
   std::shared_ptr<const BodyModel> model;
   Index index = 0;  // of this batch
-  int width = lanes;  // or one_lane
+  int width = lanes;  // one of the widths of lanes.h
   std::size_t base = 0;
   int used = 0;  // lanes taken
   std::array<BodyId, lanes> body{};

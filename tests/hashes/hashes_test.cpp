@@ -5,10 +5,8 @@
 // writes hashes.txt anew.
 
 #include <gtest/gtest.h>
-#include <hwy/targets.h>
 
 #include <algorithm>
-#include <bit>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
@@ -17,6 +15,7 @@
 #include "softbody/world/snapshot.h"
 #include "softbody/world/world.h"
 #include "tests/cli/process.h"
+#include "tests/every_target.h"
 
 namespace softbody::test {
 namespace {
@@ -38,17 +37,15 @@ std::vector<Row> read_rows() {
 struct Way {
   std::string name;
   int threads;
-  std::int64_t target;  // 0: the widest
-  bool over_snapshot;   // half the way, into a new world
+  std::int64_t target;
+  bool over_snapshot;  // half the way, into a new world
 };
 
-/// The narrowest instructions, AVX2 alone, and all that this machine has.
+/// With each target one thread; with the widest, which Highway numbers lowest, two over a snapshot.
 std::vector<Way> ways() {
-  const auto supported = static_cast<std::uint64_t>(hwy::SupportedTargets());
-  const auto narrowest = static_cast<std::int64_t>(std::bit_floor(supported));  // Highway numbers the widest lowest
-  std::vector<Way> list{{"narrowest, one thread", 1, narrowest, false},
-                        {"widest, two threads, over a snapshot", 2, 0, true}};
-  if (supported & std::uint64_t{HWY_AVX2}) list.push_back({"AVX2, one thread", 1, HWY_AVX2, false});
+  std::vector<Way> list;
+  for (const std::int64_t target : tests::targets())
+    list.push_back({hwy::TargetName(target), list.empty() ? 2 : 1, target, list.empty()});
   return list;
 }
 
@@ -57,7 +54,7 @@ void run(World& world, int frames) {
 }
 
 std::string hash_of(const Row& row, const Way& way) {
-  hwy::SetSupportedTargetsForTest(way.target);
+  const tests::UseTarget use(way.target);
   Scene scene = find_scene(row.scene, SBCOLLIDE_SCENES);
   scene.contact_surface = find_contact_surface(row.surface)->value;
   World::Options options;
@@ -72,7 +69,6 @@ std::string hash_of(const Row& row, const Way& way) {
     world = std::move(fresh);
   }
   run(world, row.frames);
-  hwy::SetSupportedTargetsForTest(0);
   std::ostringstream text;
   text << std::hex << std::setw(16) << std::setfill('0') << world.state_hash();
   return text.str();

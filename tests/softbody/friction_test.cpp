@@ -99,7 +99,7 @@ class SolidKernels : public tests::OnEveryTarget {
 TEST_P(SolidKernels, LeaveParticlesThatDoNotReachTheSurfaceAlone) {
   for (int l = 0; l < lanes; ++l) {
     x.set(0, l, {0, 0.05, 0});
-    v.set(0, l, {1, -0.6 * l, 0});  // reaches -0.05 m from l = 9 on
+    v.set(0, l, {1, -0.3 * l, 0});  // the last one reaches 0.005 m
   }
   act(arguments(1));
   for (int l = 0; l < lanes; ++l) {
@@ -127,11 +127,11 @@ TEST_P(SolidKernels, StopAParticleAtTheSurfaceAndTakeFrictionTimesTheImpulse) {
 TEST_P(SolidKernels, NeverPullAndNeverReverseASlip) {
   for (int l = 0; l < lanes; ++l) {
     x.set(0, l, {0, 0, 0});
-    v.set(0, l, l < 4 ? glm::dvec3(1, 2, 0) : glm::dvec3(0.1, -5, 0));
+    v.set(0, l, l % 2 ? glm::dvec3(1, 2, 0) : glm::dvec3(0.1, -5, 0));
   }
   act(arguments(10));
   for (int l = 0; l < lanes; ++l) {
-    if (l < 4) {
+    if (l % 2) {
       EXPECT_EQ(v.at(0, l), glm::dvec3(1, 2, 0));
     } else {
       EXPECT_NEAR(glm::length(v.at(0, l)), 0, 1e-6);
@@ -188,8 +188,8 @@ TEST_P(SolidKernels, OfASphereActWhereverTheLawDoesAndNowhereElse) {
     for (int l = 0; l < lanes; ++l)
       ASSERT_EQ(v.at(0, l), glm::dvec3(expected[l].x, expected[l].y, expected[l].z)) << "lane " << l;
   }
-  EXPECT_GT(acted, 20'000);
-  EXPECT_LT(acted, 7 * 20'000);
+  EXPECT_GT(acted, 20'000 * lanes / 8);
+  EXPECT_LT(acted, 20'000 * lanes * 7 / 8);
 }
 
 TEST_P(SolidKernels, PushAParticleAtASpheresCentreUpAndLeaveHeldBodiesAlone) {

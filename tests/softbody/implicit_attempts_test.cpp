@@ -23,12 +23,12 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
   const LaneMask solved = advance(rig.step(LaneMask().set(), in_contact), rig.work, tried);
   EXPECT_EQ(solved & ~tried, LaneMask()) << "solves only what it is asked for";
   for (std::size_t i = 0; i < rig.work.end_x.size(); ++i)
-    if (!tried[i % lanes]) {
+    if (!tried[i % implicit_lanes]) {
       EXPECT_EQ(rig.work.end_x[i], untouched);
       EXPECT_EQ(rig.work.end_v[i], untouched);
     }
   for (std::size_t i = 0; i < forces.size(); ++i)
-    if (!tried[rig.work.planes[i].at % lanes]) {
+    if (!tried[rig.work.planes[i].at % implicit_lanes]) {
       EXPECT_EQ(rig.work.planes[i].force, forces[i]);
     }
   return solved;
@@ -38,7 +38,7 @@ LaneMask attempt(LaneMask (*advance)(const ImplicitStep&, ImplicitWork&, LaneMas
 glm::dvec3 impulse(const ImplicitRig& rig, std::size_t lane) {
   glm::dvec3 sum(0.0);
   for (const PlaneContact& c : rig.work.planes)
-    if (c.at % lanes == lane) sum += rig.h * c.force;
+    if (c.at % implicit_lanes == lane) sum += rig.h * c.force;
   return sum;
 }
 
@@ -70,7 +70,7 @@ TEST(SecondOrderStep, IsOfSecondOrder) {
   const auto error = [&](double h) {
     const Lanes once = end(h, 1), truth = end(h, 32);
     double square = 0;
-    for (std::size_t i = 0; i < once.size(); i += lanes) square += (once[i] - truth[i]) * (once[i] - truth[i]);
+    for (std::size_t i = 0; i < once.size(); i += implicit_lanes) square += (once[i] - truth[i]) * (once[i] - truth[i]);
     return std::sqrt(square);
   };
   const double ratio = error(2e-3) / error(1e-3);
@@ -230,7 +230,7 @@ TEST(RigidFallbackStep, MovesABodyAsItIsWithoutAGainOfEnergy) {
   std::mt19937 random(4);
   rig.move(1, {0, -1, 0}, {20, 1, 2}, {0.2, 1, 3});
   for (std::size_t i = 0; i < rig.particles(); ++i)
-    write(rig.work.v, i * lanes + 1, at(rig.work.v, i, 1) + random_vector(random, 1));
+    write(rig.work.v, i * implicit_lanes + 1, at(rig.work.v, i, 1) + random_vector(random, 1));
   ASSERT_EQ(attempt(rigid_fallback_step, rig, mask({1})), mask({1}));
   double before = 0, after = 0;
   for (std::size_t i = 0; i < rig.particles(); ++i) {

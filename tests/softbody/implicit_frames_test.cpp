@@ -19,7 +19,7 @@ struct Flight {
   const glm::dvec3 velocity{1, -2, 3}, spin{0.5, 4, -6}, gravity{0, -9.81, 0}, fall = h * h / 2 * gravity;
   const std::vector<glm::dvec3> places{{1, 0, 0}, {0, 2, 0}, {0, 0, 3}, {-1, -2, 0}};  // from the centre
   const glm::dvec3 centre{7, 8, 9};
-  Lanes x = Lanes(3 * 4 * lanes), v = x;
+  Lanes x = Lanes(3 * 4 * implicit_lanes), v = x;
   Flight() {
     for (const std::size_t lane : {2u, 5u})
       for (std::size_t i = 0; i < 4; ++i) {
@@ -97,7 +97,7 @@ TEST(ImplicitFrames, TurnPenaltyPairs) {
 
 /// Along an axis to which all is near, what swings looks like a fast spin.
 TEST(ImplicitFrames, DoNotFollowATremor) {
-  Lanes x(3 * 4 * lanes), v = x;
+  Lanes x(3 * 4 * implicit_lanes), v = x;
   const double thin = 1e-3;
   for (std::size_t i = 0; i < 4; ++i) {
     put(x, i, 0, {double(i) - 1.5, i % 2 ? thin : -thin, i < 2 ? thin : -thin});

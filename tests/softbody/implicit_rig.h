@@ -14,13 +14,13 @@ namespace softbody::test {
 
 inline glm::dvec3 at(const Lanes& f, std::size_t particle, std::size_t lane) { return LaneView{f, lane}(particle); }
 inline void put(Lanes& f, std::size_t particle, std::size_t lane, const glm::dvec3& value) {
-  write(f, particle * lanes + lane, value);
+  write(f, particle * implicit_lanes + lane, value);
 }
 
 /// Returns a smooth plane that throws nothing back.
 inline PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dvec3& normal, double min_displacement,
                           const glm::dvec3& force = glm::dvec3(0.0)) {
-  return {.at = particle * lanes + lane,
+  return {.at = particle * implicit_lanes + lane,
           .friction = 0,
           .restitution = 0,
           .normal = normal,
@@ -32,14 +32,14 @@ inline PlaneContact plane(std::size_t particle, std::size_t lane, const glm::dve
 /// Returns a pair with the same force whatever moves.
 inline LinearPenaltyPair penalty_pair(std::size_t particle, std::size_t lane, const glm::dvec3& normal,
                                       const glm::dvec3& force) {
-  return {.at = particle * lanes + lane, .normal = normal, .slopes = {}, .force = force};
+  return {.at = particle * implicit_lanes + lane, .normal = normal, .slopes = {}, .force = force};
 }
 
 /// The balls start and end at rest in balance, at their frames' origins, until they are moved.
 struct ImplicitRig {
   explicit ImplicitRig(double stiffness = 1e4, double step = 0.01, double damping_ratio = 0.1)
       : model(make_body_model({}, gas_ball(stiffness, damping_ratio))), h(step) {
-    for (std::size_t lane = 0; lane < lanes; ++lane) move(lane, glm::dvec3(0.0));
+    for (std::size_t lane = 0; lane < implicit_lanes; ++lane) move(lane, glm::dvec3(0.0));
     work.end_x = work.x, work.end_v = work.v;
   }
   std::size_t particles() const { return model->mesh.vertices.size(); }

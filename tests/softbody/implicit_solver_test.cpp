@@ -17,8 +17,8 @@ namespace {
 struct Bowls {
   static constexpr std::size_t particles = 20;
   double softest = 1, stiffest = 4;
-  std::array<double, lanes> quartic{};
-  Lanes x = Lanes(3 * particles * lanes);
+  std::array<double, implicit_lanes> quartic{};
+  Lanes x = Lanes(3 * particles * implicit_lanes);
   int gradients = 0;
   Minimiser minimiser{particles, implicit_kernels()};
 
@@ -26,8 +26,8 @@ struct Bowls {
     const auto gradient = [&](const Lanes& at, Lanes& g) {
       ++gradients;
       for (std::size_t i = 0; i < at.size(); ++i) {
-        const double d = at[i] - 1, c = softest + (stiffest - softest) * double(i / lanes) / double(3 * particles);
-        g[i] = c * d + quartic[i % lanes] * d * d * d;
+        const double d = at[i] - 1, c = softest + (stiffest - softest) * double(i / implicit_lanes) / double(3 * particles);
+        g[i] = c * d + quartic[i % implicit_lanes] * d * d * d;
       }
     };
     PerLane max;
@@ -36,17 +36,17 @@ struct Bowls {
   }
   double error(std::size_t lane) const {
     double most = 0;
-    for (std::size_t i = lane; i < x.size(); i += lanes) most = std::max(most, std::abs(x[i] - 1));
+    for (std::size_t i = lane; i < x.size(); i += implicit_lanes) most = std::max(most, std::abs(x[i] - 1));
     return most;
   }
 };
 
 TEST(Minimiser, FindsTheMinimumOfEachLane) {
   Bowls bowls;
-  for (std::size_t lane = 0; lane < lanes; ++lane) bowls.quartic[lane] = double(lane * lane);
+  for (std::size_t lane = 0; lane < implicit_lanes; ++lane) bowls.quartic[lane] = double(lane * lane);
   EXPECT_TRUE(bowls.run(60));
   EXPECT_TRUE(bowls.minimiser.converged().all());
-  for (std::size_t lane = 0; lane < lanes; ++lane) EXPECT_LT(bowls.error(lane), 1e-9) << lane;
+  for (std::size_t lane = 0; lane < implicit_lanes; ++lane) EXPECT_LT(bowls.error(lane), 1e-9) << lane;
   EXPECT_EQ(std::fmod(bowls.minimiser.take_work(), double(Bowls::particles)), 0);
   EXPECT_EQ(bowls.minimiser.take_work(), 0);
 }
@@ -78,7 +78,7 @@ TEST(Minimiser, TakesNoStepLongerThanItMay) {
   bowls.stiffest = 1;
   EXPECT_FALSE(bowls.run(1, 0.25));
   double square = 0;
-  for (std::size_t i = 3; i < bowls.x.size(); i += lanes) square += bowls.x[i] * bowls.x[i];
+  for (std::size_t i = 3; i < bowls.x.size(); i += implicit_lanes) square += bowls.x[i] * bowls.x[i];
   EXPECT_NEAR(std::sqrt(square / Bowls::particles), 0.25, 1e-12);
 }
 

@@ -27,8 +27,9 @@ struct BatchRig {
 
   BatchRig() {
     solids[0].shape = PlaneShape<float>{{0, 1, 0}};
+    solids[0].near = ~0u;
     std::fill_n(solids[0].place.y, lanes, float(nowhere));
-    for (std::size_t lane = 0; lane < lanes; ++lane) start(lane, glm::dvec3(0.0));
+    for (std::size_t lane = 0; lane < implicit_lanes; ++lane) start(lane, glm::dvec3(0.0));
     moves = {};
   }
   std::size_t particles() const { return model->mesh.vertices.size(); }
@@ -47,7 +48,9 @@ struct BatchRig {
     solids[0].place.y[lane] = float(lowest - gap);
   }
   ImplicitBatch batch(std::span<const PenaltyEnd> ends = {}) const {
-    return {model, moves, x.field(), v.field(), base, gravity, solids, penalty, ends, [](BodyId id) { return id < 2; }};
+    return {model,     lanes, 0,       implicit_lanes, moves,   x.field(),
+            v.field(), base,  gravity, solids,         penalty, ends,
+            [](BodyId id) { return id < 2; }};
   }
   ImplicitResult result() { return {mean.field(), rest.field(), {impulse.x, impulse.y, impulse.z}, returned.data()}; }
   /// m/s, of a lane's ball as a whole.
@@ -60,7 +63,7 @@ struct BatchRig {
   ImplicitWork work() const {
     ImplicitWork w(*model, implicit_kernels());
     for (std::size_t i = 0; i < particles(); ++i)
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
         put(w.x, i, lane, x.at(3 + i, int(lane)));
         put(w.v, i, lane, v.at(3 + i, int(lane)));
       }
@@ -111,8 +114,8 @@ TEST(FindPlanes, AsksForWhatTheLawOfContactAsksFor) {
     EXPECT_EQ(c.normal, glm::dvec3(0, 1, 0));
     EXPECT_EQ(c.force, glm::dvec3(0.0));
     EXPECT_EQ(c.out, std::max(0.0, c.min_displacement));
-    least_gap[c.at % lanes] = std::min(least_gap[c.at % lanes], -c.min_displacement);
-    most_out[c.at % lanes] = std::max(most_out[c.at % lanes], c.out);
+    least_gap[c.at % implicit_lanes] = std::min(least_gap[c.at % implicit_lanes], -c.min_displacement);
+    most_out[c.at % implicit_lanes] = std::max(most_out[c.at % implicit_lanes], c.out);
   }
   EXPECT_NEAR(least_gap[0], 0.03, 1e-6);
   EXPECT_NEAR(least_gap[1], 0.01, 1e-6);
@@ -130,7 +133,7 @@ TEST(FindPlanes, ThrowsBackWhatComesFast) {
   const ImplicitFrames frames(work.x, work.v, mask({0, 1}), rig.h, rig.gravity);
   ASSERT_EQ(find_planes(rig.batch(), frames, mask({0, 1}), rig.h, work), mask({0, 1}));
   double most[] = {-1, -1};
-  for (const PlaneContact& c : work.planes) most[c.at % lanes] = std::max(most[c.at % lanes], c.min_displacement);
+  for (const PlaneContact& c : work.planes) most[c.at % implicit_lanes] = std::max(most[c.at % implicit_lanes], c.min_displacement);
   EXPECT_NEAR(most[0], 0.5 * 2 * rig.h, 1e-6) << "m: it leaves at half its speed";
   EXPECT_NEAR(most[1], -0.001, 1e-6) << "m: it may close the gap";
 }
@@ -171,7 +174,7 @@ TEST(FindPenaltyPairs, LinearisesThemAboutTheFirstVelocities) {
   for (std::size_t i = 0; i < 2; ++i) {
     const LinearPenaltyPair& s = work.penalty_pairs[i];
     const glm::dvec3 partner = i == 0 ? rig.h * glm::dvec3(0.5, 0.25, 0) : glm::dvec3(0.0), own = {0, -rig.h, 0};
-    EXPECT_EQ(s.at, 5 * lanes + 1);
+    EXPECT_EQ(s.at, 5 * implicit_lanes + 1);
     EXPECT_LT(glm::distance(s.partner, partner), 1e-9);
     EXPECT_LT(glm::distance(s.start_separation, own - partner), 1e-9);
     const glm::dvec3 force(rig.penalty.force[i]);
@@ -213,7 +216,7 @@ TEST(ImplicitSteps, TakeABatchToItsEnd) {
   EXPECT_GT(gained.y, 0.1) << "m/s";
   EXPECT_NEAR(mass * gained.y, double(rig.impulse.y[1]), 0.1 * mass * gained.y);
   EXPECT_NEAR(double(rig.returned[1]), 0.25 * double(rig.impulse.y[1]), 1e-6);
-  for (int lane = 2; lane < lanes; ++lane) {
+  for (int lane = 2; lane < implicit_lanes; ++lane) {
     EXPECT_EQ(rig.impulse.y[lane], 0);
     EXPECT_EQ(rig.velocity(rig.mean, lane), glm::dvec3(0.0)) << "does not move";
   }

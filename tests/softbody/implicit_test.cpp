@@ -34,8 +34,9 @@ void solve(const ImplicitMatrix& a, Lanes& x) {
   Lanes room(x.size());
   implicit_kernels().substitute(a.factor(), x.data(), room.data());
   double along = 0;
-  for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * lanes];
-  for (std::size_t i = 0; i < a.gas().size(); ++i) x[i * lanes] -= a.gas_weight() * along * a.gas_response()[i];
+  for (std::size_t i = 0; i < a.gas().size(); ++i) along += a.gas()[i] * x[i * implicit_lanes];
+  for (std::size_t i = 0; i < a.gas().size(); ++i)
+    x[i * implicit_lanes] -= a.gas_weight() * along * a.gas_response()[i];
 }
 
 TEST(ImplicitMatrix, ComplianceIsTheInverse) {
@@ -51,15 +52,15 @@ TEST(ImplicitMatrix, ComplianceIsTheInverse) {
     ASSERT_EQ(a.rotates(), closed);
     // A unit force on one particle, through the factor and Sherman-Morrison, as a solve has it.
     const Index j = n / 2;
-    Lanes x((closed ? 3 : 1) * n * lanes);
-    x[j * lanes] = 1;
+    Lanes x((closed ? 3 : 1) * n * implicit_lanes);
+    x[j * implicit_lanes] = 1;
     solve(a, x);
     for (Index i = 0; i < n; ++i) {
       const glm::dmat3 c = a.compliance(i, j), back = a.compliance(j, i);
-      EXPECT_NEAR(c[0][0], x[i * lanes], 1e-12);
+      EXPECT_NEAR(c[0][0], x[i * implicit_lanes], 1e-12);
       EXPECT_NEAR(c[0][1], back[1][0], 1e-12) << "symmetric";
       if (closed) {
-        EXPECT_NEAR(c[0][2], x[(2 * n + i) * lanes], 1e-12);
+        EXPECT_NEAR(c[0][2], x[(2 * n + i) * implicit_lanes], 1e-12);
       }
     }
     EXPECT_GT(glm::determinant(a.compliance(j, j)), 0);
@@ -82,13 +83,14 @@ TEST(ImplicitMatrix, IsTheDerivativeOfAllForcesInBalance) {
     ahead[i] += tiny * d[i], back[i] -= tiny * d[i];
   }
   const auto after = forces(*p, ahead), before = forces(*p, back);
-  Lanes x(3 * n * lanes);
+  Lanes x(3 * n * implicit_lanes);
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      x[(k * n + i) * lanes] = p->particle_mass / (h * h) * d[i][int(k)] - (after[i] - before[i])[int(k)] / (2 * tiny);
+      x[(k * n + i) * implicit_lanes] =
+          p->particle_mass / (h * h) * d[i][int(k)] - (after[i] - before[i])[int(k)] / (2 * tiny);
   solve(a, x);
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(x[(k * n + i) * lanes], d[i][int(k)], 1e-4);
+    for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(x[(k * n + i) * implicit_lanes], d[i][int(k)], 1e-4);
 }
 
 /// With another step length only the shape in balance is taken over.
@@ -103,8 +105,8 @@ TEST(ImplicitMatrix, OfAnothersShapeIsThatOfItsOwnStepLength) {
   EXPECT_EQ(again.contact_stiffness(), fresh.contact_stiffness());
   const std::size_t n = p->mesh.vertices.size();
   std::mt19937 random(2);
-  Lanes x(3 * n * lanes);
-  for (std::size_t i = 0; i < 3 * n; ++i) x[i * lanes] = uniform(random, -1, 1);
+  Lanes x(3 * n * implicit_lanes);
+  for (std::size_t i = 0; i < 3 * n; ++i) x[i * implicit_lanes] = uniform(random, -1, 1);
   Lanes expected = x, otherwise = x;
   solve(again, x);
   solve(fresh, expected);
@@ -130,9 +132,9 @@ TEST(ImplicitSolver, IsDoneWithACrushedBodySoon) {
   work.moves[0] = 1;
   const std::size_t n = p->mesh.vertices.size(), max_contacts = 300;
   for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < 3; ++k) work.x[(k * n + i) * lanes] = matrix.shape()[i][int(k)];
+    for (std::size_t k = 0; k < 3; ++k) work.x[(k * n + i) * implicit_lanes] = matrix.shape()[i][int(k)];
   for (std::size_t i = 0; i < std::min(n, max_contacts / 2); ++i)
-    for (const double side : {1.0, -1.0}) work.planes.push_back({i * lanes, 0.5, 0, {side, 0, 0}, r, r});
+    for (const double side : {1.0, -1.0}) work.planes.push_back({i * implicit_lanes, 0.5, 0, {side, 0, 0}, r, r});
   work.local_v.resize(work.x.size());
   const Lanes& end = work.solver.solve({*p, matrix, h, work.moves.data(), &work.x, &work.local_v, &work.a,
                                         &work.frame_displacement, h, work.planes, work.penalty_pairs});

@@ -33,10 +33,11 @@ HWY_INLINE void compute(V a, V b, const Add& add) {
   V sum = a;
   sum += b, sum -= step;
   add(sum);
+  const V finite = select(zero * a >= zero, a, zero);
   if constexpr (lanes_of<V> <= register_lanes<double>)
-    add(narrowed(widened(a)));
+    add(narrowed(widened(finite)));
   else
-    add(a);
+    add(finite);
   add(law::min_move(a, 0.003f)), add(law::min_speed(a, 300.0f)), add(law::rebound(a, 0.7f));
   const Vec<V> held = law::within_cone(Vec<V>{a, b, step}, larger(b, zero));
   add(held.x), add(held.y), add(held.z);

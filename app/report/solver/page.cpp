@@ -6,6 +6,7 @@
 #include <fmt/core.h>
 
 #include "app/report/solver/results.h"
+#include "softbody/state/lanes.h"
 
 namespace app::report {
 
@@ -107,10 +108,10 @@ void add_introduction(Page& page, const SolverResults& r) {
   page.item(
       "ms: processor time of the thread for whole steps, per simulated second; the median of {} repetitions that take "
       "turns, or of fewer where these took {:g} s. Bodies of one mesh and material are solved side by side, one per "
-      "SIMD lane. \"Batch\" is the cost per body when eight are solved side by side. \"Alone\" is the cost of a lone "
-      "body, which leaves seven lanes empty. Plots show the batch. Scenes from files have the bodies that they have; "
-      "their cost stands under \"alone\".",
-      r.repetitions, r.max_run_seconds);
+      "SIMD lane. \"Batch\" is the cost per body when {} are solved side by side. \"Alone\" is the cost of a lone "
+      "body. Plots show the batch. Scenes from files have the bodies that they have; their cost stands under "
+      "\"alone\".",
+      r.repetitions, r.max_run_seconds, softbody::lanes);
   page.item(
       "Reference: RK4 in double, written apart from the solvers, at a step that was halved until the positions changed "
       "by less than {:g} R. Scenes with parts that it does not model are compared with the world's rk4 in floats.",

@@ -14,9 +14,9 @@ namespace app::report {
 
 /// One integrator with one number of steps per frame.
 struct WorkPoint {
-  int substeps = 0;      // 0: it chose them itself
-  double cpu_alone = 0;  // ms of processor time per simulated second and body: one body in a batch of lanes
-  std::optional<double> cpu_batch{};          // the same for a full batch of bodies
+  int substeps = 0;                           // 0: it chose them itself
+  double cpu_alone = 0;                       // ms of processor time per simulated second, of a lone body
+  std::optional<double> cpu_batch{};          // the same per body, of a full block
   bool blew_up = false;                       // then the rest has no meaning
   double error = 0;                           // R, RMS of the positions at the end
   double energy = 0;                          // of the reference's, in the energy scale

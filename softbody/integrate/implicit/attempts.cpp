@@ -31,8 +31,8 @@ double move_rigidly(const ImplicitStep& step, ImplicitWork& work, std::size_t la
     gain += glm::dot(velocity, velocity);
     before += glm::dot(v(i), v(i));
     spinning += glm::dot(round, round);
-    write(work.end_x, i * lanes + lane, x(i) + aside(i) + shift);
-    write(work.end_v, i * lanes + lane, velocity);
+    write(work.end_x, i * implicit_lanes + lane, x(i) + aside(i) + shift);
+    write(work.end_v, i * implicit_lanes + lane, velocity);
   }
   return gain - before <= rounding * before ? 0 : (gain - before) / spinning;
 }
@@ -76,7 +76,7 @@ LaneMask second_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMas
   work.finish(frames);
   restore_momentum(step, work, frames.active());
   solved &= ~behind_planes(work);
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (solved[l]) solved[l] = energy_gain(step.model, work, l, step.gravity, false) <= 0;
   return solved;
 }
@@ -87,9 +87,9 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
   std::vector<PlaneContact> planes;
   std::vector<LinearPenaltyPair> pairs;
   for (const PlaneContact& c : work.planes)
-    if (tried[c.at % lanes]) planes.push_back(frames.enter(c));
+    if (tried[c.at % implicit_lanes]) planes.push_back(frames.enter(c));
   for (const LinearPenaltyPair& s : work.penalty_pairs)
-    if (tried[s.at % lanes]) pairs.push_back(frames.enter(s));
+    if (tried[s.at % implicit_lanes]) pairs.push_back(frames.enter(s));
   problem.planes = planes, problem.penalty_pairs = pairs;
   work.solved_x = work.solver.solve(problem);
   for (std::size_t i = 0; i < work.x.size(); ++i) work.solved_v[i] = (work.solved_x[i] - work.local_x[i]) / step.h;
@@ -97,7 +97,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
   LaneMask pushed;  // by solids
   auto solved_plane = planes.begin();
   for (PlaneContact& c : work.planes) {
-    const std::size_t lane = c.at % lanes;
+    const std::size_t lane = c.at % implicit_lanes;
     if (!tried[lane]) continue;
     c.force = frames.leave(lane, solved_plane++->force);
     if (c.force != glm::dvec3(0.0)) pushed.set(lane);
@@ -105,7 +105,7 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
   restore_momentum(step, work, tried & ~pushed);
   clear_planes(work, tried, step.h);
   LaneMask solved;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!tried[l] || !satisfies_momentum_balance(step.model, work, l, step.h, step.gravity)) continue;
     const double gain = energy_gain(step.model, work, l, step.gravity, pushed[l]);
     solved[l] = dissipate(step.model, work, l, gain, pushed[l]);
@@ -114,10 +114,10 @@ LaneMask first_order_step(const ImplicitStep& step, ImplicitWork& work, LaneMask
 }
 
 LaneMask rigid_fallback_step(const ImplicitStep& step, ImplicitWork& work, LaneMask tried) {
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (tried[l]) move_without_gain(step, work, l);
   for (PlaneContact& c : work.planes)
-    if (tried[c.at % lanes]) c.force = glm::dvec3(0.0);
+    if (tried[c.at % implicit_lanes]) c.force = glm::dvec3(0.0);
   return tried;
 }
 

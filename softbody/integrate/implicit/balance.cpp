@@ -30,10 +30,10 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
   const LaneView x{work.x, lane}, end_x{work.end_x, lane};
   double sum = 0;
   for (const PlaneContact& c : work.planes)  // they push out, and friction takes
-    if (c.at % lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
+    if (c.at % implicit_lanes == lane) sum += glm::dot(c.force, c.normal) * c.out;
   for (const LinearPenaltyPair& s : work.penalty_pairs) {
-    if (s.at % lanes != lane) continue;
-    const glm::dvec3 moved = end_x(s.at / lanes) - x(s.at / lanes);
+    if (s.at % implicit_lanes != lane) continue;
+    const glm::dvec3 moved = end_x(s.at / implicit_lanes) - x(s.at / implicit_lanes);
     sum += std::clamp(glm::dot(s.force_after(moved), moved), 0.0, s.max_work);
   }
   return sum;
@@ -44,13 +44,13 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
 void restore_momentum(const ImplicitStep& step, ImplicitWork& work, LaneMask which) {
   const std::size_t n = step.model.mesh.vertices.size();
   const double h = step.h, mass = step.model.particle_mass;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!which[l]) continue;
     const LaneView end_x{work.end_x, l};
     const RigidMotion &before = step.frames.start(l), after = rigid_motion(n, end_x, LaneView{work.end_v, l});
     glm::dvec3 total(0.0), torque(0.0);
     for (const LinearPenaltyPair& s : work.penalty_pairs) {
-      if (s.at % lanes != l) continue;
+      if (s.at % implicit_lanes != l) continue;
       const glm::dvec3 end = read(work.end_x, s.at), force = s.force_after(end - read(work.x, s.at));
       total += force;
       torque += glm::cross(end - after.centre, force);
@@ -58,7 +58,7 @@ void restore_momentum(const ImplicitStep& step, ImplicitWork& work, LaneMask whi
     const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + step.gravity) - after.velocity;
     const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
     for (std::size_t i = 0; i < n; ++i)
-      add(work.end_v, i * lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
+      add(work.end_v, i * implicit_lanes + l, push + glm::cross(spin, end_x(i) - after.centre));
   }
 }
 
@@ -66,12 +66,12 @@ bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, st
                                 const glm::dvec3& gravity) {
   constexpr double share = 0.1;
   glm::dvec3 gained(0.0), given(0.0);
-  for (std::size_t at = lane; at < work.x.size() / 3; at += lanes)
+  for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes)
     gained += p.particle_mass * (read(work.end_v, at) - read(work.v, at) - h * gravity);
   for (const PlaneContact& c : work.planes)
-    if (c.at % lanes == lane) given += h * c.force;
+    if (c.at % implicit_lanes == lane) given += h * c.force;
   for (const LinearPenaltyPair& s : work.penalty_pairs)
-    if (s.at % lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
+    if (s.at % implicit_lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
   return glm::distance(gained, given) <=
          share * (glm::length(given) + h * p.material[Material::mass] * glm::length(gravity)) +
              1e-6 * p.material[Material::mass];
@@ -112,7 +112,7 @@ bool dissipate(const BodyModel& p, ImplicitWork& work, std::size_t lane, double 
   for (std::size_t i = 0; i < n; ++i) slowed += p.particle_mass / 2 * glm::dot(v(i) - kept(i), v(i) - kept(i));
   if (!std::isfinite(energy) || !(energy <= most * slowed)) return false;
   const double part = std::sqrt(1 - energy / slowed);
-  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * lanes + lane, kept(i) + part * (v(i) - kept(i)));
+  for (std::size_t i = 0; i < n; ++i) write(work.end_v, i * implicit_lanes + lane, kept(i) + part * (v(i) - kept(i)));
   return true;
 }
 

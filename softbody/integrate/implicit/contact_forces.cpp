@@ -158,12 +158,12 @@ glm::dvec3 ContactForces::force(const ImplicitProblem& p, const PlaneContact& c,
 double ContactForces::update(const ImplicitProblem& p, std::span<PlaneContact> contacts, const Lanes& x,
                              const glm::dmat3& rotation, Lanes& changes) {
   const double none_found = springs_lead_ ? 0 : std::numeric_limits<double>::infinity();
-  double& moves_left = moves_left_[contacts.front().at % lanes];
+  double& moves_left = moves_left_[contacts.front().at % implicit_lanes];
   std::vector<ActiveContact> active = active_contacts(p, contacts, x);
   if (active.size() > max_active || moves_left <= 0) return none_found;
   ForceSweeps sweeps(active);
   const glm::dmat3 back = glm::transpose(rotation);
-  const auto particle = [&](std::size_t i) { return Index(active[i].contact->at / lanes); };
+  const auto particle = [&](std::size_t i) { return Index(active[i].contact->at / implicit_lanes); };
   for (std::size_t i = 0; i < active.size(); ++i)
     for (std::size_t j = 0; j < active.size(); ++j)
       sweeps.set_compliance(i, j, rotation * p.matrix.compliance(particle(j), particle(i)) * back);

@@ -30,7 +30,7 @@ class ContactForces {
 
  private:
   bool springs_lead_ = false;
-  std::array<double, lanes> moves_left_{};  // of contacts by contacts, before no forces are found
+  std::array<double, implicit_lanes> moves_left_{};  // of contacts by contacts, before no forces are found
   double work_ = 0;
 };
 

@@ -21,14 +21,17 @@ SurfaceAt<double> surface_from(const SolidArguments& s, std::size_t lane, const 
 
 LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneMask moving, double h,
                      ImplicitWork& work) {
+  constexpr unsigned part = (1u << implicit_lanes) - 1;  // bits
   LaneMask in_contact;
   work.planes.clear();
-  for (std::size_t lane = 0; lane < lanes; ++lane) {
+  for (std::size_t lane = 0; lane < implicit_lanes; ++lane) {
     if (!moving[lane]) continue;
-    for (const SolidArguments& s : b.near_solids)
-      for (std::size_t at = lane; at < work.x.size() / 3; at += lanes) {
+    const std::size_t own = b.first_lane + lane;  // in the batch
+    for (const SolidArguments& s : b.near_solids) {
+      if (!(s.near >> b.first_lane & part)) continue;
+      for (std::size_t at = lane; at < work.x.size() / 3; at += implicit_lanes) {
         const glm::dvec3 x = read(work.x, at), v = read(work.v, at);
-        const SurfaceAt<double> surface = surface_from(s, lane, x);
+        const SurfaceAt<double> surface = surface_from(s, own, x);
         const glm::dvec3 normal(surface.normal.x, surface.normal.y, surface.normal.z);
         const double out = law::min_move(surface.distance, h);
         double min_displacement = out;
@@ -42,6 +45,7 @@ LaneMask find_planes(const ImplicitBatch& b, const ImplicitFrames& frames, LaneM
         work.planes.push_back(
             {at, double(s.friction), double(s.restitution), normal, min_displacement, std::max(0.0, out)});
       }
+    }
   }
   return in_contact;
 }
@@ -51,8 +55,9 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
   work.penalty_pairs.clear();
   const auto velocity = [&](std::size_t slot) { return glm::dvec3(read(b.v, slot)); };
   for (const PenaltyEnd& end : b.ends) {
-    const std::size_t at = end.slot - b.base;
-    if (!moving[at % lanes]) continue;
+    const std::size_t in_batch = end.slot - b.base, lane = in_batch % std::size_t(b.width) - b.first_lane;
+    if (lane >= implicit_lanes || !moving[lane]) continue;
+    const std::size_t at = in_batch / std::size_t(b.width) * implicit_lanes + lane;
     const PenaltyPair& pair = b.penalty.pairs[end.pair];
     const PenaltyContact::Slopes slopes = b.penalty.slopes(pair, b.x, b.v, float(h));
     if (slopes.spring <= 0) continue;
@@ -65,7 +70,7 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     s.max_work = double(PenaltyContact::approach_limit) * b.penalty.energy(pair, b.x) +
                  double(b.penalty.max_force(pair)) * glm::length(s.partner);
     work.penalty_pairs.push_back(s);
-    in_contact.set(at % lanes);
+    in_contact.set(lane);
   }
   return in_contact;
 }

@@ -4,9 +4,9 @@ namespace softbody {
 
 ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, LaneMask which, double h, const glm::dvec3& gravity)
     : active_(which), h_(h), gravity_(gravity), fall_(h * h * gravity) {
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!which[l]) continue;
-    const RigidMotion body = rigid_motion(x.size() / (3 * lanes), LaneView{x, l}, LaneView{v, l});
+    const RigidMotion body = rigid_motion(x.size() / (3 * implicit_lanes), LaneView{x, l}, LaneView{v, l});
     const glm::dvec3 spin = body.steady_spin_of(body.momentum);  // any frame serves, if it does not jump about
     frames_[l] = {body, spin, rotation(h * spin)};
   }
@@ -15,7 +15,7 @@ ImplicitFrames::ImplicitFrames(const Lanes& x, const Lanes& v, LaneMask which, d
 ImplicitFrames ImplicitFrames::subset(LaneMask which) const {
   ImplicitFrames result = *this;
   result.active_ &= which;
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < implicit_lanes; ++l)
     if (!which[l]) result.frames_[l] = {};
   return result;
 }
@@ -44,9 +44,9 @@ glm::dvec3 ImplicitFrames::free_displacement(std::size_t lane, const glm::dvec3&
 /// Calls change(frame, x, v, at) for each particle of the lanes that have a frame of their own.
 template <class Change>
 void ImplicitFrames::for_each(Lanes& x, Lanes& v, const Change& change) const {
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!active_[l]) continue;
-    for (std::size_t at = l; at < x.size() / 3; at += lanes) {
+    for (std::size_t at = l; at < x.size() / 3; at += implicit_lanes) {
       glm::dvec3 place = read(x, at), velocity = read(v, at);
       change(frames_[l], place, velocity, at);
       write(x, at, place);
@@ -66,13 +66,13 @@ void ImplicitFrames::enter(Lanes& x, Lanes& v, Lanes& frame_displacement) const 
 
 PlaneContact ImplicitFrames::enter(const PlaneContact& contact) const {
   PlaneContact c = contact;
-  c.normal = enter(c.at % lanes, c.normal);
+  c.normal = enter(c.at % implicit_lanes, c.normal);
   return c;
 }
 
 LinearPenaltyPair ImplicitFrames::enter(const LinearPenaltyPair& pair) const {
   LinearPenaltyPair s = pair;
-  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.start_separation}) *v = enter(s.at % lanes, *v);
+  for (glm::dvec3* v : {&s.normal, &s.force, &s.partner, &s.start_separation}) *v = enter(s.at % implicit_lanes, *v);
   return s;
 }
 
@@ -80,22 +80,22 @@ void ImplicitFrames::accelerations(const Lanes& x, const Lanes& v, Lanes& a) con
   const std::size_t stride = a.size() / 3;
   for (std::size_t k = 0; k < 3; ++k)
     std::fill(a.begin() + std::ptrdiff_t(k * stride), a.begin() + std::ptrdiff_t((k + 1) * stride), gravity_[int(k)]);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const glm::dvec3 spin = frames_[l].spin;
     if (!active_[l]) continue;
-    for (std::size_t at = l; at < stride; at += lanes)
+    for (std::size_t at = l; at < stride; at += implicit_lanes)
       write(a, at, -glm::cross(spin, glm::cross(spin, read(x, at)) + 2.0 * read(v, at)));
   }
 }
 
 void ImplicitFrames::leave(Lanes& x, Lanes& v) const {
-  std::array<glm::dvec3, lanes> middle{};
+  std::array<glm::dvec3, implicit_lanes> middle{};
   for_each(x, v, [&](const Frame&, glm::dvec3& place, glm::dvec3&, std::size_t at) {
-    middle[at % lanes] += place / double(x.size() / (3 * lanes));
+    middle[at % implicit_lanes] += place / double(x.size() / (3 * implicit_lanes));
   });
   for_each(x, v, [&](const Frame& f, glm::dvec3& place, glm::dvec3& velocity, std::size_t at) {
     // What pushes the body has set the velocity of its middle, in the world's directions: the frame's spin adds none.
-    velocity += glm::cross(f.spin, place - middle[at % lanes]);
+    velocity += glm::cross(f.spin, place - middle[at % implicit_lanes]);
     velocity = f.body.velocity + h_ * gravity_ + f.turned * velocity;
     place = f.body.centre + h_ * f.body.velocity + fall_ + f.turned * place;
   });

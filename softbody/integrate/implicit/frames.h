@@ -58,7 +58,7 @@ class ImplicitFrames {
   void for_each(Lanes& x, Lanes& v, const Change& change) const;
 
   LaneMask active_;
-  std::array<Frame, lanes> frames_;
+  std::array<Frame, implicit_lanes> frames_;
   double h_;
   glm::dvec3 gravity_, fall_;
 };

@@ -25,7 +25,7 @@ struct CholeskyFactor {
 
 struct ImplicitKernels {
   void (*substitute)(const CholeskyFactor&, double* x, double* scratch);
-  void (*turn)(std::size_t particles, const double (*rotation)[lanes], bool back, Field<double> v);
+  void (*turn)(std::size_t particles, const double (*rotation)[implicit_lanes], bool back, Field<double> v);
   void (*inner_product)(std::size_t count, const double* a, const double* b, double* result);
   void (*inner_product_shared)(std::size_t count, const double* shared, const double* b, double* result);
   void (*add_scaled)(std::size_t count, const double* times, const double* a, double* y);

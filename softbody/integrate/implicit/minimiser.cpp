@@ -6,9 +6,9 @@
 namespace softbody {
 
 Minimiser::Minimiser(std::size_t particles, const ImplicitKernels& kernels) : kernels_(kernels), particles_(particles) {
-  for (Lanes* v : {&trial_, &gradient_, &trial_gradient_, &direction_}) v->resize(3 * particles * lanes);
+  for (Lanes* v : {&trial_, &gradient_, &trial_gradient_, &direction_}) v->resize(3 * particles * implicit_lanes);
   for (auto* list : {&steps_, &changes_})
-    for (Lanes& v : *list) v.resize(3 * particles * lanes);
+    for (Lanes& v : *list) v.resize(3 * particles * implicit_lanes);
 }
 
 PerLane Minimiser::product(const Lanes& a, const Lanes& b) const {
@@ -30,14 +30,14 @@ void Minimiser::find_direction(const Objective& objective) {
     const std::size_t i = back(age);
     weight[i] = product(steps_[i], direction_);
     PerLane less;
-    for (std::size_t l = 0; l < lanes; ++l) less[l] = -(weight[i][l] *= curvature_[i][l]);
+    for (std::size_t l = 0; l < implicit_lanes; ++l) less[l] = -(weight[i][l] *= curvature_[i][l]);
     add_scaled(less, changes_[i], direction_);
   }
   objective.apply_inverse(direction_);
   for (std::size_t age = remembered_; age-- > 0;) {
     const std::size_t i = back(age);
     PerLane more = product(changes_[i], direction_);
-    for (std::size_t l = 0; l < lanes; ++l) more[l] = weight[i][l] - curvature_[i][l] * more[l];
+    for (std::size_t l = 0; l < implicit_lanes; ++l) more[l] = weight[i][l] - curvature_[i][l] * more[l];
     add_scaled(more, steps_[i], direction_);
   }
   for (double& d : direction_) d = -d;
@@ -49,7 +49,7 @@ void Minimiser::search_line(const Objective& objective, const Lanes& x, const Pe
   constexpr int max_halvings = 6;
   const PerLane slope = product(gradient_, direction_), length2 = product(direction_, direction_);
   PerLane step;
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     // A slope upwards: at the minimum, or lost. A lane that has converged stays, whatever the others still need.
     const bool stays = !(slope[l] < 0) || !std::isfinite(slope[l]) || converged_[l];
     step[l] = stays ? 0 : std::min(1.0, max_step[l] / std::sqrt(length2[l] / double(particles_)));
@@ -61,7 +61,7 @@ void Minimiser::search_line(const Objective& objective, const Lanes& x, const Pe
     objective.gradient(trial_, trial_gradient_);
     end = product(trial_gradient_, direction_);
     bool short_enough = true;
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       if (step[l] <= 0 || end[l] <= -0.9 * slope[l]) continue;
       const double secant = slope[l] / (slope[l] - end[l]);
       step[l] *= std::isfinite(secant) ? std::clamp(secant, 0.1, 0.6) : 0.1;
@@ -69,9 +69,9 @@ void Minimiser::search_line(const Objective& objective, const Lanes& x, const Pe
     }
     if (short_enough || halving == max_halvings) break;
   }
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (std::isfinite(end[l])) continue;
-    for (std::size_t i = l; i < x.size(); i += lanes) trial_[i] = x[i], trial_gradient_[i] = gradient_[i];
+    for (std::size_t i = l; i < x.size(); i += implicit_lanes) trial_[i] = x[i], trial_gradient_[i] = gradient_[i];
   }
 }
 
@@ -85,7 +85,7 @@ void Minimiser::remember(const Lanes& x) {
     y[i] = trial_gradient_[i] - gradient_[i];
   }
   const PerLane sy = product(s, y), yy = product(y, y), ss = product(s, s);
-  for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t l = 0; l < implicit_lanes; ++l)
     curvature_[newest_][l] = sy[l] > 1e-10 * std::sqrt(ss[l] * yy[l]) ? 1 / sy[l] : 0;
 }
 
@@ -100,7 +100,7 @@ bool Minimiser::minimise(const Objective& objective, Lanes& x, const PerLane& ma
     std::swap(x, trial_);
     std::swap(gradient_, trial_gradient_);
     const PerLane square = product(steps_[newest_], steps_[newest_]);
-    for (std::size_t l = 0; l < lanes; ++l) converged_[l] = square[l] <= enough * enough * double(particles_);
+    for (std::size_t l = 0; l < implicit_lanes; ++l) converged_[l] = square[l] <= enough * enough * double(particles_);
   }
   return converged_.all();
 }

@@ -10,7 +10,7 @@
 
 namespace softbody {
 
-using PerLane = std::array<double, lanes>;
+using PerLane = std::array<double, implicit_lanes>;
 
 /// What is minimised, each lane by itself: f(x) with the gradient g and an approximation A of the second derivative.
 struct Objective {

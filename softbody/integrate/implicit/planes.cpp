@@ -15,7 +15,7 @@ double missing(const ImplicitWork& work, const PlaneContact& c) {
 LaneMask behind_planes(const ImplicitWork& work) {
   LaneMask behind;
   for (const PlaneContact& c : work.planes)
-    if (missing(work, c) > 0) behind.set(c.at % lanes);
+    if (missing(work, c) > 0) behind.set(c.at % implicit_lanes);
   return behind;
 }
 
@@ -25,7 +25,7 @@ void clear_planes(ImplicitWork& work, LaneMask which, double h) {
     any = false;
     for (const PlaneContact& c : work.planes) {
       const double by = missing(work, c);
-      if (!which[c.at % lanes] || !(by > 0)) continue;
+      if (!which[c.at % implicit_lanes] || !(by > 0)) continue;
       any = true;
       add(work.end_x, c.at, by * c.normal);
       add(work.end_v, c.at, by / h * c.normal);

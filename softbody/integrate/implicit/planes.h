@@ -24,8 +24,8 @@ glm::dvec3 stop_at(std::span<const PlaneContact> planes, std::size_t lane, doubl
   for (int pass = 0; !stands && pass < plane_passes; ++pass) {
     stands = true;
     for (const PlaneContact& c : planes) {
-      if (c.at % lanes != lane) continue;
-      const double more = c.min_displacement - glm::dot(shift + aside(c.at / lanes), c.normal);
+      if (c.at % implicit_lanes != lane) continue;
+      const double more = c.min_displacement - glm::dot(shift + aside(c.at / implicit_lanes), c.normal);
       if (!(more > 0)) continue;
       shift += more * c.normal;
       stands = false;

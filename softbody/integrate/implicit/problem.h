@@ -11,11 +11,11 @@
 namespace softbody {
 
 /// One flag a lane.
-using LaneMask = std::bitset<lanes>;
+using LaneMask = std::bitset<implicit_lanes>;
 
 /// The plane of a solid that a particle must stay in front of, and the contact force.
 struct PlaneContact {
-  std::size_t at;  // particle * lanes + lane
+  std::size_t at;  // particle * implicit_lanes + lane
   double friction, restitution;
   glm::dvec3 normal;        // unit
   double min_displacement;  // m, that the particle has to move along the normal in this step
@@ -25,7 +25,7 @@ struct PlaneContact {
 
 /// The penalty contact between a particle of the batch and one of another body, to first order.
 struct LinearPenaltyPair {
-  std::size_t at;     // particle * lanes + lane
+  std::size_t at;     // particle * implicit_lanes + lane
   glm::dvec3 normal;  // unit, towards the particle
   PenaltyContact::Slopes slopes;
   glm::dvec3 force{0.0};  // N, on it at the start

@@ -22,7 +22,7 @@ ImplicitSolver::ImplicitSolver(const BodyModel& p, const ImplicitKernels& kernel
     : kernels_(kernels),
       forces_(implicit_force_kernels()),
       particles_(p.mesh.vertices.size()),
-      stride_(particles_ * lanes),
+      stride_(particles_ * implicit_lanes),
       minimiser_(particles_, kernels) {
   for (Lanes* v : {&target_, &x_, &push_, &scratch_}) v->resize(3 * stride_);
 }
@@ -33,27 +33,28 @@ void ImplicitSolver::predict(const ImplicitProblem& p) {
   x_ = *p.x;
   stop_at_planes(p);
   max_step_.fill(0);  // by a radius and the way to the target: the gradient is not usable farther out
-  for (std::size_t i = 0; i < 3 * stride_; ++i) max_step_[i % lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
+  for (std::size_t i = 0; i < 3 * stride_; ++i)
+    max_step_[i % implicit_lanes] += (target_[i] - x_[i]) * (target_[i] - x_[i]);
   for (double& r : max_step_) r = p.model.radius + std::sqrt(r / double(particles_));
 }
 
 /// Stops each body as a whole where its planes stop it. Behind them, it would start far inside the solid.
 void ImplicitSolver::stop_at_planes(const ImplicitProblem& p) {
   LaneMask any;
-  for (const PlaneContact& c : p.planes) any.set(c.at % lanes);
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (const PlaneContact& c : p.planes) any.set(c.at % implicit_lanes);
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!any[l]) continue;
     glm::dvec3 meant(0.0);
-    for (std::size_t i = l; i < stride_; i += lanes) meant += p.displacement(x_, i) / double(particles_);
-    const auto aside = [&](std::size_t i) { return p.displacement(x_, i * lanes + l) - meant; };
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) meant += p.displacement(x_, i) / double(particles_);
+    const auto aside = [&](std::size_t i) { return p.displacement(x_, i * implicit_lanes + l) - meant; };
     const glm::dvec3 less = stop_at(p.planes, l, p.h, meant, aside) - meant;
-    for (std::size_t i = l; i < stride_; i += lanes) add(x_, i, less);
+    for (std::size_t i = l; i < stride_; i += implicit_lanes) add(x_, i, less);
   }
 }
 
 /// Sets the rotation of the matrix to that of each body's shape as predicted.
 void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
-  for (std::size_t l = 0; l < lanes; ++l) {
+  for (std::size_t l = 0; l < implicit_lanes; ++l) {
     const LaneView x{x_, l};
     glm::dmat3 covariance(0.0);
     for (std::size_t i = 0; i < particles_; ++i) covariance += glm::outerProduct(x(i) - x(0), p.matrix.shape()[i]);
@@ -66,12 +67,12 @@ void ImplicitSolver::fit_rotation(const ImplicitProblem& p) {
 /// Sets g to the gradient at x: the mass times (x - target) / h^2, less the forces.
 void ImplicitSolver::gradient(const ImplicitProblem& p, const Lanes& x, Lanes& g) {
   std::fill(g.begin(), g.end(), 0.0);
-  forces_.add({p.model, lanes, field(x), field(g)}, held_,
+  forces_.add({p.model, implicit_lanes, field(x), field(g)}, held_,
               {1 / p.h, field(*p.x), field(*p.frame_displacement), 1 / p.frame_time});
   add_contact_forces(p, x, g);
   const double inertia = p.model.particle_mass / (p.h * p.h);
-  for (std::size_t i = 0; i < 3 * stride_; i += lanes)
-    for (std::size_t l = 0; l < lanes; ++l)
+  for (std::size_t i = 0; i < 3 * stride_; i += implicit_lanes)
+    for (std::size_t l = 0; l < implicit_lanes; ++l)
       g[i + l] = double(p.moves[l]) * (inertia * (x[i + l] - target_[i + l]) - g[i + l]);
 }
 
@@ -120,8 +121,8 @@ PerLane ImplicitSolver::update_contact_forces(const ImplicitProblem& p, LaneMask
   PerLane moved{}, once;
   push_.assign(push_.size(), 0.0);
   for (std::size_t first = 0, end = 0; first < p.planes.size(); first = end) {
-    const std::size_t lane = p.planes[first].at % lanes;
-    while (end < p.planes.size() && p.planes[end].at % lanes == lane) ++end;
+    const std::size_t lane = p.planes[first].at % implicit_lanes;
+    while (end < p.planes.size() && p.planes[end].at % implicit_lanes == lane) ++end;
     if (which[lane])
       moved[lane] = contact_.update(p, p.planes.subspan(first, end - first), x_, rotation(p, lane), push_);
   }
@@ -146,7 +147,7 @@ LaneMask ImplicitSolver::solve_contact(const ImplicitProblem& p) {
   for (int round = 0; round < max_rounds && !(held | given_up).all(); ++round) {
     minimise(p, iterations_of_round);
     const PerLane moved = update_contact_forces(p, ~given_up);
-    for (std::size_t l = 0; l < lanes; ++l) {
+    for (std::size_t l = 0; l < implicit_lanes; ++l) {
       held[l] = !given_up[l] && minimiser_.converged()[l] && moved[l] <= enough;
       const bool look = round % look_every == 0 && moved[l] > 0;
       const double less_than = look ? enough_progress * last[l] : anything;
@@ -178,7 +179,7 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   minimiser_.forget();
   predict(p);
   if (p.matrix.rotates()) fit_rotation(p);
-  forces_.hold({p.model, lanes, field(std::as_const(x_)), {}}, held_);
+  forces_.hold({p.model, implicit_lanes, field(std::as_const(x_)), {}}, held_);
   if (p.planes.empty()) {
     minimise(p, max_iterations);
     return x_;
@@ -191,9 +192,9 @@ const Lanes& ImplicitSolver::solve(const ImplicitProblem& p) {
   predict(p);
   solve_contact_by_springs(p);
   for (std::size_t i = 0; i < found.size(); ++i)
-    if (held[i % lanes]) x_[i] = found[i];
+    if (held[i % implicit_lanes]) x_[i] = found[i];
   for (std::size_t i = 0; i < planes_before.size(); ++i)
-    if (held[planes_before[i].at % lanes]) p.planes[i] = planes_before[i];
+    if (held[planes_before[i].at % implicit_lanes]) p.planes[i] = planes_before[i];
   return x_;
 }
 

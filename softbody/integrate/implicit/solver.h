@@ -58,7 +58,7 @@ class ImplicitSolver {
   ContactForces contact_;
   Lanes target_, x_, push_, scratch_;  // push: changes of contact forces, and what they move
   PerLane max_step_{};                 // m, of one iteration, the root of the mean square
-  alignas(64) double rotation_[9][lanes];
+  alignas(64) double rotation_[9][implicit_lanes];
   double work_ = 0;  // beside that of the minimiser and of the contact forces
 };
 

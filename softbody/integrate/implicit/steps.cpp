@@ -1,5 +1,6 @@
 #include "softbody/integrate/implicit/steps.h"
 
+#include <algorithm>
 #include <cassert>
 
 #include <glm/geometric.hpp>
@@ -12,33 +13,36 @@ namespace {
 
 LaneMask moving_lanes(const ImplicitBatch& b) {
   LaneMask moving;
-  for (std::size_t l = 0; l < lanes; ++l) moving[l] = b.moves[l] > 0;
+  for (std::size_t l = 0; l < b.used; ++l) moving[l] = b.moves[b.first_lane + l] > 0;
   return moving;
 }
 
 void read_start(const ImplicitBatch& b, ImplicitWork& work) {
   for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
-    write(work.x, at, glm::dvec3(read(b.x, b.base + at)));
-    write(work.v, at, glm::dvec3(read(b.v, b.base + at)));
+    const bool taken = at % implicit_lanes < b.used;
+    write(work.x, at, taken ? glm::dvec3(read(b.x, b.slot(at))) : glm::dvec3(0.0));
+    write(work.v, at, taken ? glm::dvec3(read(b.v, b.slot(at))) : glm::dvec3(0.0));
   }
 }
 
-void write_end(const ImplicitWork& work, LaneMask moving, double h, std::size_t base, const ImplicitResult& result) {
-  const BodyField mean{result.mean, base, 1}, rest{result.rest, base, 1};
+void write_end(const ImplicitWork& work, LaneMask moving, double h, const ImplicitBatch& b,
+               const ImplicitResult& result) {
+  const BodyField mean{result.mean, 0, 1}, rest{result.rest, 0, 1};
   for (std::size_t at = 0; at < work.x.size() / 3; ++at) {
-    if (!moving[at % lanes]) continue;
+    if (!moving[at % implicit_lanes]) continue;
     const glm::dvec3 mean_v = (read(work.end_x, at) - read(work.x, at)) / h;
-    mean.set(at, mean_v);
-    rest.set(at, read(work.end_v, at) - mean_v);
+    mean.set(b.slot(at), mean_v);
+    rest.set(b.slot(at), read(work.end_v, at) - mean_v);
   }
 }
 
-void add_impulses(const ImplicitWork& work, double h, const ImplicitResult& result) {
-  const BodyField sum{result.impulse, 0, 1};
+void add_impulses(const ImplicitWork& work, double h, std::size_t first_lane, const ImplicitResult& result) {
+  const BodyField sum{result.impulse, first_lane, 1};
   for (const PlaneContact& c : work.planes) {
+    const std::size_t lane = c.at % implicit_lanes;
     const glm::dvec3 impulse = h * glm::dot(c.force, c.normal) * c.normal;
-    sum.add(c.at % lanes, impulse);
-    result.returned[c.at % lanes] += float(c.restitution * glm::length(impulse));
+    sum.add(lane, impulse);
+    result.returned[first_lane + lane] += float(c.restitution * glm::length(impulse));
   }
 }
 
@@ -55,12 +59,20 @@ void ImplicitSteps::prepare(const std::shared_ptr<const BodyModel>& model, doubl
   for (const double length : {h, implicit_stage * h}) matrices_.prepare(model, length);
 }
 
-void ImplicitSteps::advance(int thread, const ImplicitBatch& b, const ImplicitResult& result, double h) {
-  const auto found = work_[std::size_t(thread)].find(b.model);
+void ImplicitSteps::advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h) {
+  const auto found = work_[std::size_t(thread)].find(batch.model);
   assert(found != work_[std::size_t(thread)].end());
-  ImplicitWork& work = found->second;
-  read_start(b, work);
+  const std::size_t end = batch.first_lane + batch.used;
+  for (; batch.first_lane < end; batch.first_lane += implicit_lanes) {
+    batch.used = std::min(end - batch.first_lane, std::size_t(implicit_lanes));
+    advance_part(found->second, batch, result, h);
+  }
+}
+
+void ImplicitSteps::advance_part(ImplicitWork& work, const ImplicitBatch& b, const ImplicitResult& result, double h) {
   const LaneMask moving = moving_lanes(b);
+  if (moving.none()) return;
+  read_start(b, work);
   ImplicitStep step{*b.model,
                     matrices_.at(*b.model, h),
                     matrices_.at(*b.model, implicit_stage * h),
@@ -72,8 +84,8 @@ void ImplicitSteps::advance(int thread, const ImplicitBatch& b, const ImplicitRe
   for (const ImplicitAttempt& attempt : implicit_attempts)
     if (open.any()) open &= ~attempt.advance(step, work, open);
   assert(open.none());
-  write_end(work, moving, h, b.base, result);
-  add_impulses(work, h, result);
+  write_end(work, moving, h, b, result);
+  add_impulses(work, h, b.first_lane, result);
 }
 
 double ImplicitSteps::take_work() {

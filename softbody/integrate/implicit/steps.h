@@ -15,10 +15,12 @@
 
 namespace softbody {
 
-/// The start of a step of a batch, and what may touch it.
+/// The start of a step of a batch, and what may touch it. A step takes up to implicit_lanes of its lanes at a time.
 struct ImplicitBatch {
   const std::shared_ptr<const BodyModel>& model;
-  std::span<const float, lanes> moves;  // 0 or 1 for each lane
+  int width;                            // of the batch
+  std::size_t first_lane, used;         // the lanes of the batch that a step takes: from the first on, and how many
+  std::span<const float, lanes> moves;  // 0 or 1 for each lane of the batch
   Field<const float> x, v;              // m and m/s, of all batches
   std::size_t base;                     // where the values of this one start in them
   glm::dvec3 gravity;                   // m/s^2
@@ -26,6 +28,11 @@ struct ImplicitBatch {
   const PenaltyContact& penalty;          // evaluated at x, v
   std::span<const PenaltyEnd> ends;       // of its pairs, those that fall to this batch
   std::function<bool(BodyId)> is_moving;  // false for bodies that are held or asleep
+
+  /// Returns where the value `at` = particle * implicit_lanes + lane stands in the fields of all batches.
+  std::size_t slot(std::size_t at) const {
+    return base + at / implicit_lanes * std::size_t(width) + first_lane + at % implicit_lanes;
+  }
 };
 
 /// Where the end of a step goes. Lanes that do not move are left alone.
@@ -45,12 +52,15 @@ class ImplicitSteps {
   /// Gets ready for steps of h (s) of the model's bodies on threads 0 to threads - 1. Throws SceneError as
   /// ImplicitMatrix does.
   void prepare(const std::shared_ptr<const BodyModel>& model, double h, int threads);
-  /// Takes a step of h, which must be prepared. Threads may take steps of different batches at the same time.
-  void advance(int thread, const ImplicitBatch& batch, const ImplicitResult& result, double h);
+  /// Takes a step of h, which must be prepared, of all lanes of a batch. Threads may take steps of different batches at
+  /// the same time.
+  void advance(int thread, ImplicitBatch batch, const ImplicitResult& result, double h);
   /// Returns the work of all threads since the last call, see ImplicitSolver::take_work().
   double take_work();
 
  private:
+  void advance_part(ImplicitWork& work, const ImplicitBatch& part, const ImplicitResult& result, double h);
+
   const ImplicitKernels& kernels_;
   ImplicitMatrices matrices_;
   std::vector<std::map<std::shared_ptr<const BodyModel>, ImplicitWork>> work_;  // of each thread

@@ -28,7 +28,7 @@ struct ImplicitWork {
   Lanes solved_x, solved_v;                      // ... and the end, as it has been solved
   Lanes a, frame_displacement;                   // of the frames, see ImplicitProblem
   Lanes stage_x, stage_v, stage_a;               // where the second stage starts, and what acts in it
-  std::array<float, lanes> moves{};
+  std::array<float, implicit_lanes> moves{};
 };
 
 }  // namespace softbody
