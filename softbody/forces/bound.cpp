@@ -38,10 +38,37 @@ class Laplacian {
 };
 
 /// Returns a unit vector without the symmetries of a mesh, so that it has a component along every eigenvector.
-Vector start(Eigen::Index size) {
+Vector start(Eigen::Index size, int power) {
   Vector v(size);
-  for (Eigen::Index i = 0; i < size; ++i) v[i] = std::fmod(double(i + 1) * 0.6180339887498949, 1.0) - 0.5;
+  for (Eigen::Index i = 0; i < size; ++i)
+    v[i] = std::fmod(std::pow(double(i + 1), power) * 0.6180339887498949, 1.0) - 0.5;
   return v / v.norm();
+}
+
+struct LargestEigenvalue {
+  double bound;
+  bool ended;  // where a few of the eigenvectors, those that v has a part of, are all that is seen
+};
+
+/// Lanczos' method from v.
+LargestEigenvalue largest_eigenvalue(const Laplacian& laplacian, Vector v) {
+  constexpr Eigen::Index steps = 20;
+  constexpr double reserve = 1.01;  // for eigenvalues so close to the largest that these steps do not tell them apart
+  const double most = laplacian.gershgorin();
+  Vector diagonal(steps), beside(steps), before = Vector::Zero(v.size());
+  Eigen::Index count = 0;
+  while (count < steps && (count == 0 || beside[count - 1] > 1e-12 * most)) {
+    Vector next = laplacian * v;
+    diagonal[count] = v.dot(next);
+    next -= diagonal[count] * v;
+    if (count > 0) next -= beside[count - 1] * before;
+    beside[count++] = next.norm();
+    before = std::exchange(v, Vector(next / std::max(next.norm(), 1e-300)));
+  }
+  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
+  ritz.computeFromTridiagonal(diagonal.head(count), beside.head(count - 1));
+  const double residual = beside[count - 1] * std::abs(ritz.eigenvectors()(count - 1, count - 1));
+  return {std::min(most, reserve * (ritz.eigenvalues()[count - 1] + residual)), count < steps};
 }
 
 /// Sums the pulls of all laws of the volume.
@@ -63,25 +90,11 @@ struct SumStretch {
 }  // namespace
 
 double pair_bound(std::size_t particles, std::span<const WeightedPair> pairs) {
-  constexpr Eigen::Index steps = 20;
-  constexpr double reserve = 1.01;  // for eigenvalues so close to the largest that these steps do not tell them apart
   const Laplacian laplacian(particles, pairs);
-  const double most = laplacian.gershgorin();
-  if (most <= 0) return 0;
-  Vector diagonal(steps), beside(steps), before = Vector::Zero(Eigen::Index(particles)), v = start(before.size());
-  Eigen::Index count = 0;
-  while (count < steps && (count == 0 || beside[count - 1] > 1e-12 * most)) {
-    Vector next = laplacian * v;
-    diagonal[count] = v.dot(next);
-    next -= diagonal[count] * v;
-    if (count > 0) next -= beside[count - 1] * before;
-    beside[count++] = next.norm();
-    before = std::exchange(v, Vector(next / std::max(next.norm(), 1e-300)));
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> ritz;
-  ritz.computeFromTridiagonal(diagonal.head(count), beside.head(count - 1));
-  const double residual = beside[count - 1] * std::abs(ritz.eigenvectors()(count - 1, count - 1));
-  return std::min(most, reserve * (ritz.eigenvalues()[count - 1] + residual));
+  if (laplacian.gershgorin() <= 0) return 0;
+  const LargestEigenvalue first = largest_eigenvalue(laplacian, start(Eigen::Index(particles), 1));
+  if (!first.ended) return first.bound;
+  return std::max(first.bound, largest_eigenvalue(laplacian, start(Eigen::Index(particles), 2)).bound);
 }
 
 void ModelForces::set_bounds(std::size_t particles) {

@@ -25,7 +25,7 @@ struct Kernels {
     if (!d) return;
     for (std::size_t l = 0; l < std::size_t(all.used); l += step) {
       const LaneBodies<float> b = all.from(l);
-      HeldOf<F, float> held;
+      HeldOf<F, float> held{};
       hold<F, V, width>(*d, b.x, b.used, held);
       const Moving moving{motion.v + l};
       visit<F, V>(b.model, *d, held, AddForces<V, width, Moving>{b, moving});

@@ -41,9 +41,8 @@ SubstepBound StepBounds::measure(const Integrator& integrator, double seconds) {
       const auto k = static_cast<float>(p.material[contact::stiffness]);
       stiffest += PenaltyContact::stiffness_bound(k) / p.particle_mass;
       float most = 0;
-      for (const float *by_pairs = penalty_damping_.data() + b.base, *end = by_pairs + b.values(); by_pairs < end;
-           by_pairs += b.width)
-        most = std::max(most, *std::max_element(by_pairs, by_pairs + b.used));
+      for (const float *row = penalty_damping_.data() + b.base, *end = row + b.values(); row < end; row += b.width)
+        most = std::max(most, *std::max_element(row, row + b.used));
       damper += double(most) / p.particle_mass;
     }
     // What is stable only by damping must not count on that of contacts, or of another body.

@@ -33,24 +33,24 @@ struct Rig {
   }
   /// The forces in double on the body in a lane; h: of an implicit step in which it has gone by h v, or 0 at rest.
   Places exact(const Places& at, int lane, double h = 0) const {
-    Lanes now(3 * n * lanes), before(now.size()), none(now.size()), f(now.size());
+    Lanes now(3 * n * implicit_lanes), before(now.size()), none(now.size()), f(now.size());
     for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t l = 0; l < std::size_t(lanes); ++l) {
-        write(now, i * lanes + l, at[i]);
-        write(before, i * lanes + l, at[i] - h * v.at(i, lane));
+      for (std::size_t l = 0; l < std::size_t(implicit_lanes); ++l) {
+        write(now, i * implicit_lanes + l, at[i]);
+        write(before, i * implicit_lanes + l, at[i] - h * v.at(i, lane));
       }
     const auto field = [](auto& lanes_field) {
       const std::size_t stride = lanes_field.size() / 3;
       return Field<std::remove_reference_t<decltype(lanes_field[0])>>{lanes_field.data(), lanes_field.data() + stride,
                                                                       lanes_field.data() + 2 * stride};
     };
-    const LaneBodies<double> bodies{model, lanes, field(std::as_const(now)), field(f)};
+    const LaneBodies<double> bodies{model, implicit_lanes, field(std::as_const(now)), field(f)};
     HeldForces held{};
     implicit_force_kernels().hold(bodies, held);
     const double rate = h > 0 ? 1 / h : 0;
     implicit_force_kernels().add(bodies, held, {rate, field(std::as_const(before)), field(std::as_const(none)), 1});
     Places forces;
-    for (std::size_t i = 0; i < n; ++i) forces.push_back(read(f, i * lanes + std::size_t(lane)));
+    for (std::size_t i = 0; i < n; ++i) forces.push_back(read(f, i * implicit_lanes));
     return forces;
   }
   Places places(int lane) const {

@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/forces/deformation.h"
+#include "softbody/forces/force_set.h"
 #include "softbody/state/rigid_motion.h"
 
 namespace softbody {
@@ -23,6 +24,22 @@ double kinetic_energy(const BodyModel& p, const LaneView& v) {
   double square = 0;
   for (std::size_t i = 0; i < p.mesh.vertices.size(); ++i) square += glm::dot(v(i), v(i));
   return p.particle_mass / 2 * square;
+}
+
+/// Returns the forces (N) of the table that act on the bodies from outside, in a step of h that ends at work.end_x; an
+/// empty field if there are none.
+Lanes external_forces(const BodyModel& p, const ImplicitWork& work, double h) {
+  Lanes forces;
+  if (!has_external_force(p)) return forces;
+  const std::size_t stride = work.x.size() / 3;
+  forces.resize(work.x.size());
+  const Lanes none(work.x.size());
+  const auto field = [stride](auto& a) { return Field{a.data(), a.data() + stride, a.data() + 2 * stride}; };
+  const LaneBodies<double> bodies{p, implicit_lanes, field(work.end_x), field(forces)};
+  HeldForces held{};
+  implicit_force_kernels().hold(bodies, held);
+  implicit_force_kernels().add_external(bodies, held, {1 / h, field(work.x), field(none), 1});
+  return forces;
 }
 
 /// Returns the work (J) that solids and penalty contacts may have done on the body in the step that ends at work.end_x.
@@ -44,6 +61,7 @@ double contact_work(const ImplicitWork& work, std::size_t lane) {
 void restore_momentum(const ImplicitStep& step, ImplicitWork& work, LaneMask which) {
   const std::size_t n = step.model.mesh.vertices.size();
   const double h = step.h, mass = step.model.particle_mass;
+  const Lanes external = external_forces(step.model, work, h);
   for (std::size_t l = 0; l < implicit_lanes; ++l) {
     if (!which[l]) continue;
     const LaneView end_x{work.end_x, l};
@@ -54,6 +72,10 @@ void restore_momentum(const ImplicitStep& step, ImplicitWork& work, LaneMask whi
       const glm::dvec3 end = read(work.end_x, s.at), force = s.force_after(end - read(work.x, s.at));
       total += force;
       torque += glm::cross(end - after.centre, force);
+    }
+    for (std::size_t at = l; 3 * at < external.size(); at += implicit_lanes) {
+      total += read(external, at);
+      torque += glm::cross(read(work.end_x, at) - after.centre, read(external, at));
     }
     const glm::dvec3 push = before.velocity + h * (total / (mass * double(n)) + step.gravity) - after.velocity;
     const glm::dvec3 spin = after.spin_of(before.momentum + h / mass * torque - after.momentum);
@@ -72,6 +94,8 @@ bool satisfies_momentum_balance(const BodyModel& p, const ImplicitWork& work, st
     if (c.at % implicit_lanes == lane) given += h * c.force;
   for (const LinearPenaltyPair& s : work.penalty_pairs)
     if (s.at % implicit_lanes == lane) given += h * s.force_after(read(work.end_x, s.at) - read(work.x, s.at));
+  const Lanes external = external_forces(p, work, h);
+  for (std::size_t at = lane; 3 * at < external.size(); at += implicit_lanes) given += h * read(external, at);
   return glm::distance(gained, given) <=
          share * (glm::length(given) + h * p.material[Material::mass] * glm::length(gravity)) +
              1e-6 * p.material[Material::mass];
