@@ -18,6 +18,7 @@ class SolidContactOverAPlane : public testing::Test {
     model = make_unbalanced_body_model({}, material);
     for (int i = 0; i < 2; ++i) state.add(model, {2 * i, height, 1}, {0.1, -3, 0});
     state.set_pinned(1, true);
+    solids.set_parts(false, true);
   }
   const Batch& batch() const { return state.batches()[0]; }
   void begin_frame(double plane_height) {
@@ -66,7 +67,6 @@ TEST_F(SolidContactOverAPlane, KeepsParticlesOutAndSumsTheImpulse) {
 }
 
 TEST_F(SolidContactOverAPlane, ThrowsBackByTheVelocitiesThatWereNoted) {
-  solids.set_parts(false, true);
   begin_frame(0);
   const Index lowest = [&] {
     Index low = 0;
