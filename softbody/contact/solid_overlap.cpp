@@ -23,14 +23,14 @@ bool crosses(const glm::dvec3& p, const glm::dvec3& q, const Corners& t) {
   return (a > 0 && b > 0 && c > 0) || (a < 0 && b < 0 && c < 0);
 }
 
-/// Returns true if a vertex of a body lies in another, closed one, or the middle of its vertices does.
+/// Returns true if a vertex of a body lies deep in another, closed one, or the middle of its vertices lies in it.
 bool lies_in(const PlacedBody& body, const PlacedBody& other) {
   if (!other.surface.closed()) return false;
   const collide::surface::ClosedShell shell(other.surface, other.at);
   glm::vec3 middle(0.0f);
   for (collide::Index i = 0; i < body.at.size; ++i) {
     const glm::vec3 p(body.at.x[i], body.at.y[i], body.at.z[i]);
-    if (shell.inside(p)) return true;
+    if (shell.inside(p) && double(shell.nearest_face(p).distance) > shallow * other.mean_edge) return true;
     middle += p / float(body.at.size);
   }
   return shell.inside(middle);
@@ -38,9 +38,16 @@ bool lies_in(const PlacedBody& body, const PlacedBody& other) {
 
 }  // namespace
 
-bool overlap(const PlacedBody& a, const PlacedBody& b) {
-  if (!collide::near(collide::measure_bounds(a.at).box, collide::measure_bounds(b.at).box, 0.0f)) return false;
-  return lies_in(a, b) || lies_in(b, a);
+std::vector<bool> overlapping(std::span<const PlacedBody> bodies) {
+  std::vector<collide::Aabb> boxes;
+  for (const PlacedBody& body : bodies) boxes.push_back(collide::measure_bounds(body.at).box);
+  std::vector<bool> found(bodies.size());
+  for (std::size_t a = 0; a < bodies.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b) {
+      if ((found[a] && found[b]) || !collide::near(boxes[a], boxes[b], 0.0f)) continue;
+      if (lies_in(bodies[a], bodies[b]) || lies_in(bodies[b], bodies[a])) found[a] = found[b] = true;
+    }
+  return found;
 }
 
 std::optional<SolidMiddle> middle_of(const SolidSphere& s) { return SolidMiddle{s.centre, {}, s.radius}; }

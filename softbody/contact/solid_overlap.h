@@ -4,6 +4,8 @@
 
 #include <array>
 #include <optional>
+#include <span>
+#include <vector>
 
 #include "collide/core/vertex_run.h"
 #include "collide/surface/surface.h"
@@ -32,12 +34,12 @@ struct PlacedBody {
   double mean_edge;       // m, at rest
 };
 
-/// Returns true if a vertex of one of two bodies with the same origin lies in the other one, which is closed, or the
-/// middle of its vertices does.
-bool overlap(const PlacedBody& a, const PlacedBody& b);
-
 /// Contact brings particles back from this depth by themselves, as a share of the body's mean edge.
 inline constexpr double shallow = 0.25;
+
+/// Returns for each of these bodies, all of the same origin, whether it overlaps another one: a vertex of one of the
+/// two lies deeper than that in the other one, which is closed, or the middle of its vertices lies in it.
+std::vector<bool> overlapping(std::span<const PlacedBody> bodies);
 
 /// Returns true if a solid's middle is inside a closed body or crosses the surface of any.
 bool holds(const PlacedBody& body, const SolidMiddle& middle);

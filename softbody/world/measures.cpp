@@ -146,17 +146,12 @@ std::vector<BodyId> overlapping_bodies(const World& world) {
     const BodyModel& p = world.model(id);
     return PlacedBody{*p.surface, glm::dvec3(0.0), collide::vertices_of(now, id), p.mean_edge};
   };
-  std::vector<char> overlaps(count);
-  for (BodyId a = 0; a < count; ++a) {
-    overlaps[a] = overlaps[a] || lies_in_solid(world, a, placed(a));
-    for (BodyId b = 0; b < a; ++b) {
-      if (overlaps[a] && overlaps[b]) continue;
-      if (overlap(placed(a), placed(b))) overlaps[a] = overlaps[b] = true;
-    }
-  }
+  std::vector<PlacedBody> bodies;
+  for (BodyId id = 0; id < count; ++id) bodies.push_back(placed(id));
+  const std::vector<bool> overlaps = overlapping(bodies);
   std::vector<BodyId> list;
   for (BodyId id = 0; id < count; ++id)
-    if (overlaps[id]) list.push_back(id);
+    if (overlaps[id] || lies_in_solid(world, id, bodies[id])) list.push_back(id);
   return list;
 }
 

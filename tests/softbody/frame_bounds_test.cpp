@@ -203,6 +203,7 @@ TEST(StepController, AllowsWorkInProportionToTheWorld) {
     return world.last_step().substeps;
   };
   Scene fast = lone_body(spring_ball(), {0, -500, 0});
+  fast.bodies[0].position.y = 0.6;  // above the ground
   fast.ground.emplace();
   const auto implicit = [&](std::size_t held, double work) {
     return substeps(fast, held, {.integrator = {"implicit"}, .max_work = {.implicit = work}});
