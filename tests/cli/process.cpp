@@ -85,12 +85,12 @@ Outcome run(const std::vector<std::string>& arguments, const std::filesystem::pa
   return Process(arguments, where, environment).wait();
 }
 
-nlohmann::json document(const std::string& command, std::vector<std::string> arguments) {
+nlohmann::json document(const std::string& command, std::vector<std::string> arguments, const std::string& err) {
   arguments.insert(arguments.begin(), command);
   arguments.emplace_back("--json");
   const Outcome o = run(arguments);
   EXPECT_EQ(o.status, 0) << o.err;
-  EXPECT_EQ(o.err, "");
+  EXPECT_EQ(o.err, err);
   nlohmann::json parsed = nlohmann::json::parse(o.out, nullptr, false);  // trailing text is an error, too
   EXPECT_FALSE(parsed.is_discarded()) << o.out.substr(0, 200);
   return parsed;

@@ -46,10 +46,12 @@ class Process {
 Outcome run(const std::vector<std::string>& arguments, const std::filesystem::path& where = "/",
             const std::vector<std::string>& environment = {});
 
-/// Returns what `command arguments... --json` prints. Fails the test unless it is one document, standard error is empty
-/// and the status is 0.
-nlohmann::json document(const std::string& command, std::vector<std::string> arguments);
-inline nlohmann::json simulate(const std::vector<std::string>& arguments) { return document("simulate", arguments); }
+/// Returns what `command arguments... --json` prints. Fails the test unless it is one document, standard error is
+/// `err` and the status is 0.
+nlohmann::json document(const std::string& command, std::vector<std::string> arguments, const std::string& err = {});
+inline nlohmann::json simulate(const std::vector<std::string>& arguments, const std::string& err = {}) {
+  return document("simulate", arguments, err);
+}
 inline nlohmann::json detect(const std::vector<std::string>& arguments) { return document("detect", arguments); }
 
 /// Fails the test unless the program refuses the arguments in one line with these words, and prints nothing else.

@@ -39,6 +39,7 @@ struct Pair {
     model.forces = forces;
     model.particle_mass = 0.5;
     model.radius = 0.5;
+    model.material[softbody::Material::thickness] = 0.005;
     scene.gravity = {};
   }
   softbody::BodyModel model;
