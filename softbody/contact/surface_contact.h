@@ -90,7 +90,6 @@ class SurfaceContact {
   bool check_valid(const collide::Frame& now, float elapsed, float ahead) {
     return search_.check_valid(now, elapsed, ahead);
   }
-  std::size_t bodies() const { return bodies_.size(); }  // in the last find()
   const collide::surface::SurfaceSearch& search() const { return search_; }
   bool empty() const { return pairs_.empty(); }
   /// Returns the substeps a second that surface contact needs: the largest relative speed of two bodies with candidates

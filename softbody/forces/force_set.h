@@ -1,7 +1,7 @@
 #pragma once
 // The forces that a plan takes.
 
-#include "softbody/forces/kernels.h"
+#include "softbody/forces/kernels/kernels.h"
 
 namespace softbody {
 

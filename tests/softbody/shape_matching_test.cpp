@@ -9,7 +9,7 @@
 #include "softbody/forces/best_rotation.h"
 #include "softbody/forces/deformation.h"
 #include "softbody/forces/equilibrium.h"
-#include "softbody/forces/kernels.h"
+#include "softbody/forces/kernels/kernels.h"
 #include "softbody/forces/shape_matching.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 
 #include "softbody/contact/kernels.h"
-#include "softbody/forces/kernels.h"
+#include "softbody/forces/kernels/kernels.h"
 #include "softbody/state/kernels.h"
 #include "tests/every_target.h"
 #include "tests/softbody/helpers.h"

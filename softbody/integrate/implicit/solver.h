@@ -15,7 +15,7 @@
 #include <array>
 #include <utility>
 
-#include "softbody/forces/kernels.h"
+#include "softbody/forces/kernels/kernels.h"
 #include "softbody/integrate/implicit/contact_forces.h"
 #include "softbody/integrate/implicit/kernels.h"
 #include "softbody/integrate/implicit/minimiser.h"

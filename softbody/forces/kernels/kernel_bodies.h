@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <span>
 
-#include "softbody/forces/kernel_types.h"
+#include "softbody/forces/kernels/kernel_types.h"
 #include "softbody/state/lane_math.h"
 
 HWY_BEFORE_NAMESPACE();

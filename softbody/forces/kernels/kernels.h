@@ -4,7 +4,7 @@
 
 #include <array>
 
-#include "softbody/forces/kernel_types.h"
+#include "softbody/forces/kernels/kernel_types.h"
 
 namespace softbody {
 
