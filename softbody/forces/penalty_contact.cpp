@@ -57,9 +57,9 @@ void PenaltyContact::add_pairs(const DetectedContacts& detected, const State& st
   const auto still = [&state, bodies = vertex_body](const collide::Contact& c) {
     return !state.body(bodies[c.a]).moves() && !state.body(bodies[c.b]).moves();
   };
-  const auto of_bodies = [&state, &vertices](const Key& value) {
+  const auto of_bodies = [&state](const Key& value) {
     std::vector<double> values;
-    for (BodyId body = 0; body < vertices.count(); ++body) values.push_back(state.model(body).material[value]);
+    for (BodyId body = 0; body < state.body_count(); ++body) values.push_back(state.model(body).material[value]);
     return values;
   };
   const std::vector<double> stiffness = of_bodies(contact::stiffness), friction = of_bodies(contact::friction);

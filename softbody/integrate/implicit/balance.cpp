@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <type_traits>
 #include <limits>
 #include <vector>
 
@@ -34,7 +35,9 @@ Lanes external_forces(const BodyModel& p, const ImplicitWork& work, double h) {
   const std::size_t stride = work.x.size() / 3;
   forces.resize(work.x.size());
   const Lanes none(work.x.size());
-  const auto field = [stride](auto& a) { return Field{a.data(), a.data() + stride, a.data() + 2 * stride}; };
+  const auto field = [stride](auto& a) {
+    return Field<std::remove_pointer_t<decltype(a.data())>>{a.data(), a.data() + stride, a.data() + 2 * stride};
+  };
   const LaneBodies<double> bodies{p, implicit_lanes, field(work.end_x), field(forces)};
   HeldForces held{};
   implicit_force_kernels().hold(bodies, held);
