@@ -42,7 +42,7 @@ bool SolidContact::lies_in(const Batch& b, int lane, const Solid& solid) const {
 }
 
 /// Gives a body the velocity with which it goes that way in a frame, and not aside. It keeps what its particles do
-/// beside that.
+/// beside that. The impulse counts as one of the solid.
 void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, const glm::dvec3& gravity,
                             double seconds) {
   const Field<float> v = field(state_.v, b.base);
@@ -51,6 +51,8 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
   for (std::size_t i = 0; i < b.particles(); ++i) mean += glm::dvec3(read(v, slot(i))) / double(b.particles());
   const glm::vec3 change(law::max_separation_speed * way - 0.5 * seconds * gravity - mean);
   for (std::size_t i = 0; i < b.particles(); ++i) softbody::add(v, slot(i), change);
+  BodyField{impulse(b), std::size_t(lane), 1}.add(0,
+                                                  double(b.particles()) * b.model->particle_mass * glm::dvec3(change));
   of_batch_[b.index].pushed |= 1u << lane;
   state_.memory(b.body[std::size_t(lane)]).calm_frames = 0;
 }
