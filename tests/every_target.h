@@ -11,7 +11,8 @@ namespace tests {
 
 inline std::vector<std::int64_t> targets() {
   std::vector<std::int64_t> targets;
-  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1) targets.push_back(left & -left);
+  for (std::int64_t left = hwy::SupportedTargets() & HWY_TARGETS; left != 0; left &= left - 1)
+    targets.push_back(left & -left);
   return targets;
 }
 inline std::string target_name(const testing::TestParamInfo<std::int64_t>& target) {

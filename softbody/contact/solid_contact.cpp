@@ -60,6 +60,7 @@ void SolidContact::ease_out(const Batch& b, int lane, const glm::dvec3& way, con
 void SolidContact::begin_frame() {
   of_batch_.resize(state_.batches().size());
   for (OfBatch& b : of_batch_) b = {};
+  pushes_.clear();
   if (has_restitution_) before_ = state_.v;
 }
 
@@ -80,7 +81,8 @@ void SolidContact::add(const Batch& b, const Extent& e, const Solid& solid, cons
   const std::optional<SolidMiddle> middle = middle_of(solid);
   const double deep = std::min(shallow * b.model->mean_edge, middle ? middle->depth : infinite);
   for (int l = 0; l < b.used; ++l) {
-    if (b.moves[std::size_t(l)] == 0 || gap[std::size_t(l)] > -deep || !lies_in(b, l, solid)) continue;
+    if (b.moves[std::size_t(l)] == 0 || !(lanes_near >> l & 1u) || gap[std::size_t(l)] > -deep || !lies_in(b, l, solid))
+      continue;
     lanes_near &= ~(1u << l);
     ease_out(b, l, way_out(boxes[std::size_t(l)]), gravity, seconds);
   }

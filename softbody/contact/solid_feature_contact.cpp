@@ -117,8 +117,8 @@ void SolidContact::find_features(const Batch& b, int lane, std::span<const Solid
   }
 }
 
-/// Solves the rows of the features that may meet a solid in turn with the particles, twice: what one pushes too far
-/// because of another is taken back.
+/// Solves the rows of the features that may meet a solid in turn with the particles, a few times: what one pushes too
+/// far because of another is taken back.
 void SolidContact::apply_to_features(const Batch& b, float h) {
   constexpr int passes = 3;
   OfBatch& own = of_batch_[b.index];
