@@ -57,8 +57,17 @@ struct Springs {
   static double share(const MeshSource& source);  // of the stiffness
 };
 
+/// Springs that join these pairs of a mesh's vertices, with the values of the keys of their kind.
+template <class Kind, std::vector<Edge> Mesh::*pairs>
+struct SpringsAlong : Springs {
+  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
+    return join(m, m.mesh.*pairs, m.material[Kind::stiffness], m.material[Kind::damping_ratio]);
+  }
+  static void adapt(Material& m, const MeshSource& source) { m[Kind::stiffness] *= share(source); }
+};
+
 /// Along the edges of the mesh.
-struct StructuralSprings : Springs {
+struct StructuralSprings : SpringsAlong<StructuralSprings, &Mesh::edges> {
   static constexpr std::string_view key = "structural-springs";
   static constexpr auto stiffness =
       Key("structural.stiffness", "N/m", 300, spring_stiffness, "Stiffness of the springs along the edges of the mesh.",
@@ -67,15 +76,10 @@ struct StructuralSprings : Springs {
       Key("structural.damping_ratio", "", 0.1, spring_damping_ratio,
           "Damping of the structural springs. 1 is critical damping.", {"  damping", "%.2f", 0, 1});
   static constexpr std::array keys{&stiffness, &damping_ratio};
-
-  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
-    return join(m, m.mesh.edges, m.material[stiffness], m.material[damping_ratio]);
-  }
-  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Between the two vertices opposite an edge; on grids over one particle.
-struct BendSprings : Springs {
+struct BendSprings : SpringsAlong<BendSprings, &Mesh::bend_pairs> {
   static constexpr std::string_view key = "bend-springs";
   static constexpr auto stiffness = Key("bend.stiffness", "N/m", 75, spring_stiffness,
                                         "Stiffness of the springs between the two vertices opposite an edge, on grids "
@@ -84,15 +88,10 @@ struct BendSprings : Springs {
   static constexpr auto damping_ratio =
       Key("bend.damping_ratio", "", 0.1, spring_damping_ratio, "Damping of the bend springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
-
-  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
-    return join(m, m.mesh.bend_pairs, m.material[stiffness], m.material[damping_ratio]);
-  }
-  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Both diagonals of each quad of a grid.
-struct ShearSprings : Springs {
+struct ShearSprings : SpringsAlong<ShearSprings, &Mesh::shear_pairs> {
   static constexpr std::string_view key = "shear-springs";
   static constexpr auto stiffness = Key("shear.stiffness", "N/m", 0, spring_stiffness,
                                         "Stiffness of the diagonal springs of grids. Other meshes have none.",
@@ -100,11 +99,6 @@ struct ShearSprings : Springs {
   static constexpr auto damping_ratio =
       Key("shear.damping_ratio", "", 0, spring_damping_ratio, "Damping of the shear springs.");
   static constexpr std::array keys{&stiffness, &damping_ratio};
-
-  static std::optional<Data> make(const BodyModel& m, const MeshSource&) {
-    return join(m, m.mesh.shear_pairs, m.material[stiffness], m.material[damping_ratio]);
-  }
-  static void adapt(Material& m, const MeshSource& source) { m[stiffness] *= share(source); }
 };
 
 /// Returns the springs of one kind.

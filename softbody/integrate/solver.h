@@ -57,7 +57,6 @@ class Solver {
   /// Takes the world's list of bodies, which must outlive this and change with the state.
   void set_vertices(const collide::Bodies& vertices);
   void set_plan(const Plan& plan);
-  void set_integrator(const Integrator& integrator) { steps_.set_integrator(integrator); }
   /// Removes a body. The world's list of bodies must still contain it.
   void remove(BodyId body);
 
