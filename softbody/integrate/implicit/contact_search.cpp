@@ -6,6 +6,7 @@
 
 #include "softbody/contact/law.h"
 #include "softbody/contact/solid_shapes.h"
+#include "softbody/forces/penalty_law.h"
 
 namespace softbody {
 namespace {
@@ -66,8 +67,8 @@ LaneMask find_penalty_pairs(const ImplicitBatch& b, LaneMask moving, double h, I
     s.friction = double(pair.friction);
     s.partner = b.is_moving(other) ? h * velocity(slot) : glm::dvec3(0.0);
     s.start_separation = h * velocity(end.slot) - s.partner;
-    s.max_work = double(PenaltyContact::approach_limit) * b.penalty.energy(pair, b.x) +
-                 double(b.penalty.max_force(pair)) * glm::length(s.partner);
+    const PenaltyLaw<double> pair_law = b.penalty.law_of<double>(pair);
+    s.max_work = pair_law.approach_limit * b.penalty.energy(pair, b.x) + pair_law.max_force() * glm::length(s.partner);
     work.penalty_pairs.push_back(s);
     in_contact.set(lane);
   }
