@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "softbody/contact/contact_row.h"
 #include "softbody/contact/solid_arguments.h"
 #include "softbody/contact/solid_features.h"
 #include "softbody/contact/solid_surface.h"
-#include "softbody/contact/surface_contact.h"
 #include "softbody/state/state.h"
 
 namespace softbody {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
 #include "collide/surface/closest_features.h"
 #include "softbody/contact/solid_contact.h"

@@ -5,6 +5,7 @@
 #include <glm/common.hpp>
 
 #include "softbody/contact/law.h"
+#include "softbody/contact/surface_contact.h"
 #include "softbody/contact/surface_vectors.h"
 
 namespace softbody {
@@ -40,7 +41,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     glm::vec3 centre{0.0f}, velocity{0.0f};
     float inverse_mass = 0;
   };
-  const auto whole = [&](const Side& s) {
+  const auto whole = [&](const SurfaceCandidates::Side& s) {
     Whole w;
     const Index count = s.surface->vertex_count();
     for (Index i = 0; i < count; ++i) {
@@ -50,7 +51,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
     w.inverse_mass = s.inverse_mass / static_cast<float>(count);
     return w;
   };
-  const Side one = side(pair, false), two = side(pair, true);
+  const SurfaceCandidates::Side one = candidates_.side(pair, false), two = candidates_.side(pair, true);
   const Whole a = whole(one), b = whole(two);
   // In one place, each pair of many goes another way.
   const auto spread = [](Index i) { return glm::fract(float(i + 1) * glm::vec3(0.8191725f, 0.6710436f, 0.5497005f)); };
@@ -65,7 +66,7 @@ void SurfaceContact::separate(const Pair& pair, Field<const float> x, Field<floa
 }
 
 bool SurfaceContact::needs_more_iterations(float h) const {
-  return std::any_of(pairs_.begin(), pairs_.end(), [&](const Pair& p) { return needs_more_iterations(p, h); });
+  return std::ranges::any_of(candidates_.pairs(), [&](const Pair& p) { return needs_more_iterations(p, h); });
 }
 
 /// visit(pair, its rows): colour by colour, each by one thread. A few rows are done by the first thread before all have
@@ -73,11 +74,11 @@ bool SurfaceContact::needs_more_iterations(float h) const {
 template <class Visit>
 void SurfaceContact::for_each_pair(int thread, int threads, const std::function<void()>& barrier, const Visit& visit) {
   const bool alone = few_rows();
-  for (const auto& colour : colours_) {
+  for (const auto& colour : candidates_.colours()) {
     const collide::Part part =
         alone ? collide::Part{0, thread == 0 ? colour.size() : 0} : collide::part_of(colour.size(), thread, threads);
     for (std::size_t i = part.begin; i < part.end; ++i) {
-      const Pair& p = pairs_[colour[i]];
+      const Pair& p = candidates_.pairs()[colour[i]];
       visit(p, std::span(thread_work_[static_cast<std::size_t>(p.thread)].rows).subspan(p.first_row, p.rows));
     }
     if (!alone) barrier();
@@ -107,8 +108,8 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
       [&](ContactRow& row) {
         solve_row(row, v);
         if (row.feature == uncached) return;
-        cached_[row.feature].normal_impulse = row.normal_impulse;
-        cached_[row.feature].friction_impulse = row.friction_impulse;
+        candidates_.cached(row.feature).normal_impulse = row.normal_impulse;
+        candidates_.cached(row.feature).friction_impulse = row.friction_impulse;
       },
       true);
   if (thread == 0) last_h_ = h;
@@ -118,9 +119,7 @@ void SurfaceContact::solve(int thread, int threads, Field<const float> x, Field<
 /// Whether a contact uses up of the distance what it has to leave.
 bool SurfaceContact::violates_target(const Pair& pair, Field<const float> v, float h) const {
   constexpr float hair = 0.02f;  // of the distance
-  const auto& rows = thread_work_[static_cast<std::size_t>(pair.thread)].rows;
-  const auto first = rows.begin() + pair.first_row;
-  return std::any_of(first, first + pair.rows, [&](const ContactRow& row) {
+  return std::ranges::any_of(rows_of(pair), [&](const ContactRow& row) {
     return h * (row.target - glm::dot(relative_velocity(row, v), row.normal)) > hair * pair.distance;
   });
 }
@@ -140,10 +139,11 @@ bool SurfaceContact::resolve_after_solids(int thread, int threads, Field<float> 
 }
 
 double SurfaceContact::work_of_substep(float h) const {
-  auto work = double(search_.features().size());
-  for (const Pair& p : pairs_) {
-    const Index whole =
-        p.separating ? side(p, false).surface->vertex_count() + side(p, true).surface->vertex_count() : 0;
+  auto work = double(candidates_.search().features().size());
+  for (const Pair& p : candidates_.pairs()) {
+    const Index whole = p.separating ? candidates_.side(p, false).surface->vertex_count() +
+                                           candidates_.side(p, true).surface->vertex_count()
+                                     : 0;
     const int solves = needs_more_iterations(p, h) ? max_iterations : iterations,
               extra_passes = needs_more_iterations(p, h) ? max_passes : 0;
     work += 0.5 * (double(solves) * double(p.rows + whole) + double(extra_passes) * p.rows);

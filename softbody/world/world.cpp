@@ -192,7 +192,8 @@ void World::step(const std::function<void()>& after_substep) {
   const bool penalty_grows = s.plan.has(stage_of<PenaltyContact>) &&
                              s.penalty_thickness < s.settings.tolerance;  // nobody falls asleep meanwhile
   if (s.plan.has(Stage::sleep) && whole && !penalty_grows)
-    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts, s.solver.surface_contact().interactions());
+    s.sleep.settle(s.solver.state(), s.vertex_body, s.result.contacts,
+                   s.solver.surface_contact().candidates().interactions());
   s.report.total_ms = ms_since(start) - looking_ms;
 }
 

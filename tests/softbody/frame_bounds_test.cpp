@@ -133,7 +133,7 @@ TEST(StepController, LimitsTheWorkOfSurfaceContact) {
   // them.
   const World one = of_work(0);
   EXPECT_EQ(one.last_step().substeps, 1);
-  const collide::surface::SurfaceSearch& search = WorldTestAccess::solver(one).surface_contact().search();
+  const collide::surface::SurfaceSearch& search = WorldTestAccess::solver(one).surface_contact().candidates().search();
   const double half = 0.5 * double(search.features().size()), least = of_substep(one);
   ASSERT_GT(half, 0);
   EXPECT_GT(double(search.work()), 2 * half);
@@ -167,7 +167,7 @@ TEST(StepController, LimitsTheWorkOfSearchesForSurfaceContact) {
     Work result;
     std::size_t last = 0;
     world.step([&] {
-      const std::size_t now = contact.search().work();
+      const std::size_t now = contact.candidates().search().work();
       if (now != last) result.found += double(now);
       last = now;
       result.looked_at += contact.work_of_substep(float(h));
@@ -248,7 +248,7 @@ TEST(StepController, AllowsMoreCandidatesInLargerWorldsUpToALimit) {
 /// Those that were found before belong to another moment: nothing may look at them.
 TEST(StepController, EndsTheFrameAtTooManyCandidates) {
   const auto candidates = [](const World& world) {
-    return double(WorldTestAccess::solver(world).surface_contact().search().features().size());
+    return double(WorldTestAccess::solver(world).surface_contact().candidates().search().features().size());
   };
   World touching(touching_surfaces(), {});
   touching.step();

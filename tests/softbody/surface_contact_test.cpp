@@ -163,7 +163,7 @@ TEST(SurfaceContact, LeavesASheetAtRestThatIsThickerThanItsQuadsAreWide) {
   scene.bodies[0].mesh = {.kind = "grid", .columns = 3, .rows = 6, .width = 0.9, .depth = 0.12};
   World world(scene, {});
   run(world, 3);
-  EXPECT_FALSE(WorldTestAccess::solver(world).surface_contact().search().features().empty());
+  EXPECT_FALSE(WorldTestAccess::solver(world).surface_contact().candidates().search().features().empty());
   EXPECT_LT(measure(world).max_speed, 1e-4);
 }
 
@@ -215,7 +215,7 @@ TEST(SurfaceContact, TakesSubstepsForItsFastestPair) {
   const auto rate = [&] {
     World world(scene, {});
     world.step();
-    return WorldTestAccess::solver(world).surface_contact().substep_rate();
+    return WorldTestAccess::solver(world).surface_contact().candidates().substep_rate();
   };
   const float alone = rate();
   add_body(scene, {5, 0, 0}, glm::dvec3(0.0));
@@ -304,7 +304,7 @@ TEST(SurfaceContact, ASheetCarriesMoreBallsThanThereAreColours) {
   }
   World world(scene, {});
   run(world, 20);
-  EXPECT_GT(WorldTestAccess::solver(world).surface_contact().interactions().size(), 70u);
+  EXPECT_GT(WorldTestAccess::solver(world).surface_contact().candidates().interactions().size(), 70u);
   for (BodyId ball = 1; ball <= 80; ++ball) EXPECT_GT(motion(world, ball).centre.y, 0.05) << ball;
 }
 
